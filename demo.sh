@@ -1,0 +1,56 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Install what is missing, build exemplar and run the cat of the paper's Fig. 2a.
+# Usage: ./demo.sh [--install-only]
+set -euo pipefail
+cd "$(dirname "$0")"
+
+packages=(git g++ cmake ninja-build libdeal.ii-dev libsuitesparse-dev libopenblas0-pthread
+          libmuparser-dev libcli11-dev nlohmann-json3-dev libssl-dev zlib1g-dev
+          libgtest-dev python3 gmsh)
+
+install_missing() {
+  if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
+    echo "No Debian package manager here. exemplar needs what these Debian packages hold: ${packages[*]}"
+    return
+  fi
+  local missing=() package
+  for package in "${packages[@]}"; do
+    dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'install ok installed' ||
+      missing+=("$package")
+  done
+  [ ${#missing[@]} -eq 0 ] && return
+  local run_as_root=()
+  if [ "$(id -u)" -ne 0 ]; then
+    if ! command -v sudo >/dev/null; then
+      echo "Packages are missing and there is no right to install them. As root, run:" >&2
+      echo "  apt-get install --no-install-recommends ${missing[*]}" >&2
+      exit 1
+    fi
+    run_as_root=(sudo)
+  fi
+  echo "Installing ${missing[*]}"
+  "${run_as_root[@]}" apt-get update -qq
+  "${run_as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+    apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
+}
+
+install_missing
+[ "${1:-}" = "--install-only" ] && exit 0
+if [ $# -gt 0 ]; then
+  echo "Usage: ./demo.sh [--install-only]" >&2
+  exit 1
+fi
+
+if [ ! -f build/release/build.ninja ]; then
+  cmake --preset release >/dev/null
+fi
+echo "Building (a few minutes the first time)"
+cmake --build --preset release --target exemplar | tail -n 1
+
+build/release/exemplar prm/paper/fig2a_cat.prm --output output/fig2a_cat
+echo
+echo "The frames are in $PWD/output/fig2a_cat."
+echo "Open animation.pvd there in ParaView (Debian: apt-get install paraview), press Apply, then Play:"
+echo "  paraview output/fig2a_cat/animation.pvd"
+echo "The same drag without the examples: build/release/exemplar prm/paper/fig2a_cat.prm --set Examples/Importance=0 --output output/fig2a_cat_plain"

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_assembler_h
+#define exemplar_assembler_h
+
+#include <exemplar/example_poses.h>
+#include <exemplar/fe_space.h>
+#include <exemplar/free_dofs.h>
+#include <exemplar/inertia.h>
+#include <exemplar/material.h>
+#include <exemplar/spd_operator.h>
+
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/lac/vector.h>
+
+#include <array>
+#include <vector>
+
+namespace Exemplar
+{
+  enum class StrainMeasure
+  {
+    corotational
+  };
+
+  enum class GradientKind
+  {
+    frozen
+  };
+
+  /// Subsection Model.
+  struct ModelParameters
+  {
+    StrainMeasure strain   = StrainMeasure::corotational;
+    GradientKind  gradient = GradientKind::frozen;
+
+    void
+    declare(dealii::ParameterHandler &prm);
+  };
+
+  /// Everything that a loop over the cells finds at given positions and weights.
+  struct Evaluation
+  {
+    dealii::Vector<double> gradient;         ///< internal forces dPsi/dx [N], Eq. (6)
+    dealii::Vector<double> force_scale;      ///< a node: sum V (|C:e| + eta |C:E(w)|) |g_a| [N]
+    std::vector<double>    weight_gradient;  ///< dPsi/dw_i [J], Eq. (7)
+    double                 weight_scale = 0; ///< of the weight gradient [J]
+    double                 energy_elastic = 0; ///< sum V/2 e:C:e [J]
+    double                 energy_example = 0; ///< Psi - energy_elastic, ridge included [J]
+    double                 min_det_F      = 0;
+    unsigned int           inverted_cells = 0;
+  };
+
+  /// What frames show of a cell.
+  struct CellResults
+  {
+    std::vector<double> strain_energy_density; ///< 1/2 e:C:e [J/m^3]
+    std::vector<double> det_F;
+    std::vector<double> von_mises_stress; ///< of the corotated stress C:(e - eta E(w)) [Pa]
+  };
+
+  /// Loops over the cells: rotations, energies, forces, the matrix A and the columns
+  /// G of Eq. (10). Rotations are kept ("frozen") until update_rotations().
+  class Assembler
+  {
+  public:
+    /// `examples` and `inertia` may be null: the scene has none.
+    Assembler(const FESpace      &fe_space,
+              const Material     &material,
+              const ExamplePoses *examples,
+              const Inertia      *inertia,
+              const FreeDofs     &free_dofs);
+
+    /// Pattern of A on the free degrees of freedom.
+    const SymmetricPattern &
+    matrix_pattern() const
+    {
+      return pattern;
+    }
+
+    /// R of every cell from the polar decomposition at these positions.
+    void
+    update_rotations(const dealii::Vector<double> &positions);
+
+    /// Energies and their derivatives with the rotations as they are.
+    void
+    evaluate(const dealii::Vector<double> &positions,
+             const std::vector<double>    &weights,
+             Evaluation                   &evaluation) const;
+
+    /// A = [M/h^2] + sum R K R^T, Eq. (8), into the values on matrix_pattern() [N/m].
+    void
+    assemble_matrix(std::vector<double> &matrix_values) const;
+
+    /// G_i = eta sum R K q_i, Eq. (9), on the free degrees of freedom: one column an
+    /// example, one after the other [N].
+    void
+    assemble_coupling(std::vector<double> &columns) const;
+
+    CellResults
+    cell_results(const dealii::Vector<double> &positions, const std::vector<double> &weights) const;
+
+  private:
+    /// Entries of the lower triangle of a cell's 12x12 matrix, by rows.
+    static constexpr unsigned int n_cell_entries = 12 * 13 / 2;
+
+    void
+    build_pattern();
+
+    void
+    build_scatter();
+
+    void
+    build_mass_values();
+
+    const FESpace      &fe_space;
+    const Material     &material;
+    const ExamplePoses *examples;
+    const Inertia      *inertia;
+    const FreeDofs     &free_dofs;
+
+    SymmetricPattern                             pattern;
+    std::vector<std::array<int, n_cell_entries>> scatter; ///< where each entry goes, or FreeDofs::held
+    std::vector<double>                          mass_values;    ///< M on the pattern; empty in statics
+    std::vector<std::array<double, 4>>           gradient_norms; ///< |g_a|
+    std::vector<Matrix3<double>>                 rotations;
+  };
+} // namespace Exemplar
+
+#endif

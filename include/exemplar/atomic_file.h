@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_atomic_file_h
+#define exemplar_atomic_file_h
+
+#include <filesystem>
+#include <memory>
+#include <ostream>
+
+namespace Exemplar
+{
+  /// A file that appears whole or not at all: it is written as `path`.tmp and
+  /// renamed by commit(). Without commit() the destructor removes the temporary
+  /// and what stood at `path` stays. Opening and commit() throw
+  /// std::runtime_error with the path and the system's reason (disk full, ...).
+  class AtomicFile
+  {
+  public:
+    explicit AtomicFile(const std::filesystem::path &path);
+
+    AtomicFile(const AtomicFile &) = delete;
+    AtomicFile &
+    operator=(const AtomicFile &)
+        = delete;
+
+    ~AtomicFile();
+
+    /// Binary: bytes arrive as they are. A failed write sets badbit, and commit()
+    /// then says why.
+    std::ostream &
+    stream();
+
+    /// Everything to the disk, then rename. Call it once.
+    void
+    commit();
+
+  private:
+    class Buffer;
+
+    std::filesystem::path   path;
+    std::filesystem::path   temporary;
+    std::unique_ptr<Buffer> buffer;
+    std::ostream            out;
+    bool                    committed = false;
+  };
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_bordered_solver_h
+#define exemplar_bordered_solver_h
+
+#include <exemplar/spd_operator.h>
+
+#include <deal.II/lac/full_matrix.h>
+
+#include <memory>
+#include <vector>
+
+namespace Exemplar
+{
+  /// The blocks beside A of the linear system of a step with k weights and m linear
+  /// constraints on them, Eq. (10):
+  ///
+  ///     [  A    -G    0  ] [ dx ]   [ r_x ]
+  ///     [ -G^T   H   N^T ] [ dw ] = [ r_w ]
+  ///     [  0     N    0  ] [ l  ]   [ r_c ]
+  ///
+  /// N is a row of ones for global weights, a row a region for local ones. k = 0 if
+  /// the scene has no weights to find.
+  struct WeightBlock
+  {
+    std::vector<double>        coupling; ///< G, its k columns one after the other
+    dealii::FullMatrix<double> H;        ///< k x k
+    dealii::FullMatrix<double> N;        ///< m x k
+  };
+
+  struct BorderedVector
+  {
+    std::vector<double> positions;   ///< free degrees of freedom
+    std::vector<double> weights;     ///< k
+    std::vector<double> multipliers; ///< m
+  };
+
+  /// Solves the bordered system of a step.
+  class BorderedSolver
+  {
+  public:
+    virtual ~BorderedSolver() = default;
+
+    /// The values of A on the pattern, to be overwritten.
+    virtual std::vector<double> &
+    matrix_values() = 0;
+
+    /// Prepare for solve() with A as it is now. Throws SolverFailure if A is not
+    /// positive definite.
+    virtual void
+    factorize(const WeightBlock &block) = 0;
+
+    /// The right side is overwritten by the solution. Throws SolverFailure if the
+    /// system is singular.
+    virtual void
+    solve(const WeightBlock &block, BorderedVector &right_side) = 0;
+  };
+
+  /// Block elimination: one call for A^-1 [r_x, G], then the dense Schur complement
+  /// H - G^T A^-1 G bordered by N.
+  std::unique_ptr<BorderedSolver>
+  make_block_solver(std::unique_ptr<SpdOperator> matrix, const SymmetricPattern &pattern);
+
+  /// The whole bordered matrix at once by UMFPACK; for checking.
+  std::unique_ptr<BorderedSolver>
+  make_umfpack_solver(const SymmetricPattern &pattern);
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_diagnostics_h
+#define exemplar_diagnostics_h
+
+#include <exemplar/equilibrium.h>
+#include <exemplar/step_clock.h>
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace Exemplar
+{
+  /// A row of statistics.csv: column and value.
+  using StatisticsRow = std::vector<std::pair<std::string, std::string>>;
+
+  /// A number with as many digits as tell it from its neighbours; empty if it is not
+  /// finite, because no file of ours holds a NaN.
+  std::string
+  shortest_text(double value);
+
+  /// Work done on the body since the first step [J]: end-of-step forces times
+  /// displacements.
+  struct Work
+  {
+    double handles = 0.;
+    double gravity = 0.;
+    double loads   = 0.;
+  };
+
+  /// Energies, momenta, reactions and work of a run. Columns that a scene does not
+  /// need are absent.
+  class Diagnostics
+  {
+  public:
+    Diagnostics(const Handles *handles, const Loads *loads, const ExamplePoses *examples, const Inertia *inertia);
+
+    /// Add the work of the step from `old_positions` to `state`.
+    void
+    add_work(const dealii::Vector<double> &old_positions,
+             const State                  &state,
+             const Evaluation             &evaluation);
+
+    const Work &
+    get_work() const
+    {
+      return work;
+    }
+
+    void
+    set_work(const Work &value)
+    {
+      work = value;
+    }
+
+    StatisticsRow
+    row(const State &state, const SolveReport &report, const Evaluation &evaluation) const;
+
+    /// The seconds of a step by part; without values in the row of the initial state.
+    static void
+    append_seconds(StatisticsRow &row, const std::optional<PartSeconds> &seconds);
+
+  private:
+    const Handles        *handles;
+    const Loads          *loads;
+    const ExamplePoses   *examples;
+    const Inertia        *inertia;
+    Work                  work;
+  };
+} // namespace Exemplar
+
+#endif

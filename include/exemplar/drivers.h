@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_drivers_h
+#define exemplar_drivers_h
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace Exemplar
+{
+  /// What the command line says of a run.
+  struct RunOptions
+  {
+    std::filesystem::path    scene_file;
+    std::vector<std::string> overrides; ///< "Section/Key=value"
+    bool                     resume = false;
+    bool                     quiet  = false;
+  };
+
+  /// Solve a scene from its first (or, resumed, its next) step to the last and write
+  /// the results. Throws UserError before anything is written; SolverFailure and
+  /// Interrupted after everything that was computed is on disk.
+  void
+  run_scene(const RunOptions &options);
+
+  /// Read and check a scene and its files; compute and write nothing. Throws UserError.
+  void
+  validate_scene(const RunOptions &options);
+
+  /// Print every parameter with its default, range, unit and meaning, as a .prm.
+  void
+  print_parameters();
+} // namespace Exemplar
+
+#endif

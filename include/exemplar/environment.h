@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_environment_h
+#define exemplar_environment_h
+
+#include <string>
+
+namespace Exemplar
+{
+  /// The BLAS in use, as far as it tells.
+  struct BlasInfo
+  {
+    std::string library; ///< "OpenBLAS 0.3.21", or "unknown" (the reference BLAS, say)
+    std::string core;    ///< OpenBLAS's core type; empty for others
+  };
+
+  BlasInfo
+  blas_info();
+
+  /// BLAS and CHOLMOD on one thread: results must not depend on how many there are,
+  /// and CHOLMOD's own threads cost more than they bring.
+  void
+  use_one_blas_thread();
+
+  /// OpenBLAS takes a CPU that it does not know for an old one and is then several
+  /// times slower. In that case start this program anew with OPENBLAS_CORETYPE set;
+  /// does not return if it does. To be called first in main().
+  void
+  restart_with_right_core_type(char *argv[]);
+
+  /// Greatest resident memory of this process [MiB].
+  double
+  peak_memory_mib();
+} // namespace Exemplar
+
+#endif

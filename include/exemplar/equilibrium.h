@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_equilibrium_h
+#define exemplar_equilibrium_h
+
+#include <exemplar/assembler.h>
+#include <exemplar/bordered_solver.h>
+#include <exemplar/handles.h>
+#include <exemplar/inertia.h>
+#include <exemplar/loads.h>
+#include <exemplar/state.h>
+#include <exemplar/step_clock.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <string>
+#include <vector>
+
+namespace Exemplar
+{
+  enum class Method
+  {
+    one_pass,
+    fixed_point
+  };
+
+  enum class LinearSolver
+  {
+    automatic,
+    cholesky,
+    umfpack
+  };
+
+  /// Subsection Solver.
+  struct SolverParameters
+  {
+    Method       method             = Method::fixed_point;
+    double       tolerance          = 1e-8;
+    unsigned int maximum_iterations = 500;
+    LinearSolver linear_solver      = LinearSolver::automatic;
+
+    void
+    declare(dealii::ParameterHandler &prm);
+  };
+
+  enum class SolveStatus
+  {
+    initial,
+    converged,
+    one_pass,
+    iteration_limit,
+    failed
+  };
+
+  /// The method as scene files write it.
+  std::string
+  method_name(Method method);
+
+  /// The status as files and messages write it.
+  std::string
+  status_name(SolveStatus status);
+
+  /// Whether a solve with this status has found the next state.
+  inline bool
+  is_success(const SolveStatus status)
+  {
+    return status == SolveStatus::converged || status == SolveStatus::one_pass;
+  }
+
+  /// How a solve ended.
+  struct SolveReport
+  {
+    SolveStatus         status     = SolveStatus::initial;
+    unsigned int        iterations = 0;
+    double              residual   = 0.; ///< relative, doc/method.md Eq. (13)
+    double              kkt_residual = 0.; ///< of the weights, relative
+    std::vector<double> residual_history; ///< one entry an iteration
+    std::string         failure; ///< why, if the status is `failed`
+  };
+
+  /// Finds positions and example weights at the end of a step: statics,
+  /// interpolation and dynamics are one minimisation, and parts that a scene does
+  /// not have are null.
+  class Equilibrium
+  {
+  public:
+    struct Parts
+    {
+      const FreeDofs     &free_dofs;
+      Assembler          &assembler;
+      BorderedSolver     &linear_solver;
+      StepClock          &clock;
+      const Handles      *handles;
+      const Loads        *loads;
+      const ExamplePoses *examples;
+      Inertia            *inertia;
+    };
+
+    Equilibrium(const SolverParameters &parameters, const Parts &parts);
+
+    /// Evaluate at a state that no solve has led to: before the first step, after a
+    /// resume, and after a state was moved rigidly.
+    void
+    start(const State &state);
+
+    /// Advance `state` to `time` by a step of length `step_size` (dynamics only) from
+    /// where start() or the last solve evaluated. Unless the report says converged or
+    /// one pass, `state` is not the solution. Throws Interrupted.
+    SolveReport
+    solve(State &state, double time, double step_size);
+
+    /// Energies and forces at the state of start() or the last solve. The gradient
+    /// holds inertia, and loads with a minus sign: on held degrees of freedom it is
+    /// the reaction.
+    const Evaluation &
+    evaluation() const
+    {
+      return current;
+    }
+
+    /// Factorisations so far.
+    unsigned int
+    n_factorizations() const
+    {
+      return factorizations;
+    }
+
+  private:
+    void
+    begin_step(State &state, double time, double step_size);
+
+    void
+    evaluate(const State &state);
+
+    void
+    linear_step(State &state);
+
+    void
+    measure(State &state, SolveReport &report) const;
+
+    SolverParameters       parameters;
+    Parts                  parts;
+    WeightBlock            block;
+    BorderedVector         unknowns;
+    Evaluation             current;
+    dealii::Vector<double> external_force;
+    bool                   dynamic_terms  = false; ///< within a step of a dynamic scene
+    unsigned int           factorizations = 0;
+  };
+} // namespace Exemplar
+
+#endif

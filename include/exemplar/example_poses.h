@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_example_poses_h
+#define exemplar_example_poses_h
+
+#include <exemplar/expression.h>
+#include <exemplar/fe_space.h>
+#include <exemplar/material.h>
+
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/lac/full_matrix.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace Exemplar
+{
+  enum class ExampleEnergy
+  {
+    scaled
+  };
+
+  enum class ExampleWeights
+  {
+    free,
+    prescribed
+  };
+
+  /// Subsection Examples.
+  struct ExampleParameters
+  {
+    std::vector<std::string> poses;
+    std::string              pose_functions;
+    bool                     include_rest_pose  = true;
+    double                   importance         = 0.8; ///< eta
+    std::string              weight_penalty     = "auto";
+    ExampleEnergy            energy             = ExampleEnergy::scaled;
+    ExampleWeights           weights            = ExampleWeights::free;
+    std::string              prescribed_weights;
+
+    void
+    declare(dealii::ParameterHandler &prm);
+
+    /// Whether any pose is given and its importance is not 0.
+    bool
+    in_use() const;
+
+    /// Throws UserError for what no pattern can tell.
+    void
+    check() const;
+  };
+
+  /// The example poses and their strains E_i = S_i - I in every cell, Eq. (4),
+  /// computed once. Example 0 is the rest pose where it is included.
+  class ExamplePoses
+  {
+  public:
+    /// Reads the pose files. Throws UserError for a pose on another mesh, for
+    /// prescribed weights that do not sum to one in t = 0 ... end [s], and for free
+    /// weights without penalty if the examples are affinely dependent.
+    ExamplePoses(const ExampleParameters &parameters,
+                 const Mesh              &mesh,
+                 const FESpace           &fe_space,
+                 const Material          &material,
+                 double                   end);
+
+    unsigned int
+    size() const
+    {
+      return positions.size();
+    }
+
+    double
+    importance() const
+    {
+      return eta;
+    }
+
+    /// sigma [J].
+    double
+    weight_penalty() const
+    {
+      return sigma;
+    }
+
+    bool
+    weights_are_prescribed() const
+    {
+      return prescribed.has_value();
+    }
+
+    /// Prescribed weights at time t.
+    std::vector<double>
+    prescribed_weights(double time) const;
+
+    /// Node positions of example i, by degree of freedom [m].
+    const dealii::Vector<double> &
+    pose(const unsigned int i) const
+    {
+      return positions[i];
+    }
+
+    /// E_i in a cell.
+    Matrix3<double>
+    strain(const unsigned int cell, const unsigned int i) const;
+
+    /// E(w) = sum_i w_i E_i in a cell.
+    Matrix3<double>
+    strain(const unsigned int cell, const std::vector<double> &weights) const;
+
+    /// H_ij = eta^2 sum V E_i : C : E_j + sigma delta_ij, Eq. (9) [J].
+    const dealii::FullMatrix<double> &
+    weight_matrix() const
+    {
+      return H;
+    }
+
+    const std::vector<std::string> &
+    get_warnings() const
+    {
+      return warnings;
+    }
+
+  private:
+    void
+    add_pose(const std::string &name, const std::vector<dealii::Point<3>> &nodes);
+
+    void
+    add_pose_functions(const std::string &functions, const Mesh &mesh);
+
+    void
+    compute_strains();
+
+    void
+    compute_weight_matrix(const Material &material);
+
+    void
+    check_prescribed_weights(double end) const;
+
+    void
+    check_independence() const;
+
+    const FESpace                      &fe_space;
+    const double                        eta;
+    double                              sigma = 0.;
+    std::vector<std::string>            names;
+    std::vector<dealii::Vector<double>> positions;
+    std::vector<double>                 strains; ///< xx, yy, zz, yz, xz, xy of example i in cell c at 6 (c k + i)
+    dealii::FullMatrix<double>          gram; ///< sum V E_i : C : E_j
+    dealii::FullMatrix<double>          H;
+    std::optional<Expression>           prescribed;
+    std::vector<std::string>            warnings;
+  };
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_expression_h
+#define exemplar_expression_h
+
+#include <deal.II/base/point.h>
+#include <deal.II/base/tensor.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace Exemplar
+{
+  /// Formulas of a scene file, separated by ';', evaluated by muParser.
+  class Expression
+  {
+  public:
+    /// `key` stands for the formulas in messages, `variables` is a subset of
+    /// "xyzt". Throws UserError if there are not `n_components` formulas, or one
+    /// that muParser does not understand, naming the formula and what is allowed.
+    Expression(const std::string &key,
+               const std::string &text,
+               const std::string &variables,
+               unsigned int       n_components);
+
+    ~Expression();
+    Expression(Expression &&) noexcept;
+    Expression &
+    operator=(Expression &&) noexcept;
+
+    /// Values at (x, y, z) and t [s]. Throws SolverFailure if one is not finite.
+    std::vector<double>
+    values(const dealii::Point<3> &position, double time) const;
+
+    /// The same for three components.
+    dealii::Tensor<1, 3>
+    vector(const dealii::Point<3> &position, double time) const;
+
+  private:
+    struct Parsers;
+    std::unique_ptr<Parsers> parsers;
+  };
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_handles_h
+#define exemplar_handles_h
+
+#include <exemplar/expression.h>
+#include <exemplar/selection.h>
+
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/lac/vector.h>
+
+#include <string>
+#include <vector>
+
+namespace Exemplar
+{
+  /// A subsection of Handles.
+  struct HandleParameters
+  {
+    std::string name;
+    Selection   select;
+    std::string motion     = "0; 0; 0";
+    std::string components = "x, y, z";
+
+    void
+    declare(dealii::ParameterHandler &prm);
+  };
+
+  /// Nodes held at places that move in time: hard constraints.
+  class Handles
+  {
+  public:
+    /// Throws UserError for a selection without nodes, a formula that is not
+    /// understood, and for handles that overlap and disagree in t = 0 ... end.
+    Handles(const std::vector<HandleParameters> &parameters, const Mesh &mesh, double end);
+
+    /// Degrees of freedom 3 i + c that are held, ascending, each once.
+    std::vector<unsigned int>
+    held_dofs() const;
+
+    /// Put the held degrees of freedom where they are at time t [s].
+    void
+    move(double time, dealii::Vector<double> &positions) const;
+
+    unsigned int
+    size() const
+    {
+      return handles.size();
+    }
+
+    const std::string &
+    name(const unsigned int handle) const
+    {
+      return handles[handle].name;
+    }
+
+    /// Sum over a handle's held degrees of freedom of a nodal field, by component.
+    dealii::Tensor<1, 3>
+    sum_over(unsigned int handle, const dealii::Vector<double> &field) const;
+
+  private:
+    struct Handle
+    {
+      std::string               name;
+      std::vector<unsigned int> nodes;
+      std::vector<unsigned int> components;
+      Expression                displacement;
+    };
+
+    void
+    check_agreement(double time) const;
+
+    const Mesh         &mesh;
+    std::vector<Handle> handles;
+  };
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_lame_h
+#define exemplar_lame_h
+
+namespace Exemplar
+{
+  /// Lamé's constants of an isotropic material [Pa]: C:E = lambda tr(E) I + 2 mu E.
+  /// Plain, because the cell kernels see nothing else of a material.
+  template <typename Number>
+  struct Lame
+  {
+    Number lambda;
+    Number mu;
+  };
+} // namespace Exemplar
+
+#endif

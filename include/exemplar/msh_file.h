@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_msh_file_h
+#define exemplar_msh_file_h
+
+#include <deal.II/base/point.h>
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace Exemplar
+{
+  /// One element of a .msh file, as the file has it.
+  struct MshElement
+  {
+    std::size_t  number; ///< the file's element number
+    unsigned int type;   ///< gmsh's element type: 15 point, 1 line, 2 triangle, 4 tetrahedron, ...
+    int          physical;     ///< physical tag, 0 = none
+    int          elementary;   ///< tag of the geometrical entity
+    std::vector<size_t> nodes; ///< indices into MshFile::nodes (0-based), in the file's order
+  };
+
+  /// The contents of a gmsh .msh file: everything needed to write it back with
+  /// the same node and element numbers, order and tags.
+  struct MshFile
+  {
+    std::vector<std::size_t>      node_numbers; ///< the file's node numbers, in file order
+    std::vector<dealii::Point<3>> nodes;        ///< coordinates [m], in file order
+    std::vector<MshElement>       elements;     ///< in file order
+    /// (dimension, physical tag) -> name
+    std::map<std::pair<int, int>, std::string> physical_names;
+  };
+
+  /// gmsh's numbers for the element types that the program uses.
+  namespace MshElementType
+  {
+    constexpr unsigned int line        = 1;
+    constexpr unsigned int triangle    = 2;
+    constexpr unsigned int tetrahedron = 4;
+    constexpr unsigned int point       = 15;
+  } // namespace MshElementType
+
+  /// What gmsh's documentation says of an element type.
+  struct MshElementKind
+  {
+    const char  *name; ///< such as "10-node tetrahedron"
+    unsigned int dimension;
+    unsigned int n_nodes;
+  };
+
+  /// Types 1 to 31; nullptr for any other, which read_msh refuses.
+  const MshElementKind *
+  find_msh_element_kind(unsigned int type);
+
+  /// Read a .msh file of version 2.2 or 4.1, ASCII or binary. In a 4.1 file the
+  /// physical tag comes from the element's entity (its first physical group).
+  /// Throws UserError, naming the file and what is missing, if it cannot be
+  /// opened, is truncated, of another version, or refers to unknown nodes.
+  MshFile
+  read_msh(const std::filesystem::path &file);
+
+  /// Write MSH 2.2 ASCII with 17 digits, so that reading it back gives the same
+  /// doubles. Written to a temporary name and renamed, so that no half file is left.
+  void
+  write_msh(const MshFile &msh, const std::filesystem::path &file);
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_msh_scanner_h
+#define exemplar_msh_scanner_h
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace Exemplar
+{
+  /// Takes a .msh file apart into sections, numbers and names. It knows where it
+  /// is, so that every complaint says how far the file was good: "bar.msh: ends
+  /// within section $Nodes after 17 of 2860 nodes; ...". All reading functions
+  /// throw UserError.
+  class MshScanner
+  {
+  public:
+    explicit MshScanner(const std::filesystem::path &file);
+
+    /// From here on the `read_` functions read binary numbers (true) or text.
+    void
+    set_binary(bool binary);
+
+    bool
+    is_binary() const
+    {
+      return binary;
+    }
+
+    /// Only white space is left.
+    bool
+    at_end();
+
+    /// The next section's name without the $.
+    std::string
+    begin_section();
+
+    /// Require $EndNAME of the section begun last.
+    void
+    end_section();
+
+    /// Go behind $EndNAME of the section begun last.
+    void
+    skip_section();
+
+    /// Numbers in the file's format. Binary: 4, 8 and 8 bytes.
+    int
+    read_int();
+    std::size_t
+    read_size();
+    double
+    read_double();
+
+    /// An int that counts or numbers something: refuses a negative one.
+    std::size_t
+    read_int_as_size();
+
+    /// Numbers and names that are text even in a binary file.
+    int
+    text_int();
+    std::size_t
+    text_size();
+    std::string_view
+    text_word();
+    /// What stands between the first and the last quotation mark of this line.
+    std::string
+    text_quoted();
+
+    /// Binary numbers begin right behind the line break: go there.
+    void
+    end_line();
+
+    /// From here on `n_total` things called `what` are read, for messages.
+    void
+    begin_count(std::size_t n_total, const std::string &what);
+
+    /// One more of them is read.
+    void
+    count()
+    {
+      ++n_done;
+    }
+
+    /// Bytes not read yet, a bound for what may be allocated.
+    std::size_t
+    n_bytes_left() const
+    {
+      return bytes.size() - position;
+    }
+
+    /// Throw UserError: file, section, how far; then `message`.
+    [[noreturn]] void
+    fail(const std::string &message) const;
+
+  private:
+    template <typename Number>
+    Number
+    raw();
+
+    template <typename Number>
+    Number
+    parse_integer();
+
+    [[noreturn]] void
+    fail_expected(const std::string &expected, std::string_view found) const;
+
+    [[noreturn]] void
+    fail_at_end() const;
+
+    void
+    skip_white_space();
+
+    /// " within section $Nodes after 17 of 2860 nodes"
+    std::string
+    place() const;
+
+    std::filesystem::path file;
+    std::string           bytes;
+    std::size_t           position = 0;
+    bool                  binary   = false;
+    std::string           section;
+    std::string           counted;
+    std::size_t           n_total = 0;
+    std::size_t           n_done  = 0;
+  };
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_problem_h
+#define exemplar_problem_h
+
+#include <exemplar/assembler.h>
+#include <exemplar/bordered_solver.h>
+#include <exemplar/diagnostics.h>
+#include <exemplar/equilibrium.h>
+#include <exemplar/example_poses.h>
+#include <exemplar/fe_space.h>
+#include <exemplar/free_dofs.h>
+#include <exemplar/handles.h>
+#include <exemplar/inertia.h>
+#include <exemplar/loads.h>
+#include <exemplar/material.h>
+#include <exemplar/mesh.h>
+#include <exemplar/parameters.h>
+#include <exemplar/state.h>
+#include <exemplar/step_clock.h>
+#include <exemplar/supports.h>
+#include <exemplar/time_axis.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace Exemplar
+{
+  /// A scene made of its parts, in order of dependency. A part that the scene does
+  /// not need is not there.
+  class Problem
+  {
+  public:
+    /// Reads every input and checks it; writes nothing. Throws UserError.
+    explicit Problem(const Parameters &parameters);
+
+    /// Solve the next step from `state`, which is replaced if the solve succeeds.
+    SolveReport
+    advance();
+
+    /// Go on from a state of an earlier run.
+    void
+    resume_from(const State &earlier);
+
+    /// Names of the parts that are there, or of those that are not.
+    std::vector<std::string>
+    parts(bool present) const;
+
+    /// Warnings of all parts.
+    std::vector<std::string>
+    warnings() const;
+
+    const Parameters &parameters;
+    StepClock         clock;
+
+    const TimeAxis                                    time_axis;
+    const Mesh                                        mesh;
+    const Material                                    material;
+    const FESpace                                     fe_space;
+    const std::unique_ptr<Handles>                    handles; ///< null without handles
+    const std::optional<StaticallyDeterminateSupport> support; ///< of an interpolation
+    const FreeDofs                                    free_dofs;
+    const std::unique_ptr<Loads>                      loads;    ///< null without loads
+    const std::unique_ptr<ExamplePoses>               examples; ///< null without examples
+    const std::unique_ptr<Inertia>                    inertia;  ///< null unless dynamic
+    Assembler                                         assembler;
+    const std::unique_ptr<BorderedSolver>             linear_solver;
+    Equilibrium                                       equilibrium;
+    Diagnostics                                       diagnostics;
+    State                                             state;
+
+  private:
+    std::vector<unsigned int>
+    held_dofs() const;
+
+    void
+    check_supports() const;
+
+    void
+    start_interpolation();
+  };
+} // namespace Exemplar
+
+#endif

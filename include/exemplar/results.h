@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_results_h
+#define exemplar_results_h
+
+#include <exemplar/checkpoint.h>
+#include <exemplar/problem.h>
+#include <exemplar/run_directory.h>
+#include <exemplar/statistics_file.h>
+
+#include <chrono>
+#include <map>
+#include <optional>
+#include <string>
+
+namespace Exemplar
+{
+  /// Everything that a run of a problem leaves on disk.
+  class Results
+  {
+  public:
+    explicit Results(Problem &problem);
+
+    /// Begin a new run: check and clear the directory, write the scene and the
+    /// initial state. Throws UserError, with nothing written.
+    void
+    begin();
+
+    /// Go on from the checkpoint in the directory, which sets the problem's state.
+    /// Throws UserError, with nothing changed, if the scene is another one.
+    void
+    resume();
+
+    /// Write what follows a solve: the frame, the row of statistics, and a checkpoint
+    /// when its time has come.
+    void
+    add_step(const SolveReport &report);
+
+    /// Write final.msh, the animation, a checkpoint and the summary.
+    void
+    finish(const std::string &status);
+
+    const RunTotals &
+    get_totals() const
+    {
+      return totals;
+    }
+
+  private:
+    void
+    write_frame() const;
+
+    void
+    write_final_pose() const;
+
+    void
+    write_animation() const;
+
+    void
+    save();
+
+    /// Seconds by part since the last call.
+    PartSeconds
+    lap();
+
+    Problem                                 &problem;
+    const RunDirectory                       directory;
+    const std::map<std::string, std::string> input_digests; ///< SHA-256 of the files read
+    std::optional<StatisticsFile>            statistics;
+    RunTotals                                totals;
+    unsigned int                             earlier_factorizations = 0; ///< before a resume
+    PartSeconds                              last_lap{};
+    std::chrono::steady_clock::time_point    last_checkpoint;
+  };
+} // namespace Exemplar
+
+#endif

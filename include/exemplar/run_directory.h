@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_run_directory_h
+#define exemplar_run_directory_h
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace Exemplar
+{
+  /// Where a run writes, and the names of what it writes.
+  class RunDirectory
+  {
+  public:
+    explicit RunDirectory(std::filesystem::path path);
+
+    /// Throws UserError if a new run may not write here: the directory holds foreign
+    /// files, is no directory or cannot be written, or one of the run's inputs is
+    /// among the files that would be cleared.
+    void
+    check_for_new_run(const std::vector<std::filesystem::path> &input_files) const;
+
+    /// Create the directory, or clear it of what an earlier run wrote.
+    void
+    clear() const;
+
+    const std::filesystem::path &
+    get_path() const
+    {
+      return path;
+    }
+
+    std::filesystem::path
+    original_prm() const
+    {
+      return path / "original.prm";
+    }
+
+    std::filesystem::path
+    parameters_prm() const
+    {
+      return path / "parameters.prm";
+    }
+
+    std::filesystem::path
+    statistics() const
+    {
+      return path / "statistics.csv";
+    }
+
+    std::filesystem::path
+    summary() const
+    {
+      return path / "summary.json";
+    }
+
+    std::filesystem::path
+    final_pose() const
+    {
+      return path / "final.msh";
+    }
+
+    std::filesystem::path
+    checkpoint() const
+    {
+      return path / "checkpoint.bin";
+    }
+
+    std::filesystem::path
+    animation() const
+    {
+      return path / "animation.pvd";
+    }
+
+    /// The name of a step's frame, without the directory.
+    static std::string
+    frame_name(unsigned int step);
+
+    /// The first line of parameters.prm: by it a directory is known as ours.
+    static const std::string mark;
+
+  private:
+    std::vector<std::filesystem::path>
+    own_files() const;
+
+    bool
+    is_ours() const;
+
+    std::filesystem::path path;
+  };
+} // namespace Exemplar
+
+#endif

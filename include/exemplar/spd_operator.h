@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_spd_operator_h
+#define exemplar_spd_operator_h
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+namespace Exemplar
+{
+  /// Lower triangle of a symmetric n x n pattern by columns; row indices ascend in
+  /// each column and start with the diagonal.
+  struct SymmetricPattern
+  {
+    std::vector<int> column_start; ///< n + 1 entries
+    std::vector<int> row;
+
+    unsigned int
+    n() const
+    {
+      return column_start.empty() ? 0 : column_start.size() - 1;
+    }
+
+    /// Position of entry (i,j), i >= j, which must be there.
+    int
+    position(const int i, const int j) const
+    {
+      const auto begin = row.begin() + column_start[j], end = row.begin() + column_start[j + 1];
+      return static_cast<int>(std::lower_bound(begin, end, i) - row.begin());
+    }
+  };
+
+  /// A sparse symmetric positive definite matrix and its factor. The pattern is
+  /// analysed once; values are then written in place and factorised anew.
+  class SpdOperator
+  {
+  public:
+    virtual ~SpdOperator() = default;
+
+    /// Throws SolverFailure if the pattern is too large for the library.
+    virtual void
+    reinit(const SymmetricPattern &pattern) = 0;
+
+    /// Values on the pattern, to be overwritten.
+    virtual std::vector<double> &
+    values() = 0;
+
+    /// Throws SolverFailure if the matrix is not positive definite.
+    virtual void
+    factorize() = 0;
+
+    /// Overwrite the columns (n entries each, one after the other) by A^-1 times them.
+    virtual void
+    solve(std::vector<double> &columns) = 0;
+  };
+
+  /// CHOLMOD's sparse Cholesky factorisation.
+  std::unique_ptr<SpdOperator>
+  make_cholmod_operator();
+} // namespace Exemplar
+
+#endif

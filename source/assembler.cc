@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/assembler.h>
+#include <exemplar/polar_decomposition.h>
+#include <exemplar/prm_tools.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Exemplar
+{
+  namespace
+  {
+    const EnumTable<StrainMeasure> strain_measures = {{StrainMeasure::corotational, "corotational"}};
+    const EnumTable<GradientKind>  gradient_kinds  = {{GradientKind::frozen, "frozen"}};
+
+    double
+    norm(const Matrix3<double> &A)
+    {
+      return std::sqrt(contract(A, A));
+    }
+
+    Matrix3<double>
+    difference(const Matrix3<double> &A, const Matrix3<double> &B, const double factor)
+    {
+      Matrix3<double> C;
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+          C[i][j] = A[i][j] - factor * B[i][j];
+      return C;
+    }
+
+    void
+    add_nodal(const std::array<unsigned int, 4> &nodes,
+              const Vector3<double> (&values)[4],
+              dealii::Vector<double> &field)
+    {
+      for (unsigned int a = 0; a < 4; ++a)
+        for (unsigned int c = 0; c < 3; ++c)
+          field[3 * nodes[a] + c] += values[a][c];
+    }
+  } // namespace
+
+  void
+  ModelParameters::declare(dealii::ParameterHandler &prm)
+  {
+    prm.enter_subsection("Model");
+    declare_enum(prm,
+                 "Strain",
+                 strain,
+                 strain_measures,
+                 "corotational: the strain of the deformation freed of the cell's rotation.");
+    declare_enum(prm,
+                 "Gradient",
+                 gradient,
+                 gradient_kinds,
+                 "frozen: the paper's force R T, which holds the rotation fixed while it "
+                 "differentiates the energy.");
+    prm.leave_subsection();
+  }
+
+  Assembler::Assembler(const FESpace      &fe_space,
+                       const Material     &material,
+                       const ExamplePoses *examples,
+                       const Inertia      *inertia,
+                       const FreeDofs     &free_dofs)
+    : fe_space(fe_space)
+    , material(material)
+    , examples(examples)
+    , inertia(inertia)
+    , free_dofs(free_dofs)
+    , gradient_norms(fe_space.n_cells())
+    , rotations(fe_space.n_cells(), identity_matrix<double>())
+  {
+    for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
+      for (unsigned int a = 0; a < 4; ++a)
+        {
+          const Vector3<double> &g = fe_space.tetrahedron(cell).shape_gradient[a];
+          gradient_norms[cell][a]  = std::sqrt(dot(g, g));
+        }
+    build_pattern();
+    build_scatter();
+    if (inertia != nullptr)
+      build_mass_values();
+  }
+
+  void
+  Assembler::build_pattern()
+  {
+    const dealii::SparsityPattern nodal = fe_space.nodal_pattern();
+    pattern.column_start.push_back(0);
+    for (const unsigned int dof : free_dofs.list())
+      {
+        const auto begin = pattern.row.size();
+        for (auto entry = nodal.begin(dof / 3); entry != nodal.end(dof / 3); ++entry)
+          for (unsigned int c = 0; c < 3; ++c)
+            if (const unsigned int other = 3 * entry->column() + c; other >= dof)
+              if (const int row = free_dofs.free_index(other); row != FreeDofs::held)
+                pattern.row.push_back(row);
+        std::sort(pattern.row.begin() + begin, pattern.row.end());
+        pattern.column_start.push_back(pattern.row.size());
+      }
+  }
+
+  void
+  Assembler::build_scatter()
+  {
+    scatter.resize(fe_space.n_cells());
+    for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
+      {
+        int dof[12];
+        for (unsigned int p = 0; p < 12; ++p)
+          dof[p] = free_dofs.free_index(3 * fe_space.nodes(cell)[p / 3] + p % 3);
+        unsigned int entry = 0;
+        for (unsigned int p = 0; p < 12; ++p)
+          for (unsigned int q = 0; q <= p; ++q, ++entry)
+            scatter[cell][entry] =
+              dof[p] == FreeDofs::held || dof[q] == FreeDofs::held ?
+                FreeDofs::held :
+                pattern.position(std::max(dof[p], dof[q]), std::min(dof[p], dof[q]));
+      }
+  }
+
+  void
+  Assembler::build_mass_values()
+  {
+    mass_values.assign(pattern.row.size(), 0.);
+    const dealii::SparseMatrix<double> &mass = inertia->nodal_mass();
+    for (const unsigned int dof : free_dofs.list())
+      for (auto entry = mass.begin(dof / 3); entry != mass.end(dof / 3); ++entry)
+        {
+          const unsigned int other = 3 * entry->column() + dof % 3;
+          if (other >= dof && free_dofs.free_index(other) != FreeDofs::held)
+            mass_values[pattern.position(free_dofs.free_index(other), free_dofs.free_index(dof))] =
+              entry->value();
+        }
+  }
+
+  void
+  Assembler::update_rotations(const dealii::Vector<double> &positions)
+  {
+    for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
+      rotations[cell] = closest_rotation(fe_space.deformation_gradient(cell, positions));
+  }
+
+  void
+  Assembler::evaluate(const dealii::Vector<double> &positions,
+                      const std::vector<double>    &weights,
+                      Evaluation                   &result) const
+  {
+    const double eta        = examples != nullptr ? examples->importance() : 0.;
+    const bool   free_weights = examples != nullptr && !examples->weights_are_prescribed();
+
+    result.gradient.reinit(fe_space.n_dofs());
+    result.force_scale.reinit(fe_space.n_nodes());
+    result.weight_gradient.assign(free_weights ? weights.size() : 0, 0.);
+    result.weight_scale   = 0.;
+    result.energy_elastic = 0.;
+    result.energy_example = 0.;
+    result.min_det_F      = std::numeric_limits<double>::max();
+    result.inverted_cells = 0;
+    std::vector<double> weight_scales(result.weight_gradient.size(), 0.);
+
+    for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
+      {
+        const Tetrahedron<double> &tet  = fe_space.tetrahedron(cell);
+        const Lame<double>        &lame = material.lame(cell);
+        const Matrix3<double>      F    = fe_space.deformation_gradient(cell, positions);
+        const Matrix3<double> strain = corotated_strain(rotations[cell], F); // e
+        const double          det_F  = determinant(F);
+
+        Matrix3<double> T           = stress(lame, strain);
+        const double    elastic     = 0.5 * tet.volume * contract(T, strain);
+        double          force_scale = norm(T);
+        result.min_det_F            = std::min(result.min_det_F, det_F);
+        result.inverted_cells += (det_F <= 0.);
+        result.energy_elastic += elastic;
+
+        if (examples != nullptr)
+          {
+            const Matrix3<double> target    = examples->strain(cell, weights); // E(w)
+            const Matrix3<double> deviation = difference(strain, target, eta);
+            force_scale += eta * norm(stress(lame, target));
+            T = stress(lame, deviation);
+            // the residual form: near an example the expanded one cancels
+            result.energy_example += 0.5 * tet.volume * contract(T, deviation) - elastic;
+            for (unsigned int i = 0; i < result.weight_gradient.size(); ++i)
+              {
+                const Matrix3<double> E = examples->strain(cell, i);
+                result.weight_gradient[i] -= eta * tet.volume * contract(T, E);
+                weight_scales[i] += eta * tet.volume * force_scale * norm(E);
+              }
+          }
+
+        Vector3<double> force[4];
+        frozen_forces(tet, rotations[cell], T, force);
+        add_nodal(fe_space.nodes(cell), force, result.gradient);
+        for (unsigned int a = 0; a < 4; ++a)
+          result.force_scale[fe_space.nodes(cell)[a]] +=
+            tet.volume * force_scale * gradient_norms[cell][a];
+      }
+
+    if (free_weights)
+      for (unsigned int i = 0; i < weights.size(); ++i)
+        {
+          const double ridge = examples->weight_penalty() * weights[i];
+          result.energy_example += 0.5 * ridge * weights[i];
+          result.weight_gradient[i] += ridge;
+          result.weight_scale =
+            std::max(result.weight_scale, weight_scales[i] + std::abs(ridge));
+        }
+  }
+
+  void
+  Assembler::assemble_matrix(std::vector<double> &matrix_values) const
+  {
+    if (inertia == nullptr)
+      std::fill(matrix_values.begin(), matrix_values.end(), 0.);
+    else
+      for (std::size_t i = 0; i < matrix_values.size(); ++i)
+        matrix_values[i] = inertia->matrix_factor() * mass_values[i];
+
+    for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
+      {
+        const Tetrahedron<double> &tet = fe_space.tetrahedron(cell);
+        Vector3<double>            g[4];
+        rotate_gradients(tet, rotations[cell], g);
+        double cell_matrix[12][12];
+        for (unsigned int a = 0; a < 4; ++a)
+          for (unsigned int b = 0; b <= a; ++b)
+            {
+              const Matrix3<double> block =
+                stiffness_block(material.lame(cell), tet.volume, g[a], g[b]);
+              for (unsigned int i = 0; i < 3; ++i)
+                for (unsigned int j = 0; j < 3; ++j)
+                  cell_matrix[3 * a + i][3 * b + j] = block[i][j];
+            }
+        unsigned int entry = 0;
+        for (unsigned int p = 0; p < 12; ++p)
+          for (unsigned int q = 0; q <= p; ++q, ++entry)
+            if (const int position = scatter[cell][entry]; position != FreeDofs::held)
+              matrix_values[position] += cell_matrix[p][q];
+      }
+  }
+
+  void
+  Assembler::assemble_coupling(std::vector<double> &columns) const
+  {
+    columns.assign(static_cast<std::size_t>(free_dofs.size()) * examples->size(), 0.);
+    for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
+      for (unsigned int i = 0; i < examples->size(); ++i)
+        {
+          const Matrix3<double> T = stress(material.lame(cell), examples->strain(cell, i));
+          Vector3<double>       force[4];
+          frozen_forces(fe_space.tetrahedron(cell), rotations[cell], T, force);
+          double *column = columns.data() + static_cast<std::size_t>(i) * free_dofs.size();
+          for (unsigned int a = 0; a < 4; ++a)
+            for (unsigned int c = 0; c < 3; ++c)
+              if (const int dof = free_dofs.free_index(3 * fe_space.nodes(cell)[a] + c);
+                  dof != FreeDofs::held)
+                column[dof] += examples->importance() * force[a][c];
+        }
+  }
+
+  CellResults
+  Assembler::cell_results(const dealii::Vector<double> &positions,
+                          const std::vector<double>    &weights) const
+  {
+    const unsigned int n = fe_space.n_cells();
+    CellResults        results{std::vector<double>(n), std::vector<double>(n), std::vector<double>(n)};
+    for (unsigned int cell = 0; cell < n; ++cell)
+      {
+        const Lame<double>   &lame   = material.lame(cell);
+        const Matrix3<double> F      = fe_space.deformation_gradient(cell, positions);
+        const Matrix3<double> strain = corotated_strain(rotations[cell], F);
+        Matrix3<double>       T      = stress(lame, strain);
+
+        results.strain_energy_density[cell] = 0.5 * contract(T, strain);
+        results.det_F[cell]                 = determinant(F);
+        if (examples != nullptr)
+          T = stress(lame,
+                     difference(strain, examples->strain(cell, weights), examples->importance()));
+        const double third = trace(T) / 3.;
+        for (int i = 0; i < 3; ++i)
+          T[i][i] -= third;
+        results.von_mises_stress[cell] = std::sqrt(1.5 * contract(T, T));
+      }
+    return results;
+  }
+} // namespace Exemplar

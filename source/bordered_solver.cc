@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/bordered_solver.h>
+#include <exemplar/errors.h>
+
+#include <deal.II/lac/lapack_full_matrix.h>
+#include <deal.II/lac/vector.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace Exemplar
+{
+  namespace
+  {
+    double
+    dot(const double *a, const double *b, const std::size_t n)
+    {
+      return std::inner_product(a, a + n, b, 0.);
+    }
+
+    class BlockSolver : public BorderedSolver
+    {
+    public:
+      BlockSolver(std::unique_ptr<SpdOperator> new_matrix, const SymmetricPattern &pattern)
+        : matrix(std::move(new_matrix))
+      {
+        matrix->reinit(pattern);
+      }
+
+      std::vector<double> &
+      matrix_values() override
+      {
+        return matrix->values();
+      }
+
+      void
+      factorize(const WeightBlock &) override
+      {
+        matrix->factorize();
+      }
+
+      void
+      solve(const WeightBlock &block, BorderedVector &vector) override
+      {
+        const std::size_t n = vector.positions.size(), k = vector.weights.size();
+
+        columns = vector.positions;
+        columns.insert(columns.end(), block.coupling.begin(), block.coupling.end());
+        matrix->solve(columns); // z = A^-1 r_x, Z = A^-1 G
+
+        if (k > 0)
+          solve_weights(block, vector);
+        for (std::size_t i = 0; i < n; ++i)
+          vector.positions[i] = columns[i];
+        for (std::size_t j = 0; j < k; ++j)
+          for (std::size_t i = 0; i < n; ++i)
+            vector.positions[i] += vector.weights[j] * columns[(1 + j) * n + i];
+      }
+
+    private:
+      /// [H - G^T Z, N^T; N, 0] [dw; l] = [r_w + G^T z; r_c], Eq. (11)
+      void
+      solve_weights(const WeightBlock &block, BorderedVector &vector) const
+      {
+        const std::size_t n = vector.positions.size(), k = vector.weights.size(),
+                          m = vector.multipliers.size();
+        dealii::LAPACKFullMatrix<double> schur(k + m, k + m);
+        dealii::Vector<double>           unknowns(k + m);
+        for (std::size_t i = 0; i < k; ++i)
+          {
+            const double *G_i = block.coupling.data() + i * n;
+            unknowns[i]       = vector.weights[i] + dot(G_i, columns.data(), n);
+            for (std::size_t j = 0; j < k; ++j)
+              schur(i, j) = block.H(i, j) - dot(G_i, columns.data() + (1 + j) * n, n);
+          }
+        for (std::size_t c = 0; c < m; ++c)
+          {
+            unknowns[k + c] = vector.multipliers[c];
+            for (std::size_t i = 0; i < k; ++i)
+              schur(k + c, i) = schur(i, k + c) = block.N(c, i);
+          }
+        try
+          {
+            schur.compute_lu_factorization();
+            schur.solve(unknowns);
+          }
+        catch (const dealii::ExceptionBase &)
+          {
+            throw SolverFailure("The system for the example weights is singular. Set "
+                                "Examples/Weight penalty to auto, or remove an example that is a "
+                                "combination of the others.");
+          }
+        std::copy_n(unknowns.begin(), k, vector.weights.begin());
+        std::copy_n(unknowns.begin() + k, m, vector.multipliers.begin());
+      }
+
+      const std::unique_ptr<SpdOperator> matrix;
+      std::vector<double>                columns;
+    };
+  } // namespace
+
+  std::unique_ptr<BorderedSolver>
+  make_block_solver(std::unique_ptr<SpdOperator> matrix, const SymmetricPattern &pattern)
+  {
+    return std::make_unique<BlockSolver>(std::move(matrix), pattern);
+  }
+} // namespace Exemplar

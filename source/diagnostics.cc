@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/diagnostics.h>
+
+#include <charconv>
+#include <cmath>
+
+namespace Exemplar
+{
+  namespace
+  {
+    void
+    append(StatisticsRow &row, const std::string &column, const double value)
+    {
+      row.emplace_back(column, shortest_text(value));
+    }
+
+    void
+    append(StatisticsRow &row, const std::string &column, const dealii::Tensor<1, 3> &value)
+    {
+      for (unsigned int c = 0; c < 3; ++c)
+        append(row, column + "_" + "xyz"[c], value[c]);
+    }
+  } // namespace
+
+  std::string
+  shortest_text(const double value)
+  {
+    if (!std::isfinite(value))
+      return "";
+    char       buffer[32];
+    const auto end = std::to_chars(buffer, buffer + sizeof(buffer), value).ptr;
+    return {buffer, end};
+  }
+
+  Diagnostics::Diagnostics(const Handles      *handles,
+                           const Loads        *loads,
+                           const ExamplePoses *examples,
+                           const Inertia      *inertia)
+    : handles(handles)
+    , loads(loads)
+    , examples(examples)
+    , inertia(inertia)
+  {}
+
+  void
+  Diagnostics::add_work(const dealii::Vector<double> &old_positions,
+                        const State                  &state,
+                        const Evaluation             &evaluation)
+  {
+    dealii::Vector<double> displacement = state.positions;
+    displacement -= old_positions;
+    if (handles != nullptr)
+      for (const unsigned int dof : handles->held_dofs())
+        work.handles += evaluation.gradient[dof] * displacement[dof];
+    if (loads != nullptr && loads->has_gravity())
+      work.gravity += loads->gravity() * displacement;
+    if (loads != nullptr && loads->has_named_loads())
+      {
+        dealii::Vector<double> force(displacement.size());
+        loads->named_loads(state.time, force);
+        work.loads += force * displacement;
+      }
+  }
+
+  StatisticsRow
+  Diagnostics::row(const State &state, const SolveReport &report, const Evaluation &evaluation) const
+  {
+    StatisticsRow row = {{"step", std::to_string(state.step)},
+                         {"time", shortest_text(state.time)},
+                         {"status", status_name(report.status)},
+                         {"iterations", std::to_string(report.iterations)}};
+    append(row, "residual", report.residual);
+    append(row, "energy_elastic", evaluation.energy_elastic);
+    if (examples != nullptr)
+      append(row, "energy_example", evaluation.energy_example);
+    const MotionSums sums = inertia != nullptr ? inertia->motion_sums(state) : MotionSums();
+    if (inertia != nullptr)
+      append(row, "energy_kinetic", sums.kinetic_energy);
+    for (unsigned int i = 0; i < state.weights.size(); ++i)
+      append(row, "weight_" + std::to_string(i), state.weights[i]);
+    if (examples != nullptr && !examples->weights_are_prescribed())
+      {
+        append(row, "multiplier", state.multiplier);
+        append(row, "kkt_residual", report.kkt_residual);
+      }
+    append(row, "min_det_F", evaluation.min_det_F);
+    row.emplace_back("inverted_cells", std::to_string(evaluation.inverted_cells));
+    if (inertia != nullptr)
+      {
+        append(row, "momentum", sums.momentum);
+        append(row, "angular_momentum", sums.angular_momentum);
+      }
+    if (handles != nullptr)
+      append(row, "work_handles", work.handles);
+    if (loads != nullptr && loads->has_gravity())
+      append(row, "work_gravity", work.gravity);
+    if (loads != nullptr && loads->has_named_loads())
+      append(row, "work_loads", work.loads);
+    if (handles != nullptr)
+      for (unsigned int h = 0; h < handles->size(); ++h)
+        append(row, "reaction_" + handles->name(h), handles->sum_over(h, evaluation.gradient));
+    return row;
+  }
+
+  void
+  Diagnostics::append_seconds(StatisticsRow &row, const std::optional<PartSeconds> &seconds)
+  {
+    double total = 0.;
+    for (unsigned int part = 0; seconds && part < n_parts; ++part)
+      total += (*seconds)[part];
+    row.emplace_back("seconds_step", seconds ? shortest_text(total) : "");
+    for (unsigned int part = 0; part < n_parts; ++part)
+      if (part != static_cast<unsigned int>(Part::read))
+        row.emplace_back("seconds_" + part_names[part],
+                         seconds ? shortest_text((*seconds)[part]) : "");
+  }
+} // namespace Exemplar

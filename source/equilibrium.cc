@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/equilibrium.h>
+#include <exemplar/errors.h>
+#include <exemplar/interrupt.h>
+#include <exemplar/prm_tools.h>
+
+#include <cmath>
+#include <numeric>
+
+namespace Exemplar
+{
+  namespace
+  {
+    const EnumTable<Method> methods = {{Method::one_pass, "one pass"},
+                                       {Method::fixed_point, "fixed point"}};
+
+    const EnumTable<LinearSolver> linear_solvers = {{LinearSolver::automatic, "auto"},
+                                                    {LinearSolver::cholesky, "cholesky"},
+                                                    {LinearSolver::umfpack, "umfpack"}};
+
+    const EnumTable<SolveStatus> statuses = {{SolveStatus::initial, "initial"},
+                                             {SolveStatus::converged, "converged"},
+                                             {SolveStatus::one_pass, "one pass"},
+                                             {SolveStatus::iteration_limit, "iteration limit"},
+                                             {SolveStatus::failed, "failed"}};
+
+    /// a / b, where nothing at all acts (0/0) counts as solved.
+    double
+    relative(const double a, const double b)
+    {
+      return a == 0. ? 0. : a / b;
+    }
+  } // namespace
+
+  void
+  SolverParameters::declare(dealii::ParameterHandler &prm)
+  {
+    prm.enter_subsection("Solver");
+    declare_enum(prm,
+                 "Method",
+                 method,
+                 methods,
+                 "one pass: the paper's, one linear solve with frozen rotations a step; fixed "
+                 "point: the same, repeated until the residual is below Tolerance.");
+    prm.add_parameter("Tolerance",
+                      tolerance,
+                      "Relative residual at which a step has converged: the greatest free residual "
+                      "force over the greatest nodal force scale. Not used by one pass.",
+                      dealii::Patterns::Double(1e-16, 1.));
+    prm.add_parameter("Maximum iterations",
+                      maximum_iterations,
+                      "Iterations after which a step without convergence ends the run with status "
+                      "2. Not used by one pass.",
+                      dealii::Patterns::Integer(1));
+    declare_enum(prm,
+                 "Linear solver",
+                 linear_solver,
+                 linear_solvers,
+                 "cholesky: CHOLMOD factorises the positions' block, the weights follow from a "
+                 "dense Schur complement; umfpack: the whole bordered matrix at once, for checking; "
+                 "auto: cholesky.");
+    prm.leave_subsection();
+  }
+
+  std::string
+  method_name(const Method method)
+  {
+    return enum_name(method, methods);
+  }
+
+  std::string
+  status_name(const SolveStatus status)
+  {
+    return enum_name(status, statuses);
+  }
+
+  Equilibrium::Equilibrium(const SolverParameters &parameters, const Parts &parts)
+    : parameters(parameters)
+    , parts(parts)
+  {
+    if (parts.examples != nullptr && !parts.examples->weights_are_prescribed())
+      {
+        block.H = parts.examples->weight_matrix();
+        block.N.reinit(1, block.H.n()); // one constraint: the weights sum to one
+        for (unsigned int i = 0; i < block.H.n(); ++i)
+          block.N(0, i) = 1.;
+      }
+  }
+
+  void
+  Equilibrium::start(const State &state)
+  {
+    StepClock::Scope scope(parts.clock, Part::evaluate);
+    dynamic_terms = false;
+    external_force.reinit(state.positions.size());
+    if (parts.loads != nullptr)
+      {
+        if (parts.loads->has_named_loads())
+          parts.loads->named_loads(state.time, external_force);
+        if (parts.loads->has_gravity())
+          external_force += parts.loads->gravity();
+      }
+    parts.assembler.update_rotations(state.positions);
+    evaluate(state);
+  }
+
+  void
+  Equilibrium::begin_step(State &state, const double time, const double step_size)
+  {
+    if (parts.inertia != nullptr)
+      {
+        parts.inertia->begin_step(state, step_size);
+        dynamic_terms = true;
+      }
+    state.time = time;
+    if (parts.handles != nullptr)
+      parts.handles->move(time, state.positions);
+    if (parts.examples != nullptr && parts.examples->weights_are_prescribed())
+      state.weights = parts.examples->prescribed_weights(time);
+    if (parts.loads != nullptr && parts.loads->has_named_loads())
+      {
+        parts.loads->named_loads(time, external_force);
+        if (parts.loads->has_gravity())
+          external_force += parts.loads->gravity();
+      }
+  }
+
+  void
+  Equilibrium::evaluate(const State &state)
+  {
+    StepClock::Scope scope(parts.clock, Part::evaluate);
+    parts.assembler.evaluate(state.positions, state.weights, current);
+    if (dynamic_terms)
+      parts.inertia->add_gradient(state.positions, current.gradient, current.force_scale);
+    if (parts.loads != nullptr)
+      {
+        current.gradient -= external_force;
+        for (unsigned int node = 0; node < current.force_scale.size(); ++node)
+          current.force_scale[node] += std::hypot(external_force[3 * node],
+                                                  external_force[3 * node + 1],
+                                                  external_force[3 * node + 2]);
+      }
+  }
+
+  void
+  Equilibrium::linear_step(State &state)
+  {
+    const auto &free = parts.free_dofs.list();
+    {
+      StepClock::Scope scope(parts.clock, Part::assemble);
+      parts.assembler.assemble_matrix(parts.linear_solver.matrix_values());
+      if (block.H.m() > 0)
+        parts.assembler.assemble_coupling(block.coupling);
+    }
+    {
+      StepClock::Scope scope(parts.clock, Part::factorize);
+      parts.linear_solver.factorize(block);
+      ++factorizations;
+    }
+    StepClock::Scope scope(parts.clock, Part::solve);
+    unknowns.positions.resize(free.size());
+    for (unsigned int i = 0; i < free.size(); ++i)
+      unknowns.positions[i] = -current.gradient[free[i]];
+    unknowns.weights.clear();
+    unknowns.multipliers.clear();
+    if (block.H.m() > 0)
+      {
+        for (const double derivative : current.weight_gradient)
+          unknowns.weights.push_back(-derivative);
+        unknowns.multipliers.push_back(
+          1. - std::accumulate(state.weights.begin(), state.weights.end(), 0.));
+      }
+    parts.linear_solver.solve(block, unknowns);
+    for (unsigned int i = 0; i < free.size(); ++i)
+      state.positions[free[i]] += unknowns.positions[i];
+    for (unsigned int i = 0; i < unknowns.weights.size(); ++i)
+      state.weights[i] += unknowns.weights[i];
+  }
+
+  void
+  Equilibrium::measure(State &state, SolveReport &report) const
+  {
+    double greatest = 0.;
+    for (const unsigned int dof : parts.free_dofs.list())
+      {
+        greatest = std::max(greatest, std::abs(current.gradient[dof]));
+        if (!std::isfinite(current.gradient[dof]))
+          greatest = current.gradient[dof]; // max() would pass over a NaN
+      }
+    report.residual = relative(greatest, current.force_scale.linfty_norm());
+    if (!current.weight_gradient.empty())
+      {
+        // with the weights free, all components of the gradient equal -multiplier
+        const auto &gradient = current.weight_gradient;
+        state.multiplier =
+          -std::accumulate(gradient.begin(), gradient.end(), 0.) / static_cast<double>(gradient.size());
+        double deviation = 0.;
+        for (const double derivative : gradient)
+          deviation = std::max(deviation, std::abs(derivative + state.multiplier));
+        report.kkt_residual = relative(deviation, current.weight_scale);
+      }
+    report.residual_history.push_back(report.residual);
+  }
+
+  SolveReport
+  Equilibrium::solve(State &state, const double time, const double step_size)
+  {
+    SolveReport report;
+    try
+      {
+        // The rotations are still those of the last accepted positions, before the
+        // handles move: the paper's choice.
+        begin_step(state, time, step_size);
+        evaluate(state);
+        while (report.status == SolveStatus::initial)
+          {
+            check_interrupt();
+            linear_step(state);
+            ++report.iterations;
+            {
+              StepClock::Scope scope(parts.clock, Part::evaluate);
+              parts.assembler.update_rotations(state.positions);
+            }
+            evaluate(state);
+            measure(state, report);
+            if (!std::isfinite(report.residual))
+              throw SolverFailure("The residual is not a finite number.");
+            if (parameters.method == Method::one_pass)
+              report.status = SolveStatus::one_pass;
+            else if (std::max(report.residual, report.kkt_residual) <= parameters.tolerance)
+              report.status = SolveStatus::converged;
+            else if (report.iterations == parameters.maximum_iterations)
+              report.status = SolveStatus::iteration_limit;
+          }
+      }
+    catch (const SolverFailure &failure)
+      {
+        report.status  = SolveStatus::failed;
+        report.failure = failure.what();
+      }
+    return report;
+  }
+} // namespace Exemplar

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/errors.h>
+#include <exemplar/example_poses.h>
+#include <exemplar/polar_decomposition.h>
+#include <exemplar/prm_tools.h>
+
+#include <cmath>
+#include <sstream>
+
+namespace Exemplar
+{
+  namespace
+  {
+    const EnumTable<ExampleEnergy>  energies = {{ExampleEnergy::scaled, "scaled"}};
+    const EnumTable<ExampleWeights> weight_kinds = {{ExampleWeights::free, "free"},
+                                                    {ExampleWeights::prescribed, "prescribed"}};
+
+    /// The paper's ridge, 1e-5 sum E V.
+    double
+    paper_penalty(const FESpace &fe_space, const Material &material)
+    {
+      double sum = 0.;
+      for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
+        sum += material.youngs_modulus(cell) * fe_space.tetrahedron(cell).volume;
+      return 1e-5 * sum;
+    }
+
+    /// The number in `text`, if it is one and not negative.
+    std::optional<double>
+    non_negative_number(const std::string &text)
+    {
+      std::istringstream in(text);
+      double             value = -1.;
+      if (in >> value && (in >> std::ws).eof() && value >= 0. && std::isfinite(value))
+        return value;
+      return {};
+    }
+  } // namespace
+
+  void
+  ExampleParameters::declare(dealii::ParameterHandler &prm)
+  {
+    prm.enter_subsection("Examples");
+    declare_input_files(prm,
+                        "Poses",
+                        poses,
+                        "Example poses: .msh files with the nodes and tetrahedra of the mesh, such "
+                        "as the final.msh of another scene.");
+    prm.add_parameter("Pose functions",
+                      pose_functions,
+                      "Analytic example poses after those of Poses: x'; y'; z' as functions of the "
+                      "rest position x, y, z [m]; poses separated by |.");
+    prm.add_parameter("Include rest pose",
+                      include_rest_pose,
+                      "Whether the rest pose is example 0. Without it a single example is a "
+                      "permanent pre-strain.");
+    prm.add_parameter("Importance",
+                      importance,
+                      "eta [-]: 0 is plain elasticity (no pose file is opened), 1 lets the examples "
+                      "alone be free of stress.",
+                      dealii::Patterns::Double(0., 1.));
+    prm.add_parameter("Weight penalty",
+                      weight_penalty,
+                      "sigma [J] of the ridge sigma/2 sum w_i^2 on free weights: auto, paper (both "
+                      "1e-5 sum E V over the cells) or a number not less than 0.");
+    declare_enum(prm,
+                 "Energy",
+                 energy,
+                 energies,
+                 "scaled: V/2 (strain - eta E(w)) : C : (strain - eta E(w)), as the paper.");
+    declare_enum(prm,
+                 "Weights",
+                 weights,
+                 weight_kinds,
+                 "free: minimise the energy over weights that sum to one; prescribed: as given.");
+    prm.add_parameter("Prescribed weights",
+                      prescribed_weights,
+                      "One function of t for each example, the rest pose first where it is "
+                      "included, separated by ;. They sum to one.");
+    prm.leave_subsection();
+  }
+
+  bool
+  ExampleParameters::in_use() const
+  {
+    return importance > 0. && !(poses.empty() && pose_functions.empty());
+  }
+
+  void
+  ExampleParameters::check() const
+  {
+    if (weight_penalty != "auto" && weight_penalty != "paper" &&
+        !non_negative_number(weight_penalty))
+      throw UserError("Examples/Weight penalty = '" + weight_penalty +
+                      "' is not allowed. Allowed: auto, paper or a number not less than 0 [J].");
+    if (weights == ExampleWeights::prescribed && in_use() && prescribed_weights.empty())
+      throw UserError("Examples/Weights = prescribed, but Examples/Prescribed weights is empty. "
+                      "Give one function of t for each example, for instance '1-t; t'.");
+    if (weights != ExampleWeights::prescribed && !prescribed_weights.empty())
+      throw UserError("Examples/Prescribed weights is given, but Examples/Weights is not "
+                      "'prescribed'. Set it, or remove the weights.");
+  }
+
+  ExamplePoses::ExamplePoses(const ExampleParameters &parameters,
+                             const Mesh              &mesh,
+                             const FESpace           &fe_space,
+                             const Material          &material,
+                             const double             end)
+    : fe_space(fe_space)
+    , eta(parameters.importance)
+  {
+    if (parameters.include_rest_pose)
+      add_pose("rest pose", mesh.get_nodes());
+    for (const std::string &file : parameters.poses)
+      add_pose(file, mesh.read_pose(file));
+    add_pose_functions(parameters.pose_functions, mesh);
+
+    if (parameters.weights == ExampleWeights::prescribed)
+      {
+        prescribed.emplace("Examples/Prescribed weights", parameters.prescribed_weights, "t", size());
+        check_prescribed_weights(end);
+      }
+    else
+      sigma = non_negative_number(parameters.weight_penalty)
+                .value_or(paper_penalty(fe_space, material));
+
+    compute_strains();
+    compute_weight_matrix(material);
+    if (!prescribed && sigma == 0.)
+      check_independence();
+  }
+
+  void
+  ExamplePoses::add_pose(const std::string &name, const std::vector<dealii::Point<3>> &nodes)
+  {
+    names.push_back(name);
+    positions.emplace_back(fe_space.n_dofs());
+    for (unsigned int node = 0; node < nodes.size(); ++node)
+      for (unsigned int c = 0; c < 3; ++c)
+        positions.back()[3 * node + c] = nodes[node][c];
+  }
+
+  void
+  ExamplePoses::add_pose_functions(const std::string &functions, const Mesh &mesh)
+  {
+    for (const std::string &function : split_trimmed(functions, '|'))
+      {
+        const Expression expression("Examples/Pose functions", function, "xyz", 3);
+        std::vector<dealii::Point<3>> nodes;
+        for (const dealii::Point<3> &x : mesh.get_nodes())
+          nodes.emplace_back(expression.vector(x, 0.));
+        add_pose("pose function '" + function + "'", nodes);
+      }
+  }
+
+  void
+  ExamplePoses::compute_strains()
+  {
+    strains.reserve(6 * fe_space.n_cells() * size());
+    std::vector<unsigned int> n_inverted(size(), 0);
+    for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
+      for (unsigned int i = 0; i < size(); ++i)
+        {
+          const Matrix3<double> F = fe_space.deformation_gradient(cell, positions[i]);
+          const Matrix3<double> E = corotated_strain(closest_rotation(F), F);
+          for (const double entry : {E[0][0], E[1][1], E[2][2], E[1][2], E[0][2], E[0][1]})
+            strains.push_back(entry);
+          n_inverted[i] += (determinant(F) <= 0.);
+        }
+    for (unsigned int i = 0; i < size(); ++i)
+      if (n_inverted[i] > 0)
+        warnings.push_back("Example " + std::to_string(i) + " (" + names[i] + ") has " +
+                           std::to_string(n_inverted[i]) +
+                           " inverted cells; their strain is ambiguous.");
+  }
+
+  Matrix3<double>
+  ExamplePoses::strain(const unsigned int cell, const unsigned int i) const
+  {
+    const double *E = &strains[6 * (static_cast<std::size_t>(cell) * size() + i)];
+    return {{{E[0], E[5], E[4]}, {E[5], E[1], E[3]}, {E[4], E[3], E[2]}}};
+  }
+
+  Matrix3<double>
+  ExamplePoses::strain(const unsigned int cell, const std::vector<double> &weights) const
+  {
+    double        sum[6] = {0., 0., 0., 0., 0., 0.};
+    const double *E      = &strains[6 * static_cast<std::size_t>(cell) * size()];
+    for (unsigned int i = 0; i < size(); ++i)
+      for (unsigned int entry = 0; entry < 6; ++entry)
+        sum[entry] += weights[i] * E[6 * i + entry];
+    return {{{sum[0], sum[5], sum[4]}, {sum[5], sum[1], sum[3]}, {sum[4], sum[3], sum[2]}}};
+  }
+
+  void
+  ExamplePoses::compute_weight_matrix(const Material &material)
+  {
+    gram.reinit(size(), size());
+    for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
+      for (unsigned int i = 0; i < size(); ++i)
+        {
+          const Matrix3<double> T = stress(material.lame(cell), strain(cell, i));
+          for (unsigned int j = 0; j < size(); ++j)
+            gram(i, j) += fe_space.tetrahedron(cell).volume * contract(T, strain(cell, j));
+        }
+    H = gram;
+    H *= eta * eta;
+    H.diagadd(sigma);
+  }
+
+  std::vector<double>
+  ExamplePoses::prescribed_weights(const double time) const
+  {
+    return prescribed->values(dealii::Point<3>(), time);
+  }
+
+  void
+  ExamplePoses::check_prescribed_weights(const double end) const
+  {
+    const unsigned int n_samples = 10;
+    for (unsigned int sample = 0; sample <= n_samples; ++sample)
+      {
+        const double time = end * sample / n_samples;
+        double       sum  = 0.;
+        for (const double weight : prescribed_weights(time))
+          sum += weight;
+        if (std::abs(sum - 1.) > 1e-10)
+          throw UserError("Examples/Prescribed weights sum to " + std::to_string(sum) + " at t = " +
+                          std::to_string(time) +
+                          ", not to 1. Make the last one 1 minus the others.");
+      }
+  }
+
+  void
+  ExamplePoses::check_independence() const
+  {
+    // Cholesky of the Gram matrix of the differences to example 0: a vanishing pivot
+    // is an example that is an affine combination of those before it.
+    const unsigned int         n = size() - 1;
+    dealii::FullMatrix<double> L(n, n);
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = 0; j <= i; ++j)
+        {
+          double value =
+            gram(i + 1, j + 1) - gram(i + 1, 0) - gram(0, j + 1) + gram(0, 0);
+          const double before = value;
+          for (unsigned int m = 0; m < j; ++m)
+            value -= L(i, m) * L(j, m);
+          if (i != j)
+            L(i, j) = value / L(j, j);
+          else if (value > 1e-12 * before && before > 0.)
+            L(i, i) = std::sqrt(value);
+          else
+            throw UserError("Example " + std::to_string(i + 1) + " (" + names[i + 1] +
+                            ") is an affine combination of the examples before it, so their weights "
+                            "are not determined. Remove it from Examples/Poses or Examples/Pose "
+                            "functions, or set Examples/Weight penalty to auto.");
+        }
+  }
+} // namespace Exemplar

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/inertia.h>
+
+#include <cmath>
+
+namespace Exemplar
+{
+  namespace
+  {
+    void
+    lump(dealii::SparseMatrix<double> &mass)
+    {
+      for (unsigned int row = 0; row < mass.m(); ++row)
+        {
+          double sum = 0.;
+          for (auto entry = mass.begin(row); entry != mass.end(row); ++entry)
+            {
+              sum += entry->value();
+              entry->value() = 0.;
+            }
+          mass.set(row, row, sum);
+        }
+    }
+  } // namespace
+
+  Inertia::Inertia(const FESpace &fe_space, const Material &material, const MassMatrix kind)
+    : pattern(fe_space.nodal_pattern())
+    , mass(pattern)
+    , predicted(fe_space.n_dofs())
+  {
+    std::vector<double> density(fe_space.n_cells());
+    for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
+      density[cell] = material.density(cell);
+    fe_space.compute_mass_matrix(density, mass);
+    if (kind == MassMatrix::lumped)
+      lump(mass);
+  }
+
+  void
+  Inertia::begin_step(const State &state, const double step_size)
+  {
+    this->step_size = step_size;
+    predicted       = state.positions;
+    predicted.add(step_size, state.velocities);
+  }
+
+  dealii::Vector<double>
+  Inertia::mass_times(const dealii::Vector<double> &field) const
+  {
+    dealii::Vector<double> product(field.size());
+    for (unsigned int row = 0; row < mass.m(); ++row)
+      {
+        double sum[3] = {0., 0., 0.};
+        for (auto entry = mass.begin(row); entry != mass.end(row); ++entry)
+          for (unsigned int c = 0; c < 3; ++c)
+            sum[c] += entry->value() * field[3 * entry->column() + c];
+        for (unsigned int c = 0; c < 3; ++c)
+          product[3 * row + c] = sum[c];
+      }
+    return product;
+  }
+
+  void
+  Inertia::add_gradient(const dealii::Vector<double> &positions,
+                        dealii::Vector<double>       &gradient,
+                        dealii::Vector<double>       &force_scale) const
+  {
+    dealii::Vector<double> difference = positions;
+    difference -= predicted;
+    dealii::Vector<double> force = mass_times(difference);
+    force *= matrix_factor();
+    gradient += force;
+    for (unsigned int node = 0; node < force_scale.size(); ++node)
+      force_scale[node] += std::hypot(force[3 * node], force[3 * node + 1], force[3 * node + 2]);
+  }
+
+  void
+  Inertia::end_step(const dealii::Vector<double> &old_positions, State &state) const
+  {
+    state.velocities = state.positions;
+    state.velocities -= old_positions;
+    state.velocities /= step_size;
+  }
+
+  MotionSums
+  Inertia::motion_sums(const State &state) const
+  {
+    const dealii::Vector<double> p  = mass_times(state.velocities);
+    const auto                   at = [](const dealii::Vector<double> &field, const unsigned int node) {
+      return dealii::Tensor<1, 3>({field[3 * node], field[3 * node + 1], field[3 * node + 2]});
+    };
+    MotionSums sums;
+    sums.kinetic_energy = 0.5 * (state.velocities * p);
+    for (unsigned int node = 0; node < p.size() / 3; ++node)
+      {
+        sums.momentum += at(p, node);
+        sums.angular_momentum += dealii::cross_product_3d(at(state.positions, node), at(p, node));
+      }
+    return sums;
+  }
+} // namespace Exemplar

@@ -1,0 +1,417 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/prm_tools.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <numeric>
+#include <regex>
+#include <sstream>
+
+namespace Exemplar
+{
+  namespace
+  {
+    using Json = nlohmann::ordered_json;
+
+    std::string
+    join(const std::vector<std::string> &subsections, const std::string &key)
+    {
+      std::string path;
+      for (const std::string &subsection : subsections)
+        path += subsection + "/";
+      return path + key;
+    }
+
+    std::string
+    trim(const std::string &text)
+    {
+      const auto first = text.find_first_not_of(" \t\r\n");
+      if (first == std::string::npos)
+        return "";
+      return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
+    }
+
+    /// Runs of blanks within a name count as one.
+    std::string
+    single_blanks(const std::string &text)
+    {
+      std::istringstream words(text);
+      std::string        result, word;
+      while (words >> word)
+        result += (result.empty() ? "" : " ") + word;
+      return result;
+    }
+
+    bool
+    starts_with_word(const std::string &line, const std::string &word)
+    {
+      return line.compare(0, word.size(), word) == 0 &&
+             (line.size() == word.size() || std::isspace(static_cast<unsigned char>(line[word.size()])));
+    }
+
+    std::size_t
+    edit_distance(const std::string &a, const std::string &b)
+    {
+      std::vector<std::size_t> row(b.size() + 1);
+      std::iota(row.begin(), row.end(), 0);
+      for (std::size_t i = 1; i <= a.size(); ++i)
+        {
+          std::size_t diagonal = row[0]++;
+          for (std::size_t j = 1; j <= b.size(); ++j)
+            {
+              const std::size_t same = diagonal + (std::tolower(a[i - 1]) != std::tolower(b[j - 1]));
+              diagonal               = row[j];
+              row[j]                 = std::min({same, row[j] + 1, row[j - 1] + 1});
+            }
+        }
+      return row.back();
+    }
+
+    std::string
+    nearest_path(const std::string &path, const std::vector<DeclaredKey> &keys)
+    {
+      std::string best;
+      std::size_t best_distance = path.size() + 1;
+      for (const DeclaredKey &key : keys)
+        if (const std::size_t distance = edit_distance(path, key.path()); distance < best_distance)
+          {
+            best          = key.path();
+            best_distance = distance;
+          }
+      return best;
+    }
+
+    /// The bounds of a pattern; the extreme ones of the type are none.
+    std::string
+    bounds_in_words(const std::string &low, const std::string &high)
+    {
+      if (low == "1e-300") // "greater than 0", as bounds of patterns are inclusive
+        return " > 0";
+      if (low == "-MAX_DOUBLE" || low == "-2147483648")
+        return "";
+      if (high == "MAX_DOUBLE" || high == "2147483647")
+        return " >= " + low;
+      return " in " + low + " ... " + high;
+    }
+
+    /// deal.II describes a pattern for machines.
+    std::string
+    allowed_in_words(const std::string &pattern)
+    {
+      static const std::regex selection(R"(\[Selection (.*?) ?\])"), bar(R"(\|)"),
+        number(R"(\[(Double|Integer range) ([^ ]+)\.\.\.([^ ]+) \(inclusive\)\])");
+      const bool  is_list = pattern.compare(0, 8, "[List of") == 0;
+      std::smatch match;
+      if (std::regex_match(pattern, match, selection))
+        return std::regex_replace(match[1].str(), bar, ", ");
+      if (std::regex_search(pattern, match, number))
+        {
+          const std::string noun   = match[1] == "Double" ? "number" : "integer";
+          const std::string bounds = bounds_in_words(match[2], match[3]);
+          if (is_list) // all lists of numbers are vectors
+            return "three " + noun + "s" + bounds + " separated by commas";
+          return (noun == "number" ? "a " : "an ") + noun + bounds;
+        }
+      if (pattern.find("[FileName") != std::string::npos)
+        return is_list ? "file names separated by commas" : "a file name";
+      if (pattern == "[Bool]")
+        return "true or false";
+      return is_list ? "names separated by commas" : "any text";
+    }
+
+    void
+    collect_keys(const Json               &node,
+                 std::vector<std::string> &subsections,
+                 std::vector<DeclaredKey> &keys)
+    {
+      for (const auto &[name, content] : node.items())
+        if (content.contains("pattern_description"))
+          {
+            const std::string pattern = content.at("pattern_description");
+            keys.push_back({subsections,
+                            name,
+                            content.at("value"),
+                            content.at("default_value"),
+                            content.at("documentation"),
+                            allowed_in_words(pattern),
+                            pattern.find("[FileName") != std::string::npos});
+          }
+        else
+          {
+            subsections.push_back(name);
+            collect_keys(content, subsections, keys);
+            subsections.pop_back();
+          }
+    }
+
+    std::string
+    absolute_files(const std::string &value, const std::filesystem::path &directory)
+    {
+      std::string files;
+      for (const std::string &file : split_trimmed(value, ','))
+        files += (files.empty() ? "" : ", ") +
+                 std::filesystem::absolute(directory / file).lexically_normal().string();
+      return files;
+    }
+
+    void
+    set_value(dealii::ParameterHandler &prm, const DeclaredKey &key, const Assignment &assignment,
+              const std::string &value)
+    {
+      for (const std::string &subsection : key.subsections)
+        prm.enter_subsection(subsection);
+      bool allowed = true;
+      try
+        {
+          prm.set(key.key, value);
+        }
+      catch (const dealii::ExceptionBase &)
+        {
+          allowed = false;
+        }
+      for (std::size_t i = 0; i < key.subsections.size(); ++i)
+        prm.leave_subsection();
+      if (!allowed)
+        throw UserError(assignment.place + ": " + key.path() + " = '" + value +
+                        "' is not allowed. Allowed: " + key.allowed + ". Default: '" +
+                        key.default_value + "'.");
+    }
+
+    /// Reads a .prm line by line and keeps track of the subsection it is in.
+    class AssignmentReader
+    {
+    public:
+      explicit AssignmentReader(const std::filesystem::path &file)
+        : file(file)
+      {}
+
+      std::vector<Assignment>
+      read()
+      {
+        std::ifstream in(file);
+        if (!in || std::filesystem::is_directory(file))
+          throw UserError(file.string() +
+                          ": cannot be read. Give the name of an existing .prm file.");
+        for (std::string line; std::getline(in, line);)
+          {
+            ++line_number;
+            line = trim(line.substr(0, line.find('#')));
+            if (!line.empty() && line.back() == '\\')
+              pending += line.substr(0, line.size() - 1) + " ";
+            else
+              {
+                const std::string whole = trim(pending + line);
+                pending.clear();
+                if (!whole.empty())
+                  read_line(whole);
+              }
+          }
+        if (!subsections.empty())
+          fail("the file ends within subsection '" + subsections.back() +
+               "'. Close it with a line 'end'.");
+        return std::move(assignments);
+      }
+
+    private:
+      [[noreturn]] void
+      fail(const std::string &what) const
+      {
+        throw UserError(place() + ": " + what);
+      }
+
+      std::string
+      place() const
+      {
+        return file.string() + ":" + std::to_string(line_number);
+      }
+
+      void
+      read_line(const std::string &line)
+      {
+        if (starts_with_word(line, "subsection"))
+          subsections.push_back(single_blanks(line.substr(10)));
+        else if (line == "end")
+          {
+            if (subsections.empty())
+              fail("'end' without an open subsection. Remove the line.");
+            subsections.pop_back();
+          }
+        else if (starts_with_word(line, "set"))
+          read_assignment(line.substr(3));
+        else
+          fail("'" + line + "' is not understood. A line is 'set KEY = VALUE', "
+                            "'subsection NAME', 'end' or a comment starting with #.");
+      }
+
+      void
+      read_assignment(const std::string &text)
+      {
+        const auto equals = text.find('=');
+        if (equals == std::string::npos)
+          fail("'set" + text + "' has no '='. Write 'set KEY = VALUE'.");
+        Assignment assignment{subsections,
+                              single_blanks(text.substr(0, equals)),
+                              trim(text.substr(equals + 1)),
+                              place()};
+        const auto [first, is_new] = places.emplace(assignment.path(), place());
+        if (!is_new)
+          fail(assignment.path() + " is set twice; first at " + first->second +
+               ". Keep one of the two lines.");
+        assignments.push_back(std::move(assignment));
+      }
+
+      const std::filesystem::path        file;
+      unsigned int                       line_number = 0;
+      std::string                        pending; ///< lines that ended in a backslash
+      std::vector<std::string>           subsections;
+      std::vector<Assignment>            assignments;
+      std::map<std::string, std::string> places;
+    };
+  } // namespace
+
+  std::string
+  Assignment::path() const
+  {
+    return join(subsections, key);
+  }
+
+  std::string
+  DeclaredKey::path() const
+  {
+    return join(subsections, key);
+  }
+
+  void
+  declare_input_file(dealii::ParameterHandler &prm,
+                     const std::string        &key,
+                     std::string              &value,
+                     const std::string        &documentation)
+  {
+    prm.add_parameter(key, value, documentation, dealii::Patterns::FileName());
+  }
+
+  void
+  declare_input_files(dealii::ParameterHandler &prm,
+                      const std::string        &key,
+                      std::vector<std::string> &values,
+                      const std::string        &documentation)
+  {
+    prm.add_parameter(key,
+                      values,
+                      documentation,
+                      dealii::Patterns::List(dealii::Patterns::FileName()));
+  }
+
+  std::vector<std::string>
+  split_trimmed(const std::string &text, const char separator)
+  {
+    std::vector<std::string> parts;
+    if (trim(text).empty())
+      return parts;
+    std::istringstream in(text);
+    for (std::string part; std::getline(in, part, separator);)
+      parts.push_back(trim(part));
+    if (text.back() == separator)
+      parts.emplace_back();
+    return parts;
+  }
+
+  std::vector<Assignment>
+  read_assignments(const std::filesystem::path &prm_file)
+  {
+    return AssignmentReader(prm_file).read();
+  }
+
+  Assignment
+  parse_override(const std::string &text)
+  {
+    const auto equals = text.find('=');
+    if (equals == std::string::npos)
+      throw UserError("--set '" + text + "' has no '='. Write --set 'Section/Key=value'.");
+    std::vector<std::string> path = split_trimmed(text.substr(0, equals), '/');
+    if (path.empty() || path.back().empty())
+      throw UserError("--set '" + text + "' names no key. Write --set 'Section/Key=value'.");
+    const std::string key = path.back();
+    path.pop_back();
+    return {path, key, trim(text.substr(equals + 1)), "--set"};
+  }
+
+  const Assignment *
+  find_assignment(const std::vector<Assignment> &assignments, const std::string &path)
+  {
+    const auto last = std::find_if(assignments.rbegin(), assignments.rend(), [&](const auto &a) {
+      return a.path() == path;
+    });
+    return last == assignments.rend() ? nullptr : &*last;
+  }
+
+  std::vector<DeclaredKey>
+  declared_keys(const dealii::ParameterHandler &prm)
+  {
+    std::stringstream text;
+    prm.print_parameters(text,
+                         dealii::ParameterHandler::JSON |
+                           dealii::ParameterHandler::KeepDeclarationOrder);
+    std::vector<DeclaredKey> keys;
+    std::vector<std::string> subsections;
+    collect_keys(Json::parse(text), subsections, keys);
+    return keys;
+  }
+
+  void
+  apply_assignments(dealii::ParameterHandler      &prm,
+                    const std::vector<Assignment> &assignments,
+                    const std::filesystem::path   &directory)
+  {
+    const std::vector<DeclaredKey> keys = declared_keys(prm);
+    for (const Assignment &assignment : assignments)
+      {
+        const auto key = std::find_if(keys.begin(), keys.end(), [&](const DeclaredKey &k) {
+          return k.path() == assignment.path();
+        });
+        if (key == keys.end())
+          throw UserError(assignment.place + ": there is no parameter '" + assignment.path() +
+                          "'. Did you mean '" + nearest_path(assignment.path(), keys) +
+                          "'? exemplar --print-parameters lists them all.");
+        set_value(prm,
+                  *key,
+                  assignment,
+                  key->is_input_file ? absolute_files(assignment.value, directory) :
+                                       assignment.value);
+      }
+  }
+
+  void
+  print_keys(std::ostream &out, const std::vector<DeclaredKey> &keys, const bool documented)
+  {
+    std::vector<std::string> open;
+    const auto               indent = [&] { return std::string(2 * open.size(), ' '); };
+    const auto               close_until = [&](const std::vector<std::string> &target) {
+      while (open.size() > target.size() ||
+             !std::equal(open.begin(), open.end(), target.begin()))
+        {
+          open.pop_back();
+          out << indent() << "end\n";
+        }
+    };
+    for (const DeclaredKey &key : keys)
+      {
+        close_until(key.subsections);
+        while (open.size() < key.subsections.size())
+          {
+            out << (documented && open.empty() ? "\n" : "") << indent() << "subsection "
+                << key.subsections[open.size()] << '\n';
+            open.push_back(key.subsections[open.size()]);
+          }
+        if (documented)
+          out << indent() << "# " << key.documentation << '\n'
+              << indent() << "# Allowed: " << key.allowed << ". Default: "
+              << (key.default_value.empty() ? "(empty)" : key.default_value) << '\n';
+        out << indent() << "set " << key.key << " = " << key.value << '\n';
+      }
+    close_until({});
+  }
+} // namespace Exemplar

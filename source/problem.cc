@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/errors.h>
+#include <exemplar/problem.h>
+
+#include <algorithm>
+
+namespace Exemplar
+{
+  namespace
+  {
+    TimeAxis
+    make_time_axis(const Parameters &parameters)
+    {
+      return parameters.scene == SceneKind::dynamic ? TimeAxis::of_dynamics(parameters.time) :
+                                                      TimeAxis::of_increments(parameters.time);
+    }
+
+    std::unique_ptr<Handles>
+    make_handles(const Parameters &parameters, const Mesh &mesh, const TimeAxis &axis)
+    {
+      if (parameters.handles.empty())
+        return nullptr;
+      return std::make_unique<Handles>(parameters.handles, mesh, axis.time(axis.n_steps()));
+    }
+
+    std::optional<StaticallyDeterminateSupport>
+    make_support(const Parameters &parameters, const Mesh &mesh)
+    {
+      if (parameters.scene != SceneKind::interpolation)
+        return {};
+      return support_near_centroid(mesh);
+    }
+
+    std::unique_ptr<Loads>
+    make_loads(const Parameters &parameters,
+               const Mesh       &mesh,
+               const FESpace    &fe_space,
+               const Material   &material)
+    {
+      if (parameters.loads.empty() && parameters.gravity.norm() == 0.)
+        return nullptr;
+      return std::make_unique<Loads>(parameters.gravity, parameters.loads, mesh, fe_space, material);
+    }
+
+    std::unique_ptr<ExamplePoses>
+    make_examples(const Parameters &parameters,
+                  const Mesh       &mesh,
+                  const FESpace    &fe_space,
+                  const Material   &material,
+                  const TimeAxis   &axis)
+    {
+      if (!parameters.examples.in_use())
+        return nullptr;
+      return std::make_unique<ExamplePoses>(
+        parameters.examples, mesh, fe_space, material, axis.time(axis.n_steps()));
+    }
+
+    std::unique_ptr<Inertia>
+    make_inertia(const Parameters &parameters, const FESpace &fe_space, const Material &material)
+    {
+      if (parameters.scene != SceneKind::dynamic)
+        return nullptr;
+      return std::make_unique<Inertia>(fe_space, material, parameters.material.mass_matrix);
+    }
+
+    std::unique_ptr<BorderedSolver>
+    make_linear_solver(const SolverParameters &solver, const SymmetricPattern &pattern)
+    {
+      return solver.linear_solver == LinearSolver::umfpack ?
+               make_umfpack_solver(pattern) :
+               make_block_solver(make_cholmod_operator(), pattern);
+    }
+  } // namespace
+
+  Problem::Problem(const Parameters &parameters)
+    : parameters(parameters)
+    , clock(Part::read)
+    , time_axis(make_time_axis(parameters))
+    , mesh(parameters.mesh)
+    , material(parameters.material, mesh.get_material_ids())
+    , fe_space(mesh)
+    , handles(make_handles(parameters, mesh, time_axis))
+    , support(make_support(parameters, mesh))
+    , free_dofs(fe_space.n_dofs(), held_dofs())
+    , loads(make_loads(parameters, mesh, fe_space, material))
+    , examples(make_examples(parameters, mesh, fe_space, material, time_axis))
+    , inertia(make_inertia(parameters, fe_space, material))
+    , assembler(fe_space, material, examples.get(), inertia.get(), free_dofs)
+    , linear_solver(make_linear_solver(parameters.solver, assembler.matrix_pattern()))
+    , equilibrium(parameters.solver,
+                  {free_dofs,
+                   assembler,
+                   *linear_solver,
+                   clock,
+                   handles.get(),
+                   loads.get(),
+                   examples.get(),
+                   inertia.get()})
+    , diagnostics(handles.get(), loads.get(), examples.get(), inertia.get())
+    , state(initial_state(parameters.initial,
+                          mesh,
+                          fe_space,
+                          examples.get(),
+                          parameters.scene == SceneKind::dynamic))
+  {
+    if (parameters.scene == SceneKind::statics)
+      check_supports();
+    if (parameters.scene == SceneKind::interpolation)
+      start_interpolation();
+    equilibrium.start(state);
+  }
+
+  std::vector<unsigned int>
+  Problem::held_dofs() const
+  {
+    if (support)
+      return support->held_dofs;
+    return handles != nullptr ? handles->held_dofs() : std::vector<unsigned int>();
+  }
+
+  void
+  Problem::check_supports() const
+  {
+    const unsigned int n_free = n_free_rigid_motions(mesh, held_dofs());
+    if (n_free > 0)
+      throw UserError(parameters.scene_file.string() + ": the handles leave " +
+                      std::to_string(n_free) +
+                      " of 6 rigid motions free, so a static scene has no unique equilibrium. Add a "
+                      "subsection of Handles that holds three nodes not on a line (a box, a sphere "
+                      "or a boundary), or hold more Components.");
+  }
+
+  void
+  Problem::start_interpolation()
+  {
+    // the path begins at the pose that it begins with, unless another is asked for
+    if (parameters.initial.pose.empty() && parameters.initial.pose_function.empty())
+      {
+        const auto greatest = std::max_element(state.weights.begin(), state.weights.end());
+        state.positions     = examples->pose(greatest - state.weights.begin());
+      }
+  }
+
+  SolveReport
+  Problem::advance()
+  {
+    State              next = state;
+    const unsigned int step = state.step + 1;
+    next.step               = step;
+    const SolveReport report =
+      equilibrium.solve(next, time_axis.time(step), time_axis.step_size(step));
+    if (is_success(report.status))
+      {
+        if (inertia != nullptr)
+          inertia->end_step(state.positions, next);
+        if (support)
+          {
+            align(state.positions, next.positions);
+            equilibrium.start(next);
+          }
+        diagnostics.add_work(state.positions, next, equilibrium.evaluation());
+        state = std::move(next);
+      }
+    return report;
+  }
+
+  void
+  Problem::resume_from(const State &earlier)
+  {
+    state = earlier;
+    equilibrium.start(state);
+  }
+
+  std::vector<std::string>
+  Problem::parts(const bool present) const
+  {
+    const bool has_weights = examples != nullptr && !examples->weights_are_prescribed();
+    const bool umfpack     = parameters.solver.linear_solver == LinearSolver::umfpack;
+    const std::vector<std::pair<std::string, bool>> all = {
+      {"mass matrix", inertia != nullptr},
+      {"handles", handles != nullptr},
+      {"own support of interpolation", support.has_value()},
+      {"gravity", loads != nullptr && loads->has_gravity()},
+      {"loads", loads != nullptr && loads->has_named_loads()},
+      {"example poses", examples != nullptr},
+      {"weight block", has_weights},
+      {"Schur complement", has_weights && !umfpack},
+      {"CHOLMOD", !umfpack},
+      {"UMFPACK", umfpack},
+      {"frame writer", parameters.output.every > 0}};
+    std::vector<std::string> names;
+    for (const auto &[name, is_there] : all)
+      if (is_there == present)
+        names.push_back(name);
+    return names;
+  }
+
+  std::vector<std::string>
+  Problem::warnings() const
+  {
+    std::vector<std::string> all = mesh.get_warnings();
+    if (examples != nullptr)
+      all.insert(all.end(), examples->get_warnings().begin(), examples->get_warnings().end());
+    return all;
+  }
+} // namespace Exemplar

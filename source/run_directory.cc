@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/errors.h>
+#include <exemplar/run_directory.h>
+
+#include <algorithm>
+#include <fstream>
+#include <regex>
+#include <unistd.h>
+
+namespace Exemplar
+{
+  namespace fs = std::filesystem;
+
+  const std::string RunDirectory::mark = "# exemplar: all parameters in force";
+
+  namespace
+  {
+    const std::string remedy = " Give another one by --output or Output/Directory.";
+
+    bool
+    is_own_name(const std::string &name)
+    {
+      static const std::regex pattern("(frame_[0-9]+\\.vtu|animation\\.pvd|final\\.msh|statistics\\.csv|"
+                                      "summary\\.json|original\\.prm|parameters\\.prm|checkpoint\\.bin)"
+                                      "(\\.tmp)?");
+      return std::regex_match(name, pattern);
+    }
+  } // namespace
+
+  RunDirectory::RunDirectory(fs::path path)
+    : path(std::move(path))
+  {}
+
+  std::string
+  RunDirectory::frame_name(const unsigned int step)
+  {
+    const std::string digits = std::to_string(step);
+    return "frame_" + std::string(digits.size() < 4 ? 4 - digits.size() : 0, '0') + digits + ".vtu";
+  }
+
+  bool
+  RunDirectory::is_ours() const
+  {
+    std::ifstream in(parameters_prm());
+    std::string   line;
+    return std::getline(in, line) && line == mark;
+  }
+
+  std::vector<fs::path>
+  RunDirectory::own_files() const
+  {
+    std::vector<fs::path> files;
+    for (const auto &entry : fs::directory_iterator(path))
+      if (is_own_name(entry.path().filename().string()))
+        files.push_back(entry.path());
+    return files;
+  }
+
+  void
+  RunDirectory::check_for_new_run(const std::vector<fs::path> &input_files) const
+  {
+    fs::path parent = fs::absolute(path);
+    while (!fs::exists(parent))
+      parent = parent.parent_path();
+    if (!fs::is_directory(parent))
+      throw UserError("Output directory " + path.string() + ": " + parent.string() +
+                      " is a file." + remedy);
+    if (access(parent.c_str(), W_OK | X_OK) != 0)
+      throw UserError("Output directory " + path.string() + ": no right to write in " +
+                      parent.string() + "." + remedy);
+    if (!fs::exists(path) || fs::is_empty(path))
+      return;
+    if (!is_ours())
+      throw UserError("Output directory " + path.string() +
+                      " is not empty and was not written by exemplar." + remedy);
+    for (const fs::path &own : own_files())
+      for (const fs::path &input : input_files)
+        if (fs::exists(input) && fs::equivalent(own, input))
+          throw UserError("Output directory " + path.string() + " holds the input file " +
+                          input.string() + ", which this run would clear away." + remedy);
+  }
+
+  void
+  RunDirectory::clear() const
+  {
+    std::error_code error;
+    fs::create_directories(path, error);
+    if (error)
+      throw UserError("Output directory " + path.string() + " cannot be made: " + error.message() +
+                      "." + remedy);
+    for (const fs::path &file : own_files())
+      fs::remove(file);
+  }
+} // namespace Exemplar

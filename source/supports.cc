@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/polar_decomposition.h>
+#include <exemplar/supports.h>
+
+#include <deal.II/lac/full_matrix.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Exemplar
+{
+  namespace
+  {
+    dealii::Point<3>
+    centroid(const std::vector<dealii::Point<3>> &nodes)
+    {
+      dealii::Point<3> sum;
+      for (const dealii::Point<3> &x : nodes)
+        sum += x;
+      return dealii::Point<3>(sum / static_cast<double>(nodes.size()));
+    }
+
+    dealii::Point<3>
+    node_of(const dealii::Vector<double> &positions, const unsigned int node)
+    {
+      return {positions[3 * node], positions[3 * node + 1], positions[3 * node + 2]};
+    }
+
+    std::vector<dealii::Point<3>>
+    nodes_of(const dealii::Vector<double> &positions)
+    {
+      std::vector<dealii::Point<3>> nodes;
+      for (unsigned int node = 0; node < positions.size() / 3; ++node)
+        nodes.push_back(node_of(positions, node));
+      return nodes;
+    }
+
+    unsigned int
+    greatest_component(const dealii::Tensor<1, 3> &v)
+    {
+      unsigned int greatest = 0;
+      for (unsigned int d = 1; d < 3; ++d)
+        if (std::abs(v[d]) > std::abs(v[greatest]))
+          greatest = d;
+      return greatest;
+    }
+
+    unsigned int
+    cell_nearest_to(const dealii::Point<3> &center, const Mesh &mesh)
+    {
+      unsigned int nearest          = 0;
+      double       nearest_distance = std::numeric_limits<double>::max();
+      for (unsigned int cell = 0; cell < mesh.n_cells(); ++cell)
+        {
+          dealii::Point<3> middle;
+          for (const unsigned int node : mesh.get_cells()[cell])
+            middle += mesh.get_nodes()[node] / 4.;
+          if (const double distance = middle.distance(center); distance < nearest_distance)
+            {
+              nearest          = cell;
+              nearest_distance = distance;
+            }
+        }
+      return nearest;
+    }
+  } // namespace
+
+  unsigned int
+  n_free_rigid_motions(const Mesh &mesh, const std::vector<unsigned int> &held_dofs)
+  {
+    // rows: the six rigid motions at a held degree of freedom, lengths in diameters;
+    // their rank by Gauss elimination with complete pivoting
+    const dealii::Point<3>             center   = centroid(mesh.get_nodes());
+    const double                       diameter = mesh.diameter();
+    std::vector<std::array<double, 6>> rows;
+    for (const unsigned int dof : held_dofs)
+      {
+        const dealii::Tensor<1, 3> r = (mesh.get_nodes()[dof / 3] - center) / diameter;
+        const unsigned int         c = dof % 3, d = (c + 1) % 3, e = (c + 2) % 3;
+        std::array<double, 6>      row{};
+        row[c]     = 1.;
+        row[3 + d] = r[e]; // (omega x r)_c = omega_d r_e - omega_e r_d
+        row[3 + e] = -r[d];
+        rows.push_back(row);
+      }
+    unsigned int rank = 0;
+    for (; rank < 6 && rank < rows.size(); ++rank)
+      {
+        unsigned int pivot_row = rank, pivot_column = 0;
+        for (unsigned int i = rank; i < rows.size(); ++i)
+          for (unsigned int j = 0; j < 6; ++j)
+            if (std::abs(rows[i][j]) > std::abs(rows[pivot_row][pivot_column]))
+              {
+                pivot_row    = i;
+                pivot_column = j;
+              }
+        if (std::abs(rows[pivot_row][pivot_column]) < 1e-8)
+          break;
+        std::swap(rows[rank], rows[pivot_row]);
+        for (unsigned int i = rank + 1; i < rows.size(); ++i)
+          {
+            const double factor = rows[i][pivot_column] / rows[rank][pivot_column];
+            for (unsigned int j = 0; j < 6; ++j)
+              rows[i][j] -= factor * rows[rank][j];
+            rows[i][pivot_column] = 0.;
+          }
+      }
+    return 6 - rank;
+  }
+
+  StaticallyDeterminateSupport
+  support_near_centroid(const Mesh &mesh)
+  {
+    const auto &x    = mesh.get_nodes();
+    const auto &cell = mesh.get_cells()[cell_nearest_to(centroid(x), mesh)];
+    const auto  a = cell[0], b = cell[1], c = cell[2];
+
+    // b may move along the dominant direction of ab only, c within the plane abc
+    const unsigned int along  = greatest_component(x[b] - x[a]);
+    const unsigned int normal =
+      greatest_component(dealii::cross_product_3d(x[b] - x[a], x[c] - x[a]));
+    std::vector<unsigned int> held = {3 * a, 3 * a + 1, 3 * a + 2, 3 * c + normal};
+    for (unsigned int d = 0; d < 3; ++d)
+      if (d != along)
+        held.push_back(3 * b + d);
+    std::sort(held.begin(), held.end());
+    return {{{a, b, c}}, held};
+  }
+
+  void
+  align(const dealii::Vector<double> &reference, dealii::Vector<double> &positions)
+  {
+    const dealii::Point<3> to = centroid(nodes_of(reference)), from = centroid(nodes_of(positions));
+    Matrix3<double>        covariance{};
+    const unsigned int     n_nodes = positions.size() / 3;
+    for (unsigned int node = 0; node < n_nodes; ++node)
+      {
+        const dealii::Tensor<1, 3> p = node_of(reference, node) - to;
+        const dealii::Tensor<1, 3> q = node_of(positions, node) - from;
+        for (int i = 0; i < 3; ++i)
+          for (int j = 0; j < 3; ++j)
+            covariance[i][j] += p[i] * q[j];
+      }
+    const Matrix3<double> R = closest_rotation(covariance);
+    for (unsigned int node = 0; node < n_nodes; ++node)
+      {
+        const dealii::Tensor<1, 3> q = node_of(positions, node) - from;
+        for (int i = 0; i < 3; ++i)
+          positions[3 * node + i] = to[i] + R[i][0] * q[0] + R[i][1] * q[1] + R[i][2] * q[2];
+      }
+  }
+} // namespace Exemplar

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/errors.h>
+#include <exemplar/prm_tools.h>
+#include <exemplar/time_axis.h>
+
+#include <cmath>
+
+namespace Exemplar
+{
+  namespace
+  {
+    const EnumTable<TimeScheme> schemes = {{TimeScheme::implicit_euler, "implicit euler"}};
+  }
+
+  void
+  TimeParameters::declare(dealii::ParameterHandler &prm)
+  {
+    const dealii::Patterns::Double positive(1e-300);
+    prm.enter_subsection("Time");
+    declare_enum(prm, "Scheme", scheme, schemes, "Time stepping of a dynamic scene.");
+    prm.add_parameter("Step", step, "Time step h [s] of a dynamic scene.", positive);
+    prm.add_parameter("End",
+                      end,
+                      "Time [s] at which a dynamic scene ends. If it is no whole number of steps, "
+                      "the last step is shorter.",
+                      positive);
+    prm.add_parameter("Increments",
+                      increments,
+                      "Number of increments in which a static scene or an interpolation goes from "
+                      "t = 0 to t = 1.",
+                      dealii::Patterns::Integer(1));
+    prm.leave_subsection();
+  }
+
+  TimeAxis::TimeAxis(const unsigned int steps,
+                     const double       length,
+                     const double       divisor,
+                     const double       end)
+    : steps(steps)
+    , length(length)
+    , divisor(divisor)
+    , end(end)
+    , last_is_shorter(end < steps * length / divisor * (1. - 1e-12))
+  {}
+
+  TimeAxis
+  TimeAxis::of_dynamics(const TimeParameters &parameters)
+  {
+    // a quotient a rounding error above a whole number is that number of steps
+    const double quotient = parameters.end / parameters.step;
+    const double steps    = std::max(1., std::ceil(quotient * (1. - 1e-12)));
+    if (steps > 1e9)
+      throw UserError("Time/End / Time/Step = " + std::to_string(quotient) +
+                      " is more than 1e9 steps. Enlarge Time/Step or lower Time/End.");
+    return {static_cast<unsigned int>(steps), parameters.step, 1., parameters.end};
+  }
+
+  TimeAxis
+  TimeAxis::of_increments(const TimeParameters &parameters)
+  {
+    return {parameters.increments, 1., static_cast<double>(parameters.increments), 1.};
+  }
+} // namespace Exemplar

@@ -1,0 +1,27 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Build and pass all tests: kernels and small scenes in Debug, where deal.II checks
+# every access, and everything in Release.
+# Usage: ./test.sh [--quick]      --quick: the Release tests of the inner loop only
+set -euo pipefail
+cd "$(dirname "$0")"
+if [ $# -gt 1 ] || { [ $# -eq 1 ] && [ "$1" != "--quick" ]; }; then
+  echo "Usage: ./test.sh [--quick]" >&2
+  exit 1
+fi
+
+./demo.sh --install-only
+
+build() {
+  [ -f "build/$1/build.ninja" ] || cmake --preset "$1" >/dev/null
+  echo "Building $1"
+  cmake --build --preset "$1" | tail -n 1
+}
+
+build release
+if [ "${1:-}" = "--quick" ]; then
+  exec ctest --test-dir build/release -L quick -j 2 --output-on-failure
+fi
+build debug
+ctest --test-dir build/debug -L debug -j 2 --output-on-failure
+ctest --test-dir build/release -j 2 --output-on-failure

@@ -1,0 +1,197 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs the program under test on small scenes and reads back what it wrote.
+
+The binary is named by the environment variable EXEMPLAR.
+"""
+
+import base64
+import csv
+import json
+import os
+import re
+import struct
+import subprocess
+import tempfile
+import unittest
+import xml.etree.ElementTree
+import zlib
+from collections import namedtuple
+from pathlib import Path
+
+REPOSITORY = Path(__file__).resolve().parents[2]
+EXEMPLAR = os.path.abspath(os.environ.get("EXEMPLAR", REPOSITORY / "build/release/exemplar"))
+
+# A bar along x of 2 bricks, held at x = 0, under its weight.
+BAR = {
+    "Scene": "static",
+    "Mesh/Generator": "box",
+    "Mesh/Box size": "2, 1, 1",
+    "Mesh/Box cells": "2, 1, 1",
+    "Time/Increments": "2",
+    "Handles/Names": "left",
+    "Handles/left/Select": "boundary 1",
+    "Loads/Gravity": "0, 0, -1",
+}
+
+Run = namedtuple("Run", "status stdout stderr output")
+
+
+def prm(keys):
+    """A scene file of {"Section/Key": value}; keys whose value is None are left out."""
+    lines = []
+    for path, value in keys.items():
+        *subsections, key = path.split("/")
+        if value is not None:
+            lines += [f"subsection {name}" for name in subsections]
+            lines += [f"set {key} = {value}"]
+            lines += ["end"] * len(subsections)
+    return "\n".join(lines) + "\n"
+
+
+class SceneTest(unittest.TestCase):
+    """Every test has a temporary working directory of its own."""
+
+    maxDiff = 2000
+
+    def setUp(self):
+        holder = tempfile.TemporaryDirectory()
+        self.addCleanup(holder.cleanup)
+        self.directory = Path(holder.name)
+
+    def write(self, name, text):
+        file = self.directory / name
+        file.write_text(text)
+        return file
+
+    def call(self, *arguments):
+        """Run the program as it is called."""
+        done = subprocess.run([EXEMPLAR, *map(str, arguments)], cwd=self.directory, text=True,
+                              stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, timeout=300)
+        return Run(done.returncode, done.stdout, done.stderr, None)
+
+    def attempt(self, scene, *arguments, output="out", file="scene.prm"):
+        """Run a scene, given as text or as a dictionary of keys."""
+        self.write(file, scene if isinstance(scene, str) else prm(scene))
+        run = self.call(file, "--output", output, *arguments)
+        return run._replace(output=self.directory / output)
+
+    def solve(self, scene, *arguments, **keywords):
+        """Run a scene that must succeed, without a word on stderr; its output directory."""
+        run = self.attempt(scene, *arguments, **keywords)
+        self.assertEqual((run.status, run.stderr), (0, ""))
+        return run.output
+
+    def write_box(self, keys, file, place=lambda x, y, z: (x, y, z)):
+        """Write the box of a scene as a mesh file, its nodes moved; return it."""
+        box = {**{path: value for path, value in keys.items() if path.startswith("Mesh/")},
+               "Scene": "dynamic", "Time/End": "1e-9", "Solver/Method": "one pass"}
+        written = read_msh(self.solve(box, output="box", file="box.prm") / "final.msh")
+        # the free body has stayed but for rounding
+        rest = {number: tuple(round(x, 9) for x in position)
+                for number, position in written.nodes.items()}
+        return write_msh(self.directory / file, written._replace(nodes=rest), place)
+
+
+def read_csv(output):
+    """statistics.csv: a list of rows, each a dictionary; numbers are floats, empty cells None."""
+
+    def value(text):
+        try:
+            return float(text) if text else None
+        except ValueError:
+            return text
+
+    with open(output / "statistics.csv", newline="") as file:
+        return [{name: value(text) for name, text in row.items()} for row in csv.DictReader(file)]
+
+
+def timeless_statistics(output):
+    """statistics.csv as text, without what differs from run to run."""
+    with open(output / "statistics.csv", newline="") as file:
+        rows = list(csv.reader(file))
+    kept = [i for i, name in enumerate(rows[0]) if not name.startswith("seconds_")]
+    return "\n".join(",".join(row[i] for i in kept) for row in rows)
+
+
+def results(output):
+    """All that must not differ between two runs of a scene: {file name: content}."""
+    same = {file.name: file.read_bytes() for file in output.iterdir()
+            if re.fullmatch(r"frame_\d+\.vtu|final\.msh|animation\.pvd", file.name)}
+    same["statistics.csv"] = timeless_statistics(output)
+    return same
+
+
+def read_summary(output):
+    return json.loads((output / "summary.json").read_text())
+
+
+Msh = namedtuple("Msh", "nodes elements names")
+
+
+def read_msh(file):
+    """MSH 2.2 ASCII: nodes {number: (x, y, z)} and elements, the lines as integers."""
+    lines = Path(file).read_text().split("\n")
+
+    def section(name):
+        if "$" + name not in lines:
+            return []
+        begin = lines.index("$" + name)
+        return lines[begin + 2:lines.index("$End" + name)]
+
+    nodes = {}
+    for line in section("Nodes"):
+        number, *position = line.split()
+        nodes[int(number)] = tuple(map(float, position))
+    elements = [tuple(map(int, line.split())) for line in section("Elements")]
+    return Msh(nodes, elements, section("PhysicalNames"))
+
+
+def write_msh(file, msh, place=lambda x, y, z: (x, y, z)):
+    """Write a mesh with its nodes moved: a pose. Return it."""
+    moved = msh._replace(nodes={number: place(*x) for number, x in msh.nodes.items()})
+    lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$Nodes", str(len(moved.nodes))]
+    lines += [f"{number} " + " ".join(map(repr, map(float, x)))
+              for number, x in moved.nodes.items()]
+    lines += ["$EndNodes", "$Elements", str(len(msh.elements))]
+    lines += [" ".join(map(str, element)) for element in msh.elements]
+    lines += ["$EndElements", ""]
+    Path(file).write_text("\n".join(lines))
+    return moved
+
+
+def distance(a, b):
+    return sum((p - q) ** 2 for p, q in zip(a, b)) ** 0.5
+
+
+def greatest_distance(a, b):
+    """Between the nodes of two poses."""
+    assert a.keys() == b.keys()
+    return max(distance(a[number], b[number]) for number in a)
+
+
+def read_vtu(file):
+    """{(section, array name): list of numbers} and the counts of points and cells."""
+    formats = {"Float64": "d", "Int32": "i", "UInt8": "B"}
+    piece = xml.etree.ElementTree.parse(file).getroot().find("UnstructuredGrid/Piece")
+    arrays = {}
+    for section in piece:
+        for array in section:
+            text = array.text.strip()
+            # the header of four UInt64 is 32 bytes, 44 characters of base64
+            blocks, size, last, compressed_size = struct.unpack(
+                "<4Q", base64.b64decode(text[:44], validate=True))
+            assert (blocks, last) == (1, size)
+            compressed = base64.b64decode(text[44:], validate=True)
+            assert len(compressed) == compressed_size
+            data = zlib.decompress(compressed)
+            assert len(data) == size
+            arrays[section.tag, array.get("Name")] = [
+                number for number, in struct.iter_unpack("<" + formats[array.get("type")], data)]
+    return arrays, int(piece.get("NumberOfPoints")), int(piece.get("NumberOfCells"))
+
+
+def read_pvd(output):
+    """[(time, file name)]"""
+    root = xml.etree.ElementTree.parse(output / "animation.pvd").getroot()
+    return [(float(frame.get("timestep")), frame.get("file")) for frame in root.iter("DataSet")]

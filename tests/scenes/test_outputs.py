@@ -1,0 +1,291 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a run writes, and what the command line prints."""
+
+import json
+import re
+import unittest
+
+from exemplar_runner import (BAR, SceneTest, distance, greatest_distance, prm, read_csv, read_msh,
+                             read_pvd, read_summary, read_vtu, results, write_msh)
+
+DYNAMIC = {**BAR, "Scene": "dynamic", "Mesh/Scale": "0.5", "Material/Density": "10",
+           "Examples/Pose functions": "1.2*x; y; z", "Time/Step": "0.1", "Time/End": "0.35",
+           "Handles/left/Motion": "0; 0; 0.1*t", "Output/Every": "2",
+           "Material/region 1/Poisson's ratio": "0.3"}
+FILES = {"frame_0000.vtu", "frame_0002.vtu", "frame_0004.vtu", "animation.pvd", "final.msh",
+         "statistics.csv", "summary.json", "original.prm", "parameters.prm", "checkpoint.bin"}
+
+# 2 regions, unordered gaps in the numbers of nodes and elements, tags that differ from the
+# entities, a point and a line element, a face without a physical surface
+HAND_WRITTEN = """$MeshFormat
+2.2 0 8
+$EndMeshFormat
+$PhysicalNames
+3
+2 40 "skin"
+3 7 "soft"
+3 9 "hard core"
+$EndPhysicalNames
+$Nodes
+5
+17 0 0 0
+3 1 0 0
+101 0 1 0
+8 0 0 1
+44 1 1 1
+$EndNodes
+$Elements
+6
+12 15 2 0 1 17
+5 1 2 0 2 17 3
+99 2 2 40 21 17 101 3
+7 2 2 0 22 17 3 8
+1000 4 2 9 31 17 3 101 8
+31 4 2 7 32 44 101 3 8
+$EndElements
+"""
+
+
+class Outputs(SceneTest):
+    def test_files(self):
+        self.write("scene.prm", "# a remark\r\n\r\n" + prm(DYNAMIC) + "# the end, without a newline")
+        original = (self.directory / "scene.prm").read_bytes()
+        run = self.call("scene.prm", "--output", "out")
+        self.assertEqual((run.status, run.stderr), (0, ""))
+        output = self.directory / "out"
+        self.assertEqual({file.name for file in output.iterdir()}, FILES)
+        self.assertEqual((output / "original.prm").read_bytes(), original)
+        for words in ("scene.prm", "12 cells, 12 nodes, 24 of 36 dofs free", "4 steps", "out",
+                      "Where the time went"):
+            self.assertIn(words, run.stdout)
+        for letter in ("\r", "\x1b"):  # stdout is no terminal here
+            self.assertNotIn(letter, run.stdout)
+
+        self.check_pvd(output)
+        self.check_vtu(output)
+        self.check_statistics(output)
+        self.check_summary(output)
+        self.check_rerun(output)
+
+    def check_pvd(self, output):
+        # the last step is shorter, and no multiple of Every ends at it but 4
+        self.assertEqual(read_pvd(output), [(0., "frame_0000.vtu"), (0.2, "frame_0002.vtu"),
+                                            (0.35, "frame_0004.vtu")])
+
+    def check_vtu(self, output):
+        arrays, n_points, n_cells = read_vtu(output / "frame_0004.vtu")
+        self.assertEqual((n_points, n_cells), (12, 12))
+        self.assertEqual({key: len(numbers) for key, numbers in arrays.items()},
+                         {("Points", "Points"): 36, ("Cells", "connectivity"): 48,
+                          ("Cells", "offsets"): 12, ("Cells", "types"): 12,
+                          ("PointData", "displacement"): 36, ("PointData", "velocity"): 36,
+                          ("CellData", "strain_energy_density"): 12, ("CellData", "det_F"): 12,
+                          ("CellData", "von_mises_stress"): 12, ("CellData", "region"): 12})
+        self.assertEqual(arrays["Cells", "types"], [10] * 12)
+        self.assertEqual(arrays["Cells", "offsets"], list(range(4, 52, 4)))
+        self.assertEqual(arrays["CellData", "region"], [1] * 12)
+
+        final = read_msh(output / "final.msh")
+        self.assertEqual([tuple(node - 1 for node in element[-4:]) for element in final.elements
+                          if element[1] == 4],
+                         list(zip(*[iter(arrays["Cells", "connectivity"])] * 4)))
+        points = list(zip(*[iter(arrays["Points", "Points"])] * 3))
+        rest, _, _ = read_vtu(output / "frame_0000.vtu")
+        for i, x in enumerate(final.nodes.values()):  # in the mesh's unit; frames are in metres
+            self.assertLess(distance(points[i], [0.5 * c for c in x]), 1e-15)
+        for x, u, x_0 in zip(arrays["Points", "Points"], arrays["PointData", "displacement"],
+                             rest["Points", "Points"]):
+            self.assertAlmostEqual(x, x_0 + u, delta=1e-15)
+        self.assertEqual(rest["PointData", "displacement"], [0.] * 36)
+        self.assertEqual(min(arrays["CellData", "det_F"]), read_csv(output)[-1]["min_det_F"])
+        self.assertAlmostEqual(max(rest["Points", "Points"]), 1., delta=1e-15)
+
+    def check_statistics(self, output):
+        rows = read_csv(output)
+        self.assertEqual([row["step"] for row in rows], [0, 1, 2, 3, 4])
+        self.assertEqual([row["status"] for row in rows], ["initial"] + 4 * ["converged"])
+        for row, time in zip(rows, (0., 0.1, 0.2, 0.3, 0.35)):
+            self.assertAlmostEqual(row["time"], time, delta=1e-15)
+        self.assertEqual(rows[-1]["time"], 0.35)
+        seconds = [name for name in rows[0] if name.startswith("seconds_")]
+        self.assertEqual([rows[0][name] for name in seconds], [None] * 6)
+        self.assertEqual(seconds[0], "seconds_step")
+        for row in rows[1:]:
+            parts = [row[name] for name in seconds[1:]]
+            self.assertGreaterEqual(min(parts), 0.)
+            self.assertAlmostEqual(sum(parts), row["seconds_step"],
+                                   delta=0.02 * row["seconds_step"])
+            self.assertLessEqual(row["residual"], 1e-8)
+            self.assertAlmostEqual(row["weight_0"] + row["weight_1"], 1., delta=1e-12)
+
+    def check_summary(self, output):
+        summary = read_summary(output)
+        names = ("program version git deal_ii blas blas_core threads scene mesh mesh_sha256 cells "
+                 "nodes dofs constrained_dofs examples steps iterations factorizations status "
+                 "worst_residual seconds peak_memory_mib used left_out").split()
+        self.assertEqual([name for name in names if name not in summary], [])
+        self.assertEqual({name: summary[name] for name in ("program", "cells", "nodes", "dofs",
+                                                           "constrained_dofs", "examples", "steps",
+                                                           "status", "scene")},
+                         {"program": "exemplar", "cells": 12, "nodes": 12, "dofs": 36,
+                          "constrained_dofs": 12, "examples": 2, "steps": 4,
+                          "status": "converged", "scene": "scene.prm"})
+        rows = read_csv(output)
+        self.assertEqual(summary["iterations"], sum(row["iterations"] for row in rows))
+        self.assertEqual(summary["worst_residual"], max(row["residual"] for row in rows))
+        seconds = summary["seconds"]
+        self.assertEqual(list(seconds), ["total", "read", "evaluate", "assemble", "factorize",
+                                         "solve", "output"])
+        self.assertAlmostEqual(2. * seconds["total"], sum(seconds.values()), delta=1e-9)
+
+    def check_rerun(self, output):
+        text = (output / "parameters.prm").read_text()
+        again = self.solve(text, output="again", file="again.prm")
+        self.assertEqual(results(again), results(output))
+        self.assertEqual((again / "parameters.prm").read_text().replace("= again", "= out"), text)
+        # what the run wrote is refused as its own input only where it would be cleared away
+        run = self.call("out/parameters.prm", "--output", "out")
+        self.assertEqual(run.status, 1)
+        self.assertIn("out/parameters.prm, which this run would clear away", run.stderr)
+        self.assertEqual({file.name for file in output.iterdir()}, FILES)
+
+    def test_regions_inherit_every_digit(self):
+        exact = {**BAR, "Material/Young's modulus": "1234567.891", "Material/Density": "1001.2345"}
+        self.assertEqual(results(self.solve({**exact, "Material/region 1/Poisson's ratio": "0.45"},
+                                            output="a")),
+                         results(self.solve(exact, output="b")))
+
+    def test_final_pose_keeps_numbers_and_tags(self):
+        self.write("hand.msh", HAND_WRITTEN)
+        hand = read_msh(self.directory / "hand.msh")
+        scene = {"Scene": "static", "Mesh/File": "hand.msh", "Mesh/Scale": "0.001",
+                 "Handles/Names": "base", "Handles/base/Select": "nodes base.txt",
+                 "Loads/Gravity": "0, 0, -1000", "Material/region 7/Young's modulus": "2e6"}
+        self.write("base.txt", "17\n3 101\n")
+        output = self.solve(scene)
+        final = read_msh(output / "final.msh")
+        self.assertEqual(final.elements, hand.elements)
+        self.assertEqual(sorted(final.names), sorted(hand.names))
+        self.assertEqual(list(final.nodes), list(hand.nodes))
+        self.assertEqual([final.nodes[number] for number in (17, 3, 101)],
+                         [(0., 0., 0.), (1., 0., 0.), (0., 1., 0.)])
+        self.assertLess(final.nodes[44][2], 1. - 1e-9)
+        arrays, _, _ = read_vtu(output / "frame_0010.vtu")
+        self.assertEqual(arrays["CellData", "region"], [9, 7])
+        summary = read_summary(output)
+        self.assertEqual(summary["mesh"], str(self.directory.resolve() / "hand.msh"))
+        self.assertRegex(summary["mesh_sha256"], "^[0-9a-f]{64}$")
+
+        # and so it is a pose of another scene, in the mesh's unit again
+        follow = {**scene, "Scene": "interpolation", "Handles/Names": None,
+                  "Handles/base/Select": None, "Loads/Gravity": None,
+                  "Examples/Poses": "out/final.msh", "Initial/Pose": "out/final.msh",
+                  "Examples/Prescribed weights": "0; 1"}
+        end = read_msh(self.solve(follow, output="follow", file="follow.prm") / "final.msh")
+        self.assertLess(greatest_distance(end.nodes, final.nodes), 1e-12)
+
+    def test_final_pose_has_17_digits(self):
+        nodes = self.write_box(BAR, "bar.msh", lambda x, y, z: (x / 3, y / 3, z / 3)).nodes
+        scene = {**BAR, "Mesh/Generator": None, "Mesh/Box size": None, "Mesh/Box cells": None,
+                 "Mesh/File": "bar.msh", "Output/Every": "0"}
+        final = read_msh(self.solve(scene) / "final.msh").nodes
+        held = [number for number, x in nodes.items() if x[0] == 0.]
+        self.assertEqual(len(held), 4)
+        self.assertEqual([final[number] for number in held], [nodes[number] for number in held])
+
+    def test_output_directory(self):
+        first = self.solve({**BAR, "Time/Increments": "4"}, output="deep/out")
+        (first / "frame_0004.vtu.tmp").write_text("half a frame")
+        (first / "notes.txt").write_text("mine")
+        (first / "frame_best.vtu").write_text("mine too")
+        self.solve(BAR, output="deep/out")  # two increments
+        self.assertEqual({file.name for file in first.iterdir()},
+                         FILES - {"frame_0004.vtu"} | {"frame_0001.vtu", "notes.txt",
+                                                      "frame_best.vtu"})
+        self.assertEqual((first / "notes.txt").read_text(), "mine")
+
+        # a bad scene clears nothing
+        before = results(first)
+        self.assertEqual(self.attempt({**BAR, "Scene": "x"}, output="deep/out").status, 1)
+        self.assertEqual(results(first), before)
+
+        # without --output and Output/Directory: output/NAME, from the working directory
+        (self.directory / "scenes").mkdir()
+        self.write("scenes/bend.prm", prm(BAR))
+        self.assertEqual(self.call("scenes/bend.prm", "--quiet").status, 0)
+        self.assertTrue((self.directory / "output/bend/final.msh").exists())
+
+    def test_set_overrides_the_scene(self):
+        self.write("scene.prm", prm(BAR))
+        run = self.call("scene.prm", "--set", "Time/Increments=3", "--set",
+                        "Handles/left/Motion=0; 0; t", "--set", "Time/Increments = 1",
+                        "--output", "out")
+        self.assertEqual((run.status, run.stderr), (0, ""))
+        output = self.directory / "out"
+        self.assertEqual(len(read_csv(output)), 2)
+        self.assertIn("set Motion = 0; 0; t\n", (output / "parameters.prm").read_text())
+        self.assertEqual((output / "original.prm").read_text(), prm(BAR))
+
+    def test_quiet(self):
+        self.write("scene.prm", prm(BAR))
+        self.assertEqual(self.call("scene.prm", "--quiet")[:3], (0, "", ""))
+
+    def test_validate_writes_nothing(self):
+        self.write("scene.prm", prm(BAR))
+        run = self.call("scene.prm", "--validate")
+        self.assertEqual((run.status, run.stderr), (0, ""))
+        self.assertIn("scene.prm: valid; 12 cells, 12 nodes, 2 steps", run.stdout)
+        self.assertEqual([file.name for file in self.directory.iterdir()], ["scene.prm"])
+
+    def test_help_and_version(self):
+        run = self.call("--help")
+        self.assertEqual((run.status, run.stderr), (0, ""))
+        for option in ("--set", "--output", "--resume", "--quiet", "--validate",
+                       "--print-parameters", "--version"):
+            self.assertIn(option, run.stdout)
+        run = self.call("--version")
+        self.assertEqual((run.status, run.stderr), (0, ""))
+        self.assertRegex(run.stdout, r"^exemplar \d+\.\d+\.\d+ ")
+
+    def test_print_parameters(self):
+        run = self.call("--print-parameters")
+        self.assertEqual((run.status, run.stderr), (0, ""))
+        keys, path = {}, []
+        for line in map(str.strip, run.stdout.splitlines()):
+            if line.startswith("subsection "):
+                path.append(line[len("subsection "):])
+            elif line == "end":
+                path.pop()
+            elif line.startswith("set "):
+                key, value = line[len("set "):].split(" =", 1)
+                keys["/".join(path + [key])] = value.strip()
+        self.assertEqual(path, [])
+        expected = {
+            "": ["Scene"],
+            "Mesh/": ["File", "Generator", "Box size", "Box cells", "Scale"],
+            "Material/": ["Young's modulus", "Poisson's ratio", "Density", "Mass matrix"],
+            "Material/region 1/": ["Young's modulus", "Poisson's ratio", "Density"],
+            "Model/": ["Strain", "Gradient"],
+            "Examples/": ["Poses", "Pose functions", "Include rest pose", "Importance",
+                          "Weight penalty", "Energy", "Weights", "Prescribed weights"],
+            "Handles/": ["Names"],
+            "Handles/NAME/": ["Select", "Motion", "Components"],
+            "Loads/": ["Gravity", "Names"],
+            "Loads/NAME/": ["Select", "Force"],
+            "Initial/": ["Pose", "Pose function", "Velocity"],
+            "Time/": ["Scheme", "Step", "End", "Increments"],
+            "Solver/": ["Method", "Tolerance", "Maximum iterations", "Linear solver"],
+            "Output/": ["Directory", "Every", "Formats", "Checkpoint minutes"]}
+        names = [section + key for section, section_keys in expected.items()
+                 for key in section_keys]
+        self.assertEqual([name for name in names if name not in keys], [])
+        remarks = re.findall(r"# Allowed: .+\. Default: .+", run.stdout)
+        self.assertEqual(len(remarks), len(keys))
+
+        # it is a scene file, once the samples have gone and there is a mesh
+        scene = {path: value for path, value in keys.items() if not re.search("NAME|region", path)}
+        self.assertEqual(self.attempt({**scene, "Mesh/Generator": "box"}, "--validate").status, 0)
+
+
+if __name__ == "__main__":
+    unittest.main()

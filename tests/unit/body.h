@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_tests_body_h
+#define exemplar_tests_body_h
+
+#include <exemplar/assembler.h>
+#include <exemplar/example_poses.h>
+#include <exemplar/fe_space.h>
+#include <exemplar/inertia.h>
+#include <exemplar/material.h>
+#include <exemplar/mesh.h>
+
+#include <memory>
+#include <random>
+
+namespace Exemplar::Testing
+{
+  inline MeshParameters
+  box_mesh(const double length, const unsigned int nx, const unsigned int n)
+  {
+    MeshParameters parameters;
+    parameters.generator = MeshGenerator::box;
+    parameters.box_size  = {{length, 1., 1.}};
+    parameters.box_cells = {{nx, n, n}};
+    return parameters;
+  }
+
+  /// The bar 4 x 1 x 1 twisted by an angle over its length, as a pose function.
+  inline std::string
+  twist(const double degrees)
+  {
+    const std::string angle = "(" + std::to_string(degrees * M_PI / 180. / 4.) + "*x)";
+    return "x; y*cos" + angle + "-z*sin" + angle + "; y*sin" + angle + "+z*cos" + angle;
+  }
+
+  /// An elastic body without anything that holds or solves it.
+  struct Body
+  {
+    explicit Body(const MeshParameters     &mesh_parameters     = box_mesh(4., 4, 1),
+                  const MaterialParameters &material_parameters = MaterialParameters())
+      : mesh(mesh_parameters)
+      , material(material_parameters, mesh.get_material_ids())
+      , fe_space(mesh)
+    {}
+
+    std::unique_ptr<ExamplePoses>
+    examples(const ExampleParameters &parameters) const
+    {
+      return std::make_unique<ExamplePoses>(parameters, mesh, fe_space, material, 1.);
+    }
+
+    dealii::Vector<double>
+    random_positions(std::mt19937 &generator, const double amplitude) const
+    {
+      std::normal_distribution<double> normal;
+      dealii::Vector<double>           positions = fe_space.rest_positions();
+      for (double &x : positions)
+        x += amplitude * normal(generator);
+      return positions;
+    }
+
+    const Mesh     mesh;
+    const Material material;
+    const FESpace  fe_space;
+  };
+} // namespace Exemplar::Testing
+
+#endif
