@@ -22,64 +22,41 @@ PLAIN, WITHOUT, WITH = (0.86, 0.84, 0.80), (0.62, 0.70, 0.78), (0.95, 0.68, 0.36
 FIXED, DRAGGED = (0.10, 0.25, 0.85), (0.85, 0.05, 0.10)
 
 
-# --- runs ---------------------------------------------------------------
-
 def run(program, scene, name, *settings):
     """Run a scene into RUNS/name; return its frames in order of time."""
-    out = os.path.join(RUNS, name)
-    command = [program, scene, "--quiet", "--output", out]
-    for setting in settings:
-        command += ["--set", setting]
+    out = RUNS + "/" + name
+    command = [program, scene, "--quiet", "--output", out] + [w for s in settings for w in ("--set", s)]
     print(" ".join(command), flush=True)
     subprocess.run(command, check=True)
     return sorted(glob.glob(os.path.join(out, "frame_*.vtu")))
 
 
-def last_frame(program, scene, name, *settings):
-    """The last frame of a scene (the last step always has one)."""
-    return run(program, scene, name, "Output/Every=1000000", *settings)[-1]
+def ends(program, scene, name, *settings):
+    """First and last frame of a scene (10 or 100 steps, so every tenth will do)."""
+    frames = run(program, scene, name, "Output/Every=10", *settings)
+    return frames[0], frames[-1]
 
 
-def with_and_without(program, name):
-    """Last frames of a paper scene: without examples, with examples."""
-    scene = "prm/paper/%s.prm" % name
-    return (last_frame(program, scene, name + "_without", "Examples/Importance=0"),
-            last_frame(program, scene, name))
+def paper_scene(program, name):
+    """Frames of a paper scene: at rest, last without examples, last with examples."""
+    path = "prm/paper/%s.prm" % name
+    return ends(program, path, name + "_without", "Examples/Importance=0") + ends(program, path, name)[1:]
 
 
-def pose_frames(program, names):
-    return [last_frame(program, "prm/poses/%s.prm" % name, name) for name in names]
-
-
-# --- geometry -----------------------------------------------------------
-
-def read_grid(frame):
+def surface_of(frame):
+    """The surface of a frame, deformed, with the point data."""
     reader = vtk.vtkXMLUnstructuredGridReader()
     reader.SetFileName(frame)
-    reader.Update()
-    return reader.GetOutput()
-
-
-def rest_grid(frame):
-    """A frame put back to its rest positions (points are deformed ones)."""
-    grid = vtk.vtkUnstructuredGrid()
-    grid.DeepCopy(read_grid(frame))
-    shift = grid.GetPointData().GetArray("displacement")
-    for i in range(grid.GetNumberOfPoints()):
-        grid.GetPoints().SetPoint(i, [x - u for x, u in zip(grid.GetPoint(i), shift.GetTuple(i))])
-    return grid
-
-
-def surface_of(grid):
     surface = vtk.vtkDataSetSurfaceFilter()
-    surface.SetInputData(grid)
-    return surface
+    surface.SetInputConnection(reader.GetOutputPort())
+    surface.Update()
+    return surface.GetOutput()
 
 
 def handles(scene):
     """(selection, is it dragged) of every handle in a scene file."""
     found = []
-    for line in open(scene):
+    for line in open("prm/paper/%s.prm" % scene):
         words = line.replace("=", " ").split()
         if words[:2] == ["set", "Select"]:
             found.append([words[2], [float(w) for w in words[3:]], False])
@@ -94,65 +71,50 @@ def inside(kind, numbers, point):
     return sum((point[i] - numbers[i]) ** 2 for i in range(3)) <= numbers[3] ** 2
 
 
-def held_points(grid, scene, dragged):
+def held_points(surface, scene, dragged):
     """Present places of the surface nodes that a scene's handles hold."""
-    surface = surface_of(grid)
-    surface.Update()
-    shift = surface.GetOutput().GetPointData().GetArray("displacement")
+    shift = surface.GetPointData().GetArray("displacement")
     points = vtk.vtkPoints()
-    for i in range(surface.GetOutput().GetNumberOfPoints()):
-        place = surface.GetOutput().GetPoint(i)
+    for i in range(surface.GetNumberOfPoints()):
+        place = surface.GetPoint(i)
         rest = [x - u for x, u in zip(place, shift.GetTuple(i))]
         if any(d == dragged and inside(k, n, rest) for k, n, d in handles(scene)):
             points.InsertNextPoint(place)
     return points
 
 
-# --- pictures -----------------------------------------------------------
-
-def body(grid, colour, feature_angle):
-    """Smoothly shaded surface with light mesh edges."""
-    surface = surface_of(grid)
-    normals = vtk.vtkPolyDataNormals()
-    normals.SetInputConnection(surface.GetOutputPort())
-    normals.SetFeatureAngle(feature_angle)
+def actor_of(shape, colour):
     mapper = vtk.vtkPolyDataMapper()
-    mapper.SetInputConnection(normals.GetOutputPort())
+    mapper.SetInputConnection(shape.GetOutputPort())
     mapper.ScalarVisibilityOff()
     actor = vtk.vtkActor()
     actor.SetMapper(mapper)
-    look = actor.GetProperty()
-    look.SetColor(colour)
-    look.SetAmbient(0.25)
-    look.SetDiffuse(0.75)
-    look.EdgeVisibilityOn()
-    look.SetEdgeColor([0.80 * c for c in colour])
+    actor.GetProperty().SetColor(colour)
+    actor.GetProperty().SetAmbient(0.25)
+    actor.GetProperty().SetDiffuse(0.75)
     return actor
 
 
-def dots(points, colour, radius=0.014):
+def body(surface, colour, feature_angle):
+    """Smoothly shaded surface with light mesh edges."""
+    normals = vtk.vtkPolyDataNormals()
+    normals.SetInputData(surface)
+    normals.SetFeatureAngle(feature_angle)
+    actor = actor_of(normals, colour)
+    actor.GetProperty().EdgeVisibilityOn()
+    actor.GetProperty().SetEdgeColor([0.80 * c for c in colour])
+    return actor
+
+
+def dots(points, colour):
     cloud = vtk.vtkPolyData()
     cloud.SetPoints(points)
     ball = vtk.vtkSphereSource()
-    ball.SetRadius(radius)
+    ball.SetRadius(0.014)
     glyphs = vtk.vtkGlyph3D()
     glyphs.SetInputData(cloud)
     glyphs.SetSourceConnection(ball.GetOutputPort())
-    mapper = vtk.vtkPolyDataMapper()
-    mapper.SetInputConnection(glyphs.GetOutputPort())
-    actor = vtk.vtkActor()
-    actor.SetMapper(mapper)
-    actor.GetProperty().SetColor(colour)
-    return actor
-
-
-def caption(text, size=20, colour=(0.1, 0.1, 0.1), y=8):
-    actor = vtk.vtkTextActor()
-    actor.SetInput(text)
-    actor.SetPosition(12, y)
-    actor.GetTextProperty().SetFontSize(size)
-    actor.GetTextProperty().SetColor(colour)
-    return actor
+    return actor_of(glyphs, colour)
 
 
 class Picture:
@@ -162,15 +124,20 @@ class Picture:
         self.width, self.height = width, height
         self.window = vtk.vtkRenderWindow()
         self.window.SetOffScreenRendering(1)
-        self.window.SetMultiSamples(8)
         self.window.SetSize(width, height)
 
-    def panel(self, box, actors, view, texts):
+    def panel(self, box, actors, view, text, size=20):
+        """Actors seen in (centre, direction, half height), with a line of text."""
         x, y, w, h = box
         renderer = vtk.vtkRenderer()
         renderer.SetBackground(1, 1, 1)
         renderer.SetViewport(x / self.width, 1 - (y + h) / self.height, (x + w) / self.width, 1 - y / self.height)
-        for actor in actors + texts:
+        caption = vtk.vtkTextActor()
+        caption.SetInput(text)
+        caption.SetPosition(12, h - size - 10)
+        caption.GetTextProperty().SetFontSize(size)
+        caption.GetTextProperty().SetColor(0.1, 0.1, 0.1)
+        for actor in actors + [caption]:
             renderer.AddViewProp(actor)
         self.window.AddRenderer(renderer)
         centre, direction, scale = view
@@ -188,92 +155,85 @@ class Picture:
         grab.SetInput(self.window)
         grab.ReadFrontBufferOff()
         writer = vtk.vtkPNGWriter()
-        writer.SetFileName(os.path.join(FIGURES, name))
-        writer.SetCompressionLevel(9)
+        writer.SetFileName(FIGURES + "/" + name)
         writer.SetInputConnection(grab.GetOutputPort())
         writer.Write()
-        print("wrote", os.path.join(FIGURES, name), flush=True)
 
 
 def animal(frame, colour, scene=None):
     """An animal, with the nodes that a scene fixes and drags."""
-    grid = read_grid(frame)
-    actors = [body(grid, colour, 60)]
+    surface = surface_of(frame)
+    actors = [body(surface, colour, 60)]
     if scene:
-        path = "prm/paper/%s.prm" % scene
-        actors += [dots(held_points(grid, path, False), FIXED), dots(held_points(grid, path, True), DRAGGED)]
+        actors.append(dots(held_points(surface, scene, False), FIXED))
+        actors.append(dots(held_points(surface, scene, True), DRAGGED))
     return actors
 
 
 def fig1(program):
     """Interpolation of a bar: a row a scene, a column a time."""
     rows = [("fig1_twist", "twist"), ("fig1_bend", "bend"), ("fig1_twist_to_bend", "twist to bend")]
-    picture = Picture(1600, 840)
-    view = ((1.45, 0, 0.85), (-0.35, -1, 0.45), 2.3)
+    picture = Picture(1600, 720)
+    view = ((2.05, 0, 0.70), (-0.35, -1, 0.45), 2.1)
     for r, (scene, title) in enumerate(rows):
         frames = run(program, "prm/paper/%s.prm" % scene, scene, "Output/Every=1")
         for c in range(5):
             frame = frames[c * (len(frames) - 1) // 4]
-            colour = PLAIN if c in (0, 4) else WITH
-            texts = [caption(("%s,  " % title if c == 0 else "") + "t = %g" % (c / 4))]
-            picture.panel((320 * c, 280 * r, 320, 280), [body(read_grid(frame), colour, 30)], view, texts)
+            bar = body(surface_of(frame), PLAIN if c in (0, 4) else WITH, 30)
+            picture.panel((320 * c, 240 * r, 320, 240), [bar], view, "%s, t = %g" % (title, c / 4))
     picture.write("fig1.png")
 
 
-def examples_row(program, picture, names, titles, view, size):
+def examples_row(program, picture, kind, poses, view, size):
     """First row of Figures 2 and 3: the rest pose and the examples."""
-    frames = pose_frames(program, names)
-    columns = [[body(rest_grid(frames[0]), PLAIN, 60)]] + [animal(f, PLAIN) for f in frames]
-    for c, (actors, title) in enumerate(zip(columns, ["rest pose"] + titles)):
-        picture.panel((size[0] * c, 0, size[0], size[1]), actors, view, [caption(title)])
+    runs = [ends(program, "prm/poses/%s_%s.prm" % (kind, pose), "%s_%s" % (kind, pose)) for pose in poses]
+    frames = [runs[0][0]] + [last for first, last in runs]
+    for c, (frame, pose) in enumerate(zip(frames, ["rest"] + poses)):
+        picture.panel((size[0] * c, 0, size[0], size[1]), animal(frame, PLAIN), view, "example: " + pose)
 
 
-def scene_pair(program, picture, x, y, size, scene, title, view):
+def scene_pair(program, picture, corner, size, scene, title, examples, view):
     """A scene without and with examples, side by side, with what is held."""
-    width, height = size
-    pair = with_and_without(program, scene)
-    words = ["without examples (importance 0)", "with examples"]
-    for c, (frame, colour, word) in enumerate(zip(pair, (WITHOUT, WITH), words)):
-        texts = [caption(word)] + ([caption(title, 20, y=height - 32)] if c == 0 else [])
-        picture.panel((x + c * width, y, width, height), animal(frame, colour, scene), view, texts)
-
-
-KEY = "blue: fixed, red: dragged"
+    (x, y), (width, height) = corner, size
+    words = ["without examples (importance 0)", "with examples " + examples]
+    for c, (frame, colour, word) in enumerate(zip(paper_scene(program, scene)[1:], (WITHOUT, WITH), words)):
+        picture.panel((x + c * width, y + 36, width, height - 36), animal(frame, colour, scene), view, word, 18)
+    picture.panel((x, y, 2 * width, 36), [], view, title, 22)
 
 
 def fig2(program):
-    view = ((-0.02, -0.05, 0.66), (0.35, -1, 0.32), 0.88)
-    picture = Picture(1600, 1180)
-    names = ["cat_rear", "cat_turn", "cat_arch", "cat_paw"]
-    examples_row(program, picture, names, ["example: rear", "example: turn", "example: arch", "example: paw"], view, (320, 300))
-    scenes = [("fig2a_cat", "a: right fore paw dragged"), ("fig2b_cat", "b: nose dragged"),
-              ("fig2c_cat", "c: right fore paw dragged"), ("fig2d_cat", "d: both fore paws dragged")]
-    for i, (scene, title) in enumerate(scenes):
-        scene_pair(program, picture, 800 * (i % 2), 300 + 440 * (i // 2), (400, 440), scene,
-                   title + ("   (%s)" % KEY if i == 0 else ""), view)
+    view = ((-0.13, -0.05, 0.72), (0.35, -1, 0.32), 1.03)
+    picture = Picture(1400, 1080)
+    examples_row(program, picture, "cat", ["rear", "turn", "arch", "paw"], view, (280, 280))
+    scenes = [("fig2a_cat", "a: right fore paw dragged (red), one hind paw fixed (blue)", "rest, rear, turn"),
+              ("fig2b_cat", "b: nose dragged, both hind paws fixed", "rest, arch, turn"),
+              ("fig2c_cat", "c: right fore paw dragged, three paws fixed", "rest, paw, turn"),
+              ("fig2d_cat", "d: both fore paws dragged, both hind paws fixed", "rest, arch, rear")]
+    for i, (scene, title, examples) in enumerate(scenes):
+        corner = (700 * (i % 2), 280 + 400 * (i // 2))
+        scene_pair(program, picture, corner, (350, 400), scene, title, examples, view)
     picture.write("fig2.png")
 
 
 def fig3(program):
-    view = ((0.1, 0, 0.86), (0.35, -1, 0.32), 1.08)
+    view = ((0.05, 0, 0.96), (0.35, -1, 0.32), 1.26)
     picture = Picture(1600, 820)
-    names = ["horse_rear", "horse_graze", "horse_turn"]
-    examples_row(program, picture, names, ["example: rear", "example: graze", "example: turn"], view, (400, 370))
-    scene_pair(program, picture, 0, 370, (400, 450), "fig3a_horse", "a: muzzle dragged   (%s)" % KEY, view)
-    scene_pair(program, picture, 800, 370, (400, 450), "fig3b_horse", "b: right fore hoof dragged", view)
+    examples_row(program, picture, "horse", ["rear", "graze", "turn"], view, (400, 370))
+    scenes = [("fig3a_horse", "a: muzzle dragged (red), both hind hooves fixed (blue)", "rest, graze, turn"),
+              ("fig3b_horse", "b: right fore hoof dragged, both hind hooves fixed", "rest, rear, turn")]
+    for i, (scene, title, examples) in enumerate(scenes):
+        scene_pair(program, picture, (800 * i, 370), (400, 450), scene, title, examples, view)
     picture.write("fig3.png")
 
 
 def cat(program):
     """Front page: the cat at rest, without and with examples."""
-    scene, view = "fig2d_cat", ((-0.06, 0, 0.53), (0.35, -1, 0.32), 0.68)
-    without, with_examples = with_and_without(program, scene)
+    scene, view = "fig2d_cat", ((-0.12, 0, 0.53), (0.35, -1, 0.32), 0.80)
     picture = Picture(1500, 460)
-    panels = [([body(rest_grid(without), PLAIN, 60)], "rest"),
-              (animal(without, WITHOUT, scene), "fore paws dragged, without examples"),
-              (animal(with_examples, WITH, scene), "fore paws dragged, with examples")]
-    for c, (actors, title) in enumerate(panels):
-        picture.panel((500 * c, 0, 500, 460), actors, view, [caption(title, 24)])
+    titles = ["rest", "fore paws dragged, without examples", "fore paws dragged, with examples"]
+    for c, frame in enumerate(paper_scene(program, scene)):
+        actors = animal(frame, (PLAIN, WITHOUT, WITH)[c], scene if c else None)
+        picture.panel((500 * c, 0, 500, 460), actors, view, titles[c], 24)
     picture.write("cat.png")
 
 

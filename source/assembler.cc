@@ -6,6 +6,13 @@
 #include <algorithm>
 #include <cmath>
 
+// The loops over the cells are "flattened", because the kernels are too large for the
+// compiler to inline them by its own judgement and a call costs as much as some of them
+// do; and compiled for three levels of instruction sets, of which the loader takes the
+// best that the CPU has.
+#define EXEMPLAR_HOT_LOOP \
+  [[gnu::flatten, gnu::target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")]]
+
 namespace Exemplar
 {
   namespace
@@ -77,10 +84,34 @@ namespace Exemplar
           const Vector3<double> &g = fe_space.tetrahedron(cell).shape_gradient[a];
           gradient_norms[cell][a]  = std::sqrt(dot(g, g));
         }
+    estimate_rounding();
     build_pattern();
     build_scatter();
     if (inertia != nullptr)
       build_mass_values();
+  }
+
+  void
+  Assembler::estimate_rounding()
+  {
+    dealii::Vector<double> force(fe_space.n_nodes());
+    for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
+      {
+        const Lame<double> &lame   = material.lame(cell);
+        const double        volume = fe_space.tetrahedron(cell).volume;
+        const double        stress = 1e-14 * (std::abs(lame.lambda) + 2. * lame.mu);
+        rounding_stress_norm += volume * stress * stress;
+        for (unsigned int a = 0; a < 4; ++a)
+          force[fe_space.nodes(cell)[a]] += volume * stress * gradient_norms[cell][a];
+      }
+    greatest_rounding_force = force.linfty_norm();
+    rounding_stress_norm    = std::sqrt(rounding_stress_norm);
+  }
+
+  double
+  Assembler::rounding_weight_gradient(const unsigned int i) const
+  {
+    return examples->importance() * rounding_stress_norm * examples->strain_norm(i);
   }
 
   void
@@ -110,6 +141,8 @@ namespace Exemplar
         int dof[12];
         for (unsigned int p = 0; p < 12; ++p)
           dof[p] = free_dofs.free_index(3 * fe_space.nodes(cell)[p / 3] + p % 3);
+        if (std::find(dof, dof + 12, FreeDofs::held) != dof + 12)
+          cells_beside_held_nodes.push_back(cell);
         unsigned int entry = 0;
         for (unsigned int p = 0; p < 12; ++p)
           for (unsigned int q = 0; q <= p; ++q, ++entry)
@@ -135,14 +168,14 @@ namespace Exemplar
         }
   }
 
-  void
+  EXEMPLAR_HOT_LOOP void
   Assembler::update_rotations(const dealii::Vector<double> &positions)
   {
     for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
       rotations[cell] = closest_rotation(fe_space.deformation_gradient(cell, positions));
   }
 
-  void
+  EXEMPLAR_HOT_LOOP void
   Assembler::evaluate(const dealii::Vector<double> &positions,
                       const std::vector<double>    &weights,
                       Evaluation                   &result) const
@@ -158,7 +191,7 @@ namespace Exemplar
     result.energy_example = 0.;
     result.min_det_F      = std::numeric_limits<double>::max();
     result.inverted_cells = 0;
-    std::vector<double> weight_scales(result.weight_gradient.size(), 0.);
+    double stress_square = 0.; // sum V (|C:e| + eta |C:E(w)|)^2
 
     for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
       {
@@ -183,12 +216,12 @@ namespace Exemplar
             T = stress(lame, deviation);
             // the residual form: near an example the expanded one cancels
             result.energy_example += 0.5 * tet.volume * contract(T, deviation) - elastic;
-            for (unsigned int i = 0; i < result.weight_gradient.size(); ++i)
-              {
-                const Matrix3<double> E = examples->strain(cell, i);
-                result.weight_gradient[i] -= eta * tet.volume * contract(T, E);
-                weight_scales[i] += eta * tet.volume * force_scale * norm(E);
-              }
+            stress_square += tet.volume * force_scale * force_scale;
+            for (unsigned int i = examples->first_strained_example();
+                 i < result.weight_gradient.size();
+                 ++i)
+              result.weight_gradient[i] -=
+                eta * tet.volume * contract(T, examples->strain(cell, i));
           }
 
         Vector3<double> force[4];
@@ -206,11 +239,33 @@ namespace Exemplar
           result.energy_example += 0.5 * ridge * weights[i];
           result.weight_gradient[i] += ridge;
           result.weight_scale =
-            std::max(result.weight_scale, weight_scales[i] + std::abs(ridge));
+            std::max(result.weight_scale,
+                     eta * std::sqrt(stress_square) * examples->strain_norm(i) + std::abs(ridge));
         }
   }
 
   void
+  Assembler::add_response_beside_held_nodes(const dealii::Vector<double> &displacement,
+                                            Evaluation                   &result) const
+  {
+    for (const unsigned int cell : cells_beside_held_nodes)
+      {
+        const Tetrahedron<double> &tet = fe_space.tetrahedron(cell);
+        const Matrix3<double>      dF  = fe_space.deformation_gradient(cell, displacement);
+        const Matrix3<double>      dT =
+          stress(material.lame(cell), symmetric_part(transpose_times(rotations[cell], dF)));
+        Vector3<double> force[4];
+        frozen_forces(tet, rotations[cell], dT, force);
+        add_nodal(fe_space.nodes(cell), force, result.gradient);
+        for (unsigned int i = examples != nullptr ? examples->first_strained_example() : 0;
+             i < result.weight_gradient.size();
+             ++i)
+          result.weight_gradient[i] -=
+            examples->importance() * tet.volume * contract(dT, examples->strain(cell, i));
+      }
+  }
+
+  EXEMPLAR_HOT_LOOP void
   Assembler::assemble_matrix(std::vector<double> &matrix_values) const
   {
     if (inertia == nullptr)
@@ -242,12 +297,12 @@ namespace Exemplar
       }
   }
 
-  void
+  EXEMPLAR_HOT_LOOP void
   Assembler::assemble_coupling(std::vector<double> &columns) const
   {
     columns.assign(static_cast<std::size_t>(free_dofs.size()) * examples->size(), 0.);
     for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
-      for (unsigned int i = 0; i < examples->size(); ++i)
+      for (unsigned int i = examples->first_strained_example(); i < examples->size(); ++i)
         {
           const Matrix3<double> T = stress(material.lame(cell), examples->strain(cell, i));
           Vector3<double>       force[4];

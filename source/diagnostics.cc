@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/diagnostics.h>
 
-#include <charconv>
-#include <cmath>
-
 namespace Exemplar
 {
   namespace
@@ -22,16 +19,6 @@ namespace Exemplar
     }
   } // namespace
 
-  std::string
-  shortest_text(const double value)
-  {
-    if (!std::isfinite(value))
-      return "";
-    char       buffer[32];
-    const auto end = std::to_chars(buffer, buffer + sizeof(buffer), value).ptr;
-    return {buffer, end};
-  }
-
   Diagnostics::Diagnostics(const Handles      *handles,
                            const Loads        *loads,
                            const ExamplePoses *examples,
@@ -45,13 +32,13 @@ namespace Exemplar
   void
   Diagnostics::add_work(const dealii::Vector<double> &old_positions,
                         const State                  &state,
-                        const Evaluation             &evaluation)
+                        const dealii::Vector<double> &gradient)
   {
     dealii::Vector<double> displacement = state.positions;
     displacement -= old_positions;
     if (handles != nullptr)
       for (const unsigned int dof : handles->held_dofs())
-        work.handles += evaluation.gradient[dof] * displacement[dof];
+        work.handles += gradient[dof] * displacement[dof];
     if (loads != nullptr && loads->has_gravity())
       work.gravity += loads->gravity() * displacement;
     if (loads != nullptr && loads->has_named_loads())
@@ -63,8 +50,11 @@ namespace Exemplar
   }
 
   StatisticsRow
-  Diagnostics::row(const State &state, const SolveReport &report, const Evaluation &evaluation) const
+  Diagnostics::row(const State       &state,
+                   const SolveReport &report,
+                   const Equilibrium &equilibrium) const
   {
+    const Evaluation &evaluation = equilibrium.evaluation();
     StatisticsRow row = {{"step", std::to_string(state.step)},
                          {"time", shortest_text(state.time)},
                          {"status", status_name(report.status)},
@@ -98,7 +88,7 @@ namespace Exemplar
       append(row, "work_loads", work.loads);
     if (handles != nullptr)
       for (unsigned int h = 0; h < handles->size(); ++h)
-        append(row, "reaction_" + handles->name(h), handles->sum_over(h, evaluation.gradient));
+        append(row, "reaction_" + handles->name(h), handles->sum_over(h, equilibrium.gradient()));
     return row;
   }
 

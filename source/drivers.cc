@@ -100,8 +100,6 @@ namespace Exemplar
     void
     run_steps(Problem &problem, Results &results, Progress &progress)
     {
-      // what no part of a step claims, such as moving the handles
-      StepClock::Scope scope(problem.clock, Part::evaluate);
       while (problem.state.step < problem.time_axis.n_steps())
         {
           check_interrupt();
@@ -113,7 +111,7 @@ namespace Exemplar
               progress.finish();
               fail(problem, report);
             }
-          StepClock::Scope output_scope(problem.clock, Part::output);
+          StepClock::Scope scope(problem.clock, Part::output);
           progress.update(problem.state.step, note(report));
         }
     }

@@ -24,11 +24,12 @@ namespace Exemplar
                                              {SolveStatus::iteration_limit, "iteration limit"},
                                              {SolveStatus::failed, "failed"}};
 
-    /// a / b, where nothing at all acts (0/0) counts as solved.
+    /// a / b; where a is nothing but rounding, as in a body on which nothing acts, it
+    /// counts as 0.
     double
-    relative(const double a, const double b)
+    relative(const double a, const double b, const double rounding)
     {
-      return a == 0. ? 0. : a / b;
+      return a <= rounding ? 0. : a / b;
     }
   } // namespace
 
@@ -92,14 +93,7 @@ namespace Exemplar
   {
     StepClock::Scope scope(parts.clock, Part::evaluate);
     dynamic_terms = false;
-    external_force.reinit(state.positions.size());
-    if (parts.loads != nullptr)
-      {
-        if (parts.loads->has_named_loads())
-          parts.loads->named_loads(state.time, external_force);
-        if (parts.loads->has_gravity())
-          external_force += parts.loads->gravity();
-      }
+    update_loads(state.time);
     parts.assembler.update_rotations(state.positions);
     evaluate(state);
   }
@@ -107,22 +101,51 @@ namespace Exemplar
   void
   Equilibrium::begin_step(State &state, const double time, const double step_size)
   {
+    StepClock::Scope scope(parts.clock, Part::evaluate);
     if (parts.inertia != nullptr)
       {
         parts.inertia->begin_step(state, step_size);
         dynamic_terms = true;
       }
     state.time = time;
-    if (parts.handles != nullptr)
-      parts.handles->move(time, state.positions);
+    update_loads(time);
     if (parts.examples != nullptr && parts.examples->weights_are_prescribed())
-      state.weights = parts.examples->prescribed_weights(time);
-    if (parts.loads != nullptr && parts.loads->has_named_loads())
       {
-        parts.loads->named_loads(time, external_force);
-        if (parts.loads->has_gravity())
-          external_force += parts.loads->gravity();
+        if (parts.handles != nullptr)
+          parts.handles->move(time, state.positions);
+        state.weights = parts.examples->prescribed_weights(time);
+        evaluate(state);
       }
+    else
+      {
+        move_handles(state);
+        add_inertia_and_loads(state);
+      }
+  }
+
+  void
+  Equilibrium::move_handles(State &state)
+  {
+    // Only the cells beside held nodes feel that the handles move, and as long as the
+    // rotations are frozen their forces are linear in the displacement.
+    if (parts.handles == nullptr)
+      return;
+    dealii::Vector<double> displacement = state.positions;
+    parts.handles->move(state.time, state.positions);
+    displacement.sadd(-1., 1., state.positions);
+    parts.assembler.add_response_beside_held_nodes(displacement, current);
+  }
+
+  void
+  Equilibrium::update_loads(const double time)
+  {
+    if (parts.loads == nullptr)
+      return;
+    external_force.reinit(parts.free_dofs.n_dofs());
+    if (parts.loads->has_named_loads())
+      parts.loads->named_loads(time, external_force);
+    if (parts.loads->has_gravity())
+      external_force += parts.loads->gravity();
   }
 
   void
@@ -130,16 +153,23 @@ namespace Exemplar
   {
     StepClock::Scope scope(parts.clock, Part::evaluate);
     parts.assembler.evaluate(state.positions, state.weights, current);
+    add_inertia_and_loads(state);
+  }
+
+  void
+  Equilibrium::add_inertia_and_loads(const State &state)
+  {
+    total_gradient = current.gradient;
+    force_scale    = current.force_scale;
     if (dynamic_terms)
-      parts.inertia->add_gradient(state.positions, current.gradient, current.force_scale);
-    if (parts.loads != nullptr)
-      {
-        current.gradient -= external_force;
-        for (unsigned int node = 0; node < current.force_scale.size(); ++node)
-          current.force_scale[node] += std::hypot(external_force[3 * node],
-                                                  external_force[3 * node + 1],
-                                                  external_force[3 * node + 2]);
-      }
+      parts.inertia->add_gradient(state.positions, total_gradient, force_scale);
+    if (parts.loads == nullptr)
+      return;
+    total_gradient -= external_force;
+    for (unsigned int node = 0; node < force_scale.size(); ++node)
+      force_scale[node] += std::hypot(external_force[3 * node],
+                                      external_force[3 * node + 1],
+                                      external_force[3 * node + 2]);
   }
 
   void
@@ -160,7 +190,7 @@ namespace Exemplar
     StepClock::Scope scope(parts.clock, Part::solve);
     unknowns.positions.resize(free.size());
     for (unsigned int i = 0; i < free.size(); ++i)
-      unknowns.positions[i] = -current.gradient[free[i]];
+      unknowns.positions[i] = -total_gradient[free[i]];
     unknowns.weights.clear();
     unknowns.multipliers.clear();
     if (block.H.m() > 0)
@@ -183,21 +213,24 @@ namespace Exemplar
     double greatest = 0.;
     for (const unsigned int dof : parts.free_dofs.list())
       {
-        greatest = std::max(greatest, std::abs(current.gradient[dof]));
-        if (!std::isfinite(current.gradient[dof]))
-          greatest = current.gradient[dof]; // max() would pass over a NaN
+        greatest = std::max(greatest, std::abs(total_gradient[dof]));
+        if (!std::isfinite(total_gradient[dof]))
+          greatest = total_gradient[dof]; // max() would pass over a NaN
       }
-    report.residual = relative(greatest, current.force_scale.linfty_norm());
+    report.residual = relative(greatest, force_scale.linfty_norm(), parts.assembler.rounding_force());
     if (!current.weight_gradient.empty())
       {
         // with the weights free, all components of the gradient equal -multiplier
         const auto &gradient = current.weight_gradient;
         state.multiplier =
           -std::accumulate(gradient.begin(), gradient.end(), 0.) / static_cast<double>(gradient.size());
-        double deviation = 0.;
-        for (const double derivative : gradient)
-          deviation = std::max(deviation, std::abs(derivative + state.multiplier));
-        report.kkt_residual = relative(deviation, current.weight_scale);
+        double deviation = 0., rounding = 0.;
+        for (unsigned int i = 0; i < gradient.size(); ++i)
+          {
+            deviation = std::max(deviation, std::abs(gradient[i] + state.multiplier));
+            rounding  = std::max(rounding, parts.assembler.rounding_weight_gradient(i));
+          }
+        report.kkt_residual = relative(deviation, current.weight_scale, rounding);
       }
     report.residual_history.push_back(report.residual);
   }
@@ -211,7 +244,6 @@ namespace Exemplar
         // The rotations are still those of the last accepted positions, before the
         // handles move: the paper's choice.
         begin_step(state, time, step_size);
-        evaluate(state);
         while (report.status == SolveStatus::initial)
           {
             check_interrupt();

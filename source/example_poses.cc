@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/errors.h>
 #include <exemplar/example_poses.h>
+#include <exemplar/number_text.h>
 #include <exemplar/polar_decomposition.h>
 #include <exemplar/prm_tools.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <sstream>
 
@@ -15,14 +18,14 @@ namespace Exemplar
     const EnumTable<ExampleWeights> weight_kinds = {{ExampleWeights::free, "free"},
                                                     {ExampleWeights::prescribed, "prescribed"}};
 
-    /// The paper's ridge, 1e-5 sum E V.
+    /// sum E V [J]: the scale of the energy of a strain of 1.
     double
-    paper_penalty(const FESpace &fe_space, const Material &material)
+    unit_energy(const FESpace &fe_space, const Material &material)
     {
       double sum = 0.;
       for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
         sum += material.youngs_modulus(cell) * fe_space.tetrahedron(cell).volume;
-      return 1e-5 * sum;
+      return sum;
     }
 
     /// The number in `text`, if it is one and not negative.
@@ -108,6 +111,7 @@ namespace Exemplar
                              const double             end)
     : fe_space(fe_space)
     , eta(parameters.importance)
+    , first_strained(parameters.include_rest_pose ? 1 : 0)
   {
     if (parameters.include_rest_pose)
       add_pose("rest pose", mesh.get_nodes());
@@ -122,12 +126,12 @@ namespace Exemplar
       }
     else
       sigma = non_negative_number(parameters.weight_penalty)
-                .value_or(paper_penalty(fe_space, material));
+                .value_or(1e-5 * unit_energy(fe_space, material));
 
     compute_strains();
     compute_weight_matrix(material);
     if (!prescribed && sigma == 0.)
-      check_independence();
+      check_independence(material);
   }
 
   void
@@ -156,40 +160,29 @@ namespace Exemplar
   void
   ExamplePoses::compute_strains()
   {
-    strains.reserve(6 * fe_space.n_cells() * size());
+    strains.assign(6 * static_cast<std::size_t>(fe_space.n_cells()) * size(), 0.);
+    strain_norms.assign(size(), 0.);
     std::vector<unsigned int> n_inverted(size(), 0);
     for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
-      for (unsigned int i = 0; i < size(); ++i)
+      for (unsigned int i = first_strained; i < size(); ++i)
         {
           const Matrix3<double> F = fe_space.deformation_gradient(cell, positions[i]);
           const Matrix3<double> E = corotated_strain(closest_rotation(F), F);
-          for (const double entry : {E[0][0], E[1][1], E[2][2], E[1][2], E[0][2], E[0][1]})
-            strains.push_back(entry);
+          const std::array<double, 6> upper = {
+            {E[0][0], E[1][1], E[2][2], E[1][2], E[0][2], E[0][1]}};
+          std::copy(upper.begin(),
+                    upper.end(),
+                    &strains[6 * (static_cast<std::size_t>(cell) * size() + i)]);
+          strain_norms[i] += fe_space.tetrahedron(cell).volume * contract(E, E);
           n_inverted[i] += (determinant(F) <= 0.);
         }
+    for (double &norm : strain_norms)
+      norm = std::sqrt(norm);
     for (unsigned int i = 0; i < size(); ++i)
       if (n_inverted[i] > 0)
         warnings.push_back("Example " + std::to_string(i) + " (" + names[i] + ") has " +
                            std::to_string(n_inverted[i]) +
                            " inverted cells; their strain is ambiguous.");
-  }
-
-  Matrix3<double>
-  ExamplePoses::strain(const unsigned int cell, const unsigned int i) const
-  {
-    const double *E = &strains[6 * (static_cast<std::size_t>(cell) * size() + i)];
-    return {{{E[0], E[5], E[4]}, {E[5], E[1], E[3]}, {E[4], E[3], E[2]}}};
-  }
-
-  Matrix3<double>
-  ExamplePoses::strain(const unsigned int cell, const std::vector<double> &weights) const
-  {
-    double        sum[6] = {0., 0., 0., 0., 0., 0.};
-    const double *E      = &strains[6 * static_cast<std::size_t>(cell) * size()];
-    for (unsigned int i = 0; i < size(); ++i)
-      for (unsigned int entry = 0; entry < 6; ++entry)
-        sum[entry] += weights[i] * E[6 * i + entry];
-    return {{{sum[0], sum[5], sum[4]}, {sum[5], sum[1], sum[3]}, {sum[4], sum[3], sum[2]}}};
   }
 
   void
@@ -225,18 +218,20 @@ namespace Exemplar
         for (const double weight : prescribed_weights(time))
           sum += weight;
         if (std::abs(sum - 1.) > 1e-10)
-          throw UserError("Examples/Prescribed weights sum to " + std::to_string(sum) + " at t = " +
-                          std::to_string(time) +
+          throw UserError("Examples/Prescribed weights sum to " + shortest_text(sum) + " at t = " +
+                          shortest_text(time) +
                           ", not to 1. Make the last one 1 minus the others.");
       }
   }
 
   void
-  ExamplePoses::check_independence() const
+  ExamplePoses::check_independence(const Material &material) const
   {
     // Cholesky of the Gram matrix of the differences to example 0: a vanishing pivot
-    // is an example that is an affine combination of those before it.
-    const unsigned int         n = size() - 1;
+    // is an example that is an affine combination of those before it, and strains of
+    // 1e-10 are the rounding of a rest pose.
+    const double               rounding = 1e-20 * unit_energy(fe_space, material);
+    const unsigned int         n        = size() - 1;
     dealii::FullMatrix<double> L(n, n);
     for (unsigned int i = 0; i < n; ++i)
       for (unsigned int j = 0; j <= i; ++j)
@@ -248,7 +243,7 @@ namespace Exemplar
             value -= L(i, m) * L(j, m);
           if (i != j)
             L(i, j) = value / L(j, j);
-          else if (value > 1e-12 * before && before > 0.)
+          else if (value > 1e-12 * before && value > rounding)
             L(i, i) = std::sqrt(value);
           else
             throw UserError("Example " + std::to_string(i + 1) + " (" + names[i + 1] +

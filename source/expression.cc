@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/errors.h>
 #include <exemplar/expression.h>
+#include <exemplar/number_text.h>
 #include <exemplar/prm_tools.h>
 
 #include <muParser.h>
@@ -96,9 +97,9 @@ namespace Exemplar
         values.push_back(parsers->parsers[i].Eval());
         if (!std::isfinite(values.back()))
           throw SolverFailure(parsers->key + ": the formula '" + parsers->texts[i] +
-                              "' is not finite at t = " + std::to_string(time) + ", position (" +
-                              std::to_string(position[0]) + ", " + std::to_string(position[1]) +
-                              ", " + std::to_string(position[2]) +
+                              "' is not finite at t = " + shortest_text(time) + ", position (" +
+                              shortest_text(position[0]) + ", " + shortest_text(position[1]) +
+                              ", " + shortest_text(position[2]) +
                               "). Change it, for instance with max() or c ? a : b.");
       }
     return values;

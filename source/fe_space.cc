@@ -70,17 +70,6 @@ namespace Exemplar
     return volume;
   }
 
-  Matrix3<double>
-  FESpace::deformation_gradient(const unsigned int            cell,
-                                const dealii::Vector<double> &positions) const
-  {
-    Vector3<double> x[4];
-    for (unsigned int a = 0; a < 4; ++a)
-      for (unsigned int c = 0; c < 3; ++c)
-        x[a][c] = positions[3 * nodes(cell)[a] + c];
-    return Exemplar::deformation_gradient(tetrahedra[cell], x);
-  }
-
   dealii::SparsityPattern
   FESpace::nodal_pattern() const
   {

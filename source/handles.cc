@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/errors.h>
 #include <exemplar/handles.h>
+#include <exemplar/number_text.h>
 #include <exemplar/prm_tools.h>
 
 #include <cmath>
@@ -82,7 +83,7 @@ namespace Exemplar
                 throw UserError(
                   "Handles '" + handles[first->second.handle].name + "' and '" + handles[h].name +
                   "' both hold node " + std::to_string(mesh.get_contents().node_numbers[node]) +
-                  ", but move it differently at t = " + std::to_string(time) +
+                  ", but move it differently at t = " + shortest_text(time) +
                   ". Change Handles/" + handles[h].name + "/Select so that they do not overlap.");
             }
         }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/errors.h>
 #include <exemplar/material.h>
+#include <exemplar/number_text.h>
 #include <exemplar/prm_tools.h>
 
 namespace Exemplar
@@ -39,7 +40,7 @@ namespace Exemplar
     check_poissons_ratio(const ElasticConstants &constants, const std::string &section)
     {
       if (!(constants.poissons_ratio > -1. && constants.poissons_ratio < 0.5))
-        throw UserError(section + "/Poisson's ratio = " + std::to_string(constants.poissons_ratio) +
+        throw UserError(section + "/Poisson's ratio = " + shortest_text(constants.poissons_ratio) +
                         " is not allowed: it must lie strictly between -1 and 0.5. For a nearly "
                         "incompressible material take 0.49.");
     }

@@ -87,7 +87,7 @@ namespace Exemplar
                       "output/NAME of the scene file. An earlier run's files are cleared.");
     prm.add_parameter("Every",
                       every,
-                      "A frame every so many steps; 0: none (final.msh alone).",
+                      "A frame every so many steps, and of the last; 0: none (final.msh alone).",
                       dealii::Patterns::Integer(0));
     declare_enum(prm, "Formats", format, frame_formats, "Format of the frames.");
     prm.add_parameter("Checkpoint minutes",

@@ -158,7 +158,7 @@ namespace Exemplar
             align(state.positions, next.positions);
             equilibrium.start(next);
           }
-        diagnostics.add_work(state.positions, next, equilibrium.evaluation());
+        diagnostics.add_work(state.positions, next, equilibrium.gradient());
         state = std::move(next);
       }
     return report;

@@ -2,6 +2,7 @@
 #include <exemplar/atomic_file.h>
 #include <exemplar/digest.h>
 #include <exemplar/errors.h>
+#include <exemplar/number_text.h>
 #include <exemplar/results.h>
 #include <exemplar/summary.h>
 #include <exemplar/vtu_writer.h>
@@ -107,14 +108,16 @@ namespace Exemplar
       write_parameters(parameters, directory.parameters_prm());
       fs::copy_file(parameters.scene_file, directory.original_prm());
       statistics.emplace(directory.statistics());
-      if (parameters.output.every > 0)
+      if (is_frame(0))
         write_frame();
       StatisticsRow row = problem.diagnostics.row(problem.state,
                                                   SolveReport(),
-                                                  problem.equilibrium.evaluation());
+                                                  problem.equilibrium);
       Diagnostics::append_seconds(row, {});
       statistics->write(row);
+      accepted_bytes = statistics->n_bytes();
     }
+    end_reading();
     lap();
   }
 
@@ -135,13 +138,23 @@ namespace Exemplar
       statistics.emplace(directory.statistics(), checkpoint.statistics_bytes);
       write_parameters(problem.parameters, directory.parameters_prm());
     }
+    if (!is_frame(state.step)) // it was the last, but the run now ends later
+      fs::remove(directory.get_path() / RunDirectory::frame_name(state.step));
     problem.resume_from(state);
     problem.diagnostics.set_work(checkpoint.work);
+    accepted_bytes         = checkpoint.statistics_bytes;
     totals                 = checkpoint.totals;
     earlier_factorizations = totals.factorizations;
-    last_lap               = problem.clock.read();
+    end_reading();
+    last_lap = problem.clock.read();
     for (unsigned int part = 0; part < n_parts; ++part)
       totals.seconds[part] += last_lap[part];
+  }
+
+  void
+  Results::end_reading()
+  {
+    problem.clock.switch_to(Part::evaluate);
   }
 
   PartSeconds
@@ -161,24 +174,29 @@ namespace Exemplar
   void
   Results::add_step(const SolveReport &report)
   {
-    const OutputParameters &output   = problem.parameters.output;
-    const bool              accepted = is_success(report.status);
-    StepClock::Scope        scope(problem.clock, Part::output);
+    const bool       accepted = is_success(report.status);
+    StepClock::Scope scope(problem.clock, Part::output);
 
     totals.iterations += report.iterations;
     totals.factorizations = earlier_factorizations + problem.equilibrium.n_factorizations();
     totals.worst_residual = std::max(totals.worst_residual, report.residual);
 
-    if (accepted && output.every > 0 && problem.state.step % output.every == 0)
+    if (accepted && is_frame(problem.state.step))
       write_frame();
-    // a failed step has a row too, with the last accepted state
-    StatisticsRow row =
-      problem.diagnostics.row(problem.state, report, problem.equilibrium.evaluation());
+    State shown = problem.state;
+    if (!accepted) // the row of a step that failed has its number and time
+      {
+        ++shown.step;
+        shown.time = problem.time_axis.time(shown.step);
+      }
+    StatisticsRow row = problem.diagnostics.row(shown, report, problem.equilibrium);
     Diagnostics::append_seconds(row, lap());
     statistics->write(row);
+    if (accepted)
+      accepted_bytes = statistics->n_bytes();
 
     const std::chrono::duration<double> since = std::chrono::steady_clock::now() - last_checkpoint;
-    if (accepted && since.count() > 60. * output.checkpoint_minutes)
+    if (accepted && since.count() > 60. * problem.parameters.output.checkpoint_minutes)
       save();
   }
 
@@ -199,6 +217,13 @@ namespace Exemplar
                   mesh_digest != input_digests.end() ? mesh_digest->second : "generated",
                   status,
                   directory.summary());
+  }
+
+  bool
+  Results::is_frame(const unsigned int step) const
+  {
+    const unsigned int every = problem.parameters.output.every;
+    return every > 0 && (step % every == 0 || step == problem.time_axis.n_steps());
   }
 
   void
@@ -252,7 +277,7 @@ namespace Exemplar
                      problem.state,
                      problem.diagnostics.get_work(),
                      totals,
-                     statistics->n_bytes()},
+                     accepted_bytes},
                     directory.checkpoint());
   }
 } // namespace Exemplar

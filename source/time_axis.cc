@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/errors.h>
+#include <exemplar/number_text.h>
 #include <exemplar/prm_tools.h>
 #include <exemplar/time_axis.h>
 
@@ -50,7 +51,7 @@ namespace Exemplar
     const double quotient = parameters.end / parameters.step;
     const double steps    = std::max(1., std::ceil(quotient * (1. - 1e-12)));
     if (steps > 1e9)
-      throw UserError("Time/End / Time/Step = " + std::to_string(quotient) +
+      throw UserError("Time/End / Time/Step = " + shortest_text(quotient) +
                       " is more than 1e9 steps. Enlarge Time/Step or lower Time/End.");
     return {static_cast<unsigned int>(steps), parameters.step, 1., parameters.end};
   }

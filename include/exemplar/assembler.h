@@ -87,6 +87,12 @@ namespace Exemplar
              const std::vector<double>    &weights,
              Evaluation                   &evaluation) const;
 
+    /// What `displacement` [m], zero but on held degrees of freedom, adds to the forces
+    /// and to the weight gradient while the rotations are as they are.
+    void
+    add_response_beside_held_nodes(const dealii::Vector<double> &displacement,
+                                   Evaluation                   &evaluation) const;
+
     /// A = [M/h^2] + sum R K R^T, Eq. (8), into the values on matrix_pattern() [N/m].
     void
     assemble_matrix(std::vector<double> &matrix_values) const;
@@ -95,6 +101,18 @@ namespace Exemplar
     /// example, one after the other [N].
     void
     assemble_coupling(std::vector<double> &columns) const;
+
+    /// A residual force [N] that is nothing but rounding: strains of 1e-14 would cause
+    /// as much.
+    double
+    rounding_force() const
+    {
+      return greatest_rounding_force;
+    }
+
+    /// The same for the derivative of the energy by the weight of example i [J].
+    double
+    rounding_weight_gradient(unsigned int i) const;
 
     CellResults
     cell_results(const dealii::Vector<double> &positions, const std::vector<double> &weights) const;
@@ -112,6 +130,9 @@ namespace Exemplar
     void
     build_mass_values();
 
+    void
+    estimate_rounding();
+
     const FESpace      &fe_space;
     const Material     &material;
     const ExamplePoses *examples;
@@ -120,9 +141,12 @@ namespace Exemplar
 
     SymmetricPattern                             pattern;
     std::vector<std::array<int, n_cell_entries>> scatter; ///< where each entry goes, or FreeDofs::held
+    std::vector<unsigned int>                    cells_beside_held_nodes;
     std::vector<double>                          mass_values;    ///< M on the pattern; empty in statics
     std::vector<std::array<double, 4>>           gradient_norms; ///< |g_a|
     std::vector<Matrix3<double>>                 rotations;
+    double                                       greatest_rounding_force = 0.;
+    double                                       rounding_stress_norm    = 0.; ///< (sum V T^2)^(1/2)
   };
 } // namespace Exemplar
 

@@ -3,6 +3,7 @@
 #define exemplar_diagnostics_h
 
 #include <exemplar/equilibrium.h>
+#include <exemplar/number_text.h>
 #include <exemplar/step_clock.h>
 
 #include <optional>
@@ -14,11 +15,6 @@ namespace Exemplar
 {
   /// A row of statistics.csv: column and value.
   using StatisticsRow = std::vector<std::pair<std::string, std::string>>;
-
-  /// A number with as many digits as tell it from its neighbours; empty if it is not
-  /// finite, because no file of ours holds a NaN.
-  std::string
-  shortest_text(double value);
 
   /// Work done on the body since the first step [J]: end-of-step forces times
   /// displacements.
@@ -40,7 +36,7 @@ namespace Exemplar
     void
     add_work(const dealii::Vector<double> &old_positions,
              const State                  &state,
-             const Evaluation             &evaluation);
+             const dealii::Vector<double> &gradient);
 
     const Work &
     get_work() const
@@ -55,7 +51,7 @@ namespace Exemplar
     }
 
     StatisticsRow
-    row(const State &state, const SolveReport &report, const Evaluation &evaluation) const;
+    row(const State &state, const SolveReport &report, const Equilibrium &equilibrium) const;
 
     /// The seconds of a step by part; without values in the row of the initial state.
     static void

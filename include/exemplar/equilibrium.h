@@ -108,13 +108,19 @@ namespace Exemplar
     SolveReport
     solve(State &state, double time, double step_size);
 
-    /// Energies and forces at the state of start() or the last solve. The gradient
-    /// holds inertia, and loads with a minus sign: on held degrees of freedom it is
-    /// the reaction.
+    /// Energies and internal forces at the state of start() or the last solve.
     const Evaluation &
     evaluation() const
     {
       return current;
+    }
+
+    /// The whole gradient there [N]: internal forces and inertia less loads. On held
+    /// degrees of freedom it is the reaction.
+    const dealii::Vector<double> &
+    gradient() const
+    {
+      return total_gradient;
     }
 
     /// Factorisations so far.
@@ -129,7 +135,16 @@ namespace Exemplar
     begin_step(State &state, double time, double step_size);
 
     void
+    move_handles(State &state);
+
+    void
+    update_loads(double time);
+
+    void
     evaluate(const State &state);
+
+    void
+    add_inertia_and_loads(const State &state);
 
     void
     linear_step(State &state);
@@ -142,6 +157,8 @@ namespace Exemplar
     WeightBlock            block;
     BorderedVector         unknowns;
     Evaluation             current;
+    dealii::Vector<double> total_gradient;
+    dealii::Vector<double> force_scale; ///< a node, of the total gradient [N]
     dealii::Vector<double> external_force;
     bool                   dynamic_terms  = false; ///< within a step of a dynamic scene
     unsigned int           factorizations = 0;

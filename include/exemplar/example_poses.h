@@ -102,11 +102,38 @@ namespace Exemplar
 
     /// E_i in a cell.
     Matrix3<double>
-    strain(const unsigned int cell, const unsigned int i) const;
+    strain(const unsigned int cell, const unsigned int i) const
+    {
+      const double *E = entries(cell) + 6 * i;
+      return {{{E[0], E[5], E[4]}, {E[5], E[1], E[3]}, {E[4], E[3], E[2]}}};
+    }
 
     /// E(w) = sum_i w_i E_i in a cell.
     Matrix3<double>
-    strain(const unsigned int cell, const std::vector<double> &weights) const;
+    strain(const unsigned int cell, const std::vector<double> &weights) const
+    {
+      double        sum[6] = {0., 0., 0., 0., 0., 0.};
+      const double *E      = entries(cell);
+      for (unsigned int i = first_strained; i < size(); ++i)
+        for (unsigned int entry = 0; entry < 6; ++entry)
+          sum[entry] += weights[i] * E[6 * i + entry];
+      return {{{sum[0], sum[5], sum[4]}, {sum[5], sum[1], sum[3]}, {sum[4], sum[3], sum[2]}}};
+    }
+
+    /// The first example that has strain: the rest pose, where it is included, is
+    /// example 0 and has none, so that loops may leave it out.
+    unsigned int
+    first_strained_example() const
+    {
+      return first_strained;
+    }
+
+    /// (sum V |E_i|^2)^(1/2) over the cells [m^(3/2)].
+    double
+    strain_norm(const unsigned int i) const
+    {
+      return strain_norms[i];
+    }
 
     /// H_ij = eta^2 sum V E_i : C : E_j + sigma delta_ij, Eq. (9) [J].
     const dealii::FullMatrix<double> &
@@ -122,6 +149,13 @@ namespace Exemplar
     }
 
   private:
+    /// xx, yy, zz, yz, xz, xy of all examples in a cell, one after the other.
+    const double *
+    entries(const unsigned int cell) const
+    {
+      return &strains[6 * static_cast<std::size_t>(cell) * size()];
+    }
+
     void
     add_pose(const std::string &name, const std::vector<dealii::Point<3>> &nodes);
 
@@ -138,14 +172,16 @@ namespace Exemplar
     check_prescribed_weights(double end) const;
 
     void
-    check_independence() const;
+    check_independence(const Material &material) const;
 
     const FESpace                      &fe_space;
     const double                        eta;
     double                              sigma = 0.;
     std::vector<std::string>            names;
     std::vector<dealii::Vector<double>> positions;
-    std::vector<double>                 strains; ///< xx, yy, zz, yz, xz, xy of example i in cell c at 6 (c k + i)
+    const unsigned int                  first_strained;
+    std::vector<double>                 strains;
+    std::vector<double>                 strain_norms;
     dealii::FullMatrix<double>          gram; ///< sum V E_i : C : E_j
     dealii::FullMatrix<double>          H;
     std::optional<Expression>           prescribed;

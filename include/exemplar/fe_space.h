@@ -68,7 +68,14 @@ namespace Exemplar
 
     /// Deformation gradient of a cell whose nodes are at `positions`.
     Matrix3<double>
-    deformation_gradient(unsigned int cell, const dealii::Vector<double> &positions) const;
+    deformation_gradient(const unsigned int cell, const dealii::Vector<double> &positions) const
+    {
+      Vector3<double> x[4];
+      for (unsigned int a = 0; a < 4; ++a)
+        for (unsigned int c = 0; c < 3; ++c)
+          x[a][c] = positions[3 * nodes(cell)[a] + c];
+      return Exemplar::deformation_gradient(tetrahedra[cell], x);
+    }
 
     /// Pattern of the nodal graph: all pairs of nodes that share a cell.
     dealii::SparsityPattern

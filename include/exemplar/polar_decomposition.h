@@ -214,8 +214,10 @@ namespace Exemplar
     const Polar::Matrix4<Number> K = Polar::horn_matrix(G);
     if (!(slope > Number(1e-3)))
       return Polar::rotation_matrix(Polar::eigenvector_by_jacobi(K));
-    const Polar::Quaternion<Number> q = Polar::eigenvector(K, lambda);
-    return Polar::rotation_matrix(Polar::eigenvector(K, Polar::rayleigh_quotient(K, q)));
+    Polar::Quaternion<Number> q = Polar::eigenvector(K, lambda);
+    if (!(slope > Number(1.))) // an eigenvalue less sharp: one Rayleigh step makes up for it
+      q = Polar::eigenvector(K, Polar::rayleigh_quotient(K, q));
+    return Polar::rotation_matrix(q);
   }
 } // namespace Exemplar
 

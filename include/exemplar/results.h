@@ -46,6 +46,10 @@ namespace Exemplar
     }
 
   private:
+    /// Every so many steps, and the last.
+    bool
+    is_frame(unsigned int step) const;
+
     void
     write_frame() const;
 
@@ -58,6 +62,10 @@ namespace Exemplar
     void
     save();
 
+    /// From now on what no part claims, such as moving the handles, is evaluation.
+    void
+    end_reading();
+
     /// Seconds by part since the last call.
     PartSeconds
     lap();
@@ -67,6 +75,7 @@ namespace Exemplar
     const std::map<std::string, std::string> input_digests; ///< SHA-256 of the files read
     std::optional<StatisticsFile>            statistics;
     RunTotals                                totals;
+    std::uintmax_t                           accepted_bytes = 0; ///< of statistics.csv, less a failed row
     unsigned int                             earlier_factorizations = 0; ///< before a resume
     PartSeconds                              last_lap{};
     std::chrono::steady_clock::time_point    last_checkpoint;

@@ -13,8 +13,8 @@ FREE = {**BAR, "Examples/Pose functions": STRETCH}
 PRESCRIBED = {**FREE, "Examples/Weights": "prescribed"}
 DYNAMIC = {**BAR, "Scene": "dynamic", "Time/Step": "0.1", "Time/End": "0.2"}
 INTERPOLATION = {**BAR, "Scene": "interpolation", "Handles/Names": None,
-                 "Handles/left/Select": None, "Loads/Gravity": None, "Examples/Pose functions": STRETCH,
-                 "Examples/Prescribed weights": "1-t; t"}
+                 "Handles/left/Select": None, "Loads/Gravity": None,
+                 "Examples/Pose functions": STRETCH, "Examples/Prescribed weights": "1-t; t"}
 TWO_HANDLES = {**BAR, "Handles/Names": "left, right"}
 LOADED = {**BAR, "Loads/Names": "tip", "Loads/tip/Select": "boundary 2"}
 FILE = {**BAR, "Mesh/Generator": None, "Mesh/Box size": None, "Mesh/Box cells": None}
@@ -35,7 +35,8 @@ SCENES = [
     ("unterminated subsection", prm(BAR) + "subsection Solver\nset Method = one pass\n",
      [f"scene.prm:{LINES + 2}:", "subsection 'Solver'", "'end'"]),
     ("one 'end' too many", prm(BAR) + "end\n", [f"scene.prm:{LINES + 1}:", "'end'", "Remove"]),
-    ("line without =", prm(BAR) + "set Scene\n", [f"scene.prm:{LINES + 1}:", "'='", "set KEY = VALUE"]),
+    ("line without =", prm(BAR) + "set Scene\n",
+     [f"scene.prm:{LINES + 1}:", "'='", "set KEY = VALUE"]),
     ("no prm line", prm(BAR) + "Scene static\n",
      [f"scene.prm:{LINES + 1}:", "'Scene static'", "set KEY = VALUE"]),
     ("Scene not set", {**BAR, "Scene": None}, ["scene.prm", "Scene is not set", "set Scene ="]),
@@ -97,7 +98,8 @@ SCENES = [
     ("mesh is a directory", {**FILE, "Mesh/File": "a directory"}, ["/a directory", "directory"]),
     ("truncated mesh", {**FILE, "Mesh/File": "truncated.msh"},
      ["/truncated.msh", "within section $Elements", "truncated", "Copy it again"]),
-    ("mesh is no .msh", {**FILE, "Mesh/File": "scene.prm"}, ["/scene.prm", "expected a section", "'set'", ".msh"]),
+    ("mesh is no .msh", {**FILE, "Mesh/File": "scene.prm"},
+     ["/scene.prm", "expected a section", "'set'", ".msh"]),
     ("missing .geo", {**FILE, "Mesh/File": "absent.geo"}, ["/absent.geo", "cannot be opened"]),
     ("Box cells = 0", {**BAR, "Mesh/Box cells": "2, 0, 1"},
      ["Mesh/Box cells = '2, 0, 1'", "three integers >= 1 separated by commas"]),
@@ -110,8 +112,10 @@ SCENES = [
 
     # examples
     ("missing pose", {**BAR, "Examples/Poses": "absent.msh"}, ["/absent.msh", "cannot be opened"]),
-    ("pose is no .msh", {**BAR, "Examples/Poses": "scene.prm"}, ["/scene.prm", "expected a section", "'set'", ".msh"]),
-    ("pose is a directory", {**BAR, "Examples/Poses": "a directory"}, ["/a directory", "directory"]),
+    ("pose is no .msh", {**BAR, "Examples/Poses": "scene.prm"},
+     ["/scene.prm", "expected a section", "'set'", ".msh"]),
+    ("pose is a directory", {**BAR, "Examples/Poses": "a directory"},
+     ["/a directory", "directory"]),
     ("pose with fewer nodes", {**BAR, "Examples/Poses": "small.msh"},
      ["/small.msh", "8 nodes, the mesh has 12", "final.msh"]),
     ("pose of another connectivity", {**BAR, "Examples/Poses": "other.msh"},
@@ -135,7 +139,7 @@ SCENES = [
     ("dependent examples without penalty",
      {**BAR, "Examples/Pose functions": f"{STRETCH} | 1.2*x; y; z", "Examples/Weight penalty": "0"},
      ["Example 2", "1.2*x; y; z", "affine combination", "Examples/Weight penalty"]),
-    ("pose functions of dependent examples name no file",
+    ("example that is the rest pose",
      {**BAR, "Examples/Pose functions": "x; y; z", "Examples/Weight penalty": "0"},
      ["Example 1", "affine combination", "Examples/Pose functions"]),
 
@@ -195,7 +199,8 @@ SCENES = [
      ["Loads/tip/Select = 'box 5 5 5 6 6 6'", "selects no node"]),
     ("load that gives inf", {**LOADED, "Loads/tip/Force": "1/t; 0; 0"},
      ["Loads/tip/Force", "'1/t'", "not finite at t = 0"]),
-    ("load on x", {**LOADED, "Loads/tip/Force": "x; 0; 0"}, ["Loads/tip/Force", "'x'", "variables t"]),
+    ("load on x", {**LOADED, "Loads/tip/Force": "x; 0; 0"},
+     ["Loads/tip/Force", "'x'", "variables t"]),
 
     # scenes that make no sense
     ("static scene without handles", {**BAR, "Handles/Names": None, "Handles/left/Select": None},

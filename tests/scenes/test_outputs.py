@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What a run writes, and what the command line prints."""
 
-import json
 import re
 import unittest
 
 from exemplar_runner import (BAR, SceneTest, distance, greatest_distance, prm, read_csv, read_msh,
-                             read_pvd, read_summary, read_vtu, results, write_msh)
+                             read_pvd, read_summary, read_vtu, results)
 
 DYNAMIC = {**BAR, "Scene": "dynamic", "Mesh/Scale": "0.5", "Material/Density": "10",
            "Examples/Pose functions": "1.2*x; y; z", "Time/Step": "0.1", "Time/End": "0.35",
@@ -48,7 +47,7 @@ $EndElements
 
 class Outputs(SceneTest):
     def test_files(self):
-        self.write("scene.prm", "# a remark\r\n\r\n" + prm(DYNAMIC) + "# the end, without a newline")
+        self.write("scene.prm", "# a remark\r\n\r\n" + prm(DYNAMIC) + "# no newline at the end")
         original = (self.directory / "scene.prm").read_bytes()
         run = self.call("scene.prm", "--output", "out")
         self.assertEqual((run.status, run.stderr), (0, ""))
@@ -68,7 +67,7 @@ class Outputs(SceneTest):
         self.check_rerun(output)
 
     def check_pvd(self, output):
-        # the last step is shorter, and no multiple of Every ends at it but 4
+        # step 4, the last one, is shorter
         self.assertEqual(read_pvd(output), [(0., "frame_0000.vtu"), (0.2, "frame_0002.vtu"),
                                             (0.35, "frame_0004.vtu")])
 

@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The scenes of prm/ show what they say: every one is valid, the poses are what their scenes make,
+interpolations end at their examples, and examples change what the same drag does."""
+
+import unittest
+from math import cos, pi, sin
+
+from exemplar_runner import REPOSITORY, SceneTest, distance, greatest_distance, read_csv, read_msh
+
+PAPER = REPOSITORY / "prm/paper"
+DRAGS = sorted(PAPER.glob("fig[23]*.prm"))
+RADIUS = 4 / pi
+
+
+def twisted(x, y, z):
+    """By 360 degrees over the length 4."""
+    return x, y * cos(pi * x / 2) - z * sin(pi * x / 2), y * sin(pi * x / 2) + z * cos(pi * x / 2)
+
+
+def bent(x, y, z):
+    """Into half a circle."""
+    return (RADIUS - z) * sin(x / RADIUS), y, RADIUS - (RADIUS - z) * cos(x / RADIUS)
+
+
+def nodes_of(file):
+    return read_msh(file).nodes
+
+
+class PrmScenes(SceneTest):
+    def run_file(self, scene, output, *overrides):
+        settings = [word for override in ("Output/Every=0", *overrides) for word in ("--set", override)]
+        run = self.call(scene, "--quiet", "--output", output, *settings)
+        self.assertEqual(run.status, 0, run.stderr)
+        return self.directory / output
+
+    def test_every_scene_is_valid_and_says_what_to_expect(self):
+        for scene in sorted(REPOSITORY.glob("prm/**/*.prm")):
+            with self.subTest(scene.name):
+                run = self.call("--validate", scene)
+                self.assertEqual((run.status, run.stderr), (0, ""))
+                opening = scene.read_text().split("\n\n")[0]
+                self.assertTrue(opening.startswith("#") and "Expect" in opening, opening)
+
+    def test_poses_are_what_their_scenes_make(self):
+        for scene in sorted((REPOSITORY / "prm/poses").glob("*.prm")):
+            with self.subTest(scene.stem):
+                made = nodes_of(self.run_file(scene, scene.stem) / "final.msh")
+                committed = nodes_of(REPOSITORY / f"meshes/poses/{scene.stem}.msh")
+                self.assertLess(greatest_distance(made, committed), 1e-4)
+                rest = nodes_of(REPOSITORY / f"meshes/{scene.stem.split('_')[0]}.msh")
+                self.assertGreater(greatest_distance(made, rest), 0.2)
+
+    def test_interpolations_end_at_their_examples(self):
+        # strains to 1e-6, by the lengths of the edges of the generated box, x fastest
+        rest = {1 + i + 17 * (j + 5 * k): (i / 4, j / 4 - 0.5, k / 4 - 0.5)
+                for i in range(17) for j in range(5) for k in range(5)}
+        edges = [(a, a + step) for a in rest for step in (1, 17, 18, 85, 86, 102, 103)
+                 if a + step in rest and distance(rest[a], rest[a + step]) < 0.5]
+        for name, example in (("fig1_twist", twisted), ("fig1_bend", bent), ("fig1_twist_to_bend", bent)):
+            with self.subTest(name):
+                end = nodes_of(self.run_file(PAPER / f"{name}.prm", name) / "final.msh")
+                pose = {number: example(*position) for number, position in rest.items()}
+                errors = [abs(distance(end[a], end[b]) / distance(pose[a], pose[b]) - 1) for a, b in edges]
+                print(f"{name}: greatest relative error of an edge at the end {max(errors):.1e}")
+                self.assertGreater(len(errors), 2000)
+                self.assertLess(max(errors), 1e-6)
+
+    def test_examples_change_what_a_drag_does(self):
+        for scene in DRAGS:
+            with self.subTest(scene.stem):
+                examples = self.run_file(scene, scene.stem)
+                plain = self.run_file(scene, scene.stem + "_plain", "Examples/Importance=0")
+                rows = read_csv(examples)
+                self.assertGreaterEqual(len(rows), 51)
+                self.assertEqual({row["inverted_cells"] for row in rows}, {0})
+                weights = [rows[-1][f"weight_{i}"] for i in range(3)]
+                self.assertAlmostEqual(sum(weights), 1, places=9)
+                self.assertGreater(max(weights[1:]), 0.9, "an example is chosen")
+                ends = [nodes_of(output / "final.msh") for output in (examples, plain)]
+                self.assertGreater(greatest_distance(*ends), 0.3)
+
+
+if __name__ == "__main__":
+    unittest.main()

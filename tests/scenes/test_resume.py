@@ -1,0 +1,135 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A run that was killed or interrupted and resumed leaves the bytes of one that was not."""
+
+import signal
+import subprocess
+import time
+import unittest
+
+from exemplar_runner import (EXEMPLAR, SceneTest, prm, read_csv, read_pvd, read_summary, results,
+                             timeless_statistics)
+
+EACH_STEP = ["--set", "Output/Checkpoint minutes=0"]
+
+BOX = {
+    "Mesh/Generator": "box",
+    "Mesh/Box size": "2, 1, 1",
+    "Mesh/Box cells": "6, 3, 3",
+    "Material/Young's modulus": "1e4",
+    "Material/Density": "10",
+    "Examples/Pose functions": "1.3*x; y; z | x; y; z+0.2*x^2",
+    "Solver/Tolerance": "1e-6",
+    "Output/Every": "7",
+}
+HANDLES = {
+    "Handles/Names": "left, right end",
+    "Handles/left/Select": "boundary 1",
+    "Handles/left/Motion": "0; 0; 0.1*sin(6*t)",
+    "Handles/right end/Select": "boundary 2",
+    "Handles/right end/Motion": "0.2*t; 0; 0",
+    "Handles/right end/Components": "x",
+    "Loads/Gravity": "0, 0, -9.81",
+}
+DYNAMIC = {**BOX, **HANDLES, "Scene": "dynamic", "Time/Step": "0.01", "Time/End": "0.7"}
+STATIC = {**BOX, **HANDLES, "Scene": "static", "Time/Increments": "70"}
+INTERPOLATION = {**BOX, "Scene": "interpolation", "Time/Increments": "70",
+                 "Examples/Prescribed weights": "1-t; t; 0"}
+
+
+class Resume(SceneTest):
+    def stop(self, scene, how, after, *arguments, delay=0.):
+        """Run a scene and send it a signal after so many steps. Return the status and stderr."""
+        self.write("scene.prm", prm(scene))
+        rows = self.directory / "out/statistics.csv"
+        earlier = rows.read_bytes().count(b"\n") if "--resume" in arguments else 0
+        self.assertGreater(after + 2, earlier, "the run has come further already")
+        process = subprocess.Popen(
+            [EXEMPLAR, "scene.prm", "--output", "out", "--quiet", *arguments], cwd=self.directory,
+            stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        with process:
+            # the header, the initial state and the steps
+            while process.poll() is None and not (
+                    rows.exists() and rows.read_bytes().count(b"\n") >= after + 2):
+                time.sleep(1e-3)
+            time.sleep(delay)
+            process.send_signal(how)
+            message = process.communicate(timeout=300)[1]
+        return process.returncode, message
+
+    def check_kills(self, scene, moments):
+        whole = results(self.solve(scene, output="whole"))
+        self.assertIn("final.msh", whole)
+        arguments = EACH_STEP
+        for after, delay in moments:
+            status, message = self.stop(scene, signal.SIGKILL, after, *arguments, delay=delay)
+            self.assertEqual((status, message), (-signal.SIGKILL, ""), "not hit in the middle")
+            self.assertFalse((self.directory / "out/final.msh").exists())
+            arguments = [*EACH_STEP, "--resume"]
+        resumed = self.solve(scene, *arguments)
+        self.assert_same(results(resumed), whole)
+        self.assertEqual([file.name for file in resumed.iterdir() if file.suffix == ".tmp"], [])
+        self.assertEqual({name: read_summary(resumed)[name] for name in ("steps", "iterations",
+                                                                         "worst_residual")},
+                         {name: read_summary(resumed.parent / "whole")[name]
+                          for name in ("steps", "iterations", "worst_residual")})
+
+    def assert_same(self, found, expected):
+        self.assertEqual(found["statistics.csv"], expected["statistics.csv"])
+        self.assertEqual(found.keys(), expected.keys())
+        self.assertEqual([name for name in found if found[name] != expected[name]], [])
+
+    def test_killed_dynamic_scene(self):
+        self.check_kills(DYNAMIC, [(2, 0.), (11, 0.003), (22, 0.006), (36, 0.001)])
+        rows = read_csv(self.directory / "whole")  # something must have moved
+        self.assertGreater(max(row["energy_kinetic"] for row in rows), 1.)
+        self.assertGreater(max(row["weight_2"] for row in rows) -
+                           min(row["weight_2"] for row in rows), 0.1)
+
+    def test_killed_static_scene(self):
+        self.check_kills(STATIC, [(20, 0.)])
+
+    def test_killed_interpolation(self):
+        self.check_kills(INTERPOLATION, [(20, 0.)])
+
+    def test_interrupt_writes_a_checkpoint(self):
+        whole = results(self.solve(DYNAMIC, output="whole"))
+        arguments = []
+        for how, after in ((signal.SIGINT, 5), (signal.SIGTERM, 25)):
+            status, message = self.stop(DYNAMIC, how, after, *arguments)
+            self.assertEqual(status, 130, message)
+            self.assertRegex(message,
+                             r"^exemplar: Interrupted after step \d+\. Go on with --resume\.\n$")
+            output = self.directory / "out"
+            summary, rows = read_summary(output), read_csv(output)
+            self.assertEqual(summary["status"], "interrupted")
+            self.assertEqual(summary["steps"], rows[-1]["step"])
+            self.assertGreaterEqual(summary["steps"], after)
+            self.assertLess(summary["steps"], 70)
+            arguments = ["--resume"]
+        self.assert_same(results(self.solve(DYNAMIC, "--resume")), whole)
+        self.assertEqual(read_summary(self.directory / "out")["status"], "converged")
+
+    def test_a_later_end(self):
+        scene = {**DYNAMIC, "Time/End": "0.28"}
+        whole = results(self.solve(scene, output="whole"))
+        self.solve({**scene, "Time/End": "0.14"})
+        # nothing is left to do: the same again
+        half = results(self.directory / "out")
+        self.assert_same(results(self.solve({**scene, "Time/End": "0.14"}, "--resume")), half)
+        output = self.solve(scene, "--resume")
+        self.assert_same(results(output), whole)
+        self.assertIn("set End = 0.28\n", (output / "parameters.prm").read_text())
+
+    def test_other_frames(self):
+        scene = {**DYNAMIC, "Time/End": "0.12", "Output/Every": "4"}
+        self.solve(scene)
+        output = self.solve({**scene, "Time/End": "0.18", "Output/Every": "3"}, "--resume")
+        frames = [f"frame_{step:04}.vtu" for step in (0, 4, 8, 12, 15, 18)]
+        self.assertEqual([name for _, name in read_pvd(output)], frames)
+        self.assertEqual(sorted(file.name for file in output.glob("frame_*")), frames)
+        whole = self.solve({**scene, "Time/End": "0.18"}, output="whole")
+        self.assertEqual(timeless_statistics(output), timeless_statistics(whole))
+
+
+if __name__ == "__main__":
+    unittest.main()
