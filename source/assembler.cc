@@ -10,15 +10,16 @@
 // compiler to inline them by its own judgement and a call costs as much as some of them
 // do; and compiled for three levels of instruction sets, of which the loader takes the
 // best that the CPU has.
-#define EXEMPLAR_HOT_LOOP \
+#define EXEMPLAR_HOT_LOOP                                                                          \
   [[gnu::flatten, gnu::target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")]]
 
 namespace Exemplar
 {
   namespace
   {
-    const EnumTable<StrainMeasure> strain_measures = {{StrainMeasure::corotational, "corotational"}};
-    const EnumTable<GradientKind>  gradient_kinds  = {{GradientKind::frozen, "frozen"}};
+    const EnumTable<StrainMeasure> strain_measures
+        = { { StrainMeasure::corotational, "corotational" } };
+    const EnumTable<GradientKind> gradient_kinds = { { GradientKind::frozen, "frozen" } };
 
     double
     norm(const Matrix3<double> &A)
@@ -51,15 +52,9 @@ namespace Exemplar
   ModelParameters::declare(dealii::ParameterHandler &prm)
   {
     prm.enter_subsection("Model");
-    declare_enum(prm,
-                 "Strain",
-                 strain,
-                 strain_measures,
+    declare_enum(prm, "Strain", strain, strain_measures,
                  "corotational: the strain of the deformation freed of the cell's rotation.");
-    declare_enum(prm,
-                 "Gradient",
-                 gradient,
-                 gradient_kinds,
+    declare_enum(prm, "Gradient", gradient, gradient_kinds,
                  "frozen: the paper's force R T, which holds the rotation fixed while it "
                  "differentiates the energy.");
     prm.leave_subsection();
@@ -70,20 +65,16 @@ namespace Exemplar
                        const ExamplePoses *examples,
                        const Inertia      *inertia,
                        const FreeDofs     &free_dofs)
-    : fe_space(fe_space)
-    , material(material)
-    , examples(examples)
-    , inertia(inertia)
-    , free_dofs(free_dofs)
-    , gradient_norms(fe_space.n_cells())
-    , rotations(fe_space.n_cells(), identity_matrix<double>())
+      : fe_space(fe_space), material(material), examples(examples), inertia(inertia),
+        free_dofs(free_dofs), gradient_norms(fe_space.n_cells()),
+        rotations(fe_space.n_cells(), identity_matrix<double>())
   {
     for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
       for (unsigned int a = 0; a < 4; ++a)
-        {
-          const Vector3<double> &g = fe_space.tetrahedron(cell).shape_gradient[a];
-          gradient_norms[cell][a]  = std::sqrt(dot(g, g));
-        }
+      {
+        const Vector3<double> &g = fe_space.tetrahedron(cell).shape_gradient[a];
+        gradient_norms[cell][a]  = std::sqrt(dot(g, g));
+      }
     estimate_rounding();
     build_pattern();
     build_scatter();
@@ -96,14 +87,14 @@ namespace Exemplar
   {
     dealii::Vector<double> force(fe_space.n_nodes());
     for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
-      {
-        const Lame<double> &lame   = material.lame(cell);
-        const double        volume = fe_space.tetrahedron(cell).volume;
-        const double        stress = 1e-14 * (std::abs(lame.lambda) + 2. * lame.mu);
-        rounding_stress_norm += volume * stress * stress;
-        for (unsigned int a = 0; a < 4; ++a)
-          force[fe_space.nodes(cell)[a]] += volume * stress * gradient_norms[cell][a];
-      }
+    {
+      const Lame<double> &lame   = material.lame(cell);
+      const double        volume = fe_space.tetrahedron(cell).volume;
+      const double        stress = 1e-14 * (std::abs(lame.lambda) + 2. * lame.mu);
+      rounding_stress_norm += volume * stress * stress;
+      for (unsigned int a = 0; a < 4; ++a)
+        force[fe_space.nodes(cell)[a]] += volume * stress * gradient_norms[cell][a];
+    }
     greatest_rounding_force = force.linfty_norm();
     rounding_stress_norm    = std::sqrt(rounding_stress_norm);
   }
@@ -120,16 +111,16 @@ namespace Exemplar
     const dealii::SparsityPattern nodal = fe_space.nodal_pattern();
     pattern.column_start.push_back(0);
     for (const unsigned int dof : free_dofs.list())
-      {
-        const auto begin = pattern.row.size();
-        for (auto entry = nodal.begin(dof / 3); entry != nodal.end(dof / 3); ++entry)
-          for (unsigned int c = 0; c < 3; ++c)
-            if (const unsigned int other = 3 * entry->column() + c; other >= dof)
-              if (const int row = free_dofs.free_index(other); row != FreeDofs::held)
-                pattern.row.push_back(row);
-        std::sort(pattern.row.begin() + begin, pattern.row.end());
-        pattern.column_start.push_back(pattern.row.size());
-      }
+    {
+      const auto begin = pattern.row.size();
+      for (auto entry = nodal.begin(dof / 3); entry != nodal.end(dof / 3); ++entry)
+        for (unsigned int c = 0; c < 3; ++c)
+          if (const unsigned int other = 3 * entry->column() + c; other >= dof)
+            if (const int row = free_dofs.free_index(other); row != FreeDofs::held)
+              pattern.row.push_back(row);
+      std::sort(pattern.row.begin() + begin, pattern.row.end());
+      pattern.column_start.push_back(pattern.row.size());
+    }
   }
 
   void
@@ -137,20 +128,20 @@ namespace Exemplar
   {
     scatter.resize(fe_space.n_cells());
     for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
-      {
-        int dof[12];
-        for (unsigned int p = 0; p < 12; ++p)
-          dof[p] = free_dofs.free_index(3 * fe_space.nodes(cell)[p / 3] + p % 3);
-        if (std::find(dof, dof + 12, FreeDofs::held) != dof + 12)
-          cells_beside_held_nodes.push_back(cell);
-        unsigned int entry = 0;
-        for (unsigned int p = 0; p < 12; ++p)
-          for (unsigned int q = 0; q <= p; ++q, ++entry)
-            scatter[cell][entry] =
-              dof[p] == FreeDofs::held || dof[q] == FreeDofs::held ?
-                FreeDofs::held :
-                pattern.position(std::max(dof[p], dof[q]), std::min(dof[p], dof[q]));
-      }
+    {
+      int dof[12];
+      for (unsigned int p = 0; p < 12; ++p)
+        dof[p] = free_dofs.free_index(3 * fe_space.nodes(cell)[p / 3] + p % 3);
+      if (std::find(dof, dof + 12, FreeDofs::held) != dof + 12)
+        cells_beside_held_nodes.push_back(cell);
+      unsigned int entry = 0;
+      for (unsigned int p = 0; p < 12; ++p)
+        for (unsigned int q = 0; q <= p; ++q, ++entry)
+          scatter[cell][entry]
+              = dof[p] == FreeDofs::held || dof[q] == FreeDofs::held
+                    ? FreeDofs::held
+                    : pattern.position(std::max(dof[p], dof[q]), std::min(dof[p], dof[q]));
+    }
   }
 
   void
@@ -160,12 +151,12 @@ namespace Exemplar
     const dealii::SparseMatrix<double> &mass = inertia->nodal_mass();
     for (const unsigned int dof : free_dofs.list())
       for (auto entry = mass.begin(dof / 3); entry != mass.end(dof / 3); ++entry)
-        {
-          const unsigned int other = 3 * entry->column() + dof % 3;
-          if (other >= dof && free_dofs.free_index(other) != FreeDofs::held)
-            mass_values[pattern.position(free_dofs.free_index(other), free_dofs.free_index(dof))] =
-              entry->value();
-        }
+      {
+        const unsigned int other = 3 * entry->column() + dof % 3;
+        if (other >= dof && free_dofs.free_index(other) != FreeDofs::held)
+          mass_values[pattern.position(free_dofs.free_index(other), free_dofs.free_index(dof))]
+              = entry->value();
+      }
   }
 
   EXEMPLAR_HOT_LOOP void
@@ -180,7 +171,7 @@ namespace Exemplar
                       const std::vector<double>    &weights,
                       Evaluation                   &result) const
   {
-    const double eta        = examples != nullptr ? examples->importance() : 0.;
+    const double eta          = examples != nullptr ? examples->importance() : 0.;
     const bool   free_weights = examples != nullptr && !examples->weights_are_prescribed();
 
     result.gradient.reinit(fe_space.n_dofs());
@@ -191,57 +182,55 @@ namespace Exemplar
     result.energy_example = 0.;
     result.min_det_F      = std::numeric_limits<double>::max();
     result.inverted_cells = 0;
-    double stress_square = 0.; // sum V (|C:e| + eta |C:E(w)|)^2
+    double stress_square  = 0.; // sum V (|C:e| + eta |C:E(w)|)^2
 
     for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
+    {
+      const Tetrahedron<double> &tet    = fe_space.tetrahedron(cell);
+      const Lame<double>        &lame   = material.lame(cell);
+      const Matrix3<double>      F      = fe_space.deformation_gradient(cell, positions);
+      const Matrix3<double>      strain = corotated_strain(rotations[cell], F); // e
+      const double               det_F  = determinant(F);
+
+      Matrix3<double> T           = stress(lame, strain);
+      const double    elastic     = 0.5 * tet.volume * contract(T, strain);
+      double          force_scale = norm(T);
+      result.min_det_F            = std::min(result.min_det_F, det_F);
+      result.inverted_cells += (det_F <= 0.);
+      result.energy_elastic += elastic;
+
+      if (examples != nullptr)
       {
-        const Tetrahedron<double> &tet  = fe_space.tetrahedron(cell);
-        const Lame<double>        &lame = material.lame(cell);
-        const Matrix3<double>      F    = fe_space.deformation_gradient(cell, positions);
-        const Matrix3<double> strain = corotated_strain(rotations[cell], F); // e
-        const double          det_F  = determinant(F);
-
-        Matrix3<double> T           = stress(lame, strain);
-        const double    elastic     = 0.5 * tet.volume * contract(T, strain);
-        double          force_scale = norm(T);
-        result.min_det_F            = std::min(result.min_det_F, det_F);
-        result.inverted_cells += (det_F <= 0.);
-        result.energy_elastic += elastic;
-
-        if (examples != nullptr)
-          {
-            const Matrix3<double> target    = examples->strain(cell, weights); // E(w)
-            const Matrix3<double> deviation = difference(strain, target, eta);
-            force_scale += eta * norm(stress(lame, target));
-            T = stress(lame, deviation);
-            // the residual form: near an example the expanded one cancels
-            result.energy_example += 0.5 * tet.volume * contract(T, deviation) - elastic;
-            stress_square += tet.volume * force_scale * force_scale;
-            for (unsigned int i = examples->first_strained_example();
-                 i < result.weight_gradient.size();
-                 ++i)
-              result.weight_gradient[i] -=
-                eta * tet.volume * contract(T, examples->strain(cell, i));
-          }
-
-        Vector3<double> force[4];
-        frozen_forces(tet, rotations[cell], T, force);
-        add_nodal(fe_space.nodes(cell), force, result.gradient);
-        for (unsigned int a = 0; a < 4; ++a)
-          result.force_scale[fe_space.nodes(cell)[a]] +=
-            tet.volume * force_scale * gradient_norms[cell][a];
+        const Matrix3<double> target    = examples->strain(cell, weights); // E(w)
+        const Matrix3<double> deviation = difference(strain, target, eta);
+        force_scale += eta * norm(stress(lame, target));
+        T = stress(lame, deviation);
+        // the residual form: near an example the expanded one cancels
+        result.energy_example += 0.5 * tet.volume * contract(T, deviation) - elastic;
+        stress_square += tet.volume * force_scale * force_scale;
+        for (unsigned int i = examples->first_strained_example(); i < result.weight_gradient.size();
+             ++i)
+          result.weight_gradient[i] -= eta * tet.volume * contract(T, examples->strain(cell, i));
       }
+
+      Vector3<double> force[4];
+      frozen_forces(tet, rotations[cell], T, force);
+      add_nodal(fe_space.nodes(cell), force, result.gradient);
+      for (unsigned int a = 0; a < 4; ++a)
+        result.force_scale[fe_space.nodes(cell)[a]]
+            += tet.volume * force_scale * gradient_norms[cell][a];
+    }
 
     if (free_weights)
       for (unsigned int i = 0; i < weights.size(); ++i)
-        {
-          const double ridge = examples->weight_penalty() * weights[i];
-          result.energy_example += 0.5 * ridge * weights[i];
-          result.weight_gradient[i] += ridge;
-          result.weight_scale =
-            std::max(result.weight_scale,
-                     eta * std::sqrt(stress_square) * examples->strain_norm(i) + std::abs(ridge));
-        }
+      {
+        const double ridge = examples->weight_penalty() * weights[i];
+        result.energy_example += 0.5 * ridge * weights[i];
+        result.weight_gradient[i] += ridge;
+        result.weight_scale
+            = std::max(result.weight_scale,
+                       eta * std::sqrt(stress_square) * examples->strain_norm(i) + std::abs(ridge));
+      }
   }
 
   void
@@ -249,20 +238,19 @@ namespace Exemplar
                                             Evaluation                   &result) const
   {
     for (const unsigned int cell : cells_beside_held_nodes)
-      {
-        const Tetrahedron<double> &tet = fe_space.tetrahedron(cell);
-        const Matrix3<double>      dF  = fe_space.deformation_gradient(cell, displacement);
-        const Matrix3<double>      dT =
-          stress(material.lame(cell), symmetric_part(transpose_times(rotations[cell], dF)));
-        Vector3<double> force[4];
-        frozen_forces(tet, rotations[cell], dT, force);
-        add_nodal(fe_space.nodes(cell), force, result.gradient);
-        for (unsigned int i = examples != nullptr ? examples->first_strained_example() : 0;
-             i < result.weight_gradient.size();
-             ++i)
-          result.weight_gradient[i] -=
-            examples->importance() * tet.volume * contract(dT, examples->strain(cell, i));
-      }
+    {
+      const Tetrahedron<double> &tet = fe_space.tetrahedron(cell);
+      const Matrix3<double>      dF  = fe_space.deformation_gradient(cell, displacement);
+      const Matrix3<double>      dT
+          = stress(material.lame(cell), symmetric_part(transpose_times(rotations[cell], dF)));
+      Vector3<double> force[4];
+      frozen_forces(tet, rotations[cell], dT, force);
+      add_nodal(fe_space.nodes(cell), force, result.gradient);
+      for (unsigned int i = examples != nullptr ? examples->first_strained_example() : 0;
+           i < result.weight_gradient.size(); ++i)
+        result.weight_gradient[i]
+            -= examples->importance() * tet.volume * contract(dT, examples->strain(cell, i));
+    }
   }
 
   EXEMPLAR_HOT_LOOP void
@@ -275,26 +263,26 @@ namespace Exemplar
         matrix_values[i] = inertia->matrix_factor() * mass_values[i];
 
     for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
-      {
-        const Tetrahedron<double> &tet = fe_space.tetrahedron(cell);
-        Vector3<double>            g[4];
-        rotate_gradients(tet, rotations[cell], g);
-        double cell_matrix[12][12];
-        for (unsigned int a = 0; a < 4; ++a)
-          for (unsigned int b = 0; b <= a; ++b)
-            {
-              const Matrix3<double> block =
-                stiffness_block(material.lame(cell), tet.volume, g[a], g[b]);
-              for (unsigned int i = 0; i < 3; ++i)
-                for (unsigned int j = 0; j < 3; ++j)
-                  cell_matrix[3 * a + i][3 * b + j] = block[i][j];
-            }
-        unsigned int entry = 0;
-        for (unsigned int p = 0; p < 12; ++p)
-          for (unsigned int q = 0; q <= p; ++q, ++entry)
-            if (const int position = scatter[cell][entry]; position != FreeDofs::held)
-              matrix_values[position] += cell_matrix[p][q];
-      }
+    {
+      const Tetrahedron<double> &tet = fe_space.tetrahedron(cell);
+      Vector3<double>            g[4];
+      rotate_gradients(tet, rotations[cell], g);
+      double cell_matrix[12][12];
+      for (unsigned int a = 0; a < 4; ++a)
+        for (unsigned int b = 0; b <= a; ++b)
+        {
+          const Matrix3<double> block
+              = stiffness_block(material.lame(cell), tet.volume, g[a], g[b]);
+          for (unsigned int i = 0; i < 3; ++i)
+            for (unsigned int j = 0; j < 3; ++j)
+              cell_matrix[3 * a + i][3 * b + j] = block[i][j];
+        }
+      unsigned int entry = 0;
+      for (unsigned int p = 0; p < 12; ++p)
+        for (unsigned int q = 0; q <= p; ++q, ++entry)
+          if (const int position = scatter[cell][entry]; position != FreeDofs::held)
+            matrix_values[position] += cell_matrix[p][q];
+    }
   }
 
   EXEMPLAR_HOT_LOOP void
@@ -303,17 +291,17 @@ namespace Exemplar
     columns.assign(static_cast<std::size_t>(free_dofs.size()) * examples->size(), 0.);
     for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
       for (unsigned int i = examples->first_strained_example(); i < examples->size(); ++i)
-        {
-          const Matrix3<double> T = stress(material.lame(cell), examples->strain(cell, i));
-          Vector3<double>       force[4];
-          frozen_forces(fe_space.tetrahedron(cell), rotations[cell], T, force);
-          double *column = columns.data() + static_cast<std::size_t>(i) * free_dofs.size();
-          for (unsigned int a = 0; a < 4; ++a)
-            for (unsigned int c = 0; c < 3; ++c)
-              if (const int dof = free_dofs.free_index(3 * fe_space.nodes(cell)[a] + c);
-                  dof != FreeDofs::held)
-                column[dof] += examples->importance() * force[a][c];
-        }
+      {
+        const Matrix3<double> T = stress(material.lame(cell), examples->strain(cell, i));
+        Vector3<double>       force[4];
+        frozen_forces(fe_space.tetrahedron(cell), rotations[cell], T, force);
+        double *column = columns.data() + static_cast<std::size_t>(i) * free_dofs.size();
+        for (unsigned int a = 0; a < 4; ++a)
+          for (unsigned int c = 0; c < 3; ++c)
+            if (const int dof = free_dofs.free_index(3 * fe_space.nodes(cell)[a] + c);
+                dof != FreeDofs::held)
+              column[dof] += examples->importance() * force[a][c];
+      }
   }
 
   CellResults
@@ -321,24 +309,24 @@ namespace Exemplar
                           const std::vector<double>    &weights) const
   {
     const unsigned int n = fe_space.n_cells();
-    CellResults        results{std::vector<double>(n), std::vector<double>(n), std::vector<double>(n)};
+    CellResults results{ std::vector<double>(n), std::vector<double>(n), std::vector<double>(n) };
     for (unsigned int cell = 0; cell < n; ++cell)
-      {
-        const Lame<double>   &lame   = material.lame(cell);
-        const Matrix3<double> F      = fe_space.deformation_gradient(cell, positions);
-        const Matrix3<double> strain = corotated_strain(rotations[cell], F);
-        Matrix3<double>       T      = stress(lame, strain);
+    {
+      const Lame<double>   &lame   = material.lame(cell);
+      const Matrix3<double> F      = fe_space.deformation_gradient(cell, positions);
+      const Matrix3<double> strain = corotated_strain(rotations[cell], F);
+      Matrix3<double>       T      = stress(lame, strain);
 
-        results.strain_energy_density[cell] = 0.5 * contract(T, strain);
-        results.det_F[cell]                 = determinant(F);
-        if (examples != nullptr)
-          T = stress(lame,
-                     difference(strain, examples->strain(cell, weights), examples->importance()));
-        const double third = trace(T) / 3.;
-        for (int i = 0; i < 3; ++i)
-          T[i][i] -= third;
-        results.von_mises_stress[cell] = std::sqrt(1.5 * contract(T, T));
-      }
+      results.strain_energy_density[cell] = 0.5 * contract(T, strain);
+      results.det_F[cell]                 = determinant(F);
+      if (examples != nullptr)
+        T = stress(lame,
+                   difference(strain, examples->strain(cell, weights), examples->importance()));
+      const double third = trace(T) / 3.;
+      for (int i = 0; i < 3; ++i)
+        T[i][i] -= third;
+      results.von_mises_stress[cell] = std::sqrt(1.5 * contract(T, T));
+    }
     return results;
   }
 } // namespace Exemplar

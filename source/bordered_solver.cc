@@ -22,7 +22,7 @@ namespace Exemplar
     {
     public:
       BlockSolver(std::unique_ptr<SpdOperator> new_matrix, const SymmetricPattern &pattern)
-        : matrix(std::move(new_matrix))
+          : matrix(std::move(new_matrix))
       {
         matrix->reinit(pattern);
       }
@@ -67,29 +67,29 @@ namespace Exemplar
         dealii::LAPACKFullMatrix<double> schur(k + m, k + m);
         dealii::Vector<double>           unknowns(k + m);
         for (std::size_t i = 0; i < k; ++i)
-          {
-            const double *G_i = block.coupling.data() + i * n;
-            unknowns[i]       = vector.weights[i] + dot(G_i, columns.data(), n);
-            for (std::size_t j = 0; j < k; ++j)
-              schur(i, j) = block.H(i, j) - dot(G_i, columns.data() + (1 + j) * n, n);
-          }
+        {
+          const double *G_i = block.coupling.data() + i * n;
+          unknowns[i]       = vector.weights[i] + dot(G_i, columns.data(), n);
+          for (std::size_t j = 0; j < k; ++j)
+            schur(i, j) = block.H(i, j) - dot(G_i, columns.data() + (1 + j) * n, n);
+        }
         for (std::size_t c = 0; c < m; ++c)
-          {
-            unknowns[k + c] = vector.multipliers[c];
-            for (std::size_t i = 0; i < k; ++i)
-              schur(k + c, i) = schur(i, k + c) = block.N(c, i);
-          }
+        {
+          unknowns[k + c] = vector.multipliers[c];
+          for (std::size_t i = 0; i < k; ++i)
+            schur(k + c, i) = schur(i, k + c) = block.N(c, i);
+        }
         try
-          {
-            schur.compute_lu_factorization();
-            schur.solve(unknowns);
-          }
+        {
+          schur.compute_lu_factorization();
+          schur.solve(unknowns);
+        }
         catch (const dealii::ExceptionBase &)
-          {
-            throw SolverFailure("The system for the example weights is singular. Set "
-                                "Examples/Weight penalty to auto, or remove an example that is a "
-                                "combination of the others.");
-          }
+        {
+          throw SolverFailure("The system for the example weights is singular. Set "
+                              "Examples/Weight penalty to auto, or remove an example that is a "
+                              "combination of the others.");
+        }
         std::copy_n(unknowns.begin(), k, vector.weights.begin());
         std::copy_n(unknowns.begin() + k, m, vector.multipliers.begin());
       }

@@ -17,9 +17,9 @@ namespace Exemplar
     {
     public:
       explicit UmfpackSolver(const SymmetricPattern &pattern)
-        : pattern(pattern)
-        , values(pattern.row.size())
-      {}
+          : pattern(pattern), values(pattern.row.size())
+      {
+      }
 
       std::vector<double> &
       matrix_values() override
@@ -34,22 +34,22 @@ namespace Exemplar
           build_pattern(block);
         fill(block);
         try
-          {
-            umfpack.factorize(sparse);
-          }
+        {
+          umfpack.factorize(sparse);
+        }
         catch (const dealii::ExceptionBase &)
-          {
-            throw SolverFailure("UMFPACK finds the bordered matrix of the step singular. A body "
-                                "may be without support, or examples may depend on each other.");
-          }
+        {
+          throw SolverFailure("UMFPACK finds the bordered matrix of the step singular. A body "
+                              "may be without support, or examples may depend on each other.");
+        }
       }
 
       void
       solve(const WeightBlock &, BorderedVector &vector) override
       {
         dealii::Vector<double> all(sparse.m());
-        auto                   next = std::copy(vector.positions.begin(), vector.positions.end(), all.begin());
-        next = std::copy(vector.weights.begin(), vector.weights.end(), next);
+        auto next = std::copy(vector.positions.begin(), vector.positions.end(), all.begin());
+        next      = std::copy(vector.weights.begin(), vector.weights.end(), next);
         std::copy(vector.multipliers.begin(), vector.multipliers.end(), next);
         umfpack.solve(all);
         const auto first_weight     = all.begin() + vector.positions.size();
@@ -66,7 +66,9 @@ namespace Exemplar
       for_each_entry(const WeightBlock &block, const Add &add)
       {
         const unsigned int n = pattern.n(), k = block.H.m();
-        const auto         add_twice = [&add](const unsigned int i, const unsigned int j, const double value) {
+        const auto         add_twice
+            = [&add](const unsigned int i, const unsigned int j, const double value)
+        {
           add(i, j, value);
           if (i != j)
             add(j, i, value);
@@ -76,24 +78,23 @@ namespace Exemplar
                ++entry)
             add_twice(pattern.row[entry], column, values[entry]);
         for (unsigned int j = 0; j < k; ++j)
-          {
-            for (unsigned int i = 0; i < n; ++i)
-              add_twice(n + j, i, -block.coupling[static_cast<std::size_t>(j) * n + i]);
-            for (unsigned int i = j; i < k; ++i)
-              add_twice(n + i, n + j, block.H(i, j));
-            for (unsigned int c = 0; c < block.N.m(); ++c)
-              add_twice(n + k + c, n + j, block.N(c, j));
-          }
+        {
+          for (unsigned int i = 0; i < n; ++i)
+            add_twice(n + j, i, -block.coupling[static_cast<std::size_t>(j) * n + i]);
+          for (unsigned int i = j; i < k; ++i)
+            add_twice(n + i, n + j, block.H(i, j));
+          for (unsigned int c = 0; c < block.N.m(); ++c)
+            add_twice(n + k + c, n + j, block.N(c, j));
+        }
       }
 
       void
       build_pattern(const WeightBlock &block)
       {
-        const unsigned int size = pattern.n() + block.H.m() + block.N.m();
+        const unsigned int             size = pattern.n() + block.H.m() + block.N.m();
         dealii::DynamicSparsityPattern entries(size);
-        for_each_entry(block, [&](const unsigned int i, const unsigned int j, double) {
-          entries.add(i, j);
-        });
+        for_each_entry(block, [&](const unsigned int i, const unsigned int j, double)
+                       { entries.add(i, j); });
         sparsity.copy_from(entries);
         sparse.reinit(sparsity);
       }
@@ -102,9 +103,8 @@ namespace Exemplar
       fill(const WeightBlock &block)
       {
         sparse = 0.;
-        for_each_entry(block, [&](const unsigned int i, const unsigned int j, const double value) {
-          sparse.set(i, j, value);
-        });
+        for_each_entry(block, [&](const unsigned int i, const unsigned int j, const double value)
+                       { sparse.set(i, j, value); });
       }
 
       const SymmetricPattern       pattern;

@@ -28,8 +28,8 @@ namespace Exemplar
       Work      &work   = checkpoint.work;
       RunTotals &totals = checkpoint.totals;
       archive &checkpoint.parameters &checkpoint.input_digests;
-      archive &state.step &state.time &state.positions &state.velocities &state.weights
-        &state.multiplier;
+      archive &state.step &state.time &state.positions &state.velocities &state.weights &state
+          .multiplier;
       archive &work.handles &work.gravity &work.loads;
       archive &totals.iterations &totals.factorizations &totals.worst_residual;
       for (double &seconds : totals.seconds)
@@ -55,33 +55,35 @@ namespace Exemplar
   {
     std::ifstream in(file, std::ios::binary);
     if (!in)
-      throw UserError(file.string() + ": there is no checkpoint to resume from. Run the scene "
-                                      "without --resume.");
-    const std::string broken =
-      file.string() + " cannot be read as a checkpoint. Run the scene without --resume.";
+      throw UserError(file.string()
+                      + ": there is no checkpoint to resume from. Run the scene "
+                        "without --resume.");
+    const std::string broken
+        = file.string() + " cannot be read as a checkpoint. Run the scene without --resume.";
     try
-      {
-        boost::archive::binary_iarchive archive(in);
-        std::string                     found;
-        archive                        &found;
-        if (found != format)
-          throw UserError(file.string() + " is no checkpoint of this version of exemplar. Run the "
-                                          "scene without --resume.");
-        Checkpoint checkpoint;
-        transfer(archive, checkpoint);
-        return checkpoint;
-      }
+    {
+      boost::archive::binary_iarchive archive(in);
+      std::string                     found;
+      archive                        &found;
+      if (found != format)
+        throw UserError(file.string()
+                        + " is no checkpoint of this version of exemplar. Run the "
+                          "scene without --resume.");
+      Checkpoint checkpoint;
+      transfer(archive, checkpoint);
+      return checkpoint;
+    }
     catch (const boost::archive::archive_exception &)
-      {
-        throw UserError(broken);
-      }
+    {
+      throw UserError(broken);
+    }
     catch (const std::length_error &) // wrong bytes, taken for the size of a vector
-      {
-        throw UserError(broken);
-      }
+    {
+      throw UserError(broken);
+    }
     catch (const std::bad_alloc &) // the same
-      {
-        throw UserError(broken);
-      }
+    {
+      throw UserError(broken);
+    }
   }
 } // namespace Exemplar

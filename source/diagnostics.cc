@@ -23,11 +23,9 @@ namespace Exemplar
                            const Loads        *loads,
                            const ExamplePoses *examples,
                            const Inertia      *inertia)
-    : handles(handles)
-    , loads(loads)
-    , examples(examples)
-    , inertia(inertia)
-  {}
+      : handles(handles), loads(loads), examples(examples), inertia(inertia)
+  {
+  }
 
   void
   Diagnostics::add_work(const dealii::Vector<double> &old_positions,
@@ -42,11 +40,11 @@ namespace Exemplar
     if (loads != nullptr && loads->has_gravity())
       work.gravity += loads->gravity() * displacement;
     if (loads != nullptr && loads->has_named_loads())
-      {
-        dealii::Vector<double> force(displacement.size());
-        loads->named_loads(state.time, force);
-        work.loads += force * displacement;
-      }
+    {
+      dealii::Vector<double> force(displacement.size());
+      loads->named_loads(state.time, force);
+      work.loads += force * displacement;
+    }
   }
 
   StatisticsRow
@@ -55,10 +53,10 @@ namespace Exemplar
                    const Equilibrium &equilibrium) const
   {
     const Evaluation &evaluation = equilibrium.evaluation();
-    StatisticsRow row = {{"step", std::to_string(state.step)},
-                         {"time", shortest_text(state.time)},
-                         {"status", status_name(report.status)},
-                         {"iterations", std::to_string(report.iterations)}};
+    StatisticsRow     row        = { { "step", std::to_string(state.step) },
+                                     { "time", shortest_text(state.time) },
+                                     { "status", status_name(report.status) },
+                                     { "iterations", std::to_string(report.iterations) } };
     append(row, "residual", report.residual);
     append(row, "energy_elastic", evaluation.energy_elastic);
     if (examples != nullptr)
@@ -69,17 +67,17 @@ namespace Exemplar
     for (unsigned int i = 0; i < state.weights.size(); ++i)
       append(row, "weight_" + std::to_string(i), state.weights[i]);
     if (examples != nullptr && !examples->weights_are_prescribed())
-      {
-        append(row, "multiplier", state.multiplier);
-        append(row, "kkt_residual", report.kkt_residual);
-      }
+    {
+      append(row, "multiplier", state.multiplier);
+      append(row, "kkt_residual", report.kkt_residual);
+    }
     append(row, "min_det_F", evaluation.min_det_F);
     row.emplace_back("inverted_cells", std::to_string(evaluation.inverted_cells));
     if (inertia != nullptr)
-      {
-        append(row, "momentum", sums.momentum);
-        append(row, "angular_momentum", sums.angular_momentum);
-      }
+    {
+      append(row, "momentum", sums.momentum);
+      append(row, "angular_momentum", sums.angular_momentum);
+    }
     if (handles != nullptr)
       append(row, "work_handles", work.handles);
     if (loads != nullptr && loads->has_gravity())

@@ -23,16 +23,16 @@ namespace Exemplar
     make_problem(const Parameters &parameters)
     {
       try
-        {
-          auto problem = std::make_unique<Problem>(parameters);
-          for (const std::string &warning : problem->warnings())
-            std::cerr << "Warning: " << warning << std::endl;
-          return problem;
-        }
+      {
+        auto problem = std::make_unique<Problem>(parameters);
+        for (const std::string &warning : problem->warnings())
+          std::cerr << "Warning: " << warning << std::endl;
+        return problem;
+      }
       catch (const SolverFailure &failure)
-        {
-          throw UserError(failure.what());
-        }
+      {
+        throw UserError(failure.what());
+      }
     }
 
     void
@@ -50,8 +50,8 @@ namespace Exemplar
       else
         std::cout << "none\n";
       std::cout << "Solver    " << method_name(problem.parameters.solver.method) << ", "
-                << problem.time_axis.n_steps() << " steps; BLAS " << blas.library << ' ' << blas.core
-                << '\n';
+                << problem.time_axis.n_steps() << " steps; BLAS " << blas.library << ' '
+                << blas.core << '\n';
       if (blas.core.empty())
         std::cout << "          (Debian's libopenblas0-pthread is several times faster)\n";
       std::cout << "Output    " << problem.parameters.output.directory << std::endl;
@@ -89,11 +89,12 @@ namespace Exemplar
       if (report.status == SolveStatus::failed)
         throw SolverFailure("Step " + step + " failed: " + report.failure);
       std::ostringstream message;
-      message << "Step " << step << " stopped at its iteration limit: residual " << report.residual
-              << " after " << report.iterations << " iterations, tolerance "
-              << problem.parameters.solver.tolerance
-              << ". Take smaller steps (Time/Step or Time/Increments), or change Solver/Tolerance or "
-                 "Solver/Maximum iterations.";
+      message
+          << "Step " << step << " stopped at its iteration limit: residual " << report.residual
+          << " after " << report.iterations << " iterations, tolerance "
+          << problem.parameters.solver.tolerance
+          << ". Take smaller steps (Time/Step or Time/Increments), or change Solver/Tolerance or "
+             "Solver/Maximum iterations.";
       throw SolverFailure(message.str());
     }
 
@@ -101,19 +102,19 @@ namespace Exemplar
     run_steps(Problem &problem, Results &results, Progress &progress)
     {
       while (problem.state.step < problem.time_axis.n_steps())
+      {
+        check_interrupt();
+        const SolveReport report = problem.advance();
+        results.add_step(report);
+        if (!is_success(report.status))
         {
-          check_interrupt();
-          const SolveReport report = problem.advance();
-          results.add_step(report);
-          if (!is_success(report.status))
-            {
-              results.finish(status_name(report.status));
-              progress.finish();
-              fail(problem, report);
-            }
-          StepClock::Scope scope(problem.clock, Part::output);
-          progress.update(problem.state.step, note(report));
+          results.finish(status_name(report.status));
+          progress.finish();
+          fail(problem, report);
         }
+        StepClock::Scope scope(problem.clock, Part::output);
+        progress.update(problem.state.step, note(report));
+      }
     }
   } // namespace
 
@@ -129,27 +130,27 @@ namespace Exemplar
       results.begin();
     note_interrupts();
     if (!options.quiet)
-      {
-        StepClock::Scope scope(problem->clock, Part::output);
-        print_header(*problem);
-      }
+    {
+      StepClock::Scope scope(problem->clock, Part::output);
+      print_header(*problem);
+    }
 
     Progress progress(std::cout, options.quiet, problem->state.step, problem->time_axis.n_steps());
     try
-      {
-        run_steps(*problem, results, progress);
-      }
+    {
+      run_steps(*problem, results, progress);
+    }
     catch (const Interrupted &)
-      {
-        progress.finish();
-        results.finish("interrupted");
-        throw Interrupted("Interrupted after step " + std::to_string(problem->state.step) +
-                          ". Go on with --resume.");
-      }
+    {
+      progress.finish();
+      results.finish("interrupted");
+      throw Interrupted("Interrupted after step " + std::to_string(problem->state.step)
+                        + ". Go on with --resume.");
+    }
     progress.finish();
-    results.finish(status_name(parameters.solver.method == Method::one_pass ?
-                                 SolveStatus::one_pass :
-                                 SolveStatus::converged));
+    results.finish(status_name(parameters.solver.method == Method::one_pass
+                                   ? SolveStatus::one_pass
+                                   : SolveStatus::converged));
     if (!options.quiet)
       print_times(results.get_totals());
   }

@@ -24,8 +24,8 @@ namespace Exemplar
     const char *
     right_core_type()
     {
-      if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-          __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl"))
+      if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq")
+          && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl"))
         return "SKYLAKEX";
       if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
         return "HASWELL";
@@ -35,8 +35,8 @@ namespace Exemplar
     bool
     is_old_core(const std::string &core)
     {
-      for (const char *old : {"Prescott", "Core2", "Katmai", "Coppermine", "Northwood", "Banias",
-                              "Penryn", "Dunnington", "Nehalem", "Atom", "Opteron", "Barcelona"})
+      for (const char *old : { "Prescott", "Core2", "Katmai", "Coppermine", "Northwood", "Banias",
+                               "Penryn", "Dunnington", "Nehalem", "Atom", "Opteron", "Barcelona" })
         if (core == old)
           return true;
       return false;
@@ -46,14 +46,14 @@ namespace Exemplar
   BlasInfo
   blas_info()
   {
-    BlasInfo info{"unknown", ""};
+    BlasInfo info{ "unknown", "" };
     if (const auto config = find_function<char *()>("openblas_get_config"))
-      {
-        std::istringstream words(config());
-        std::string        name, version;
-        words >> name >> version;
-        info.library = name + " " + version;
-      }
+    {
+      std::istringstream words(config());
+      std::string        name, version;
+      words >> name >> version;
+      info.library = name + " " + version;
+    }
     if (const auto core = find_function<char *()>("openblas_get_corename"))
       info.core = core();
     return info;

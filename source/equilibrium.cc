@@ -11,24 +11,34 @@ namespace Exemplar
 {
   namespace
   {
-    const EnumTable<Method> methods = {{Method::one_pass, "one pass"},
-                                       {Method::fixed_point, "fixed point"}};
+    const EnumTable<Method> methods
+        = { { Method::one_pass, "one pass" }, { Method::fixed_point, "fixed point" } };
 
-    const EnumTable<LinearSolver> linear_solvers = {{LinearSolver::automatic, "auto"},
-                                                    {LinearSolver::cholesky, "cholesky"},
-                                                    {LinearSolver::umfpack, "umfpack"}};
+    const EnumTable<LinearSolver> linear_solvers = { { LinearSolver::automatic, "auto" },
+                                                     { LinearSolver::cholesky, "cholesky" },
+                                                     { LinearSolver::umfpack, "umfpack" } };
 
-    const EnumTable<SolveStatus> statuses = {{SolveStatus::initial, "initial"},
-                                             {SolveStatus::converged, "converged"},
-                                             {SolveStatus::one_pass, "one pass"},
-                                             {SolveStatus::iteration_limit, "iteration limit"},
-                                             {SolveStatus::failed, "failed"}};
+    const EnumTable<SolveStatus> statuses = { { SolveStatus::initial, "initial" },
+                                              { SolveStatus::converged, "converged" },
+                                              { SolveStatus::one_pass, "one pass" },
+                                              { SolveStatus::iteration_limit, "iteration limit" },
+                                              { SolveStatus::failed, "failed" } };
+
+    /// The greater of two numbers; a NaN is the greatest, which std::max may pass over.
+    double
+    greater(const double a, const double b)
+    {
+      return a <= b ? b : a;
+    }
 
     /// a / b; where a is nothing but rounding, as in a body on which nothing acts, it
-    /// counts as 0.
+    /// counts as 0. Throws SolverFailure for what is not finite.
     double
     relative(const double a, const double b, const double rounding)
     {
+      if (!std::isfinite(a) || !std::isfinite(b))
+        throw SolverFailure("The residual is not a finite number. Forces have grown without bound: "
+                            "take smaller steps, or look at what the handles do.");
       return a <= rounding ? 0. : a / b;
     }
   } // namespace
@@ -37,29 +47,22 @@ namespace Exemplar
   SolverParameters::declare(dealii::ParameterHandler &prm)
   {
     prm.enter_subsection("Solver");
-    declare_enum(prm,
-                 "Method",
-                 method,
-                 methods,
+    declare_enum(prm, "Method", method, methods,
                  "one pass: the paper's, one linear solve with frozen rotations a step; fixed "
                  "point: the same, repeated until the residual is below Tolerance.");
-    prm.add_parameter("Tolerance",
-                      tolerance,
+    prm.add_parameter("Tolerance", tolerance,
                       "Relative residual at which a step has converged: the greatest free residual "
                       "force over the greatest nodal force scale. Not used by one pass.",
                       dealii::Patterns::Double(1e-16, 1.));
-    prm.add_parameter("Maximum iterations",
-                      maximum_iterations,
+    prm.add_parameter("Maximum iterations", maximum_iterations,
                       "Iterations after which a step without convergence ends the run with status "
                       "2. Not used by one pass.",
                       dealii::Patterns::Integer(1));
-    declare_enum(prm,
-                 "Linear solver",
-                 linear_solver,
-                 linear_solvers,
-                 "cholesky: CHOLMOD factorises the positions' block, the weights follow from a "
-                 "dense Schur complement; umfpack: the whole bordered matrix at once, for checking; "
-                 "auto: cholesky.");
+    declare_enum(
+        prm, "Linear solver", linear_solver, linear_solvers,
+        "cholesky: CHOLMOD factorises the positions' block, the weights follow from a "
+        "dense Schur complement; umfpack: the whole bordered matrix at once, for checking; "
+        "auto: cholesky.");
     prm.leave_subsection();
   }
 
@@ -76,16 +79,15 @@ namespace Exemplar
   }
 
   Equilibrium::Equilibrium(const SolverParameters &parameters, const Parts &parts)
-    : parameters(parameters)
-    , parts(parts)
+      : parameters(parameters), parts(parts)
   {
     if (parts.examples != nullptr && !parts.examples->weights_are_prescribed())
-      {
-        block.H = parts.examples->weight_matrix();
-        block.N.reinit(1, block.H.n()); // one constraint: the weights sum to one
-        for (unsigned int i = 0; i < block.H.n(); ++i)
-          block.N(0, i) = 1.;
-      }
+    {
+      block.H = parts.examples->weight_matrix();
+      block.N.reinit(1, block.H.n()); // one constraint: the weights sum to one
+      for (unsigned int i = 0; i < block.H.n(); ++i)
+        block.N(0, i) = 1.;
+    }
   }
 
   void
@@ -103,24 +105,24 @@ namespace Exemplar
   {
     StepClock::Scope scope(parts.clock, Part::evaluate);
     if (parts.inertia != nullptr)
-      {
-        parts.inertia->begin_step(state, step_size);
-        dynamic_terms = true;
-      }
+    {
+      parts.inertia->begin_step(state, step_size);
+      dynamic_terms = true;
+    }
     state.time = time;
     update_loads(time);
     if (parts.examples != nullptr && parts.examples->weights_are_prescribed())
-      {
-        if (parts.handles != nullptr)
-          parts.handles->move(time, state.positions);
-        state.weights = parts.examples->prescribed_weights(time);
-        evaluate(state);
-      }
+    {
+      if (parts.handles != nullptr)
+        parts.handles->move(time, state.positions);
+      state.weights = parts.examples->prescribed_weights(time);
+      evaluate(state);
+    }
     else
-      {
-        move_handles(state);
-        add_inertia_and_loads(state);
-      }
+    {
+      move_handles(state);
+      add_inertia_and_loads(state);
+    }
   }
 
   void
@@ -167,8 +169,7 @@ namespace Exemplar
       return;
     total_gradient -= external_force;
     for (unsigned int node = 0; node < force_scale.size(); ++node)
-      force_scale[node] += std::hypot(external_force[3 * node],
-                                      external_force[3 * node + 1],
+      force_scale[node] += std::hypot(external_force[3 * node], external_force[3 * node + 1],
                                       external_force[3 * node + 2]);
   }
 
@@ -194,12 +195,12 @@ namespace Exemplar
     unknowns.weights.clear();
     unknowns.multipliers.clear();
     if (block.H.m() > 0)
-      {
-        for (const double derivative : current.weight_gradient)
-          unknowns.weights.push_back(-derivative);
-        unknowns.multipliers.push_back(
+    {
+      for (const double derivative : current.weight_gradient)
+        unknowns.weights.push_back(-derivative);
+      unknowns.multipliers.push_back(
           1. - std::accumulate(state.weights.begin(), state.weights.end(), 0.));
-      }
+    }
     parts.linear_solver.solve(block, unknowns);
     for (unsigned int i = 0; i < free.size(); ++i)
       state.positions[free[i]] += unknowns.positions[i];
@@ -212,26 +213,23 @@ namespace Exemplar
   {
     double greatest = 0.;
     for (const unsigned int dof : parts.free_dofs.list())
-      {
-        greatest = std::max(greatest, std::abs(total_gradient[dof]));
-        if (!std::isfinite(total_gradient[dof]))
-          greatest = total_gradient[dof]; // max() would pass over a NaN
-      }
-    report.residual = relative(greatest, force_scale.linfty_norm(), parts.assembler.rounding_force());
+      greatest = greater(std::abs(total_gradient[dof]), greatest);
+    report.residual
+        = relative(greatest, force_scale.linfty_norm(), parts.assembler.rounding_force());
     if (!current.weight_gradient.empty())
+    {
+      // with the weights free, all components of the gradient equal -multiplier
+      const auto &gradient = current.weight_gradient;
+      state.multiplier     = -std::accumulate(gradient.begin(), gradient.end(), 0.)
+                         / static_cast<double>(gradient.size());
+      double deviation = 0., rounding = 0.;
+      for (unsigned int i = 0; i < gradient.size(); ++i)
       {
-        // with the weights free, all components of the gradient equal -multiplier
-        const auto &gradient = current.weight_gradient;
-        state.multiplier =
-          -std::accumulate(gradient.begin(), gradient.end(), 0.) / static_cast<double>(gradient.size());
-        double deviation = 0., rounding = 0.;
-        for (unsigned int i = 0; i < gradient.size(); ++i)
-          {
-            deviation = std::max(deviation, std::abs(gradient[i] + state.multiplier));
-            rounding  = std::max(rounding, parts.assembler.rounding_weight_gradient(i));
-          }
-        report.kkt_residual = relative(deviation, current.weight_scale, rounding);
+        deviation = greater(std::abs(gradient[i] + state.multiplier), deviation);
+        rounding  = std::max(rounding, parts.assembler.rounding_weight_gradient(i));
       }
+      report.kkt_residual = relative(deviation, current.weight_scale, rounding);
+    }
     report.residual_history.push_back(report.residual);
   }
 
@@ -240,36 +238,34 @@ namespace Exemplar
   {
     SolveReport report;
     try
+    {
+      // The rotations are still those of the last accepted positions, before the
+      // handles move: the paper's choice.
+      begin_step(state, time, step_size);
+      while (report.status == SolveStatus::initial)
       {
-        // The rotations are still those of the last accepted positions, before the
-        // handles move: the paper's choice.
-        begin_step(state, time, step_size);
-        while (report.status == SolveStatus::initial)
-          {
-            check_interrupt();
-            linear_step(state);
-            ++report.iterations;
-            {
-              StepClock::Scope scope(parts.clock, Part::evaluate);
-              parts.assembler.update_rotations(state.positions);
-            }
-            evaluate(state);
-            measure(state, report);
-            if (!std::isfinite(report.residual))
-              throw SolverFailure("The residual is not a finite number.");
-            if (parameters.method == Method::one_pass)
-              report.status = SolveStatus::one_pass;
-            else if (std::max(report.residual, report.kkt_residual) <= parameters.tolerance)
-              report.status = SolveStatus::converged;
-            else if (report.iterations == parameters.maximum_iterations)
-              report.status = SolveStatus::iteration_limit;
-          }
+        check_interrupt();
+        linear_step(state);
+        ++report.iterations;
+        {
+          StepClock::Scope scope(parts.clock, Part::evaluate);
+          parts.assembler.update_rotations(state.positions);
+        }
+        evaluate(state);
+        measure(state, report);
+        if (parameters.method == Method::one_pass)
+          report.status = SolveStatus::one_pass;
+        else if (std::max(report.residual, report.kkt_residual) <= parameters.tolerance)
+          report.status = SolveStatus::converged;
+        else if (report.iterations == parameters.maximum_iterations)
+          report.status = SolveStatus::iteration_limit;
       }
+    }
     catch (const SolverFailure &failure)
-      {
-        report.status  = SolveStatus::failed;
-        report.failure = failure.what();
-      }
+    {
+      report.status  = SolveStatus::failed;
+      report.failure = failure.what();
+    }
     return report;
   }
 } // namespace Exemplar

@@ -14,9 +14,9 @@ namespace Exemplar
 {
   namespace
   {
-    const EnumTable<ExampleEnergy>  energies = {{ExampleEnergy::scaled, "scaled"}};
-    const EnumTable<ExampleWeights> weight_kinds = {{ExampleWeights::free, "free"},
-                                                    {ExampleWeights::prescribed, "prescribed"}};
+    const EnumTable<ExampleEnergy>  energies = { { ExampleEnergy::scaled, "scaled" } };
+    const EnumTable<ExampleWeights> weight_kinds
+        = { { ExampleWeights::free, "free" }, { ExampleWeights::prescribed, "prescribed" } };
 
     /// sum E V [J]: the scale of the energy of a strain of 1.
     double
@@ -44,40 +44,28 @@ namespace Exemplar
   ExampleParameters::declare(dealii::ParameterHandler &prm)
   {
     prm.enter_subsection("Examples");
-    declare_input_files(prm,
-                        "Poses",
-                        poses,
+    declare_input_files(prm, "Poses", poses,
                         "Example poses: .msh files with the nodes and tetrahedra of the mesh, such "
                         "as the final.msh of another scene.");
-    prm.add_parameter("Pose functions",
-                      pose_functions,
+    prm.add_parameter("Pose functions", pose_functions,
                       "Analytic example poses after those of Poses: x'; y'; z' as functions of the "
                       "rest position x, y, z [m]; poses separated by |.");
-    prm.add_parameter("Include rest pose",
-                      include_rest_pose,
+    prm.add_parameter("Include rest pose", include_rest_pose,
                       "Whether the rest pose is example 0. Without it a single example is a "
                       "permanent pre-strain.");
-    prm.add_parameter("Importance",
-                      importance,
-                      "eta [-]: 0 is plain elasticity (no pose file is opened), 1 lets the examples "
-                      "alone be free of stress.",
-                      dealii::Patterns::Double(0., 1.));
-    prm.add_parameter("Weight penalty",
-                      weight_penalty,
+    prm.add_parameter(
+        "Importance", importance,
+        "eta [-]: 0 is plain elasticity (no pose file is opened), 1 lets the examples "
+        "alone be free of stress.",
+        dealii::Patterns::Double(0., 1.));
+    prm.add_parameter("Weight penalty", weight_penalty,
                       "sigma [J] of the ridge sigma/2 sum w_i^2 on free weights: auto, paper (both "
                       "1e-5 sum E V over the cells) or a number not less than 0.");
-    declare_enum(prm,
-                 "Energy",
-                 energy,
-                 energies,
+    declare_enum(prm, "Energy", energy, energies,
                  "scaled: V/2 (strain - eta E(w)) : C : (strain - eta E(w)), as the paper.");
-    declare_enum(prm,
-                 "Weights",
-                 weights,
-                 weight_kinds,
+    declare_enum(prm, "Weights", weights, weight_kinds,
                  "free: minimise the energy over weights that sum to one; prescribed: as given.");
-    prm.add_parameter("Prescribed weights",
-                      prescribed_weights,
+    prm.add_parameter("Prescribed weights", prescribed_weights,
                       "One function of t for each example, the rest pose first where it is "
                       "included, separated by ;. They sum to one.");
     prm.leave_subsection();
@@ -92,10 +80,10 @@ namespace Exemplar
   void
   ExampleParameters::check() const
   {
-    if (weight_penalty != "auto" && weight_penalty != "paper" &&
-        !non_negative_number(weight_penalty))
-      throw UserError("Examples/Weight penalty = '" + weight_penalty +
-                      "' is not allowed. Allowed: auto, paper or a number not less than 0 [J].");
+    if (weight_penalty != "auto" && weight_penalty != "paper"
+        && !non_negative_number(weight_penalty))
+      throw UserError("Examples/Weight penalty = '" + weight_penalty
+                      + "' is not allowed. Allowed: auto, paper or a number not less than 0 [J].");
     if (weights == ExampleWeights::prescribed && in_use() && prescribed_weights.empty())
       throw UserError("Examples/Weights = prescribed, but Examples/Prescribed weights is empty. "
                       "Give one function of t for each example, for instance '1-t; t'.");
@@ -109,9 +97,8 @@ namespace Exemplar
                              const FESpace           &fe_space,
                              const Material          &material,
                              const double             end)
-    : fe_space(fe_space)
-    , eta(parameters.importance)
-    , first_strained(parameters.include_rest_pose ? 1 : 0)
+      : fe_space(fe_space), eta(parameters.importance),
+        first_strained(parameters.include_rest_pose ? 1 : 0)
   {
     if (parameters.include_rest_pose)
       add_pose("rest pose", mesh.get_nodes());
@@ -120,13 +107,13 @@ namespace Exemplar
     add_pose_functions(parameters.pose_functions, mesh);
 
     if (parameters.weights == ExampleWeights::prescribed)
-      {
-        prescribed.emplace("Examples/Prescribed weights", parameters.prescribed_weights, "t", size());
-        check_prescribed_weights(end);
-      }
+    {
+      prescribed.emplace("Examples/Prescribed weights", parameters.prescribed_weights, "t", size());
+      check_prescribed_weights(end);
+    }
     else
       sigma = non_negative_number(parameters.weight_penalty)
-                .value_or(1e-5 * unit_energy(fe_space, material));
+                  .value_or(1e-5 * unit_energy(fe_space, material));
 
     compute_strains();
     compute_weight_matrix(material);
@@ -148,13 +135,13 @@ namespace Exemplar
   ExamplePoses::add_pose_functions(const std::string &functions, const Mesh &mesh)
   {
     for (const std::string &function : split_trimmed(functions, '|'))
-      {
-        const Expression expression("Examples/Pose functions", function, "xyz", 3);
-        std::vector<dealii::Point<3>> nodes;
-        for (const dealii::Point<3> &x : mesh.get_nodes())
-          nodes.emplace_back(expression.vector(x, 0.));
-        add_pose("pose function '" + function + "'", nodes);
-      }
+    {
+      const Expression              expression("Examples/Pose functions", function, "xyz", 3);
+      std::vector<dealii::Point<3>> nodes;
+      for (const dealii::Point<3> &x : mesh.get_nodes())
+        nodes.emplace_back(expression.vector(x, 0.));
+      add_pose("pose function '" + function + "'", nodes);
+    }
   }
 
   void
@@ -165,24 +152,23 @@ namespace Exemplar
     std::vector<unsigned int> n_inverted(size(), 0);
     for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
       for (unsigned int i = first_strained; i < size(); ++i)
-        {
-          const Matrix3<double> F = fe_space.deformation_gradient(cell, positions[i]);
-          const Matrix3<double> E = corotated_strain(closest_rotation(F), F);
-          const std::array<double, 6> upper = {
-            {E[0][0], E[1][1], E[2][2], E[1][2], E[0][2], E[0][1]}};
-          std::copy(upper.begin(),
-                    upper.end(),
-                    &strains[6 * (static_cast<std::size_t>(cell) * size() + i)]);
-          strain_norms[i] += fe_space.tetrahedron(cell).volume * contract(E, E);
-          n_inverted[i] += (determinant(F) <= 0.);
-        }
+      {
+        const Matrix3<double>       F = fe_space.deformation_gradient(cell, positions[i]);
+        const Matrix3<double>       E = corotated_strain(closest_rotation(F), F);
+        const std::array<double, 6> upper
+            = { { E[0][0], E[1][1], E[2][2], E[1][2], E[0][2], E[0][1] } };
+        std::copy(upper.begin(), upper.end(),
+                  &strains[6 * (static_cast<std::size_t>(cell) * size() + i)]);
+        strain_norms[i] += fe_space.tetrahedron(cell).volume * contract(E, E);
+        n_inverted[i] += (determinant(F) <= 0.);
+      }
     for (double &norm : strain_norms)
       norm = std::sqrt(norm);
     for (unsigned int i = 0; i < size(); ++i)
       if (n_inverted[i] > 0)
-        warnings.push_back("Example " + std::to_string(i) + " (" + names[i] + ") has " +
-                           std::to_string(n_inverted[i]) +
-                           " inverted cells; their strain is ambiguous.");
+        warnings.push_back("Example " + std::to_string(i) + " (" + names[i] + ") has "
+                           + std::to_string(n_inverted[i])
+                           + " inverted cells; their strain is ambiguous.");
   }
 
   void
@@ -191,11 +177,11 @@ namespace Exemplar
     gram.reinit(size(), size());
     for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
       for (unsigned int i = 0; i < size(); ++i)
-        {
-          const Matrix3<double> T = stress(material.lame(cell), strain(cell, i));
-          for (unsigned int j = 0; j < size(); ++j)
-            gram(i, j) += fe_space.tetrahedron(cell).volume * contract(T, strain(cell, j));
-        }
+      {
+        const Matrix3<double> T = stress(material.lame(cell), strain(cell, i));
+        for (unsigned int j = 0; j < size(); ++j)
+          gram(i, j) += fe_space.tetrahedron(cell).volume * contract(T, strain(cell, j));
+      }
     H = gram;
     H *= eta * eta;
     H.diagadd(sigma);
@@ -212,16 +198,16 @@ namespace Exemplar
   {
     const unsigned int n_samples = 10;
     for (unsigned int sample = 0; sample <= n_samples; ++sample)
-      {
-        const double time = end * sample / n_samples;
-        double       sum  = 0.;
-        for (const double weight : prescribed_weights(time))
-          sum += weight;
-        if (std::abs(sum - 1.) > 1e-10)
-          throw UserError("Examples/Prescribed weights sum to " + shortest_text(sum) + " at t = " +
-                          shortest_text(time) +
-                          ", not to 1. Make the last one 1 minus the others.");
-      }
+    {
+      const double time = end * sample / n_samples;
+      double       sum  = 0.;
+      for (const double weight : prescribed_weights(time))
+        sum += weight;
+      if (std::abs(sum - 1.) > 1e-10)
+        throw UserError("Examples/Prescribed weights sum to " + shortest_text(sum)
+                        + " at t = " + shortest_text(time)
+                        + ", not to 1. Make the last one 1 minus the others.");
+    }
   }
 
   void
@@ -235,21 +221,21 @@ namespace Exemplar
     dealii::FullMatrix<double> L(n, n);
     for (unsigned int i = 0; i < n; ++i)
       for (unsigned int j = 0; j <= i; ++j)
-        {
-          double value =
-            gram(i + 1, j + 1) - gram(i + 1, 0) - gram(0, j + 1) + gram(0, 0);
-          const double before = value;
-          for (unsigned int m = 0; m < j; ++m)
-            value -= L(i, m) * L(j, m);
-          if (i != j)
-            L(i, j) = value / L(j, j);
-          else if (value > 1e-12 * before && value > rounding)
-            L(i, i) = std::sqrt(value);
-          else
-            throw UserError("Example " + std::to_string(i + 1) + " (" + names[i + 1] +
-                            ") is an affine combination of the examples before it, so their weights "
-                            "are not determined. Remove it from Examples/Poses or Examples/Pose "
-                            "functions, or set Examples/Weight penalty to auto.");
-        }
+      {
+        double       value  = gram(i + 1, j + 1) - gram(i + 1, 0) - gram(0, j + 1) + gram(0, 0);
+        const double before = value;
+        for (unsigned int m = 0; m < j; ++m)
+          value -= L(i, m) * L(j, m);
+        if (i != j)
+          L(i, j) = value / L(j, j);
+        else if (value > 1e-12 * before && value > rounding)
+          L(i, i) = std::sqrt(value);
+        else
+          throw UserError(
+              "Example " + std::to_string(i + 1) + " (" + names[i + 1]
+              + ") is an affine combination of the examples before it, so their weights "
+                "are not determined. Remove it from Examples/Poses or Examples/Pose "
+                "functions, or set Examples/Weight penalty to auto.");
+      }
   }
 } // namespace Exemplar

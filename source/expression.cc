@@ -50,58 +50,58 @@ namespace Exemplar
                          const std::string &text,
                          const std::string &variables,
                          const unsigned int n_components)
-    : parsers(std::make_unique<Parsers>())
+      : parsers(std::make_unique<Parsers>())
   {
     parsers->key   = key;
     parsers->texts = split_trimmed(text, ';');
     if (parsers->texts.size() != n_components)
-      throw UserError(key + " = '" + text + "' has " + std::to_string(parsers->texts.size()) +
-                      " formulas, but needs " + std::to_string(n_components) +
-                      ", separated by ';'.");
+      throw UserError(key + " = '" + text + "' has " + std::to_string(parsers->texts.size())
+                      + " formulas, but needs " + std::to_string(n_components)
+                      + ", separated by ';'.");
     parsers->parsers.resize(n_components);
     for (unsigned int i = 0; i < n_components; ++i)
+    {
+      mu::Parser &parser = parsers->parsers[i];
+      parser.DefineConst("pi", 3.14159265358979323846);
+      parser.DefineFun("log", natural_logarithm);
+      parser.DefineFun("floor", floor);
+      parser.DefineFun("ceil", ceil);
+      for (const char variable : variables)
+        parser.DefineVar(std::string(1, variable),
+                         &parsers->variables[std::string("xyzt").find(variable)]);
+      try
       {
-        mu::Parser &parser = parsers->parsers[i];
-        parser.DefineConst("pi", 3.14159265358979323846);
-        parser.DefineFun("log", natural_logarithm);
-        parser.DefineFun("floor", floor);
-        parser.DefineFun("ceil", ceil);
-        for (const char variable : variables)
-          parser.DefineVar(std::string(1, variable),
-                           &parsers->variables[std::string("xyzt").find(variable)]);
-        try
-          {
-            parser.SetExpr(parsers->texts[i]);
-            parser.Eval();
-          }
-        catch (const mu::Parser::exception_type &error)
-          {
-            std::string names;
-            for (const char variable : variables)
-              names += std::string(names.empty() ? "" : ", ") + variable;
-            throw UserError(key + ": the formula '" + parsers->texts[i] +
-                            "' is not understood: " + error.GetMsg() + " Allowed are the variables " +
-                            names + ", the constant pi, + - * / ^, c ? a : b, and muParser's "
-                                    "functions (sin, cos, sqrt, exp, log, min, max, ...).");
-          }
+        parser.SetExpr(parsers->texts[i]);
+        parser.Eval();
       }
+      catch (const mu::Parser::exception_type &error)
+      {
+        std::string names;
+        for (const char variable : variables)
+          names += std::string(names.empty() ? "" : ", ") + variable;
+        throw UserError(key + ": the formula '" + parsers->texts[i] + "' is not understood: "
+                        + error.GetMsg() + " Allowed are the variables " + names
+                        + ", the constant pi, + - * / ^, c ? a : b, and muParser's "
+                          "functions (sin, cos, sqrt, exp, log, min, max, ...).");
+      }
+    }
   }
 
   std::vector<double>
   Expression::values(const dealii::Point<3> &position, const double time) const
   {
-    parsers->variables = {{position[0], position[1], position[2], time}};
+    parsers->variables = { { position[0], position[1], position[2], time } };
     std::vector<double> values;
     for (unsigned int i = 0; i < parsers->parsers.size(); ++i)
-      {
-        values.push_back(parsers->parsers[i].Eval());
-        if (!std::isfinite(values.back()))
-          throw SolverFailure(parsers->key + ": the formula '" + parsers->texts[i] +
-                              "' is not finite at t = " + shortest_text(time) + ", position (" +
-                              shortest_text(position[0]) + ", " + shortest_text(position[1]) +
-                              ", " + shortest_text(position[2]) +
-                              "). Change it, for instance with max() or c ? a : b.");
-      }
+    {
+      values.push_back(parsers->parsers[i].Eval());
+      if (!std::isfinite(values.back()))
+        throw SolverFailure(parsers->key + ": the formula '" + parsers->texts[i]
+                            + "' is not finite at t = " + shortest_text(time) + ", position ("
+                            + shortest_text(position[0]) + ", " + shortest_text(position[1]) + ", "
+                            + shortest_text(position[2])
+                            + "). Change it, for instance with max() or c ? a : b.");
+    }
     return values;
   }
 
@@ -109,6 +109,6 @@ namespace Exemplar
   Expression::vector(const dealii::Point<3> &position, const double time) const
   {
     const std::vector<double> components = values(position, time);
-    return dealii::Tensor<1, 3>({components.at(0), components.at(1), components.at(2)});
+    return dealii::Tensor<1, 3>({ components.at(0), components.at(1), components.at(2) });
   }
 } // namespace Exemplar

@@ -9,11 +9,8 @@
 namespace Exemplar
 {
   FESpace::FESpace(const Mesh &mesh)
-    : mesh(mesh)
-    , fe(dealii::FE_SimplexP<3>(1), 3)
-    , mapping(dealii::FE_SimplexP<3>(1))
-    , dof_handler(mesh.get_triangulation())
-    , rest(3 * mesh.n_nodes())
+      : mesh(mesh), fe(dealii::FE_SimplexP<3>(1), 3), mapping(dealii::FE_SimplexP<3>(1)),
+        dof_handler(mesh.get_triangulation()), rest(3 * mesh.n_nodes())
   {
     dof_handler.distribute_dofs(fe);
     number_dofs_by_node();
@@ -39,26 +36,24 @@ namespace Exemplar
   FESpace::compute_tetrahedra()
   {
     const dealii::QGaussSimplex<3> quadrature(1);
-    dealii::FEValues<3>            fe_values(mapping,
-                                  fe,
-                                  quadrature,
-                                  dealii::update_gradients | dealii::update_JxW_values);
+    dealii::FEValues<3>            fe_values(mapping, fe, quadrature,
+                                             dealii::update_gradients | dealii::update_JxW_values);
     tetrahedra.resize(mesh.n_cells());
     for (const auto &cell : dof_handler.active_cell_iterators())
+    {
+      fe_values.reinit(cell);
+      const unsigned int   index = cell->active_cell_index();
+      Tetrahedron<double> &tet   = tetrahedra[index];
+      tet.volume                 = fe_values.JxW(0);
+      for (unsigned int a = 0; a < 4; ++a)
       {
-        fe_values.reinit(cell);
-        const unsigned int   index = cell->active_cell_index();
-        Tetrahedron<double> &tet   = tetrahedra[index];
-        tet.volume                 = fe_values.JxW(0);
-        for (unsigned int a = 0; a < 4; ++a)
-          {
-            AssertThrow(cell->vertex_index(a) == nodes(index)[a],
-                        dealii::ExcMessage("deal.II has permuted the nodes of a cell"));
-            const auto gradient = fe_values.shape_grad(fe.component_to_system_index(0, a), 0);
-            for (unsigned int d = 0; d < 3; ++d)
-              tet.shape_gradient[a][d] = gradient[d];
-          }
+        AssertThrow(cell->vertex_index(a) == nodes(index)[a],
+                    dealii::ExcMessage("deal.II has permuted the nodes of a cell"));
+        const auto gradient = fe_values.shape_grad(fe.component_to_system_index(0, a), 0);
+        for (unsigned int d = 0; d < 3; ++d)
+          tet.shape_gradient[a][d] = gradient[d];
       }
+    }
   }
 
   double
@@ -88,26 +83,24 @@ namespace Exemplar
                                dealii::SparseMatrix<double> &mass) const
   {
     const dealii::QGaussSimplex<3> quadrature(2); // exact for products of linear functions
-    dealii::FEValues<3>            fe_values(mapping,
-                                  fe,
-                                  quadrature,
-                                  dealii::update_values | dealii::update_JxW_values);
+    dealii::FEValues<3>            fe_values(mapping, fe, quadrature,
+                                             dealii::update_values | dealii::update_JxW_values);
     mass = 0.;
     for (const auto &cell : dof_handler.active_cell_iterators())
-      {
-        fe_values.reinit(cell);
-        const unsigned int index = cell->active_cell_index();
-        for (unsigned int a = 0; a < 4; ++a)
-          for (unsigned int b = 0; b < 4; ++b)
-            {
-              const unsigned int dof_a    = fe.component_to_system_index(0, a);
-              const unsigned int dof_b    = fe.component_to_system_index(0, b);
-              double             integral = 0.;
-              for (const unsigned int q : fe_values.quadrature_point_indices())
-                integral += fe_values.shape_value(dof_a, q) * fe_values.shape_value(dof_b, q) *
-                            fe_values.JxW(q);
-              mass.add(nodes(index)[a], nodes(index)[b], density_of_cell[index] * integral);
-            }
-      }
+    {
+      fe_values.reinit(cell);
+      const unsigned int index = cell->active_cell_index();
+      for (unsigned int a = 0; a < 4; ++a)
+        for (unsigned int b = 0; b < 4; ++b)
+        {
+          const unsigned int dof_a    = fe.component_to_system_index(0, a);
+          const unsigned int dof_b    = fe.component_to_system_index(0, b);
+          double             integral = 0.;
+          for (const unsigned int q : fe_values.quadrature_point_indices())
+            integral += fe_values.shape_value(dof_a, q) * fe_values.shape_value(dof_b, q)
+                        * fe_values.JxW(q);
+          mass.add(nodes(index)[a], nodes(index)[b], density_of_cell[index] * integral);
+        }
+    }
   }
 } // namespace Exemplar

@@ -22,9 +22,9 @@ namespace Exemplar
         else
           components.insert(3);
       if (components.empty() || components.count(3) == 1)
-        throw UserError(key + "/Components = '" + text +
-                        "' is not allowed. Allowed: some of x, y, z, separated by commas.");
-      return {components.begin(), components.end()};
+        throw UserError(key + "/Components = '" + text
+                        + "' is not allowed. Allowed: some of x, y, z, separated by commas.");
+      return { components.begin(), components.end() };
     }
   } // namespace
 
@@ -33,28 +33,28 @@ namespace Exemplar
   {
     prm.enter_subsection(name);
     select.declare(prm, "The nodes that the handle holds");
-    prm.add_parameter("Motion",
-                      motion,
-                      "Displacement [m] of the held nodes from their rest position: three functions "
-                      "of the rest position x, y, z [m] and of t [s].");
-    prm.add_parameter("Components",
-                      components,
-                      "The components that are held; fewer than x, y, z make a roller or a plane of "
-                      "symmetry.");
+    prm.add_parameter(
+        "Motion", motion,
+        "Displacement [m] of the held nodes from their rest position: three functions "
+        "of the rest position x, y, z [m] and of t [s].");
+    prm.add_parameter(
+        "Components", components,
+        "The components that are held; fewer than x, y, z make a roller or a plane of "
+        "symmetry.");
     prm.leave_subsection();
   }
 
-  Handles::Handles(const std::vector<HandleParameters> &parameters, const Mesh &mesh, const double end)
-    : mesh(mesh)
+  Handles::Handles(const std::vector<HandleParameters> &parameters,
+                   const Mesh                          &mesh,
+                   const double                         end)
+      : mesh(mesh)
   {
     for (const HandleParameters &p : parameters)
-      {
-        const std::string key = "Handles/" + p.name;
-        handles.push_back({p.name,
-                           p.select.nodes(mesh, key),
-                           parse_components(p.components, key),
-                           Expression(key + "/Motion", p.motion, "xyzt", 3)});
-      }
+    {
+      const std::string key = "Handles/" + p.name;
+      handles.push_back({ p.name, p.select.nodes(mesh, key), parse_components(p.components, key),
+                          Expression(key + "/Motion", p.motion, "xyzt", 3) });
+    }
     const unsigned int n_samples = 10;
     for (unsigned int sample = 0; sample <= n_samples; ++sample)
       check_agreement(end * sample / n_samples);
@@ -72,21 +72,20 @@ namespace Exemplar
     std::map<unsigned int, Target> targets;
     for (unsigned int h = 0; h < handles.size(); ++h)
       for (const unsigned int node : handles[h].nodes)
+      {
+        const dealii::Tensor<1, 3> displacement
+            = handles[h].displacement.vector(mesh.get_nodes()[node], time);
+        for (const unsigned int c : handles[h].components)
         {
-          const dealii::Tensor<1, 3> displacement =
-            handles[h].displacement.vector(mesh.get_nodes()[node], time);
-          for (const unsigned int c : handles[h].components)
-            {
-              const auto [first, is_new] =
-                targets.emplace(3 * node + c, Target{displacement[c], h});
-              if (std::abs(first->second.displacement - displacement[c]) > tolerance)
-                throw UserError(
-                  "Handles '" + handles[first->second.handle].name + "' and '" + handles[h].name +
-                  "' both hold node " + std::to_string(mesh.get_contents().node_numbers[node]) +
-                  ", but move it differently at t = " + shortest_text(time) +
-                  ". Change Handles/" + handles[h].name + "/Select so that they do not overlap.");
-            }
+          const auto [first, is_new] = targets.emplace(3 * node + c, Target{ displacement[c], h });
+          if (std::abs(first->second.displacement - displacement[c]) > tolerance)
+            throw UserError(
+                "Handles '" + handles[first->second.handle].name + "' and '" + handles[h].name
+                + "' both hold node " + std::to_string(mesh.get_contents().node_numbers[node])
+                + ", but move it differently at t = " + shortest_text(time) + ". Change Handles/"
+                + handles[h].name + "/Select so that they do not overlap.");
         }
+      }
   }
 
   std::vector<unsigned int>
@@ -97,7 +96,7 @@ namespace Exemplar
       for (const unsigned int node : handle.nodes)
         for (const unsigned int c : handle.components)
           dofs.insert(3 * node + c);
-    return {dofs.begin(), dofs.end()};
+    return { dofs.begin(), dofs.end() };
   }
 
   void
@@ -105,12 +104,12 @@ namespace Exemplar
   {
     for (const Handle &handle : handles)
       for (const unsigned int node : handle.nodes)
-        {
-          const dealii::Point<3>    &rest         = mesh.get_nodes()[node];
-          const dealii::Tensor<1, 3> displacement = handle.displacement.vector(rest, time);
-          for (const unsigned int c : handle.components)
-            positions[3 * node + c] = rest[c] + displacement[c];
-        }
+      {
+        const dealii::Point<3>    &rest         = mesh.get_nodes()[node];
+        const dealii::Tensor<1, 3> displacement = handle.displacement.vector(rest, time);
+        for (const unsigned int c : handle.components)
+          positions[3 * node + c] = rest[c] + displacement[c];
+      }
   }
 
   dealii::Tensor<1, 3>

@@ -11,22 +11,20 @@ namespace Exemplar
     lump(dealii::SparseMatrix<double> &mass)
     {
       for (unsigned int row = 0; row < mass.m(); ++row)
+      {
+        double sum = 0.;
+        for (auto entry = mass.begin(row); entry != mass.end(row); ++entry)
         {
-          double sum = 0.;
-          for (auto entry = mass.begin(row); entry != mass.end(row); ++entry)
-            {
-              sum += entry->value();
-              entry->value() = 0.;
-            }
-          mass.set(row, row, sum);
+          sum += entry->value();
+          entry->value() = 0.;
         }
+        mass.set(row, row, sum);
+      }
     }
   } // namespace
 
   Inertia::Inertia(const FESpace &fe_space, const Material &material, const MassMatrix kind)
-    : pattern(fe_space.nodal_pattern())
-    , mass(pattern)
-    , predicted(fe_space.n_dofs())
+      : pattern(fe_space.nodal_pattern()), mass(pattern), predicted(fe_space.n_dofs())
   {
     std::vector<double> density(fe_space.n_cells());
     for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
@@ -49,14 +47,14 @@ namespace Exemplar
   {
     dealii::Vector<double> product(field.size());
     for (unsigned int row = 0; row < mass.m(); ++row)
-      {
-        double sum[3] = {0., 0., 0.};
-        for (auto entry = mass.begin(row); entry != mass.end(row); ++entry)
-          for (unsigned int c = 0; c < 3; ++c)
-            sum[c] += entry->value() * field[3 * entry->column() + c];
+    {
+      double sum[3] = { 0., 0., 0. };
+      for (auto entry = mass.begin(row); entry != mass.end(row); ++entry)
         for (unsigned int c = 0; c < 3; ++c)
-          product[3 * row + c] = sum[c];
-      }
+          sum[c] += entry->value() * field[3 * entry->column() + c];
+      for (unsigned int c = 0; c < 3; ++c)
+        product[3 * row + c] = sum[c];
+    }
     return product;
   }
 
@@ -85,17 +83,17 @@ namespace Exemplar
   MotionSums
   Inertia::motion_sums(const State &state) const
   {
-    const dealii::Vector<double> p  = mass_times(state.velocities);
-    const auto                   at = [](const dealii::Vector<double> &field, const unsigned int node) {
-      return dealii::Tensor<1, 3>({field[3 * node], field[3 * node + 1], field[3 * node + 2]});
+    const dealii::Vector<double> p = mass_times(state.velocities);
+    const auto at = [](const dealii::Vector<double> &field, const unsigned int node) {
+      return dealii::Tensor<1, 3>({ field[3 * node], field[3 * node + 1], field[3 * node + 2] });
     };
     MotionSums sums;
     sums.kinetic_energy = 0.5 * (state.velocities * p);
     for (unsigned int node = 0; node < p.size() / 3; ++node)
-      {
-        sums.momentum += at(p, node);
-        sums.angular_momentum += dealii::cross_product_3d(at(state.positions, node), at(p, node));
-      }
+    {
+      sums.momentum += at(p, node);
+      sums.angular_momentum += dealii::cross_product_3d(at(state.positions, node), at(p, node));
+    }
     return sums;
   }
 } // namespace Exemplar

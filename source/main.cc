@@ -24,27 +24,28 @@ namespace
     CLI::App app("exemplar: elastic solids that deform the way their examples say");
     app.set_version_flag("--version", "exemplar " EXEMPLAR_VERSION " (" EXEMPLAR_GIT_REVISION ")");
     app.add_option("SCENE", options.scene_file, "scene file (.prm)");
-    app.add_option("--set", options.overrides, "'Section/Key=value' instead of the scene's; repeatable")
-      ->allow_extra_args(false);
+    app.add_option("--set", options.overrides,
+                   "'Section/Key=value' instead of the scene's; repeatable")
+        ->allow_extra_args(false);
     app.add_option("--output", output, "directory of the results instead of Output/Directory");
     app.add_flag("--resume", options.resume, "go on from the checkpoint in the output directory");
     app.add_flag("--quiet", options.quiet, "print warnings and errors only");
     app.add_flag("--validate", validate, "check the scene and its files, compute nothing");
     app.add_flag("--print-parameters", print, "every parameter, its default, range and meaning");
     try
-      {
-        app.parse(argc, argv);
-        if (!print && options.scene_file.empty())
-          throw CLI::RequiredError("SCENE");
-      }
+    {
+      app.parse(argc, argv);
+      if (!print && options.scene_file.empty())
+        throw CLI::RequiredError("SCENE");
+    }
     catch (const CLI::Success &request) // --help or --version
-      {
-        return app.exit(request);
-      }
+    {
+      return app.exit(request);
+    }
     catch (const CLI::ParseError &error)
-      {
-        throw UserError(std::string(error.what()) + ". exemplar --help lists what is allowed.");
-      }
+    {
+      throw UserError(std::string(error.what()) + ". exemplar --help lists what is allowed.");
+    }
     if (!output.empty())
       options.overrides.push_back("Output/Directory=" + output);
 
@@ -65,24 +66,25 @@ main(int argc, char *argv[])
   Exemplar::use_one_blas_thread();
   dealii::MultithreadInfo::set_thread_limit(1);
   dealii::deal_II_exceptions::disable_abort_on_exception();
-  const auto report = [](const std::string &message, const int status) {
+  const auto report = [](const std::string &message, const int status)
+  {
     std::cerr << "exemplar: " << message << std::endl;
     return status;
   };
   try
-    {
-      return run(argc, argv);
-    }
+  {
+    return run(argc, argv);
+  }
   catch (const Exemplar::UserError &error)
-    {
-      return report(error.what(), 1);
-    }
+  {
+    return report(error.what(), 1);
+  }
   catch (const Exemplar::Interrupted &interruption)
-    {
-      return report(interruption.what(), 130);
-    }
+  {
+    return report(interruption.what(), 130);
+  }
   catch (const std::exception &error)
-    {
-      return report(error.what(), 2);
-    }
+  {
+    return report(error.what(), 2);
+  }
 }

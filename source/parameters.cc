@@ -9,13 +9,13 @@ namespace Exemplar
 {
   namespace
   {
-    const EnumTable<SceneKind> scene_kinds = {{SceneKind::interpolation, "interpolation"},
-                                              {SceneKind::statics, "static"},
-                                              {SceneKind::dynamic, "dynamic"}};
+    const EnumTable<SceneKind> scene_kinds = { { SceneKind::interpolation, "interpolation" },
+                                               { SceneKind::statics, "static" },
+                                               { SceneKind::dynamic, "dynamic" } };
 
-    const EnumTable<FrameFormat> frame_formats = {{FrameFormat::vtu, "vtu"}};
+    const EnumTable<FrameFormat> frame_formats = { { FrameFormat::vtu, "vtu" } };
 
-    const dealii::Patterns::List names_pattern{dealii::Patterns::Anything()};
+    const dealii::Patterns::List names_pattern{ dealii::Patterns::Anything() };
 
     /// Named subsections are the ones two deep: Handles/NAME, Loads/NAME, Material/region N.
     bool
@@ -29,13 +29,13 @@ namespace Exemplar
     {
       std::set<std::string> seen;
       for (const std::string &name : names)
-        {
-          if (!seen.insert(name).second)
-            throw UserError(section + "/Names lists '" + name + "' twice. Names must differ.");
-          if (name.empty() || name.find_first_of("/\";|") != std::string::npos)
-            throw UserError(section + "/Names: '" + name +
-                            "' is no name. Use letters, digits, blanks, - and _.");
-        }
+      {
+        if (!seen.insert(name).second)
+          throw UserError(section + "/Names lists '" + name + "' twice. Names must differ.");
+        if (name.empty() || name.find_first_of("/\";|") != std::string::npos)
+          throw UserError(section + "/Names: '" + name
+                          + "' is no name. Use letters, digits, blanks, - and _.");
+      }
     }
 
     /// A subsection that Names does not list would be an unknown key without a hint.
@@ -48,12 +48,12 @@ namespace Exemplar
       for (const std::string &name : names)
         listed += (listed.empty() ? "" : ", ") + name;
       for (const Assignment &a : assignments)
-        if (a.subsections[0] == section &&
-            std::find(names.begin(), names.end(), a.subsections[1]) == names.end())
-          throw UserError(a.place + ": subsection " + section + "/" + a.subsections[1] +
-                          " is not in " + section + "/Names (there: " +
-                          (listed.empty() ? "none" : listed) +
-                          "). Add it there, or remove the subsection.");
+        if (a.subsections[0] == section
+            && std::find(names.begin(), names.end(), a.subsections[1]) == names.end())
+          throw UserError(a.place + ": subsection " + section + "/" + a.subsections[1]
+                          + " is not in " + section
+                          + "/Names (there: " + (listed.empty() ? "none" : listed)
+                          + "). Add it there, or remove the subsection.");
     }
 
     std::set<unsigned int>
@@ -63,16 +63,16 @@ namespace Exemplar
       std::set<unsigned int> ids;
       for (const Assignment &a : assignments)
         if (is_named(a) && a.subsections[0] == "Material")
-          {
-            const std::string &name = a.subsections[1];
-            if (name.compare(0, prefix.size(), prefix) != 0 || name.size() == prefix.size() ||
-                name.size() > prefix.size() + 9 ||
-                name.find_first_not_of("0123456789", prefix.size()) != std::string::npos)
-              throw UserError(a.place + ": subsection Material/" + name +
-                              " is not understood. Subsections of Material are 'region ID' with a "
+        {
+          const std::string &name = a.subsections[1];
+          if (name.compare(0, prefix.size(), prefix) != 0 || name.size() == prefix.size()
+              || name.size() > prefix.size() + 9
+              || name.find_first_not_of("0123456789", prefix.size()) != std::string::npos)
+            throw UserError(a.place + ": subsection Material/" + name
+                            + " is not understood. Subsections of Material are 'region ID' with a "
                               "material id of the mesh.");
-            ids.insert(static_cast<unsigned int>(std::stoul(name.substr(prefix.size()))));
-          }
+          ids.insert(static_cast<unsigned int>(std::stoul(name.substr(prefix.size()))));
+        }
       return ids;
     }
   } // namespace
@@ -81,17 +81,14 @@ namespace Exemplar
   OutputParameters::declare(dealii::ParameterHandler &prm)
   {
     prm.enter_subsection("Output");
-    prm.add_parameter("Directory",
-                      directory,
+    prm.add_parameter("Directory", directory,
                       "Where results go, relative to the working directory; empty: "
                       "output/NAME of the scene file. An earlier run's files are cleared.");
-    prm.add_parameter("Every",
-                      every,
+    prm.add_parameter("Every", every,
                       "A frame every so many steps, and of the last; 0: none (final.msh alone).",
                       dealii::Patterns::Integer(0));
     declare_enum(prm, "Formats", format, frame_formats, "Format of the frames.");
-    prm.add_parameter("Checkpoint minutes",
-                      checkpoint_minutes,
+    prm.add_parameter("Checkpoint minutes", checkpoint_minutes,
                       "Minutes of run time between checkpoints. One is also written at the end and "
                       "on Ctrl-C.",
                       dealii::Patterns::Double(0.));
@@ -101,28 +98,26 @@ namespace Exemplar
   Parameters::Parameters()
   {
     declare_sections();
-    handle_names = {"NAME"};
-    load_names   = {"NAME"};
-    declare_named_subsections({{{"Material", "region 1"}, "", "", ""}});
+    handle_names = { "NAME" };
+    load_names   = { "NAME" };
+    declare_named_subsections({ { { "Material", "region 1" }, "", "", "" } });
   }
 
   Parameters::Parameters(const std::filesystem::path    &scene_file,
                          const std::vector<std::string> &overrides)
-    : scene_file(scene_file)
+      : scene_file(scene_file)
   {
     std::vector<Assignment> assignments = read_assignments(scene_file);
     for (const std::string &text : overrides)
       assignments.push_back(parse_override(text));
     if (find_assignment(assignments, "Scene") == nullptr)
-      throw UserError(scene_file.string() +
-                      ": Scene is not set. Add a line 'set Scene = dynamic' (or static, or "
-                      "interpolation).");
+      throw UserError(scene_file.string()
+                      + ": Scene is not set. Add a line 'set Scene = dynamic' (or static, or "
+                        "interpolation).");
 
-    const auto directory = std::filesystem::absolute(scene_file).parent_path();
-    const auto first_named =
-      std::stable_partition(assignments.begin(), assignments.end(), [](const Assignment &a) {
-        return !is_named(a);
-      });
+    const auto directory   = std::filesystem::absolute(scene_file).parent_path();
+    const auto first_named = std::stable_partition(
+        assignments.begin(), assignments.end(), [](const Assignment &a) { return !is_named(a); });
     const std::vector<Assignment> named(first_named, assignments.end());
     assignments.erase(first_named, assignments.end());
 
@@ -139,17 +134,14 @@ namespace Exemplar
     if (scene == SceneKind::interpolation)
       complete_interpolation(assignments);
     if (output.directory.empty())
-      set({"Output"}, "Directory", "output/" + scene_file.stem().string());
+      set({ "Output" }, "Directory", "output/" + scene_file.stem().string());
     check();
   }
 
   void
   Parameters::declare_sections()
   {
-    declare_enum(prm,
-                 "Scene",
-                 scene,
-                 scene_kinds,
+    declare_enum(prm, "Scene", scene, scene_kinds,
                  "What to solve: interpolation between poses, static equilibrium in increments, or "
                  "dynamic. To be set in every scene.");
     mesh.declare(prm);
@@ -157,15 +149,13 @@ namespace Exemplar
     model.declare(prm);
     examples.declare(prm);
     prm.enter_subsection("Handles");
-    prm.add_parameter("Names",
-                      handle_names,
+    prm.add_parameter("Names", handle_names,
                       "Names of the handles, separated by commas; each has a subsection.",
                       names_pattern);
     prm.leave_subsection();
     prm.enter_subsection("Loads");
     prm.add_parameter("Gravity", gravity, "Acceleration of gravity [m/s^2].");
-    prm.add_parameter("Names",
-                      load_names,
+    prm.add_parameter("Names", load_names,
                       "Names of dead forces, separated by commas; each has a subsection.",
                       names_pattern);
     prm.leave_subsection();
@@ -181,24 +171,24 @@ namespace Exemplar
     const std::set<unsigned int> regions = material_regions(assignments);
     material.declare_regions(prm, regions);
     // deal.II rounds the text of a default to six digits: take over the text that was set
-    for (const std::string key : {"Young's modulus", "Poisson's ratio", "Density"})
+    for (const std::string key : { "Young's modulus", "Poisson's ratio", "Density" })
       for (const unsigned int id : regions)
-        set({"Material", "region " + std::to_string(id)}, key, prm.get({"Material"}, key));
+        set({ "Material", "region " + std::to_string(id) }, key, prm.get({ "Material" }, key));
     handles.resize(handle_names.size()); // before binding: entries must not move afterwards
     loads.resize(load_names.size());
     prm.enter_subsection("Handles");
     for (unsigned int i = 0; i < handles.size(); ++i)
-      {
-        handles[i].name = handle_names[i];
-        handles[i].declare(prm);
-      }
+    {
+      handles[i].name = handle_names[i];
+      handles[i].declare(prm);
+    }
     prm.leave_subsection();
     prm.enter_subsection("Loads");
     for (unsigned int i = 0; i < loads.size(); ++i)
-      {
-        loads[i].name = load_names[i];
-        loads[i].declare(prm);
-      }
+    {
+      loads[i].name = load_names[i];
+      loads[i].declare(prm);
+    }
     prm.leave_subsection();
   }
 
@@ -219,21 +209,22 @@ namespace Exemplar
   {
     const auto directory = std::filesystem::absolute(scene_file).parent_path();
     for (const HandleParameters &handle : handles)
-      set({"Handles", handle.name}, "Select", Selection::absolute(handle.select.text, directory));
+      set({ "Handles", handle.name }, "Select", Selection::absolute(handle.select.text, directory));
     for (const LoadParameters &load : loads)
-      set({"Loads", load.name}, "Select", Selection::absolute(load.select.text, directory));
+      set({ "Loads", load.name }, "Select", Selection::absolute(load.select.text, directory));
   }
 
   void
   Parameters::complete_interpolation(const std::vector<Assignment> &assignments)
   {
-    const auto require = [&](const std::string &key, const std::string &value, const bool agrees) {
+    const auto require = [&](const std::string &key, const std::string &value, const bool agrees)
+    {
       const Assignment *given = find_assignment(assignments, "Examples/" + key);
       if (given != nullptr && !agrees)
-        throw UserError(given->place + ": Examples/" + key + " = " + given->value +
-                        ", but an interpolation has " + key + " = " + value +
-                        ". Remove the line, or choose Scene = static.");
-      set({"Examples"}, key, value);
+        throw UserError(given->place + ": Examples/" + key + " = " + given->value
+                        + ", but an interpolation has " + key + " = " + value
+                        + ". Remove the line, or choose Scene = static.");
+      set({ "Examples" }, key, value);
     };
     require("Importance", "1", examples.importance == 1.);
     require("Weights", "prescribed", examples.weights == ExampleWeights::prescribed);

@@ -48,8 +48,9 @@ namespace Exemplar
     bool
     starts_with_word(const std::string &line, const std::string &word)
     {
-      return line.compare(0, word.size(), word) == 0 &&
-             (line.size() == word.size() || std::isspace(static_cast<unsigned char>(line[word.size()])));
+      return line.compare(0, word.size(), word) == 0
+             && (line.size() == word.size()
+                 || std::isspace(static_cast<unsigned char>(line[word.size()])));
     }
 
     std::size_t
@@ -58,15 +59,15 @@ namespace Exemplar
       std::vector<std::size_t> row(b.size() + 1);
       std::iota(row.begin(), row.end(), 0);
       for (std::size_t i = 1; i <= a.size(); ++i)
+      {
+        std::size_t diagonal = row[0]++;
+        for (std::size_t j = 1; j <= b.size(); ++j)
         {
-          std::size_t diagonal = row[0]++;
-          for (std::size_t j = 1; j <= b.size(); ++j)
-            {
-              const std::size_t same = diagonal + (std::tolower(a[i - 1]) != std::tolower(b[j - 1]));
-              diagonal               = row[j];
-              row[j]                 = std::min({same, row[j] + 1, row[j - 1] + 1});
-            }
+          const std::size_t same = diagonal + (std::tolower(a[i - 1]) != std::tolower(b[j - 1]));
+          diagonal               = row[j];
+          row[j]                 = std::min({ same, row[j] + 1, row[j - 1] + 1 });
         }
+      }
       return row.back();
     }
 
@@ -77,10 +78,10 @@ namespace Exemplar
       std::size_t best_distance = path.size() + 1;
       for (const DeclaredKey &key : keys)
         if (const std::size_t distance = edit_distance(path, key.path()); distance < best_distance)
-          {
-            best          = key.path();
-            best_distance = distance;
-          }
+        {
+          best          = key.path();
+          best_distance = distance;
+        }
       return best;
     }
 
@@ -102,19 +103,19 @@ namespace Exemplar
     allowed_in_words(const std::string &pattern)
     {
       static const std::regex selection(R"(\[Selection (.*?) ?\])"), bar(R"(\|)"),
-        number(R"(\[(Double|Integer range) ([^ ]+)\.\.\.([^ ]+) \(inclusive\)\])");
+          number(R"(\[(Double|Integer range) ([^ ]+)\.\.\.([^ ]+) \(inclusive\)\])");
       const bool  is_list = pattern.compare(0, 8, "[List of") == 0;
       std::smatch match;
       if (std::regex_match(pattern, match, selection))
         return std::regex_replace(match[1].str(), bar, ", ");
       if (std::regex_search(pattern, match, number))
-        {
-          const std::string noun   = match[1] == "Double" ? "number" : "integer";
-          const std::string bounds = bounds_in_words(match[2], match[3]);
-          if (is_list) // all lists of numbers are vectors
-            return "three " + noun + "s" + bounds + " separated by commas";
-          return (noun == "number" ? "a " : "an ") + noun + bounds;
-        }
+      {
+        const std::string noun   = match[1] == "Double" ? "number" : "integer";
+        const std::string bounds = bounds_in_words(match[2], match[3]);
+        if (is_list) // all lists of numbers are vectors
+          return "three " + noun + "s" + bounds + " separated by commas";
+        return (noun == "number" ? "a " : "an ") + noun + bounds;
+      }
       if (pattern.find("[FileName") != std::string::npos)
         return is_list ? "file names separated by commas" : "a file name";
       if (pattern == "[Bool]")
@@ -129,22 +130,18 @@ namespace Exemplar
     {
       for (const auto &[name, content] : node.items())
         if (content.contains("pattern_description"))
-          {
-            const std::string pattern = content.at("pattern_description");
-            keys.push_back({subsections,
-                            name,
-                            content.at("value"),
-                            content.at("default_value"),
-                            content.at("documentation"),
-                            allowed_in_words(pattern),
-                            pattern.find("[FileName") != std::string::npos});
-          }
+        {
+          const std::string pattern = content.at("pattern_description");
+          keys.push_back({ subsections, name, content.at("value"), content.at("default_value"),
+                           content.at("documentation"), allowed_in_words(pattern),
+                           pattern.find("[FileName") != std::string::npos });
+        }
         else
-          {
-            subsections.push_back(name);
-            collect_keys(content, subsections, keys);
-            subsections.pop_back();
-          }
+        {
+          subsections.push_back(name);
+          collect_keys(content, subsections, keys);
+          subsections.pop_back();
+        }
     }
 
     std::string
@@ -152,66 +149,66 @@ namespace Exemplar
     {
       std::string files;
       for (const std::string &file : split_trimmed(value, ','))
-        files += (files.empty() ? "" : ", ") +
-                 std::filesystem::absolute(directory / file).lexically_normal().string();
+        files += (files.empty() ? "" : ", ")
+                 + std::filesystem::absolute(directory / file).lexically_normal().string();
       return files;
     }
 
     void
-    set_value(dealii::ParameterHandler &prm, const DeclaredKey &key, const Assignment &assignment,
-              const std::string &value)
+    set_value(dealii::ParameterHandler &prm,
+              const DeclaredKey        &key,
+              const Assignment         &assignment,
+              const std::string        &value)
     {
       for (const std::string &subsection : key.subsections)
         prm.enter_subsection(subsection);
       bool allowed = true;
       try
-        {
-          prm.set(key.key, value);
-        }
+      {
+        prm.set(key.key, value);
+      }
       catch (const dealii::ExceptionBase &)
-        {
-          allowed = false;
-        }
+      {
+        allowed = false;
+      }
       for (std::size_t i = 0; i < key.subsections.size(); ++i)
         prm.leave_subsection();
       if (!allowed)
-        throw UserError(assignment.place + ": " + key.path() + " = '" + value +
-                        "' is not allowed. Allowed: " + key.allowed + ". Default: '" +
-                        key.default_value + "'.");
+        throw UserError(assignment.place + ": " + key.path() + " = '" + value
+                        + "' is not allowed. Allowed: " + key.allowed + ". Default: '"
+                        + key.default_value + "'.");
     }
 
     /// Reads a .prm line by line and keeps track of the subsection it is in.
     class AssignmentReader
     {
     public:
-      explicit AssignmentReader(const std::filesystem::path &file)
-        : file(file)
-      {}
+      explicit AssignmentReader(const std::filesystem::path &file) : file(file) {}
 
       std::vector<Assignment>
       read()
       {
         std::ifstream in(file);
         if (!in || std::filesystem::is_directory(file))
-          throw UserError(file.string() +
-                          ": cannot be read. Give the name of an existing .prm file.");
+          throw UserError(file.string()
+                          + ": cannot be read. Give the name of an existing .prm file.");
         for (std::string line; std::getline(in, line);)
+        {
+          ++line_number;
+          line = trim(line.substr(0, line.find('#')));
+          if (!line.empty() && line.back() == '\\')
+            pending += line.substr(0, line.size() - 1) + " ";
+          else
           {
-            ++line_number;
-            line = trim(line.substr(0, line.find('#')));
-            if (!line.empty() && line.back() == '\\')
-              pending += line.substr(0, line.size() - 1) + " ";
-            else
-              {
-                const std::string whole = trim(pending + line);
-                pending.clear();
-                if (!whole.empty())
-                  read_line(whole);
-              }
+            const std::string whole = trim(pending + line);
+            pending.clear();
+            if (!whole.empty())
+              read_line(whole);
           }
+        }
         if (!subsections.empty())
-          fail("the file ends within subsection '" + subsections.back() +
-               "'. Close it with a line 'end'.");
+          fail("the file ends within subsection '" + subsections.back()
+               + "'. Close it with a line 'end'.");
         return std::move(assignments);
       }
 
@@ -234,16 +231,17 @@ namespace Exemplar
         if (starts_with_word(line, "subsection"))
           subsections.push_back(single_blanks(line.substr(10)));
         else if (line == "end")
-          {
-            if (subsections.empty())
-              fail("'end' without an open subsection. Remove the line.");
-            subsections.pop_back();
-          }
+        {
+          if (subsections.empty())
+            fail("'end' without an open subsection. Remove the line.");
+          subsections.pop_back();
+        }
         else if (starts_with_word(line, "set"))
           read_assignment(line.substr(3));
         else
-          fail("'" + line + "' is not understood. A line is 'set KEY = VALUE', "
-                            "'subsection NAME', 'end' or a comment starting with #.");
+          fail("'" + line
+               + "' is not understood. A line is 'set KEY = VALUE', "
+                 "'subsection NAME', 'end' or a comment starting with #.");
       }
 
       void
@@ -252,14 +250,12 @@ namespace Exemplar
         const auto equals = text.find('=');
         if (equals == std::string::npos)
           fail("'set" + text + "' has no '='. Write 'set KEY = VALUE'.");
-        Assignment assignment{subsections,
-                              single_blanks(text.substr(0, equals)),
-                              trim(text.substr(equals + 1)),
-                              place()};
+        Assignment assignment{ subsections, single_blanks(text.substr(0, equals)),
+                               trim(text.substr(equals + 1)), place() };
         const auto [first, is_new] = places.emplace(assignment.path(), place());
         if (!is_new)
-          fail(assignment.path() + " is set twice; first at " + first->second +
-               ". Keep one of the two lines.");
+          fail(assignment.path() + " is set twice; first at " + first->second
+               + ". Keep one of the two lines.");
         assignments.push_back(std::move(assignment));
       }
 
@@ -299,9 +295,7 @@ namespace Exemplar
                       std::vector<std::string> &values,
                       const std::string        &documentation)
   {
-    prm.add_parameter(key,
-                      values,
-                      documentation,
+    prm.add_parameter(key, values, documentation,
                       dealii::Patterns::List(dealii::Patterns::FileName()));
   }
 
@@ -336,15 +330,14 @@ namespace Exemplar
       throw UserError("--set '" + text + "' names no key. Write --set 'Section/Key=value'.");
     const std::string key = path.back();
     path.pop_back();
-    return {path, key, trim(text.substr(equals + 1)), "--set"};
+    return { path, key, trim(text.substr(equals + 1)), "--set" };
   }
 
   const Assignment *
   find_assignment(const std::vector<Assignment> &assignments, const std::string &path)
   {
-    const auto last = std::find_if(assignments.rbegin(), assignments.rend(), [&](const auto &a) {
-      return a.path() == path;
-    });
+    const auto last = std::find_if(assignments.rbegin(), assignments.rend(),
+                                   [&](const auto &a) { return a.path() == path; });
     return last == assignments.rend() ? nullptr : &*last;
   }
 
@@ -352,9 +345,8 @@ namespace Exemplar
   declared_keys(const dealii::ParameterHandler &prm)
   {
     std::stringstream text;
-    prm.print_parameters(text,
-                         dealii::ParameterHandler::JSON |
-                           dealii::ParameterHandler::KeepDeclarationOrder);
+    prm.print_parameters(text, dealii::ParameterHandler::JSON
+                                   | dealii::ParameterHandler::KeepDeclarationOrder);
     std::vector<DeclaredKey> keys;
     std::vector<std::string> subsections;
     collect_keys(Json::parse(text), subsections, keys);
@@ -368,50 +360,48 @@ namespace Exemplar
   {
     const std::vector<DeclaredKey> keys = declared_keys(prm);
     for (const Assignment &assignment : assignments)
-      {
-        const auto key = std::find_if(keys.begin(), keys.end(), [&](const DeclaredKey &k) {
-          return k.path() == assignment.path();
-        });
-        if (key == keys.end())
-          throw UserError(assignment.place + ": there is no parameter '" + assignment.path() +
-                          "'. Did you mean '" + nearest_path(assignment.path(), keys) +
-                          "'? exemplar --print-parameters lists them all.");
-        set_value(prm,
-                  *key,
-                  assignment,
-                  key->is_input_file ? absolute_files(assignment.value, directory) :
-                                       assignment.value);
-      }
+    {
+      const auto key
+          = std::find_if(keys.begin(), keys.end(),
+                         [&](const DeclaredKey &k) { return k.path() == assignment.path(); });
+      if (key == keys.end())
+        throw UserError(assignment.place + ": there is no parameter '" + assignment.path()
+                        + "'. Did you mean '" + nearest_path(assignment.path(), keys)
+                        + "'? exemplar --print-parameters lists them all.");
+      set_value(prm, *key, assignment,
+                key->is_input_file ? absolute_files(assignment.value, directory)
+                                   : assignment.value);
+    }
   }
 
   void
   print_keys(std::ostream &out, const std::vector<DeclaredKey> &keys, const bool documented)
   {
     std::vector<std::string> open;
-    const auto               indent = [&] { return std::string(2 * open.size(), ' '); };
-    const auto               close_until = [&](const std::vector<std::string> &target) {
-      while (open.size() > target.size() ||
-             !std::equal(open.begin(), open.end(), target.begin()))
-        {
-          open.pop_back();
-          out << indent() << "end\n";
-        }
+    const auto               indent      = [&] { return std::string(2 * open.size(), ' '); };
+    const auto               close_until = [&](const std::vector<std::string> &target)
+    {
+      while (open.size() > target.size() || !std::equal(open.begin(), open.end(), target.begin()))
+      {
+        open.pop_back();
+        out << indent() << "end\n";
+      }
     };
     for (const DeclaredKey &key : keys)
+    {
+      close_until(key.subsections);
+      while (open.size() < key.subsections.size())
       {
-        close_until(key.subsections);
-        while (open.size() < key.subsections.size())
-          {
-            out << (documented && open.empty() ? "\n" : "") << indent() << "subsection "
-                << key.subsections[open.size()] << '\n';
-            open.push_back(key.subsections[open.size()]);
-          }
-        if (documented)
-          out << indent() << "# " << key.documentation << '\n'
-              << indent() << "# Allowed: " << key.allowed << ". Default: "
-              << (key.default_value.empty() ? "(empty)" : key.default_value) << '\n';
-        out << indent() << "set " << key.key << " = " << key.value << '\n';
+        out << (documented && open.empty() ? "\n" : "") << indent() << "subsection "
+            << key.subsections[open.size()] << '\n';
+        open.push_back(key.subsections[open.size()]);
       }
+      if (documented)
+        out << indent() << "# " << key.documentation << '\n'
+            << indent() << "# Allowed: " << key.allowed
+            << ". Default: " << (key.default_value.empty() ? "(empty)" : key.default_value) << '\n';
+      out << indent() << "set " << key.key << " = " << key.value << '\n';
+    }
     close_until({});
   }
 } // namespace Exemplar

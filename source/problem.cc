@@ -11,8 +11,8 @@ namespace Exemplar
     TimeAxis
     make_time_axis(const Parameters &parameters)
     {
-      return parameters.scene == SceneKind::dynamic ? TimeAxis::of_dynamics(parameters.time) :
-                                                      TimeAxis::of_increments(parameters.time);
+      return parameters.scene == SceneKind::dynamic ? TimeAxis::of_dynamics(parameters.time)
+                                                    : TimeAxis::of_increments(parameters.time);
     }
 
     std::unique_ptr<Handles>
@@ -39,7 +39,8 @@ namespace Exemplar
     {
       if (parameters.loads.empty() && parameters.gravity.norm() == 0.)
         return nullptr;
-      return std::make_unique<Loads>(parameters.gravity, parameters.loads, mesh, fe_space, material);
+      return std::make_unique<Loads>(parameters.gravity, parameters.loads, mesh, fe_space,
+                                     material);
     }
 
     std::unique_ptr<ExamplePoses>
@@ -51,8 +52,8 @@ namespace Exemplar
     {
       if (!parameters.examples.in_use())
         return nullptr;
-      return std::make_unique<ExamplePoses>(
-        parameters.examples, mesh, fe_space, material, axis.time(axis.n_steps()));
+      return std::make_unique<ExamplePoses>(parameters.examples, mesh, fe_space, material,
+                                            axis.time(axis.n_steps()));
     }
 
     std::unique_ptr<Inertia>
@@ -66,42 +67,31 @@ namespace Exemplar
     std::unique_ptr<BorderedSolver>
     make_linear_solver(const SolverParameters &solver, const SymmetricPattern &pattern)
     {
-      return solver.linear_solver == LinearSolver::umfpack ?
-               make_umfpack_solver(pattern) :
-               make_block_solver(make_cholmod_operator(), pattern);
+      return solver.linear_solver == LinearSolver::umfpack
+                 ? make_umfpack_solver(pattern)
+                 : make_block_solver(make_cholmod_operator(), pattern);
     }
   } // namespace
 
   Problem::Problem(const Parameters &parameters)
-    : parameters(parameters)
-    , clock(Part::read)
-    , time_axis(make_time_axis(parameters))
-    , mesh(parameters.mesh)
-    , material(parameters.material, mesh.get_material_ids())
-    , fe_space(mesh)
-    , handles(make_handles(parameters, mesh, time_axis))
-    , support(make_support(parameters, mesh))
-    , free_dofs(fe_space.n_dofs(), held_dofs())
-    , loads(make_loads(parameters, mesh, fe_space, material))
-    , examples(make_examples(parameters, mesh, fe_space, material, time_axis))
-    , inertia(make_inertia(parameters, fe_space, material))
-    , assembler(fe_space, material, examples.get(), inertia.get(), free_dofs)
-    , linear_solver(make_linear_solver(parameters.solver, assembler.matrix_pattern()))
-    , equilibrium(parameters.solver,
-                  {free_dofs,
-                   assembler,
-                   *linear_solver,
-                   clock,
-                   handles.get(),
-                   loads.get(),
-                   examples.get(),
-                   inertia.get()})
-    , diagnostics(handles.get(), loads.get(), examples.get(), inertia.get())
-    , state(initial_state(parameters.initial,
-                          mesh,
-                          fe_space,
-                          examples.get(),
-                          parameters.scene == SceneKind::dynamic))
+      : parameters(parameters), clock(Part::read), time_axis(make_time_axis(parameters)),
+        mesh(parameters.mesh), material(parameters.material, mesh.get_material_ids()),
+        fe_space(mesh), handles(make_handles(parameters, mesh, time_axis)),
+        support(make_support(parameters, mesh)), free_dofs(fe_space.n_dofs(), held_dofs()),
+        loads(make_loads(parameters, mesh, fe_space, material)),
+        examples(make_examples(parameters, mesh, fe_space, material, time_axis)),
+        inertia(make_inertia(parameters, fe_space, material)),
+        assembler(fe_space, material, examples.get(), inertia.get(), free_dofs),
+        linear_solver(make_linear_solver(parameters.solver, assembler.matrix_pattern())),
+        equilibrium(parameters.solver,
+                    { free_dofs, assembler, *linear_solver, clock, handles.get(), loads.get(),
+                      examples.get(), inertia.get() }),
+        diagnostics(handles.get(), loads.get(), examples.get(), inertia.get()),
+        state(initial_state(parameters.initial,
+                            mesh,
+                            fe_space,
+                            examples.get(),
+                            parameters.scene == SceneKind::dynamic))
   {
     if (parameters.scene == SceneKind::statics)
       check_supports();
@@ -123,11 +113,11 @@ namespace Exemplar
   {
     const unsigned int n_free = n_free_rigid_motions(mesh, held_dofs());
     if (n_free > 0)
-      throw UserError(parameters.scene_file.string() + ": the handles leave " +
-                      std::to_string(n_free) +
-                      " of 6 rigid motions free, so a static scene has no unique equilibrium. Add a "
-                      "subsection of Handles that holds three nodes not on a line (a box, a sphere "
-                      "or a boundary), or hold more Components.");
+      throw UserError(
+          parameters.scene_file.string() + ": the handles leave " + std::to_string(n_free)
+          + " of 6 rigid motions free, so a static scene has no unique equilibrium. Add a "
+            "subsection of Handles that holds three nodes not on a line (a box, a sphere "
+            "or a boundary), or hold more Components.");
   }
 
   void
@@ -135,10 +125,10 @@ namespace Exemplar
   {
     // the path begins at the pose that it begins with, unless another is asked for
     if (parameters.initial.pose.empty() && parameters.initial.pose_function.empty())
-      {
-        const auto greatest = std::max_element(state.weights.begin(), state.weights.end());
-        state.positions     = examples->pose(greatest - state.weights.begin());
-      }
+    {
+      const auto greatest = std::max_element(state.weights.begin(), state.weights.end());
+      state.positions     = examples->pose(greatest - state.weights.begin());
+    }
   }
 
   SolveReport
@@ -147,20 +137,25 @@ namespace Exemplar
     State              next = state;
     const unsigned int step = state.step + 1;
     next.step               = step;
-    const SolveReport report =
-      equilibrium.solve(next, time_axis.time(step), time_axis.step_size(step));
+    if (support)
+    {
+      turn_to_support(mesh, *support, next.positions);
+      equilibrium.start(next);
+    }
+    const SolveReport report
+        = equilibrium.solve(next, time_axis.time(step), time_axis.step_size(step));
     if (is_success(report.status))
+    {
+      if (inertia != nullptr)
+        inertia->end_step(state.positions, next);
+      if (support)
       {
-        if (inertia != nullptr)
-          inertia->end_step(state.positions, next);
-        if (support)
-          {
-            align(state.positions, next.positions);
-            equilibrium.start(next);
-          }
-        diagnostics.add_work(state.positions, next, equilibrium.gradient());
-        state = std::move(next);
+        align(state.positions, next.positions);
+        equilibrium.start(next);
       }
+      diagnostics.add_work(state.positions, next, equilibrium.gradient());
+      state = std::move(next);
+    }
     return report;
   }
 
@@ -176,18 +171,18 @@ namespace Exemplar
   {
     const bool has_weights = examples != nullptr && !examples->weights_are_prescribed();
     const bool umfpack     = parameters.solver.linear_solver == LinearSolver::umfpack;
-    const std::vector<std::pair<std::string, bool>> all = {
-      {"mass matrix", inertia != nullptr},
-      {"handles", handles != nullptr},
-      {"own support of interpolation", support.has_value()},
-      {"gravity", loads != nullptr && loads->has_gravity()},
-      {"loads", loads != nullptr && loads->has_named_loads()},
-      {"example poses", examples != nullptr},
-      {"weight block", has_weights},
-      {"Schur complement", has_weights && !umfpack},
-      {"CHOLMOD", !umfpack},
-      {"UMFPACK", umfpack},
-      {"frame writer", parameters.output.every > 0}};
+    const std::vector<std::pair<std::string, bool>> all
+        = { { "mass matrix", inertia != nullptr },
+            { "handles", handles != nullptr },
+            { "own support of interpolation", support.has_value() },
+            { "gravity", loads != nullptr && loads->has_gravity() },
+            { "loads", loads != nullptr && loads->has_named_loads() },
+            { "example poses", examples != nullptr },
+            { "weight block", has_weights },
+            { "Schur complement", has_weights && !umfpack },
+            { "CHOLMOD", !umfpack },
+            { "UMFPACK", umfpack },
+            { "frame writer", parameters.output.every > 0 } };
     std::vector<std::string> names;
     for (const auto &[name, is_there] : all)
       if (is_there == present)

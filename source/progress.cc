@@ -36,14 +36,10 @@ namespace Exemplar
                      const bool         quiet,
                      const unsigned int first,
                      const unsigned int n_steps)
-    : out(out)
-    , quiet(quiet)
-    , terminal(&out == &std::cout && isatty(STDOUT_FILENO) != 0)
-    , first(first)
-    , n_steps(n_steps)
-    , begin(Clock::now())
-    , last_shown(begin)
-  {}
+      : out(out), quiet(quiet), terminal(&out == &std::cout && isatty(STDOUT_FILENO) != 0),
+        first(first), n_steps(n_steps), begin(Clock::now()), last_shown(begin)
+  {
+  }
 
   void
   Progress::update(const unsigned int step, const std::string &note)
@@ -57,11 +53,12 @@ namespace Exemplar
     const double       left = seconds_between(begin, now) / (step - first) * (n_steps - step);
     std::ostringstream text;
     if (terminal)
-      {
-        const unsigned int width = 30, filled = width * step / n_steps;
-        text << "\r[" << std::string(filled, '#') << std::string(width - filled, '.') << "] ";
-      }
-    text << "step " << step << " of " << n_steps << ", " << duration_text(left) << " left, " << note;
+    {
+      const unsigned int width = 30, filled = width * step / n_steps;
+      text << "\r[" << std::string(filled, '#') << std::string(width - filled, '.') << "] ";
+    }
+    text << "step " << step << " of " << n_steps << ", " << duration_text(left) << " left, "
+         << note;
     if (terminal)
       out << std::left << std::setw(100) << text.str() << std::flush;
     else

@@ -30,12 +30,12 @@ namespace Exemplar
       const ExampleParameters           &examples = parameters.examples;
       std::map<std::string, std::string> digests;
       for (const fs::path &file : parameters.input_files())
-        {
-          const bool is_pose = std::find(examples.poses.begin(), examples.poses.end(), file) !=
-                               examples.poses.end();
-          if (examples.in_use() || !is_pose) // with importance 0 the poses need not be there
-            digests[file.string()] = sha256(file);
-        }
+      {
+        const bool is_pose
+            = std::find(examples.poses.begin(), examples.poses.end(), file) != examples.poses.end();
+        if (examples.in_use() || !is_pose) // with importance 0 the poses need not be there
+          digests[file.string()] = sha256(file);
+      }
       return digests;
     }
 
@@ -53,10 +53,12 @@ namespace Exemplar
                      const fs::path                           &file)
     {
       const std::string failure = "Cannot resume from " + file.string() + ": ";
-      const std::string remedy = " Change it back, or run the scene without --resume. Only Time/End "
-                                 "and the section Output may change.";
-      const std::string absent = "(absent)";
-      const auto        value_in = [&](const auto &values, const std::string &key) {
+      const std::string remedy
+          = " Change it back, or run the scene without --resume. Only Time/End "
+            "and the section Output may change.";
+      const std::string absent   = "(absent)";
+      const auto        value_in = [&](const auto &values, const std::string &key)
+      {
         const auto entry = values.find(key);
         return entry == values.end() ? absent : entry->second;
       };
@@ -64,14 +66,14 @@ namespace Exemplar
       auto       both = now;
       both.insert(checkpoint.parameters.begin(), checkpoint.parameters.end());
       for (const auto &entry : both)
-        {
-          const std::string &key    = entry.first;
-          const std::string  before = value_in(checkpoint.parameters, key);
-          const std::string  after  = value_in(now, key);
-          if (before != after && !may_change(key))
-            throw UserError(failure + key + " was '" + before + "' and is now '" + after + "'." +
-                            remedy);
-        }
+      {
+        const std::string &key    = entry.first;
+        const std::string  before = value_in(checkpoint.parameters, key);
+        const std::string  after  = value_in(now, key);
+        if (before != after && !may_change(key))
+          throw UserError(failure + key + " was '" + before + "' and is now '" + after + "'."
+                          + remedy);
+      }
       for (const auto &[input, digest] : input_digests)
         if (value_in(checkpoint.input_digests, input) != digest)
           throw UserError(failure + "the file " + input + " has changed since." + remedy);
@@ -88,11 +90,11 @@ namespace Exemplar
   } // namespace
 
   Results::Results(Problem &problem)
-    : problem(problem)
-    , directory(problem.parameters.output.directory)
-    , input_digests(digests_of(problem.parameters))
-    , last_checkpoint(std::chrono::steady_clock::now())
-  {}
+      : problem(problem), directory(problem.parameters.output.directory),
+        input_digests(digests_of(problem.parameters)),
+        last_checkpoint(std::chrono::steady_clock::now())
+  {
+  }
 
   void
   Results::begin()
@@ -110,9 +112,8 @@ namespace Exemplar
       statistics.emplace(directory.statistics());
       if (is_frame(0))
         write_frame();
-      StatisticsRow row = problem.diagnostics.row(problem.state,
-                                                  SolveReport(),
-                                                  problem.equilibrium);
+      StatisticsRow row
+          = problem.diagnostics.row(problem.state, SolveReport(), problem.equilibrium);
       Diagnostics::append_seconds(row, {});
       statistics->write(row);
       accepted_bytes = statistics->n_bytes();
@@ -127,12 +128,13 @@ namespace Exemplar
     const Checkpoint checkpoint = load_checkpoint(directory.checkpoint());
     check_same_scene(checkpoint, problem.parameters, input_digests, directory.checkpoint());
     const State &state = checkpoint.state;
-    if (state.step > problem.time_axis.n_steps() ||
-        state.time != problem.time_axis.time(state.step))
-      throw UserError("Cannot resume from " + directory.checkpoint().string() + ": it stands at t = " +
-                      shortest_text(state.time) + ", which is no step of a run to Time/End = " +
-                      shortest_text(problem.parameters.time.end) +
-                      ". Choose a later end, or run the scene without --resume.");
+    if (state.step > problem.time_axis.n_steps()
+        || state.time != problem.time_axis.time(state.step))
+      throw UserError("Cannot resume from " + directory.checkpoint().string()
+                      + ": it stands at t = " + shortest_text(state.time)
+                      + ", which is no step of a run to Time/End = "
+                      + shortest_text(problem.parameters.time.end)
+                      + ". Choose a later end, or run the scene without --resume.");
     {
       StepClock::Scope scope(problem.clock, Part::output);
       statistics.emplace(directory.statistics(), checkpoint.statistics_bytes);
@@ -163,10 +165,10 @@ namespace Exemplar
     const PartSeconds now = problem.clock.read();
     PartSeconds       seconds;
     for (unsigned int part = 0; part < n_parts; ++part)
-      {
-        seconds[part] = now[part] - last_lap[part];
-        totals.seconds[part] += seconds[part];
-      }
+    {
+      seconds[part] = now[part] - last_lap[part];
+      totals.seconds[part] += seconds[part];
+    }
     last_lap = now;
     return seconds;
   }
@@ -185,10 +187,10 @@ namespace Exemplar
       write_frame();
     State shown = problem.state;
     if (!accepted) // the row of a step that failed has its number and time
-      {
-        ++shown.step;
-        shown.time = problem.time_axis.time(shown.step);
-      }
+    {
+      ++shown.step;
+      shown.time = problem.time_axis.time(shown.step);
+    }
     StatisticsRow row = problem.diagnostics.row(shown, report, problem.equilibrium);
     Diagnostics::append_seconds(row, lap());
     statistics->write(row);
@@ -212,10 +214,8 @@ namespace Exemplar
     }
     lap();
     const auto mesh_digest = input_digests.find(problem.parameters.mesh.file);
-    write_summary(problem,
-                  totals,
-                  mesh_digest != input_digests.end() ? mesh_digest->second : "generated",
-                  status,
+    write_summary(problem, totals,
+                  mesh_digest != input_digests.end() ? mesh_digest->second : "generated", status,
                   directory.summary());
   }
 
@@ -238,13 +238,11 @@ namespace Exemplar
     fields.point_vectors.emplace_back("displacement", &displacement);
     if (problem.inertia != nullptr)
       fields.point_vectors.emplace_back("velocity", &state.velocities);
-    fields.cell_scalars = {{"strain_energy_density", &cells.strain_energy_density},
-                           {"det_F", &cells.det_F},
-                           {"von_mises_stress", &cells.von_mises_stress}};
-    write_vtu(directory.get_path() / RunDirectory::frame_name(state.step),
-              problem.mesh,
-              state.positions,
-              fields);
+    fields.cell_scalars = { { "strain_energy_density", &cells.strain_energy_density },
+                            { "det_F", &cells.det_F },
+                            { "von_mises_stress", &cells.von_mises_stress } };
+    write_vtu(directory.get_path() / RunDirectory::frame_name(state.step), problem.mesh,
+              state.positions, fields);
   }
 
   void
@@ -272,12 +270,8 @@ namespace Exemplar
   Results::save()
   {
     last_checkpoint = std::chrono::steady_clock::now();
-    save_checkpoint({values_of(problem.parameters),
-                     input_digests,
-                     problem.state,
-                     problem.diagnostics.get_work(),
-                     totals,
-                     accepted_bytes},
+    save_checkpoint({ values_of(problem.parameters), input_digests, problem.state,
+                      problem.diagnostics.get_work(), totals, accepted_bytes },
                     directory.checkpoint());
   }
 } // namespace Exemplar

@@ -20,16 +20,15 @@ namespace Exemplar
     bool
     is_own_name(const std::string &name)
     {
-      static const std::regex pattern("(frame_[0-9]+\\.vtu|animation\\.pvd|final\\.msh|statistics\\.csv|"
-                                      "summary\\.json|original\\.prm|parameters\\.prm|checkpoint\\.bin)"
-                                      "(\\.tmp)?");
+      static const std::regex pattern(
+          "(frame_[0-9]+\\.vtu|animation\\.pvd|final\\.msh|statistics\\.csv|"
+          "summary\\.json|original\\.prm|parameters\\.prm|checkpoint\\.bin)"
+          "(\\.tmp)?");
       return std::regex_match(name, pattern);
     }
   } // namespace
 
-  RunDirectory::RunDirectory(fs::path path)
-    : path(std::move(path))
-  {}
+  RunDirectory::RunDirectory(fs::path path) : path(std::move(path)) {}
 
   std::string
   RunDirectory::frame_name(const unsigned int step)
@@ -63,21 +62,21 @@ namespace Exemplar
     while (!fs::exists(parent))
       parent = parent.parent_path();
     if (!fs::is_directory(parent))
-      throw UserError("Output directory " + path.string() + ": " + parent.string() +
-                      " is a file." + remedy);
+      throw UserError("Output directory " + path.string() + ": " + parent.string() + " is a file."
+                      + remedy);
     if (access(parent.c_str(), W_OK | X_OK) != 0)
-      throw UserError("Output directory " + path.string() + ": no right to write in " +
-                      parent.string() + "." + remedy);
+      throw UserError("Output directory " + path.string() + ": no right to write in "
+                      + parent.string() + "." + remedy);
     if (!fs::exists(path) || fs::is_empty(path))
       return;
     if (!is_ours())
-      throw UserError("Output directory " + path.string() +
-                      " is not empty and was not written by exemplar." + remedy);
+      throw UserError("Output directory " + path.string()
+                      + " is not empty and was not written by exemplar." + remedy);
     for (const fs::path &own : own_files())
       for (const fs::path &input : input_files)
         if (fs::exists(input) && fs::equivalent(own, input))
-          throw UserError("Output directory " + path.string() + " holds the input file " +
-                          input.string() + ", which this run would clear away." + remedy);
+          throw UserError("Output directory " + path.string() + " holds the input file "
+                          + input.string() + ", which this run would clear away." + remedy);
   }
 
   void
@@ -86,8 +85,8 @@ namespace Exemplar
     std::error_code error;
     fs::create_directories(path, error);
     if (error)
-      throw UserError("Output directory " + path.string() + " cannot be made: " + error.message() +
-                      "." + remedy);
+      throw UserError("Output directory " + path.string() + " cannot be made: " + error.message()
+                      + "." + remedy);
     for (const fs::path &file : own_files())
       fs::remove(file);
   }

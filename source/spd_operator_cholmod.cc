@@ -22,7 +22,8 @@ namespace Exemplar
 
       CholmodOperator(const CholmodOperator &) = delete;
       CholmodOperator &
-      operator=(const CholmodOperator &) = delete;
+      operator=(const CholmodOperator &)
+          = delete;
 
       ~CholmodOperator() override
       {
@@ -99,11 +100,12 @@ namespace Exemplar
           throw SolverFailure("The matrix of the step is not positive definite. A body may be "
                               "without support, or cells may be inverted.");
         if (common.status == CHOLMOD_TOO_LARGE || common.status == CHOLMOD_OUT_OF_MEMORY)
-          throw SolverFailure("CHOLMOD's " + what + " needs more memory than there is. Use a "
-                                                    "coarser mesh.");
+          throw SolverFailure("CHOLMOD's " + what
+                              + " needs more memory than there is. Use a "
+                                "coarser mesh.");
         if (common.status < CHOLMOD_OK)
-          throw SolverFailure("CHOLMOD's " + what + " failed with status " +
-                              std::to_string(common.status) + ".");
+          throw SolverFailure("CHOLMOD's " + what + " failed with status "
+                              + std::to_string(common.status) + ".");
       }
 
       cholmod_common      common{};

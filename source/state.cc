@@ -9,17 +9,14 @@ namespace Exemplar
   InitialParameters::declare(dealii::ParameterHandler &prm)
   {
     prm.enter_subsection("Initial");
-    declare_input_file(prm,
-                       "Pose",
-                       pose,
-                       "Pose at t = 0, a .msh file with the nodes and tetrahedra of the mesh; empty: "
-                       "the rest pose.");
-    prm.add_parameter("Pose function",
-                      pose_function,
+    declare_input_file(
+        prm, "Pose", pose,
+        "Pose at t = 0, a .msh file with the nodes and tetrahedra of the mesh; empty: "
+        "the rest pose.");
+    prm.add_parameter("Pose function", pose_function,
                       "Pose at t = 0 instead: x'; y'; z' as functions of the rest position x, y, z "
                       "[m].");
-    prm.add_parameter("Velocity",
-                      velocity,
+    prm.add_parameter("Velocity", velocity,
                       "Velocity [m/s] at t = 0 of a dynamic scene: three functions of the rest "
                       "position x, y, z [m].");
     prm.leave_subsection();
@@ -37,36 +34,37 @@ namespace Exemplar
 
     State state;
     state.positions           = fe_space.rest_positions();
-    const auto set_node_field = [&](const Expression &expression, dealii::Vector<double> &field) {
+    const auto set_node_field = [&](const Expression &expression, dealii::Vector<double> &field)
+    {
       for (unsigned int node = 0; node < mesh.n_nodes(); ++node)
-        {
-          const dealii::Tensor<1, 3> value = expression.vector(mesh.get_nodes()[node], 0.);
-          for (unsigned int c = 0; c < 3; ++c)
-            field[3 * node + c] = value[c];
-        }
+      {
+        const dealii::Tensor<1, 3> value = expression.vector(mesh.get_nodes()[node], 0.);
+        for (unsigned int c = 0; c < 3; ++c)
+          field[3 * node + c] = value[c];
+      }
     };
     if (!parameters.pose.empty())
-      {
-        const auto nodes = mesh.read_pose(parameters.pose);
-        for (unsigned int dof = 0; dof < fe_space.n_dofs(); ++dof)
-          state.positions[dof] = nodes[dof / 3][dof % 3];
-      }
+    {
+      const auto nodes = mesh.read_pose(parameters.pose);
+      for (unsigned int dof = 0; dof < fe_space.n_dofs(); ++dof)
+        state.positions[dof] = nodes[dof / 3][dof % 3];
+    }
     else if (!parameters.pose_function.empty())
       set_node_field(Expression("Initial/Pose function", parameters.pose_function, "xyz", 3),
                      state.positions);
     if (dynamic)
-      {
-        state.velocities.reinit(fe_space.n_dofs());
-        set_node_field(Expression("Initial/Velocity", parameters.velocity, "xyz", 3),
-                       state.velocities);
-      }
+    {
+      state.velocities.reinit(fe_space.n_dofs());
+      set_node_field(Expression("Initial/Velocity", parameters.velocity, "xyz", 3),
+                     state.velocities);
+    }
     if (examples != nullptr && examples->weights_are_prescribed())
       state.weights = examples->prescribed_weights(0.);
     else if (examples != nullptr)
-      {
-        state.weights.assign(examples->size(), 0.);
-        state.weights[0] = 1.;
-      }
+    {
+      state.weights.assign(examples->size(), 0.);
+      state.weights[0] = 1.;
+    }
     return state;
   }
 } // namespace Exemplar

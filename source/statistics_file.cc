@@ -14,29 +14,30 @@ namespace Exemplar
     {
       std::error_code error;
       if (std::filesystem::file_size(path, error) < n_bytes || error)
-        throw UserError(path.string() + " is missing or shorter than at the checkpoint. Run the "
-                                        "scene without --resume.");
+        throw UserError(path.string()
+                        + " is missing or shorter than at the checkpoint. Run the "
+                          "scene without --resume.");
       std::filesystem::resize_file(path, n_bytes);
       return path;
     }
   } // namespace
 
   StatisticsFile::StatisticsFile(const std::filesystem::path &path)
-    : path(path)
-    , out(path, std::ios::binary)
-    , has_header(false)
-  {}
+      : path(path), out(path, std::ios::binary), has_header(false)
+  {
+  }
 
   StatisticsFile::StatisticsFile(const std::filesystem::path &path, const std::uintmax_t n_bytes)
-    : path(path)
-    , out(truncated(path, n_bytes), std::ios::binary | std::ios::in | std::ios::ate)
-    , has_header(true)
-  {}
+      : path(path), out(truncated(path, n_bytes), std::ios::binary | std::ios::in | std::ios::ate),
+        has_header(true)
+  {
+  }
 
   void
   StatisticsFile::write(const StatisticsRow &row)
   {
-    const auto write_line = [&](const auto &cell) {
+    const auto write_line = [&](const auto &cell)
+    {
       for (unsigned int i = 0; i < row.size(); ++i)
         out << (i == 0 ? "" : ",") << cell(row[i]);
       out << '\n';

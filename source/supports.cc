@@ -23,7 +23,7 @@ namespace Exemplar
     dealii::Point<3>
     node_of(const dealii::Vector<double> &positions, const unsigned int node)
     {
-      return {positions[3 * node], positions[3 * node + 1], positions[3 * node + 2]};
+      return { positions[3 * node], positions[3 * node + 1], positions[3 * node + 2] };
     }
 
     std::vector<dealii::Point<3>>
@@ -33,6 +33,42 @@ namespace Exemplar
       for (unsigned int node = 0; node < positions.size() / 3; ++node)
         nodes.push_back(node_of(positions, node));
       return nodes;
+    }
+
+    /// y = to + R (x - from).
+    struct RigidMotion
+    {
+      dealii::Point<3> from, to;
+      Matrix3<double>  rotation;
+    };
+
+    /// The motion that brings points nearest to reference points.
+    RigidMotion
+    motion_to(const dealii::Vector<double> &reference, const dealii::Vector<double> &points)
+    {
+      RigidMotion motion{ centroid(nodes_of(points)), centroid(nodes_of(reference)), {} };
+      for (unsigned int node = 0; node < points.size() / 3; ++node)
+      {
+        const dealii::Tensor<1, 3> p = node_of(reference, node) - motion.to;
+        const dealii::Tensor<1, 3> q = node_of(points, node) - motion.from;
+        for (int i = 0; i < 3; ++i)
+          for (int j = 0; j < 3; ++j)
+            motion.rotation[i][j] += p[i] * q[j];
+      }
+      motion.rotation = closest_rotation(motion.rotation);
+      return motion;
+    }
+
+    void
+    move_rigidly(const RigidMotion &motion, dealii::Vector<double> &positions)
+    {
+      const Matrix3<double> &R = motion.rotation;
+      for (unsigned int node = 0; node < positions.size() / 3; ++node)
+      {
+        const dealii::Tensor<1, 3> q = node_of(positions, node) - motion.from;
+        for (int i = 0; i < 3; ++i)
+          positions[3 * node + i] = motion.to[i] + R[i][0] * q[0] + R[i][1] * q[1] + R[i][2] * q[2];
+      }
     }
 
     unsigned int
@@ -51,16 +87,16 @@ namespace Exemplar
       unsigned int nearest          = 0;
       double       nearest_distance = std::numeric_limits<double>::max();
       for (unsigned int cell = 0; cell < mesh.n_cells(); ++cell)
+      {
+        dealii::Point<3> middle;
+        for (const unsigned int node : mesh.get_cells()[cell])
+          middle += mesh.get_nodes()[node] / 4.;
+        if (const double distance = middle.distance(center); distance < nearest_distance)
         {
-          dealii::Point<3> middle;
-          for (const unsigned int node : mesh.get_cells()[cell])
-            middle += mesh.get_nodes()[node] / 4.;
-          if (const double distance = middle.distance(center); distance < nearest_distance)
-            {
-              nearest          = cell;
-              nearest_distance = distance;
-            }
+          nearest          = cell;
+          nearest_distance = distance;
         }
+      }
       return nearest;
     }
   } // namespace
@@ -74,79 +110,78 @@ namespace Exemplar
     const double                       diameter = mesh.diameter();
     std::vector<std::array<double, 6>> rows;
     for (const unsigned int dof : held_dofs)
-      {
-        const dealii::Tensor<1, 3> r = (mesh.get_nodes()[dof / 3] - center) / diameter;
-        const unsigned int         c = dof % 3, d = (c + 1) % 3, e = (c + 2) % 3;
-        std::array<double, 6>      row{};
-        row[c]     = 1.;
-        row[3 + d] = r[e]; // (omega x r)_c = omega_d r_e - omega_e r_d
-        row[3 + e] = -r[d];
-        rows.push_back(row);
-      }
+    {
+      const dealii::Tensor<1, 3> r = (mesh.get_nodes()[dof / 3] - center) / diameter;
+      const unsigned int         c = dof % 3, d = (c + 1) % 3, e = (c + 2) % 3;
+      std::array<double, 6>      row{};
+      row[c]     = 1.;
+      row[3 + d] = r[e]; // (omega x r)_c = omega_d r_e - omega_e r_d
+      row[3 + e] = -r[d];
+      rows.push_back(row);
+    }
     unsigned int rank = 0;
     for (; rank < 6 && rank < rows.size(); ++rank)
-      {
-        unsigned int pivot_row = rank, pivot_column = 0;
-        for (unsigned int i = rank; i < rows.size(); ++i)
-          for (unsigned int j = 0; j < 6; ++j)
-            if (std::abs(rows[i][j]) > std::abs(rows[pivot_row][pivot_column]))
-              {
-                pivot_row    = i;
-                pivot_column = j;
-              }
-        if (std::abs(rows[pivot_row][pivot_column]) < 1e-8)
-          break;
-        std::swap(rows[rank], rows[pivot_row]);
-        for (unsigned int i = rank + 1; i < rows.size(); ++i)
+    {
+      unsigned int pivot_row = rank, pivot_column = 0;
+      for (unsigned int i = rank; i < rows.size(); ++i)
+        for (unsigned int j = 0; j < 6; ++j)
+          if (std::abs(rows[i][j]) > std::abs(rows[pivot_row][pivot_column]))
           {
-            const double factor = rows[i][pivot_column] / rows[rank][pivot_column];
-            for (unsigned int j = 0; j < 6; ++j)
-              rows[i][j] -= factor * rows[rank][j];
-            rows[i][pivot_column] = 0.;
+            pivot_row    = i;
+            pivot_column = j;
           }
+      if (std::abs(rows[pivot_row][pivot_column]) < 1e-8)
+        break;
+      std::swap(rows[rank], rows[pivot_row]);
+      for (unsigned int i = rank + 1; i < rows.size(); ++i)
+      {
+        const double factor = rows[i][pivot_column] / rows[rank][pivot_column];
+        for (unsigned int j = 0; j < 6; ++j)
+          rows[i][j] -= factor * rows[rank][j];
+        rows[i][pivot_column] = 0.;
       }
+    }
     return 6 - rank;
   }
 
   StaticallyDeterminateSupport
   support_near_centroid(const Mesh &mesh)
   {
-    const auto &x    = mesh.get_nodes();
-    const auto &cell = mesh.get_cells()[cell_nearest_to(centroid(x), mesh)];
-    const auto  a = cell[0], b = cell[1], c = cell[2];
+    const auto        &x       = mesh.get_nodes();
+    const unsigned int nearest = cell_nearest_to(centroid(x), mesh);
+    const auto        &cell    = mesh.get_cells()[nearest];
+    const auto         a = cell[0], b = cell[1], c = cell[2];
 
     // b may move along the dominant direction of ab only, c within the plane abc
-    const unsigned int along  = greatest_component(x[b] - x[a]);
-    const unsigned int normal =
-      greatest_component(dealii::cross_product_3d(x[b] - x[a], x[c] - x[a]));
-    std::vector<unsigned int> held = {3 * a, 3 * a + 1, 3 * a + 2, 3 * c + normal};
+    const unsigned int along = greatest_component(x[b] - x[a]);
+    const unsigned int normal
+        = greatest_component(dealii::cross_product_3d(x[b] - x[a], x[c] - x[a]));
+    std::vector<unsigned int> held = { 3 * a, 3 * a + 1, 3 * a + 2, 3 * c + normal };
     for (unsigned int d = 0; d < 3; ++d)
       if (d != along)
         held.push_back(3 * b + d);
     std::sort(held.begin(), held.end());
-    return {{{a, b, c}}, held};
+    return { nearest, { { a, b, c } }, held };
+  }
+
+  void
+  turn_to_support(const Mesh                         &mesh,
+                  const StaticallyDeterminateSupport &support,
+                  dealii::Vector<double>             &positions)
+  {
+    const auto            &cell = mesh.get_cells()[support.cell];
+    dealii::Vector<double> rest(12), current(12);
+    for (unsigned int i = 0; i < 12; ++i)
+    {
+      rest[i]    = mesh.get_nodes()[cell[i / 3]][i % 3];
+      current[i] = positions[3 * cell[i / 3] + i % 3];
+    }
+    move_rigidly(motion_to(rest, current), positions);
   }
 
   void
   align(const dealii::Vector<double> &reference, dealii::Vector<double> &positions)
   {
-    const dealii::Point<3> to = centroid(nodes_of(reference)), from = centroid(nodes_of(positions));
-    Matrix3<double>        covariance{};
-    const unsigned int     n_nodes = positions.size() / 3;
-    for (unsigned int node = 0; node < n_nodes; ++node)
-      {
-        const dealii::Tensor<1, 3> p = node_of(reference, node) - to;
-        const dealii::Tensor<1, 3> q = node_of(positions, node) - from;
-        for (int i = 0; i < 3; ++i)
-          for (int j = 0; j < 3; ++j)
-            covariance[i][j] += p[i] * q[j];
-      }
-    const Matrix3<double> R = closest_rotation(covariance);
-    for (unsigned int node = 0; node < n_nodes; ++node)
-      {
-        const dealii::Tensor<1, 3> q = node_of(positions, node) - from;
-        for (int i = 0; i < 3; ++i)
-          positions[3 * node + i] = to[i] + R[i][0] * q[0] + R[i][1] * q[1] + R[i][2] * q[2];
-      }
+    move_rigidly(motion_to(reference, positions), positions);
   }
 } // namespace Exemplar

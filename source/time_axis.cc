@@ -10,7 +10,7 @@ namespace Exemplar
 {
   namespace
   {
-    const EnumTable<TimeScheme> schemes = {{TimeScheme::implicit_euler, "implicit euler"}};
+    const EnumTable<TimeScheme> schemes = { { TimeScheme::implicit_euler, "implicit euler" } };
   }
 
   void
@@ -20,13 +20,11 @@ namespace Exemplar
     prm.enter_subsection("Time");
     declare_enum(prm, "Scheme", scheme, schemes, "Time stepping of a dynamic scene.");
     prm.add_parameter("Step", step, "Time step h [s] of a dynamic scene.", positive);
-    prm.add_parameter("End",
-                      end,
+    prm.add_parameter("End", end,
                       "Time [s] at which a dynamic scene ends. If it is no whole number of steps, "
                       "the last step is shorter.",
                       positive);
-    prm.add_parameter("Increments",
-                      increments,
+    prm.add_parameter("Increments", increments,
                       "Number of increments in which a static scene or an interpolation goes from "
                       "t = 0 to t = 1.",
                       dealii::Patterns::Integer(1));
@@ -37,12 +35,10 @@ namespace Exemplar
                      const double       length,
                      const double       divisor,
                      const double       end)
-    : steps(steps)
-    , length(length)
-    , divisor(divisor)
-    , end(end)
-    , last_is_shorter(end < steps * length / divisor * (1. - 1e-12))
-  {}
+      : steps(steps), length(length), divisor(divisor), end(end),
+        last_is_shorter(end < steps * length / divisor * (1. - 1e-12))
+  {
+  }
 
   TimeAxis
   TimeAxis::of_dynamics(const TimeParameters &parameters)
@@ -51,14 +47,14 @@ namespace Exemplar
     const double quotient = parameters.end / parameters.step;
     const double steps    = std::max(1., std::ceil(quotient * (1. - 1e-12)));
     if (steps > 1e9)
-      throw UserError("Time/End / Time/Step = " + shortest_text(quotient) +
-                      " is more than 1e9 steps. Enlarge Time/Step or lower Time/End.");
-    return {static_cast<unsigned int>(steps), parameters.step, 1., parameters.end};
+      throw UserError("Time/End / Time/Step = " + shortest_text(quotient)
+                      + " is more than 1e9 steps. Enlarge Time/Step or lower Time/End.");
+    return { static_cast<unsigned int>(steps), parameters.step, 1., parameters.end };
   }
 
   TimeAxis
   TimeAxis::of_increments(const TimeParameters &parameters)
   {
-    return {parameters.increments, 1., static_cast<double>(parameters.increments), 1.};
+    return { parameters.increments, 1., static_cast<double>(parameters.increments), 1. };
   }
 } // namespace Exemplar

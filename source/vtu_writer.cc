@@ -22,19 +22,17 @@ namespace Exemplar
     {
       uLongf                     compressed_size = compressBound(size);
       std::vector<unsigned char> compressed(compressed_size);
-      if (compress2(compressed.data(),
-                    &compressed_size,
-                    static_cast<const Bytef *>(data),
-                    size,
-                    Z_BEST_SPEED) != Z_OK)
+      if (compress2(compressed.data(), &compressed_size, static_cast<const Bytef *>(data), size,
+                    Z_BEST_SPEED)
+          != Z_OK)
         throw std::runtime_error("zlib cannot compress a frame");
       compressed.resize(compressed_size);
 
-      const std::uint64_t        header[4] = {1, size, size, compressed_size};
+      const std::uint64_t        header[4] = { 1, size, size, compressed_size };
       std::vector<unsigned char> header_bytes(sizeof(header));
       std::memcpy(header_bytes.data(), header, sizeof(header));
-      return dealii::Utilities::encode_base64(header_bytes) +
-             dealii::Utilities::encode_base64(compressed);
+      return dealii::Utilities::encode_base64(header_bytes)
+             + dealii::Utilities::encode_base64(compressed);
     }
 
     template <typename Number>
@@ -58,10 +56,10 @@ namespace Exemplar
       connectivity.reserve(4 * mesh.n_cells());
       offsets.reserve(mesh.n_cells());
       for (const auto &cell : mesh.get_cells())
-        {
-          connectivity.insert(connectivity.end(), cell.begin(), cell.end());
-          offsets.push_back(static_cast<std::int32_t>(connectivity.size()));
-        }
+      {
+        connectivity.insert(connectivity.end(), cell.begin(), cell.end());
+        offsets.push_back(static_cast<std::int32_t>(connectivity.size()));
+      }
       const std::vector<std::uint8_t> types(mesh.n_cells(), 10); // VTK_TETRA
       out << "<Cells>\n";
       write_array(out, "Int32", "connectivity", 1, connectivity.data(), connectivity.size());

@@ -40,11 +40,11 @@ namespace Exemplar
   /// Everything that a loop over the cells finds at given positions and weights.
   struct Evaluation
   {
-    dealii::Vector<double> gradient;         ///< internal forces dPsi/dx [N], Eq. (6)
-    dealii::Vector<double> force_scale;      ///< a node: sum V (|C:e| + eta |C:E(w)|) |g_a| [N]
-    std::vector<double>    weight_gradient;  ///< dPsi/dw_i [J], Eq. (7)
-    double                 weight_scale = 0; ///< of the weight gradient [J]
-    double                 energy_elastic = 0; ///< sum V/2 e:C:e [J]
+    dealii::Vector<double> gradient;           ///< internal forces dPsi/dx [N], Eq. (6)
+    dealii::Vector<double> force_scale;        ///< a node: sum V (|C:e| + eta |C:E(w)|) |g_a| [N]
+    std::vector<double>    weight_gradient;    ///< dPsi/dw_i [J], Eq. (7)
+    double                 weight_scale   = 0; ///< of the weight gradient [J]
+    double                 energy_elastic = 0; ///< sum V/2 e:C:e [J], Eq. (5)
     double                 energy_example = 0; ///< Psi - energy_elastic, ridge included [J]
     double                 min_det_F      = 0;
     unsigned int           inverted_cells = 0;
@@ -139,14 +139,15 @@ namespace Exemplar
     const Inertia      *inertia;
     const FreeDofs     &free_dofs;
 
-    SymmetricPattern                             pattern;
-    std::vector<std::array<int, n_cell_entries>> scatter; ///< where each entry goes, or FreeDofs::held
-    std::vector<unsigned int>                    cells_beside_held_nodes;
-    std::vector<double>                          mass_values;    ///< M on the pattern; empty in statics
-    std::vector<std::array<double, 4>>           gradient_norms; ///< |g_a|
-    std::vector<Matrix3<double>>                 rotations;
-    double                                       greatest_rounding_force = 0.;
-    double                                       rounding_stress_norm    = 0.; ///< (sum V T^2)^(1/2)
+    SymmetricPattern pattern;
+    std::vector<std::array<int, n_cell_entries>>
+                                       scatter; ///< where each entry goes, or FreeDofs::held
+    std::vector<unsigned int>          cells_beside_held_nodes;
+    std::vector<double>                mass_values;    ///< M on the pattern; empty in statics
+    std::vector<std::array<double, 4>> gradient_norms; ///< |g_a|
+    std::vector<Matrix3<double>>       rotations;
+    double                             greatest_rounding_force = 0.;
+    double                             rounding_stress_norm    = 0.; ///< (sum V T^2)^(1/2)
   };
 } // namespace Exemplar
 

@@ -42,17 +42,20 @@ namespace Exemplar
 
     /// The values of A on the pattern, to be overwritten.
     virtual std::vector<double> &
-    matrix_values() = 0;
+    matrix_values()
+        = 0;
 
     /// Prepare for solve() with A as it is now. Throws SolverFailure if A is not
     /// positive definite.
     virtual void
-    factorize(const WeightBlock &block) = 0;
+    factorize(const WeightBlock &block)
+        = 0;
 
     /// The right side is overwritten by the solution. Throws SolverFailure if the
     /// system is singular.
     virtual void
-    solve(const WeightBlock &block, BorderedVector &right_side) = 0;
+    solve(const WeightBlock &block, BorderedVector &right_side)
+        = 0;
   };
 
   /// Block elimination: one call for A^-1 [r_x, G], then the dense Schur complement

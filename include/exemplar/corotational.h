@@ -26,10 +26,10 @@ namespace Exemplar
     Matrix3<Number> F;
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
-        F[i][j] = position[0][i] * cell.shape_gradient[0][j] +
-                  position[1][i] * cell.shape_gradient[1][j] +
-                  position[2][i] * cell.shape_gradient[2][j] +
-                  position[3][i] * cell.shape_gradient[3][j];
+        F[i][j] = position[0][i] * cell.shape_gradient[0][j]
+                  + position[1][i] * cell.shape_gradient[1][j]
+                  + position[2][i] * cell.shape_gradient[2][j]
+                  + position[3][i] * cell.shape_gradient[3][j];
     return F;
   }
 
@@ -68,11 +68,11 @@ namespace Exemplar
   {
     const Matrix3<Number> P = rotation * corotated_stress;
     for (int a = 0; a < 4; ++a)
-      {
-        force[a] = P * cell.shape_gradient[a];
-        for (int i = 0; i < 3; ++i)
-          force[a][i] *= cell.volume;
-      }
+    {
+      force[a] = P * cell.shape_gradient[a];
+      for (int i = 0; i < 3; ++i)
+        force[a][i] *= cell.volume;
+    }
   }
 
   /// The gradients R g_a. An isotropic stiffness is turned by turning these four
@@ -101,7 +101,8 @@ namespace Exemplar
     Matrix3<Number> K;
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
-        K[i][j] = lambda * g_a[i] * g_b[j] + mu * g_b[i] * g_a[j] + (i == j ? diagonal : Number(0.));
+        K[i][j]
+            = lambda * g_a[i] * g_b[j] + mu * g_b[i] * g_a[j] + (i == j ? diagonal : Number(0.));
     return K;
   }
 } // namespace Exemplar

@@ -30,7 +30,10 @@ namespace Exemplar
   class Diagnostics
   {
   public:
-    Diagnostics(const Handles *handles, const Loads *loads, const ExamplePoses *examples, const Inertia *inertia);
+    Diagnostics(const Handles      *handles,
+                const Loads        *loads,
+                const ExamplePoses *examples,
+                const Inertia      *inertia);
 
     /// Add the work of the step from `old_positions` to `state`.
     void
@@ -58,11 +61,11 @@ namespace Exemplar
     append_seconds(StatisticsRow &row, const std::optional<PartSeconds> &seconds);
 
   private:
-    const Handles        *handles;
-    const Loads          *loads;
-    const ExamplePoses   *examples;
-    const Inertia        *inertia;
-    Work                  work;
+    const Handles      *handles;
+    const Loads        *loads;
+    const ExamplePoses *examples;
+    const Inertia      *inertia;
+    Work                work;
   };
 } // namespace Exemplar
 

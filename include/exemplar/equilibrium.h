@@ -69,12 +69,12 @@ namespace Exemplar
   /// How a solve ended.
   struct SolveReport
   {
-    SolveStatus         status     = SolveStatus::initial;
-    unsigned int        iterations = 0;
-    double              residual   = 0.; ///< relative, doc/method.md Eq. (13)
-    double              kkt_residual = 0.; ///< of the weights, relative
-    std::vector<double> residual_history; ///< one entry an iteration
-    std::string         failure; ///< why, if the status is `failed`
+    SolveStatus         status       = SolveStatus::initial;
+    unsigned int        iterations   = 0;
+    double              residual     = 0.; ///< relative, doc/method.md Eq. (13)
+    double              kkt_residual = 0.; ///< of the weights, relative, Eq. (13)
+    std::vector<double> residual_history;  ///< one entry an iteration
+    std::string         failure;           ///< why, if the status is `failed`
   };
 
   /// Finds positions and example weights at the end of a step: statics,

@@ -31,11 +31,11 @@ namespace Exemplar
   {
     std::vector<std::string> poses;
     std::string              pose_functions;
-    bool                     include_rest_pose  = true;
-    double                   importance         = 0.8; ///< eta
-    std::string              weight_penalty     = "auto";
-    ExampleEnergy            energy             = ExampleEnergy::scaled;
-    ExampleWeights           weights            = ExampleWeights::free;
+    bool                     include_rest_pose = true;
+    double                   importance        = 0.8; ///< eta
+    std::string              weight_penalty    = "auto";
+    ExampleEnergy            energy            = ExampleEnergy::scaled;
+    ExampleWeights           weights           = ExampleWeights::free;
     std::string              prescribed_weights;
 
     void
@@ -105,19 +105,21 @@ namespace Exemplar
     strain(const unsigned int cell, const unsigned int i) const
     {
       const double *E = entries(cell) + 6 * i;
-      return {{{E[0], E[5], E[4]}, {E[5], E[1], E[3]}, {E[4], E[3], E[2]}}};
+      return { { { E[0], E[5], E[4] }, { E[5], E[1], E[3] }, { E[4], E[3], E[2] } } };
     }
 
     /// E(w) = sum_i w_i E_i in a cell.
     Matrix3<double>
     strain(const unsigned int cell, const std::vector<double> &weights) const
     {
-      double        sum[6] = {0., 0., 0., 0., 0., 0.};
+      double        sum[6] = { 0., 0., 0., 0., 0., 0. };
       const double *E      = entries(cell);
       for (unsigned int i = first_strained; i < size(); ++i)
         for (unsigned int entry = 0; entry < 6; ++entry)
           sum[entry] += weights[i] * E[6 * i + entry];
-      return {{{sum[0], sum[5], sum[4]}, {sum[5], sum[1], sum[3]}, {sum[4], sum[3], sum[2]}}};
+      return {
+        { { sum[0], sum[5], sum[4] }, { sum[5], sum[1], sum[3] }, { sum[4], sum[3], sum[2] } }
+      };
     }
 
     /// The first example that has strain: the rest pose, where it is included, is

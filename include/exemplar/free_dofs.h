@@ -14,16 +14,16 @@ namespace Exemplar
     static constexpr int held = -1;
 
     FreeDofs(const unsigned int n_dofs, const std::vector<unsigned int> &held_dofs)
-      : index(n_dofs, 0)
+        : index(n_dofs, 0)
     {
       for (const unsigned int dof : held_dofs)
         index[dof] = held;
       for (unsigned int dof = 0; dof < n_dofs; ++dof)
         if (index[dof] != held)
-          {
-            index[dof] = static_cast<int>(dofs.size());
-            dofs.push_back(dof);
-          }
+        {
+          index[dof] = static_cast<int>(dofs.size());
+          dofs.push_back(dof);
+        }
     }
 
     unsigned int

@@ -49,8 +49,7 @@ namespace Exemplar
   {
   public:
     /// Throws UserError if a region names a material id that no cell has.
-    Material(const MaterialParameters        &parameters,
-             const std::vector<unsigned int> &material_ids);
+    Material(const MaterialParameters &parameters, const std::vector<unsigned int> &material_ids);
 
     const Lame<double> &
     lame(const unsigned int cell) const

@@ -129,9 +129,9 @@ namespace Exemplar
   Number
   determinant(const Matrix3<Number> &A)
   {
-    return A[0][0] * (A[1][1] * A[2][2] - A[1][2] * A[2][1]) -
-           A[0][1] * (A[1][0] * A[2][2] - A[1][2] * A[2][0]) +
-           A[0][2] * (A[1][0] * A[2][1] - A[1][1] * A[2][0]);
+    return A[0][0] * (A[1][1] * A[2][2] - A[1][2] * A[2][1])
+           - A[0][1] * (A[1][0] * A[2][2] - A[1][2] * A[2][0])
+           + A[0][2] * (A[1][0] * A[2][1] - A[1][1] * A[2][0]);
   }
 
   /// Matrix of cofactors: A^T cof(A) = det(A) I.
@@ -142,10 +142,10 @@ namespace Exemplar
     Matrix3<Number> C;
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
-        {
-          const int p = (i + 1) % 3, q = (i + 2) % 3, r = (j + 1) % 3, s = (j + 2) % 3;
-          C[i][j] = A[p][r] * A[q][s] - A[p][s] * A[q][r];
-        }
+      {
+        const int p = (i + 1) % 3, q = (i + 2) % 3, r = (j + 1) % 3, s = (j + 2) % 3;
+        C[i][j] = A[p][r] * A[q][s] - A[p][s] * A[q][r];
+      }
     return C;
   }
 } // namespace Exemplar

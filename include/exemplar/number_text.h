@@ -17,7 +17,7 @@ namespace Exemplar
       return "";
     char       buffer[32];
     const auto end = std::to_chars(buffer, buffer + sizeof(buffer), value).ptr;
-    return {buffer, end};
+    return { buffer, end };
   }
 } // namespace Exemplar
 

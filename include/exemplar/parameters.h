@@ -59,7 +59,8 @@ namespace Exemplar
 
     Parameters(const Parameters &) = delete;
     Parameters &
-    operator=(const Parameters &) = delete;
+    operator=(const Parameters &)
+        = delete;
 
     /// All keys with the values in force; input files are absolute.
     std::vector<DeclaredKey>
@@ -91,7 +92,9 @@ namespace Exemplar
     declare_named_subsections(const std::vector<Assignment> &assignments);
 
     void
-    set(const std::vector<std::string> &subsections, const std::string &key, const std::string &value);
+    set(const std::vector<std::string> &subsections,
+        const std::string              &key,
+        const std::string              &value);
 
     void
     make_selections_absolute();

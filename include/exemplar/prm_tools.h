@@ -40,15 +40,15 @@ namespace Exemplar
     std::string names;
     for (const auto &entry : table)
       names += (names.empty() ? "" : "|") + entry.second;
-    prm.declare_entry(key,
-                      enum_name(value, table),
-                      dealii::Patterns::Selection(names),
+    prm.declare_entry(key, enum_name(value, table), dealii::Patterns::Selection(names),
                       documentation);
-    prm.add_action(key, [&value, &table](const std::string &text) {
-      for (const auto &[entry, name] : table)
-        if (name == text)
-          value = entry;
-    });
+    prm.add_action(key,
+                   [&value, &table](const std::string &text)
+                   {
+                     for (const auto &[entry, name] : table)
+                       if (name == text)
+                         value = entry;
+                   });
   }
 
   /// Declare the name of an input file; relative to the .prm that sets it.

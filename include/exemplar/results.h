@@ -75,10 +75,10 @@ namespace Exemplar
     const std::map<std::string, std::string> input_digests; ///< SHA-256 of the files read
     std::optional<StatisticsFile>            statistics;
     RunTotals                                totals;
-    std::uintmax_t                           accepted_bytes = 0; ///< of statistics.csv, less a failed row
-    unsigned int                             earlier_factorizations = 0; ///< before a resume
-    PartSeconds                              last_lap{};
-    std::chrono::steady_clock::time_point    last_checkpoint;
+    std::uintmax_t accepted_bytes         = 0; ///< of statistics.csv, less a failed row
+    unsigned int   earlier_factorizations = 0; ///< before a resume
+    PartSeconds    last_lap{};
+    std::chrono::steady_clock::time_point last_checkpoint;
   };
 } // namespace Exemplar
 

@@ -39,19 +39,23 @@ namespace Exemplar
 
     /// Throws SolverFailure if the pattern is too large for the library.
     virtual void
-    reinit(const SymmetricPattern &pattern) = 0;
+    reinit(const SymmetricPattern &pattern)
+        = 0;
 
     /// Values on the pattern, to be overwritten.
     virtual std::vector<double> &
-    values() = 0;
+    values()
+        = 0;
 
     /// Throws SolverFailure if the matrix is not positive definite.
     virtual void
-    factorize() = 0;
+    factorize()
+        = 0;
 
     /// Overwrite the columns (n entries each, one after the other) by A^-1 times them.
     virtual void
-    solve(std::vector<double> &columns) = 0;
+    solve(std::vector<double> &columns)
+        = 0;
   };
 
   /// CHOLMOD's sparse Cholesky factorisation.

@@ -28,10 +28,10 @@ namespace Exemplar
   struct State
   {
     unsigned int           step = 0;
-    double                 time = 0.;   ///< [s]
-    dealii::Vector<double> positions;   ///< [m], by degree of freedom 3 i + c
-    dealii::Vector<double> velocities;  ///< [m/s]; empty unless dynamic
-    std::vector<double>    weights;     ///< of the examples; empty without examples
+    double                 time = 0.;       ///< [s]
+    dealii::Vector<double> positions;       ///< [m], by degree of freedom 3 i + c
+    dealii::Vector<double> velocities;      ///< [m/s]; empty unless dynamic
+    std::vector<double>    weights;         ///< of the examples; empty without examples
     double                 multiplier = 0.; ///< of the weights' sum [J]
   };
 

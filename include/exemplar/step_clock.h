@@ -21,8 +21,8 @@ namespace Exemplar
 
   constexpr unsigned int n_parts = 6;
 
-  inline const std::array<std::string, n_parts> part_names = {
-    {"read", "evaluate", "assemble", "factorize", "solve", "output"}};
+  inline const std::array<std::string, n_parts> part_names
+      = { { "read", "evaluate", "assemble", "factorize", "solve", "output" } };
 
   using PartSeconds = std::array<double, n_parts>;
 
@@ -35,9 +35,7 @@ namespace Exemplar
     class Scope
     {
     public:
-      Scope(StepClock &clock, const Part part)
-        : clock(clock)
-        , before(clock.current)
+      Scope(StepClock &clock, const Part part) : clock(clock), before(clock.current)
       {
         clock.switch_to(part);
       }
@@ -49,24 +47,24 @@ namespace Exemplar
 
       Scope(const Scope &) = delete;
       Scope &
-      operator=(const Scope &) = delete;
+      operator=(const Scope &)
+          = delete;
 
     private:
       StepClock &clock;
       const Part before;
     };
 
-    explicit StepClock(const Part first)
-      : current(first)
-      , since(std::chrono::steady_clock::now())
-    {}
+    explicit StepClock(const Part first) : current(first), since(std::chrono::steady_clock::now())
+    {
+    }
 
     void
     switch_to(const Part part)
     {
       const auto now = std::chrono::steady_clock::now();
-      seconds[static_cast<unsigned int>(current)] +=
-        std::chrono::duration<double>(now - since).count();
+      seconds[static_cast<unsigned int>(current)]
+          += std::chrono::duration<double>(now - since).count();
       since   = now;
       current = part;
     }

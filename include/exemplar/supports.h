@@ -20,6 +20,7 @@ namespace Exemplar
   /// nothing else: three of its first node, two of the second, one of the third.
   struct StaticallyDeterminateSupport
   {
+    unsigned int                cell;
     std::array<unsigned int, 3> nodes;
     std::vector<unsigned int>   held_dofs; ///< ascending
   };
@@ -28,8 +29,15 @@ namespace Exemplar
   StaticallyDeterminateSupport
   support_near_centroid(const Mesh &mesh);
 
+  /// Turn `positions` so that the supported cell stands as it does at rest. The
+  /// support was chosen for that orientation and is a poor one in others.
+  void
+  turn_to_support(const Mesh                         &mesh,
+                  const StaticallyDeterminateSupport &support,
+                  dealii::Vector<double>             &positions);
+
   /// Move `positions` rigidly so that it comes nearest to `reference` in the
-  /// least-squares sense over the nodes (Kabsch 1976).
+  /// least-squares sense over the nodes (Kabsch 1976), Eq. (15).
   void
   align(const dealii::Vector<double> &reference, dealii::Vector<double> &positions);
 } // namespace Exemplar

@@ -31,7 +31,7 @@ namespace Exemplar
 
   /// A ParaView collection of frames (time, file name).
   void
-  write_pvd(const std::filesystem::path                             &file,
+  write_pvd(const std::filesystem::path                       &file,
             const std::vector<std::pair<double, std::string>> &frames);
 } // namespace Exemplar
 

@@ -125,7 +125,7 @@ SCENES = [
     ("pose function of t", {**BAR, "Examples/Pose functions": "x*t; y; z"},
      ["Examples/Pose functions", "'x*t'", "variables x, y, z"]),
     ("weights that do not sum to one", {**PRESCRIBED, "Examples/Prescribed weights": "1-t; 2*t"},
-     ["Examples/Prescribed weights", "sum to 1.100000 at t = 0.100000", "not to 1"]),
+     ["Examples/Prescribed weights", "sum to 1.1 at t = 0.1", "not to 1"]),
     ("no prescribed weights", PRESCRIBED,
      ["Examples/Prescribed weights is empty", "one function of t for each example", "1-t; t"]),
     ("too many prescribed weights", {**PRESCRIBED, "Examples/Prescribed weights": "1-t; t; 0"},

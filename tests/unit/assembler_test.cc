@@ -26,8 +26,8 @@ namespace Exemplar::Testing
       if (i < j)
         std::swap(i, j);
       const int position = pattern.position(i, j);
-      return position < pattern.column_start[j + 1] && pattern.row[position] == i ? values[position] :
-                                                                                    0.;
+      return position < pattern.column_start[j + 1] && pattern.row[position] == i ? values[position]
+                                                                                  : 0.;
     }
 
     TEST(FESpace, TakesTheMeshAsItIs)
@@ -35,24 +35,24 @@ namespace Exemplar::Testing
       const Body body;
       EXPECT_NEAR(body.fe_space.total_volume(), 4., 1e-13);
       for (unsigned int cell = 0; cell < body.fe_space.n_cells(); ++cell)
-        {
-          const Matrix3<double> F =
-            body.fe_space.deformation_gradient(cell, body.fe_space.rest_positions());
-          EXPECT_LT(max_difference(F, identity_matrix<double>()), 1e-13);
-        }
+      {
+        const Matrix3<double> F
+            = body.fe_space.deformation_gradient(cell, body.fe_space.rest_positions());
+        EXPECT_LT(max_difference(F, identity_matrix<double>()), 1e-13);
+      }
     }
 
     TEST(FESpace, MassMatrixIsExact)
     {
       // rho V / 20 (1 + delta_ab) in each tetrahedron
-      const Body    body;
-      const Inertia inertia(body.fe_space, body.material, MassMatrix::consistent);
+      const Body                 body;
+      const Inertia              inertia(body.fe_space, body.material, MassMatrix::consistent);
       dealii::FullMatrix<double> expected(body.fe_space.n_nodes(), body.fe_space.n_nodes());
       for (unsigned int cell = 0; cell < body.fe_space.n_cells(); ++cell)
         for (const unsigned int a : body.fe_space.nodes(cell))
           for (const unsigned int b : body.fe_space.nodes(cell))
-            expected(a, b) +=
-              1000. * body.fe_space.tetrahedron(cell).volume / 20. * (a == b ? 2. : 1.);
+            expected(a, b)
+                += 1000. * body.fe_space.tetrahedron(cell).volume / 20. * (a == b ? 2. : 1.);
       for (unsigned int a = 0; a < expected.m(); ++a)
         for (unsigned int b = 0; b < expected.m(); ++b)
           EXPECT_NEAR(inertia.nodal_mass().el(a, b), expected(a, b), 1e-12);
@@ -65,10 +65,10 @@ namespace Exemplar::Testing
       double        total = 0.;
       for (unsigned int a = 0; a < body.fe_space.n_nodes(); ++a)
         for (unsigned int b = 0; b < body.fe_space.n_nodes(); ++b)
-          {
-            total += inertia.nodal_mass().el(a, b);
-            EXPECT_TRUE(a == b || inertia.nodal_mass().el(a, b) == 0.);
-          }
+        {
+          total += inertia.nodal_mass().el(a, b);
+          EXPECT_TRUE(a == b || inertia.nodal_mass().el(a, b) == 0.);
+        }
       EXPECT_NEAR(total, 4000., 1e-9);
     }
 
@@ -82,12 +82,13 @@ namespace Exemplar::Testing
       std::mt19937   generator(1);
       auto           positions = body.random_positions(generator, 0.1);
       assembler.update_rotations(body.random_positions(generator, 0.3));
-      std::vector<double> weights = {0.2, 0.5, 0.3};
+      std::vector<double> weights = { 0.2, 0.5, 0.3 };
 
       Evaluation at, above, below;
       assembler.evaluate(positions, weights, at);
       const auto energy = [](const Evaluation &e) { return e.energy_elastic + e.energy_example; };
-      const auto difference = [&](double &variable) {
+      const auto difference = [&](double &variable)
+      {
         const double h = 1e-3, value = variable;
         variable = value + h;
         assembler.evaluate(positions, weights, above);
@@ -107,13 +108,13 @@ namespace Exemplar::Testing
     {
       const Body     body;
       const auto     examples = body.examples(two_examples());
-      const FreeDofs free_dofs(body.fe_space.n_dofs(), {0, 4, 8, 30});
+      const FreeDofs free_dofs(body.fe_space.n_dofs(), { 0, 4, 8, 30 });
       Inertia        inertia(body.fe_space, body.material, MassMatrix::consistent);
       Assembler      assembler(body.fe_space, body.material, examples.get(), &inertia, free_dofs);
       std::mt19937   generator(2);
       auto           positions = body.random_positions(generator, 0.1);
       assembler.update_rotations(positions);
-      std::vector<double> weights = {0.2, 0.5, 0.3};
+      std::vector<double> weights = { 0.2, 0.5, 0.3 };
 
       State state;
       state.positions  = positions;
@@ -123,7 +124,8 @@ namespace Exemplar::Testing
       assembler.assemble_matrix(matrix);
       assembler.assemble_coupling(columns);
 
-      const auto gradient = [&] {
+      const auto gradient = [&]
+      {
         Evaluation evaluation;
         assembler.evaluate(positions, weights, evaluation);
         inertia.add_gradient(positions, evaluation.gradient, evaluation.force_scale);
@@ -131,27 +133,25 @@ namespace Exemplar::Testing
       };
       const auto without = gradient();
       for (unsigned int j = 0; j < free_dofs.size(); ++j)
-        {
-          double      &variable = positions[free_dofs.list()[j]];
-          const double value    = variable;
-          variable += 1.;
-          const auto with = gradient();
-          variable        = value;
-          for (unsigned int i = 0; i < free_dofs.size(); ++i)
-            EXPECT_NEAR(entry(assembler.matrix_pattern(), matrix, i, j),
-                        with[free_dofs.list()[i]] - without[free_dofs.list()[i]],
-                        1e-5);
-        }
+      {
+        double      &variable = positions[free_dofs.list()[j]];
+        const double value    = variable;
+        variable += 1.;
+        const auto with = gradient();
+        variable        = value;
+        for (unsigned int i = 0; i < free_dofs.size(); ++i)
+          EXPECT_NEAR(entry(assembler.matrix_pattern(), matrix, i, j),
+                      with[free_dofs.list()[i]] - without[free_dofs.list()[i]], 1e-5);
+      }
       for (unsigned int k = 0; k < weights.size(); ++k)
-        {
-          weights[k] += 1.;
-          const auto with = gradient();
-          weights[k] -= 1.;
-          for (unsigned int i = 0; i < free_dofs.size(); ++i)
-            EXPECT_NEAR(-columns[k * free_dofs.size() + i],
-                        with[free_dofs.list()[i]] - without[free_dofs.list()[i]],
-                        1e-6);
-        }
+      {
+        weights[k] += 1.;
+        const auto with = gradient();
+        weights[k] -= 1.;
+        for (unsigned int i = 0; i < free_dofs.size(); ++i)
+          EXPECT_NEAR(-columns[k * free_dofs.size() + i],
+                      with[free_dofs.list()[i]] - without[free_dofs.list()[i]], 1e-6);
+      }
     }
 
     TEST(Assembler, ForcesOfABodySumToZero)
@@ -164,14 +164,14 @@ namespace Exemplar::Testing
       const auto     positions = body.random_positions(generator, 0.2);
       assembler.update_rotations(positions);
       Evaluation evaluation;
-      assembler.evaluate(positions, {0.2, 0.5, 0.3}, evaluation);
+      assembler.evaluate(positions, { 0.2, 0.5, 0.3 }, evaluation);
       for (unsigned int c = 0; c < 3; ++c)
-        {
-          double sum = 0.;
-          for (unsigned int node = 0; node < body.fe_space.n_nodes(); ++node)
-            sum += evaluation.gradient[3 * node + c];
-          EXPECT_NEAR(sum, 0., 1e-12 * evaluation.force_scale.l1_norm());
-        }
+      {
+        double sum = 0.;
+        for (unsigned int node = 0; node < body.fe_space.n_nodes(); ++node)
+          sum += evaluation.gradient[3 * node + c];
+        EXPECT_NEAR(sum, 0., 1e-12 * evaluation.force_scale.l1_norm());
+      }
     }
 
     TEST(Assembler, ARigidMotionOfAnExampleIsFreeOfForceAtFullImportance)
@@ -180,22 +180,22 @@ namespace Exemplar::Testing
       ExampleParameters parameters = two_examples();
       parameters.importance        = 1.;
       parameters.weight_penalty    = "0";
-      const auto            examples = body.examples(parameters);
-      const FreeDofs        free_dofs(body.fe_space.n_dofs(), {});
-      Assembler             assembler(body.fe_space, body.material, examples.get(), nullptr, free_dofs);
-      const Matrix3<double> Q         = rotation_about({{1., 1., 0.}}, 2.);
+      const auto     examples      = body.examples(parameters);
+      const FreeDofs free_dofs(body.fe_space.n_dofs(), {});
+      Assembler      assembler(body.fe_space, body.material, examples.get(), nullptr, free_dofs);
+      const Matrix3<double> Q         = rotation_about({ { 1., 1., 0. } }, 2.);
       auto                  positions = examples->pose(1);
       for (unsigned int node = 0; node < body.fe_space.n_nodes(); ++node)
-        {
-          const Vector3<double> x = {
-            {positions[3 * node], positions[3 * node + 1], positions[3 * node + 2]}};
-          const Vector3<double> turned = Q * x;
-          for (int c = 0; c < 3; ++c)
-            positions[3 * node + c] = turned[c] + 5.;
-        }
+      {
+        const Vector3<double> x
+            = { { positions[3 * node], positions[3 * node + 1], positions[3 * node + 2] } };
+        const Vector3<double> turned = Q * x;
+        for (int c = 0; c < 3; ++c)
+          positions[3 * node + c] = turned[c] + 5.;
+      }
       assembler.update_rotations(positions);
       Evaluation evaluation;
-      assembler.evaluate(positions, {0., 1., 0.}, evaluation);
+      assembler.evaluate(positions, { 0., 1., 0. }, evaluation);
       EXPECT_LT(evaluation.gradient.linfty_norm(), 1e-12 * evaluation.force_scale.linfty_norm());
       for (const double derivative : evaluation.weight_gradient)
         EXPECT_NEAR(derivative, 0., 1e-12 * evaluation.weight_scale);
@@ -206,20 +206,20 @@ namespace Exemplar::Testing
     // R K X leaves it where it is. Rollers on three faces through the origin hold it.
     TEST(Assembler, ThePapersLiteralRightSideShrinksABodyAtRest)
     {
-      MeshParameters mesh = box_mesh(2., 2, 2);
-      const Body     body(mesh);
+      MeshParameters    mesh = box_mesh(2., 2, 2);
+      const Body        body(mesh);
       ExampleParameters parameters; // only the rest pose: q_0 = 0
-      parameters.importance = 0.5;
+      parameters.importance              = 0.5;
       const auto                examples = body.examples(parameters);
       std::vector<unsigned int> rollers;
       for (unsigned int node = 0; node < body.mesh.n_nodes(); ++node)
-        {
-          if (std::abs(body.mesh.get_nodes()[node][0]) < 1e-12)
-            rollers.push_back(3 * node);
-          for (unsigned int c = 1; c < 3; ++c)
-            if (std::abs(body.mesh.get_nodes()[node][c]) < 1e-12)
-              rollers.push_back(3 * node + c);
-        }
+      {
+        if (std::abs(body.mesh.get_nodes()[node][0]) < 1e-12)
+          rollers.push_back(3 * node);
+        for (unsigned int c = 1; c < 3; ++c)
+          if (std::abs(body.mesh.get_nodes()[node][c]) < 1e-12)
+            rollers.push_back(3 * node + c);
+      }
       const FreeDofs free_dofs(body.fe_space.n_dofs(), rollers);
       Assembler      assembler(body.fe_space, body.material, examples.get(), nullptr, free_dofs);
       const auto    &rest = body.fe_space.rest_positions();
@@ -228,11 +228,12 @@ namespace Exemplar::Testing
       // the internal forces at x = 0 are -R K X: strain -I
       dealii::Vector<double> origin(rest.size());
       Evaluation             evaluation;
-      assembler.evaluate(origin, {1.}, evaluation);
+      assembler.evaluate(origin, { 1. }, evaluation);
       const auto solver = make_block_solver(make_cholmod_operator(), assembler.matrix_pattern());
       assembler.assemble_matrix(solver->matrix_values());
       solver->factorize(WeightBlock());
-      const auto solve = [&](const double factor) {
+      const auto solve = [&](const double factor)
+      {
         BorderedVector unknowns;
         for (const unsigned int dof : free_dofs.list())
           unknowns.positions.push_back(-factor * evaluation.gradient[dof]);
@@ -241,10 +242,10 @@ namespace Exemplar::Testing
       };
       const auto ours = solve(1.), printed = solve(1. - parameters.importance);
       for (unsigned int i = 0; i < free_dofs.size(); ++i)
-        {
-          EXPECT_NEAR(ours[i], rest[free_dofs.list()[i]], 1e-12);
-          EXPECT_NEAR(printed[i], 0.5 * rest[free_dofs.list()[i]], 1e-12);
-        }
+      {
+        EXPECT_NEAR(ours[i], rest[free_dofs.list()[i]], 1e-12);
+        EXPECT_NEAR(printed[i], 0.5 * rest[free_dofs.list()[i]], 1e-12);
+      }
     }
   } // namespace
 } // namespace Exemplar::Testing

@@ -19,8 +19,8 @@ namespace Exemplar::Testing
   {
     MeshParameters parameters;
     parameters.generator = MeshGenerator::box;
-    parameters.box_size  = {{length, 1., 1.}};
-    parameters.box_cells = {{nx, n, n}};
+    parameters.box_size  = { { length, 1., 1. } };
+    parameters.box_cells = { { nx, n, n } };
     return parameters;
   }
 
@@ -37,10 +37,10 @@ namespace Exemplar::Testing
   {
     explicit Body(const MeshParameters     &mesh_parameters     = box_mesh(4., 4, 1),
                   const MaterialParameters &material_parameters = MaterialParameters())
-      : mesh(mesh_parameters)
-      , material(material_parameters, mesh.get_material_ids())
-      , fe_space(mesh)
-    {}
+        : mesh(mesh_parameters), material(material_parameters, mesh.get_material_ids()),
+          fe_space(mesh)
+    {
+    }
 
     std::unique_ptr<ExamplePoses>
     examples(const ExampleParameters &parameters) const

@@ -19,12 +19,12 @@ namespace Exemplar::Testing
       SymmetricPattern pattern;
       pattern.column_start.push_back(0);
       for (unsigned int column = 0; column < n; ++column)
-        {
-          for (const unsigned int offset : {0u, 1u, 5u})
-            if (column + offset < n)
-              pattern.row.push_back(static_cast<int>(column + offset));
-          pattern.column_start.push_back(static_cast<int>(pattern.row.size()));
-        }
+      {
+        for (const unsigned int offset : { 0u, 1u, 5u })
+          if (column + offset < n)
+            pattern.row.push_back(static_cast<int>(column + offset));
+        pattern.column_start.push_back(static_cast<int>(pattern.row.size()));
+      }
       return pattern;
     }
 
@@ -34,9 +34,10 @@ namespace Exemplar::Testing
       std::mt19937                           generator(1);
       std::uniform_real_distribution<double> uniform(-1., 1.);
       for (unsigned int column = 0; column < n; ++column)
-        for (int entry = pattern.column_start[column]; entry < pattern.column_start[column + 1]; ++entry)
-          values[entry] =
-            pattern.row[entry] == static_cast<int>(column) ? diagonal : uniform(generator);
+        for (int entry = pattern.column_start[column]; entry < pattern.column_start[column + 1];
+             ++entry)
+          values[entry]
+              = pattern.row[entry] == static_cast<int>(column) ? diagonal : uniform(generator);
     }
 
     WeightBlock
@@ -50,10 +51,10 @@ namespace Exemplar::Testing
       block.H.reinit(k, k);
       block.N.reinit(1, k);
       for (unsigned int i = 0; i < k; ++i)
-        {
-          block.H(i, i) = 10.;
-          block.N(0, i) = 1.;
-        }
+      {
+        block.H(i, i) = 10.;
+        block.N(0, i) = 1.;
+      }
       return block;
     }
 
@@ -64,10 +65,10 @@ namespace Exemplar::Testing
       for (unsigned int i = 0; i < n; ++i)
         vector.positions.push_back(std::sin(i + 1.));
       if (with_weights)
-        {
-          vector.weights     = {1., -2., 3.};
-          vector.multipliers = {0.5};
-        }
+      {
+        vector.weights     = { 1., -2., 3. };
+        vector.multipliers = { 0.5 };
+      }
       return vector;
     }
 
@@ -75,7 +76,8 @@ namespace Exemplar::Testing
     {
       const SymmetricPattern pattern = banded_pattern();
       const WeightBlock      block   = random_block();
-      const auto             solve   = [&](BorderedSolver &solver) {
+      const auto             solve   = [&](BorderedSolver &solver)
+      {
         fill(solver.matrix_values(), pattern, 8.);
         solver.factorize(block);
         BorderedVector vector = right_side(true);
@@ -106,24 +108,25 @@ namespace Exemplar::Testing
 
       std::vector<double> residual = b.positions;
       for (unsigned int column = 0; column < n; ++column)
-        for (int entry = pattern.column_start[column]; entry < pattern.column_start[column + 1]; ++entry)
-          {
-            const int    row   = pattern.row[entry];
-            const double value = solver->matrix_values()[entry];
-            residual[row] -= value * x.positions[column];
-            if (row != static_cast<int>(column))
-              residual[column] -= value * x.positions[row];
-          }
-      for (unsigned int j = 0; j < k; ++j)
+        for (int entry = pattern.column_start[column]; entry < pattern.column_start[column + 1];
+             ++entry)
         {
-          double second = b.weights[j] - block.H(j, j) * x.weights[j] - x.multipliers[0];
-          for (unsigned int i = 0; i < n; ++i)
-            {
-              residual[i] += block.coupling[j * n + i] * x.weights[j];
-              second += block.coupling[j * n + i] * x.positions[i];
-            }
-          EXPECT_NEAR(second, 0., 1e-12);
+          const int    row   = pattern.row[entry];
+          const double value = solver->matrix_values()[entry];
+          residual[row] -= value * x.positions[column];
+          if (row != static_cast<int>(column))
+            residual[column] -= value * x.positions[row];
         }
+      for (unsigned int j = 0; j < k; ++j)
+      {
+        double second = b.weights[j] - block.H(j, j) * x.weights[j] - x.multipliers[0];
+        for (unsigned int i = 0; i < n; ++i)
+        {
+          residual[i] += block.coupling[j * n + i] * x.weights[j];
+          second += block.coupling[j * n + i] * x.positions[i];
+        }
+        EXPECT_NEAR(second, 0., 1e-12);
+      }
       for (const double entry : residual)
         EXPECT_NEAR(entry, 0., 1e-12);
     }
@@ -131,7 +134,8 @@ namespace Exemplar::Testing
     TEST(BorderedSolver, WithoutWeightsIsAPlainSolve)
     {
       const SymmetricPattern pattern = banded_pattern();
-      const auto             solve   = [&](BorderedSolver &solver) {
+      const auto             solve   = [&](BorderedSolver &solver)
+      {
         fill(solver.matrix_values(), pattern, 8.);
         solver.factorize(WeightBlock());
         BorderedVector vector = right_side(false);

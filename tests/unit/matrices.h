@@ -29,8 +29,8 @@ namespace Exemplar::Testing
     const double length = std::sqrt(dot(axis, axis));
     for (int i = 0; i < 3; ++i)
       axis[i] /= length;
-    const Matrix3<double> W = {
-      {{0., -axis[2], axis[1]}, {axis[2], 0., -axis[0]}, {-axis[1], axis[0], 0.}}};
+    const Matrix3<double> W
+        = { { { 0., -axis[2], axis[1] }, { axis[2], 0., -axis[0] }, { -axis[1], axis[0], 0. } } };
     const Matrix3<double> W2 = W * W;
     Matrix3<double>       R  = identity_matrix<double>();
     for (int i = 0; i < 3; ++i)

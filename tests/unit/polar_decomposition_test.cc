@@ -56,31 +56,32 @@ namespace Exemplar::Testing
     {
       std::mt19937 generator(2);
       for (int sample = 0; sample < 500; ++sample)
-        {
-          const Matrix3<double> F = random_matrix(generator);
-          const Matrix3<double> S = transpose_times(closest_rotation(F), F);
-          EXPECT_LT(max_difference(S, symmetric_part(S)), 1e-11);
-        }
+      {
+        const Matrix3<double> F = random_matrix(generator);
+        const Matrix3<double> S = transpose_times(closest_rotation(F), F);
+        EXPECT_LT(max_difference(S, symmetric_part(S)), 1e-11);
+      }
     }
 
     TEST(PolarDecomposition, RecoversARotationOfAnyAngle)
     {
-      const Vector3<double> axis = {{1., -2., 0.5}};
-      for (const double degrees : {0., 1e-6, 90., 179.9, 180., 181., 359.})
-        {
-          const Matrix3<double> R = rotation_about(axis, degrees * M_PI / 180.);
-          const Matrix3<double> U = {{{2., .3, 0.}, {.3, .7, .1}, {0., .1, 1.1}}};
-          EXPECT_LT(max_difference(closest_rotation(R * U), R), 1e-13) << degrees;
-        }
+      const Vector3<double> axis = { { 1., -2., 0.5 } };
+      for (const double degrees : { 0., 1e-6, 90., 179.9, 180., 181., 359. })
+      {
+        const Matrix3<double> R = rotation_about(axis, degrees * M_PI / 180.);
+        const Matrix3<double> U = { { { 2., .3, 0. }, { .3, .7, .1 }, { 0., .1, 1.1 } } };
+        EXPECT_LT(max_difference(closest_rotation(R * U), R), 1e-13) << degrees;
+      }
     }
 
     TEST(PolarDecomposition, SurvivesDegenerateMatrices)
     {
       std::mt19937          generator(3);
-      const Matrix3<double> Q = rotation_about({{1., 2., 3.}}, 2.5);
-      const auto            with_singular_values = [&](const double a, const double b, const double c) {
-        const Matrix3<double> D = {{{a, 0., 0.}, {0., b, 0.}, {0., 0., c}}};
-        return Q * D * rotation_about({{0., 1., 1.}}, 0.7);
+      const Matrix3<double> Q         = rotation_about({ { 1., 2., 3. } }, 2.5);
+      const auto with_singular_values = [&](const double a, const double b, const double c)
+      {
+        const Matrix3<double> D = { { { a, 0., 0. }, { 0., b, 0. }, { 0., 0., c } } };
+        return Q * D * rotation_about({ { 0., 1., 1. } }, 0.7);
       };
       expect_closest_rotation(with_singular_values(1., 1., -1.), "mirrored");
       expect_closest_rotation(with_singular_values(2., 1., -1.), "mirrored, tie");

@@ -23,20 +23,20 @@ namespace Exemplar::Testing
     message_of(const Function &function)
     {
       try
-        {
-          function();
-        }
+      {
+        function();
+      }
       catch (const UserError &error)
-        {
-          return error.what();
-        }
+      {
+        return error.what();
+      }
       return "no UserError";
     }
 
     TEST(Expression, EvaluatesComponents)
     {
       const Expression e("key", "x + 2*t; min(y, 1) ; t < 1 ? z : pi", "xyzt", 3);
-      const auto       v = e.vector({1., 5., 7.}, 3.);
+      const auto       v = e.vector({ 1., 5., 7. }, 3.);
       EXPECT_DOUBLE_EQ(v[0], 7.);
       EXPECT_DOUBLE_EQ(v[1], 1.);
       EXPECT_DOUBLE_EQ(v[2], M_PI);
@@ -46,10 +46,11 @@ namespace Exemplar::Testing
     TEST(Expression, RefusesWhatItDoesNotUnderstand)
     {
       EXPECT_NE(message_of([] { Expression("Handles/a/Motion", "x; wobble(t); 0", "xyzt", 3); })
-                  .find("wobble"),
+                    .find("wobble"),
                 std::string::npos);
-      EXPECT_NE(message_of([] { Expression("Loads/a/Force", "x; 0; 0", "t", 3); }).find("Loads/a/Force"),
-                std::string::npos);
+      EXPECT_NE(
+          message_of([] { Expression("Loads/a/Force", "x; 0; 0", "t", 3); }).find("Loads/a/Force"),
+          std::string::npos);
       EXPECT_NE(message_of([] { Expression("key", "0; 0", "t", 3); }).find("has 2"),
                 std::string::npos);
       EXPECT_THROW(Expression("key", "log(t-1)", "t", 1).values({}, 0.5), SolverFailure);
@@ -58,9 +59,9 @@ namespace Exemplar::Testing
     TEST(TimeAxis, WholeAndShorterSteps)
     {
       TimeParameters parameters;
-      parameters.step       = 0.1;
-      parameters.end        = 0.3;
-      const TimeAxis whole  = TimeAxis::of_dynamics(parameters);
+      parameters.step      = 0.1;
+      parameters.end       = 0.3;
+      const TimeAxis whole = TimeAxis::of_dynamics(parameters);
       EXPECT_EQ(whole.n_steps(), 3u);
       EXPECT_EQ(whole.step_size(3), 0.1);
       parameters.end         = 0.35;
@@ -79,9 +80,10 @@ namespace Exemplar::Testing
     {
     protected:
       PrmFile()
-        : file(std::filesystem::temp_directory_path() /
-               ("exemplar_prm_test_" + std::to_string(getpid()) + ".prm"))
-      {}
+          : file(std::filesystem::temp_directory_path()
+                 / ("exemplar_prm_test_" + std::to_string(getpid()) + ".prm"))
+      {
+      }
 
       ~PrmFile() override
       {
@@ -106,8 +108,9 @@ namespace Exemplar::Testing
 
     TEST_F(PrmFile, ReadsAssignmentsWithTheirPlaces)
     {
-      const auto assignments = read("# comment\nset A key  =  1 # more\nsubsection S\n subsection T\n"
-                                    "  set B = a; \\\n b\n end\nend\n");
+      const auto assignments
+          = read("# comment\nset A key  =  1 # more\nsubsection S\n subsection T\n"
+                 "  set B = a; \\\n b\n end\nend\n");
       ASSERT_EQ(assignments.size(), 2u);
       EXPECT_EQ(assignments[0].path(), "A key");
       EXPECT_EQ(assignments[0].value, "1");
@@ -118,7 +121,8 @@ namespace Exemplar::Testing
 
     TEST_F(PrmFile, NamesFileAndLineOfAMistake)
     {
-      EXPECT_NE(error_of("set A = 1\nset A = 2\n").find(".prm:2: A is set twice"), std::string::npos);
+      EXPECT_NE(error_of("set A = 1\nset A = 2\n").find(".prm:2: A is set twice"),
+                std::string::npos);
       EXPECT_NE(error_of("subsection S\n").find("'end'"), std::string::npos);
       EXPECT_NE(error_of("end\n").find(".prm:1"), std::string::npos);
       EXPECT_NE(error_of("\nset A 1\n").find(".prm:2"), std::string::npos);
@@ -143,7 +147,7 @@ namespace Exemplar::Testing
                         "/scenes/here");
       EXPECT_EQ(number, 1.5);
       EXPECT_EQ(input, "/scenes/a.msh");
-      EXPECT_EQ(inputs, (std::vector<std::string>{"/scenes/here/b.msh", "/c/d.msh"}));
+      EXPECT_EQ(inputs, (std::vector<std::string>{ "/scenes/here/b.msh", "/c/d.msh" }));
 
       std::ostringstream printed;
       print_keys(printed, declared_keys(prm), true);
@@ -152,22 +156,21 @@ namespace Exemplar::Testing
       EXPECT_EQ(number, 1.5);
       EXPECT_EQ(input, "/scenes/a.msh");
 
-      EXPECT_NE(message_of([&] {
-                  apply_assignments(prm, read("subsection S\nset Nunber = 1\nend\n"), "/");
-                }).find("Did you mean 'S/Number'"),
-                std::string::npos);
-      EXPECT_NE(message_of([&] {
-                  apply_assignments(prm, {parse_override("S/Number=3")}, "/");
-                }).find("Allowed: a number in 0 ... 2"),
+      EXPECT_NE(
+          message_of([&]
+                     { apply_assignments(prm, read("subsection S\nset Nunber = 1\nend\n"), "/"); })
+              .find("Did you mean 'S/Number'"),
+          std::string::npos);
+      EXPECT_NE(message_of([&] { apply_assignments(prm, { parse_override("S/Number=3") }, "/"); })
+                    .find("Allowed: a number in 0 ... 2"),
                 std::string::npos);
     }
 
     TEST(Selection, SelectsByPlaceAndId)
     {
       const Mesh mesh(box_mesh(4., 4, 1));
-      const auto n = [&](const std::string &text) {
-        return Selection{text}.nodes(mesh, "Handles/a").size();
-      };
+      const auto n = [&](const std::string &text)
+      { return Selection{ text }.nodes(mesh, "Handles/a").size(); };
       EXPECT_EQ(n("box -1 -1 -1  0 1 1"), 4u);
       EXPECT_EQ(n("box 1 1 1  0 -1 -1"), 8u); // corners in any order
       EXPECT_EQ(n("sphere 0 0.5 0.5  0.1"), 1u);
