@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/assembler.h>
+#include <exemplar/corotational_consistent.h>
 #include <exemplar/polar_decomposition.h>
 #include <exemplar/prm_tools.h>
 
@@ -19,7 +20,8 @@ namespace Exemplar
   {
     const EnumTable<StrainMeasure> strain_measures
         = { { StrainMeasure::corotational, "corotational" } };
-    const EnumTable<GradientKind> gradient_kinds = { { GradientKind::frozen, "frozen" } };
+    const EnumTable<GradientKind> gradient_kinds
+        = { { GradientKind::consistent, "consistent" }, { GradientKind::frozen, "frozen" } };
 
     double
     norm(const Matrix3<double> &A)
@@ -35,6 +37,13 @@ namespace Exemplar
         for (int j = 0; j < 3; ++j)
           C[i][j] = A[i][j] - factor * B[i][j];
       return C;
+    }
+
+    /// A = I + eta E(w).
+    Matrix3<double>
+    target_stretch(const Matrix3<double> &strain, const double eta)
+    {
+      return combine(1., identity_matrix<double>(), eta, strain);
     }
 
     void
@@ -54,18 +63,20 @@ namespace Exemplar
     prm.enter_subsection("Model");
     declare_enum(prm, "Strain", strain, strain_measures,
                  "corotational: the strain of the deformation freed of the cell's rotation.");
-    declare_enum(prm, "Gradient", gradient, gradient_kinds,
-                 "frozen: the paper's force R T, which holds the rotation fixed while it "
-                 "differentiates the energy.");
+    declare_enum(
+        prm, "Gradient", gradient, gradient_kinds,
+        "consistent: the force is the gradient of the energy; frozen: the paper's force R T, "
+        "which holds the rotation fixed while it differentiates the energy.");
     prm.leave_subsection();
   }
 
-  Assembler::Assembler(const FESpace      &fe_space,
-                       const Material     &material,
-                       const ExamplePoses *examples,
-                       const Inertia      *inertia,
-                       const FreeDofs     &free_dofs)
-      : fe_space(fe_space), material(material), examples(examples), inertia(inertia),
+  Assembler::Assembler(const ModelParameters &model,
+                       const FESpace         &fe_space,
+                       const Material        &material,
+                       const ExamplePoses    *examples,
+                       const Inertia         *inertia,
+                       const FreeDofs        &free_dofs)
+      : model(model), fe_space(fe_space), material(material), examples(examples), inertia(inertia),
         free_dofs(free_dofs), gradient_norms(fe_space.n_cells()),
         rotations(fe_space.n_cells(), identity_matrix<double>())
   {
@@ -173,6 +184,7 @@ namespace Exemplar
   {
     const double eta          = examples != nullptr ? examples->importance() : 0.;
     const bool   free_weights = examples != nullptr && !examples->weights_are_prescribed();
+    const bool   consistent   = examples != nullptr && model.gradient == GradientKind::consistent;
 
     result.gradient.reinit(fe_space.n_dofs());
     result.force_scale.reinit(fe_space.n_nodes());
@@ -182,6 +194,7 @@ namespace Exemplar
     result.energy_example = 0.;
     result.min_det_F      = std::numeric_limits<double>::max();
     result.inverted_cells = 0;
+    result.guarded_cells  = 0;
     double stress_square  = 0.; // sum V (|C:e| + eta |C:E(w)|)^2
 
     for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
@@ -204,13 +217,29 @@ namespace Exemplar
         const Matrix3<double> target    = examples->strain(cell, weights); // E(w)
         const Matrix3<double> deviation = difference(strain, target, eta);
         force_scale += eta * norm(stress(lame, target));
+        stress_square += tet.volume * force_scale * force_scale;
         T = stress(lame, deviation);
         // the residual form: near an example the expanded one cancels
-        result.energy_example += 0.5 * tet.volume * contract(T, deviation) - elastic;
-        stress_square += tet.volume * force_scale * force_scale;
+        double density = 0.5 * contract(T, deviation);
+        // without a guard, C:(e - eta E(w)) is also what the weights' derivative contracts
+        Matrix3<double> weight_stress = T;
+        if (consistent)
+        {
+          ConsistentCell<double> state(lame, rotations[cell], F, examples->guard_bound());
+          state.set_target(target_stretch(target, eta));
+          T = state.force();
+          if (state.is_guarded())
+          {
+            density       = state.energy(target_stretch(target, eta));
+            weight_stress = state.weight_stress(target_stretch(target, eta));
+            ++result.guarded_cells;
+          }
+        }
+        result.energy_example += tet.volume * density - elastic;
         for (unsigned int i = examples->first_strained_example(); i < result.weight_gradient.size();
              ++i)
-          result.weight_gradient[i] -= eta * tet.volume * contract(T, examples->strain(cell, i));
+          result.weight_gradient[i]
+              -= eta * tet.volume * contract(weight_stress, examples->strain(cell, i));
       }
 
       Vector3<double> force[4];
@@ -221,16 +250,17 @@ namespace Exemplar
             += tet.volume * force_scale * gradient_norms[cell][a];
     }
 
-    if (free_weights)
-      for (unsigned int i = 0; i < weights.size(); ++i)
-      {
-        const double ridge = examples->weight_penalty() * weights[i];
-        result.energy_example += 0.5 * ridge * weights[i];
-        result.weight_gradient[i] += ridge;
-        result.weight_scale
-            = std::max(result.weight_scale,
-                       eta * std::sqrt(stress_square) * examples->strain_norm(i) + std::abs(ridge));
-      }
+    for (unsigned int i = 0; i < result.weight_gradient.size(); ++i)
+    {
+      double penalty = 0.; // of the weights alone
+      for (unsigned int j = 0; j < weights.size(); ++j)
+        penalty += examples->penalty_matrix()(i, j) * weights[j];
+      result.energy_example += 0.5 * penalty * weights[i];
+      result.weight_gradient[i] += penalty;
+      result.weight_scale
+          = std::max(result.weight_scale,
+                     eta * std::sqrt(stress_square) * examples->strain_norm(i) + std::abs(penalty));
+    }
   }
 
   void
@@ -253,21 +283,26 @@ namespace Exemplar
     }
   }
 
-  EXEMPLAR_HOT_LOOP void
-  Assembler::assemble_matrix(std::vector<double> &matrix_values) const
+  void
+  Assembler::start_matrix(std::vector<double> &matrix_values) const
   {
     if (inertia == nullptr)
       std::fill(matrix_values.begin(), matrix_values.end(), 0.);
     else
       for (std::size_t i = 0; i < matrix_values.size(); ++i)
         matrix_values[i] = inertia->matrix_factor() * mass_values[i];
+  }
 
+  EXEMPLAR_HOT_LOOP void
+  Assembler::assemble_matrix(std::vector<double> &matrix_values) const
+  {
+    start_matrix(matrix_values);
     for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
     {
       const Tetrahedron<double> &tet = fe_space.tetrahedron(cell);
       Vector3<double>            g[4];
       rotate_gradients(tet, rotations[cell], g);
-      double cell_matrix[12][12];
+      CellMatrix cell_matrix;
       for (unsigned int a = 0; a < 4; ++a)
         for (unsigned int b = 0; b <= a; ++b)
         {
@@ -277,11 +312,7 @@ namespace Exemplar
             for (unsigned int j = 0; j < 3; ++j)
               cell_matrix[3 * a + i][3 * b + j] = block[i][j];
         }
-      unsigned int entry = 0;
-      for (unsigned int p = 0; p < 12; ++p)
-        for (unsigned int q = 0; q <= p; ++q, ++entry)
-          if (const int position = scatter[cell][entry]; position != FreeDofs::held)
-            matrix_values[position] += cell_matrix[p][q];
+      add_cell_matrix(cell, cell_matrix, matrix_values);
     }
   }
 
@@ -295,12 +326,7 @@ namespace Exemplar
         const Matrix3<double> T = stress(material.lame(cell), examples->strain(cell, i));
         Vector3<double>       force[4];
         frozen_forces(fe_space.tetrahedron(cell), rotations[cell], T, force);
-        double *column = columns.data() + static_cast<std::size_t>(i) * free_dofs.size();
-        for (unsigned int a = 0; a < 4; ++a)
-          for (unsigned int c = 0; c < 3; ++c)
-            if (const int dof = free_dofs.free_index(3 * fe_space.nodes(cell)[a] + c);
-                dof != FreeDofs::held)
-              column[dof] += examples->importance() * force[a][c];
+        add_to_column(cell, force, i, columns);
       }
   }
 

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/bordered_solver.h>
 #include <exemplar/errors.h>
+#include <exemplar/weight_qp.h>
 
-#include <deal.II/lac/lapack_full_matrix.h>
-#include <deal.II/lac/vector.h>
-
-#include <algorithm>
 #include <numeric>
 
 namespace Exemplar
@@ -58,40 +55,28 @@ namespace Exemplar
       }
 
     private:
-      /// [H - G^T Z, N^T; N, 0] [dw; l] = [r_w + G^T z; r_c], Eq. (11)
+      /// The quadratic of the Schur complement H - G^T Z over the weights, Eq. (11)
       void
       solve_weights(const WeightBlock &block, BorderedVector &vector) const
       {
-        const std::size_t n = vector.positions.size(), k = vector.weights.size(),
-                          m = vector.multipliers.size();
-        dealii::LAPACKFullMatrix<double> schur(k + m, k + m);
-        dealii::Vector<double>           unknowns(k + m);
+        const std::size_t          n = vector.positions.size(), k = vector.weights.size();
+        dealii::FullMatrix<double> schur(block.H);
+        std::vector<double>        right_side = vector.weights;
         for (std::size_t i = 0; i < k; ++i)
         {
           const double *G_i = block.coupling.data() + i * n;
-          unknowns[i]       = vector.weights[i] + dot(G_i, columns.data(), n);
+          right_side[i] += dot(G_i, columns.data(), n);
           for (std::size_t j = 0; j < k; ++j)
-            schur(i, j) = block.H(i, j) - dot(G_i, columns.data() + (1 + j) * n, n);
+            schur(i, j) -= dot(G_i, columns.data() + (1 + j) * n, n);
         }
-        for (std::size_t c = 0; c < m; ++c)
-        {
-          unknowns[k + c] = vector.multipliers[c];
-          for (std::size_t i = 0; i < k; ++i)
-            schur(k + c, i) = schur(i, k + c) = block.N(c, i);
-        }
-        try
-        {
-          schur.compute_lu_factorization();
-          schur.solve(unknowns);
-        }
-        catch (const dealii::ExceptionBase &)
-        {
-          throw SolverFailure("The system for the example weights is singular. Set "
+        const WeightQpSolution solution
+            = minimize_over_weights(schur, right_side, vector.multipliers[0], block.lower);
+        if (!solution.found)
+          throw SolverFailure("The system for the example weights is not positive definite. Set "
                               "Examples/Weight penalty to auto, or remove an example that is a "
                               "combination of the others.");
-        }
-        std::copy_n(unknowns.begin(), k, vector.weights.begin());
-        std::copy_n(unknowns.begin() + k, m, vector.multipliers.begin());
+        vector.weights        = solution.weights;
+        vector.multipliers[0] = solution.multiplier;
       }
 
       const std::unique_ptr<SpdOperator> matrix;

@@ -11,8 +11,9 @@ namespace Exemplar
 {
   namespace
   {
-    const EnumTable<Method> methods
-        = { { Method::one_pass, "one pass" }, { Method::fixed_point, "fixed point" } };
+    const EnumTable<Method> methods = { { Method::one_pass, "one pass" },
+                                        { Method::fixed_point, "fixed point" },
+                                        { Method::newton, "newton" } };
 
     const EnumTable<LinearSolver> linear_solvers = { { LinearSolver::automatic, "auto" },
                                                      { LinearSolver::cholesky, "cholesky" },
@@ -21,6 +22,7 @@ namespace Exemplar
     const EnumTable<SolveStatus> statuses = { { SolveStatus::initial, "initial" },
                                               { SolveStatus::converged, "converged" },
                                               { SolveStatus::one_pass, "one pass" },
+                                              { SolveStatus::stalled, "stalled" },
                                               { SolveStatus::iteration_limit, "iteration limit" },
                                               { SolveStatus::failed, "failed" } };
 
@@ -47,9 +49,11 @@ namespace Exemplar
   SolverParameters::declare(dealii::ParameterHandler &prm)
   {
     prm.enter_subsection("Solver");
-    declare_enum(prm, "Method", method, methods,
-                 "one pass: the paper's, one linear solve with frozen rotations a step; fixed "
-                 "point: the same, repeated until the residual is below Tolerance.");
+    declare_enum(
+        prm, "Method", method, methods,
+        "one pass: the paper's, one linear solve with frozen rotations a step; fixed "
+        "point: the same, repeated until the residual is below Tolerance; newton: descent on "
+        "the energy with its exact tangent.");
     prm.add_parameter("Tolerance", tolerance,
                       "Relative residual at which a step has converged: the greatest free residual "
                       "force over the greatest nodal force scale. Not used by one pass.",
@@ -174,24 +178,32 @@ namespace Exemplar
   }
 
   void
-  Equilibrium::linear_step(State &state)
+  Equilibrium::factorize(const State &state, const Tangent tangent)
   {
-    const auto &free = parts.free_dofs.list();
     {
       StepClock::Scope scope(parts.clock, Part::assemble);
-      parts.assembler.assemble_matrix(parts.linear_solver.matrix_values());
-      if (block.H.m() > 0)
-        parts.assembler.assemble_coupling(block.coupling);
+      auto            &values = parts.linear_solver.matrix_values();
+      if (tangent == Tangent::exact)
+        parts.assembler.assemble_exact(state.positions, state.weights, values, block.coupling);
+      else
+      {
+        parts.assembler.assemble_matrix(values);
+        if (block.H.m() > 0)
+          parts.assembler.assemble_coupling(block.coupling);
+      }
     }
-    {
-      StepClock::Scope scope(parts.clock, Part::factorize);
-      parts.linear_solver.factorize(block);
-      ++factorizations;
-    }
+    StepClock::Scope scope(parts.clock, Part::factorize);
+    ++factorizations;
+    parts.linear_solver.factorize(block);
+  }
+
+  void
+  Equilibrium::solve_for_step(const State &state)
+  {
     StepClock::Scope scope(parts.clock, Part::solve);
-    unknowns.positions.resize(free.size());
-    for (unsigned int i = 0; i < free.size(); ++i)
-      unknowns.positions[i] = -total_gradient[free[i]];
+    unknowns.positions.clear();
+    for (const unsigned int dof : parts.free_dofs.list())
+      unknowns.positions.push_back(-total_gradient[dof]);
     unknowns.weights.clear();
     unknowns.multipliers.clear();
     if (block.H.m() > 0)
@@ -200,12 +212,27 @@ namespace Exemplar
         unknowns.weights.push_back(-derivative);
       unknowns.multipliers.push_back(
           1. - std::accumulate(state.weights.begin(), state.weights.end(), 0.));
+      if (parts.examples->weights_are_bounded())
+      {
+        block.lower.clear();
+        for (const double weight : state.weights)
+          block.lower.push_back(-weight);
+      }
     }
     parts.linear_solver.solve(block, unknowns);
+  }
+
+  void
+  Equilibrium::add_step(State &state) const
+  {
+    const auto &free = parts.free_dofs.list();
     for (unsigned int i = 0; i < free.size(); ++i)
       state.positions[free[i]] += unknowns.positions[i];
     for (unsigned int i = 0; i < unknowns.weights.size(); ++i)
       state.weights[i] += unknowns.weights[i];
+    if (parts.examples != nullptr && parts.examples->weights_are_bounded())
+      for (double &weight : state.weights)
+        weight = std::max(weight, 0.); // exact zeros, not their rounding
   }
 
   void
@@ -218,15 +245,25 @@ namespace Exemplar
         = relative(greatest, force_scale.linfty_norm(), parts.assembler.rounding_force());
     if (!current.weight_gradient.empty())
     {
-      // with the weights free, all components of the gradient equal -multiplier
-      const auto &gradient = current.weight_gradient;
-      state.multiplier     = -std::accumulate(gradient.begin(), gradient.end(), 0.)
-                         / static_cast<double>(gradient.size());
+      // the derivatives of weights off their bounds equal -multiplier, others exceed it
+      const auto  &gradient = current.weight_gradient;
+      const bool   bounded  = parts.examples->weights_are_bounded();
+      double       sum      = 0.;
+      unsigned int n        = 0;
+      for (unsigned int i = 0; i < gradient.size(); ++i)
+        if (!bounded || state.weights[i] > 0.)
+        {
+          sum += gradient[i];
+          ++n;
+        }
+      state.multiplier = -sum / n;
       double deviation = 0., rounding = 0.;
       for (unsigned int i = 0; i < gradient.size(); ++i)
       {
-        deviation = greater(std::abs(gradient[i] + state.multiplier), deviation);
-        rounding  = std::max(rounding, parts.assembler.rounding_weight_gradient(i));
+        const double excess = gradient[i] + state.multiplier;
+        const bool   off    = !bounded || state.weights[i] > 0.;
+        deviation           = greater(off ? std::abs(excess) : std::max(-excess, 0.), deviation);
+        rounding            = std::max(rounding, parts.assembler.rounding_weight_gradient(i));
       }
       report.kkt_residual = relative(deviation, current.weight_scale, rounding);
     }
@@ -235,6 +272,13 @@ namespace Exemplar
 
   SolveReport
   Equilibrium::solve(State &state, const double time, const double step_size)
+  {
+    return parameters.method == Method::newton ? solve_by_newton(state, time, step_size)
+                                               : solve_by_passes(state, time, step_size);
+  }
+
+  SolveReport
+  Equilibrium::solve_by_passes(State &state, const double time, const double step_size)
   {
     SolveReport report;
     try
@@ -245,7 +289,9 @@ namespace Exemplar
       while (report.status == SolveStatus::initial)
       {
         check_interrupt();
-        linear_step(state);
+        factorize(state, Tangent::frozen);
+        solve_for_step(state);
+        add_step(state);
         ++report.iterations;
         {
           StepClock::Scope scope(parts.clock, Part::evaluate);

@@ -14,9 +14,11 @@ namespace Exemplar
 {
   namespace
   {
-    const EnumTable<ExampleEnergy>  energies = { { ExampleEnergy::scaled, "scaled" } };
-    const EnumTable<ExampleWeights> weight_kinds
-        = { { ExampleWeights::free, "free" }, { ExampleWeights::prescribed, "prescribed" } };
+    const EnumTable<ExampleEnergy> energies
+        = { { ExampleEnergy::scaled, "scaled" }, { ExampleEnergy::blended, "blended" } };
+    const EnumTable<ExampleWeights> weight_kinds = { { ExampleWeights::simplex, "simplex" },
+                                                     { ExampleWeights::free, "free" },
+                                                     { ExampleWeights::prescribed, "prescribed" } };
 
     /// sum E V [J]: the scale of the energy of a strain of 1.
     double
@@ -37,6 +39,19 @@ namespace Exemplar
       if (in >> value && (in >> std::ws).eof() && value >= 0. && std::isfinite(value))
         return value;
       return {};
+    }
+  } // namespace
+
+  namespace
+  {
+    /// p of Eq. (16) of a cell in an example: of its stretch I + E.
+    double
+    guard_product(const Matrix3<double> &E)
+    {
+      Matrix3<double> B = combine(-1., E, 0., E);
+      for (int i = 0; i < 3; ++i)
+        B[i][i] += trace(E) + 2.;
+      return determinant(B);
     }
   } // namespace
 
@@ -61,10 +76,14 @@ namespace Exemplar
     prm.add_parameter("Weight penalty", weight_penalty,
                       "sigma [J] of the ridge sigma/2 sum w_i^2 on free weights: auto, paper (both "
                       "1e-5 sum E V over the cells) or a number not less than 0.");
-    declare_enum(prm, "Energy", energy, energies,
-                 "scaled: V/2 (strain - eta E(w)) : C : (strain - eta E(w)), as the paper.");
-    declare_enum(prm, "Weights", weights, weight_kinds,
-                 "free: minimise the energy over weights that sum to one; prescribed: as given.");
+    declare_enum(
+        prm, "Energy", energy, energies,
+        "scaled: V/2 (strain - eta E(w)) : C : (strain - eta E(w)), as the paper; blended: (1 - "
+        "eta) of the elastic energy and eta of the distance to E(w).");
+    declare_enum(
+        prm, "Weights", weights, weight_kinds,
+        "simplex: minimise the energy over weights that sum to one and are not negative; free: "
+        "that sum to one, as the paper; prescribed: as given.");
     prm.add_parameter("Prescribed weights", prescribed_weights,
                       "One function of t for each example, the rest pose first where it is "
                       "included, separated by ;. They sum to one.");
@@ -98,7 +117,8 @@ namespace Exemplar
                              const Material          &material,
                              const double             end)
       : fe_space(fe_space), eta(parameters.importance),
-        first_strained(parameters.include_rest_pose ? 1 : 0)
+        first_strained(parameters.include_rest_pose ? 1 : 0),
+        bounded(parameters.weights == ExampleWeights::simplex)
   {
     if (parameters.include_rest_pose)
       add_pose("rest pose", mesh.get_nodes());
@@ -116,7 +136,7 @@ namespace Exemplar
                   .value_or(1e-5 * unit_energy(fe_space, material));
 
     compute_strains();
-    compute_weight_matrix(material);
+    compute_weight_matrix(material, parameters.energy);
     if (!prescribed && sigma == 0.)
       check_independence(material);
   }
@@ -161,6 +181,7 @@ namespace Exemplar
                   &strains[6 * (static_cast<std::size_t>(cell) * size() + i)]);
         strain_norms[i] += fe_space.tetrahedron(cell).volume * contract(E, E);
         n_inverted[i] += (determinant(F) <= 0.);
+        p_0 = std::min(p_0, 0.5 * guard_product(E));
       }
     for (double &norm : strain_norms)
       norm = std::sqrt(norm);
@@ -172,7 +193,7 @@ namespace Exemplar
   }
 
   void
-  ExamplePoses::compute_weight_matrix(const Material &material)
+  ExamplePoses::compute_weight_matrix(const Material &material, const ExampleEnergy energy)
   {
     gram.reinit(size(), size());
     for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
@@ -182,9 +203,12 @@ namespace Exemplar
         for (unsigned int j = 0; j < size(); ++j)
           gram(i, j) += fe_space.tetrahedron(cell).volume * contract(T, strain(cell, j));
       }
-    H = gram;
-    H *= eta * eta;
-    H.diagadd(sigma);
+    penalty.reinit(size(), size());
+    penalty.diagadd(sigma);
+    if (energy == ExampleEnergy::blended)
+      penalty.add(eta * (1. - eta), gram);
+    H = penalty;
+    H.add(eta * eta, gram);
   }
 
   std::vector<double>

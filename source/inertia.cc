@@ -72,6 +72,14 @@ namespace Exemplar
       force_scale[node] += std::hypot(force[3 * node], force[3 * node + 1], force[3 * node + 2]);
   }
 
+  double
+  Inertia::step_energy(const dealii::Vector<double> &positions) const
+  {
+    dealii::Vector<double> difference = positions;
+    difference -= predicted;
+    return 0.5 * matrix_factor() * (difference * mass_times(difference));
+  }
+
   void
   Inertia::end_step(const dealii::Vector<double> &old_positions, State &state) const
   {

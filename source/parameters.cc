@@ -242,6 +242,16 @@ namespace Exemplar
   {
     material.check();
     examples.check();
+    if (solver.method == Method::newton && model.gradient == GradientKind::frozen)
+      throw UserError("Solver/Method = newton needs a force that is the gradient of an energy, but "
+                      "Model/Gradient = frozen is not. Set Model/Gradient = consistent, or "
+                      "Solver/Method = fixed point.");
+    const bool bounded = examples.in_use() && examples.weights == ExampleWeights::simplex;
+    if (solver.linear_solver == LinearSolver::umfpack
+        && (bounded || solver.method == Method::newton))
+      throw UserError("Solver/Linear solver = umfpack solves linear systems without bounds and "
+                      "cannot tell an indefinite one. Set Solver/Method = fixed point and "
+                      "Examples/Weights = free, or Solver/Linear solver = cholesky.");
   }
 
   std::vector<DeclaredKey>

@@ -81,7 +81,7 @@ namespace Exemplar
         loads(make_loads(parameters, mesh, fe_space, material)),
         examples(make_examples(parameters, mesh, fe_space, material, time_axis)),
         inertia(make_inertia(parameters, fe_space, material)),
-        assembler(fe_space, material, examples.get(), inertia.get(), free_dofs),
+        assembler(parameters.model, fe_space, material, examples.get(), inertia.get(), free_dofs),
         linear_solver(make_linear_solver(parameters.solver, assembler.matrix_pattern())),
         equilibrium(parameters.solver,
                     { free_dofs, assembler, *linear_solver, clock, handles.get(), loads.get(),

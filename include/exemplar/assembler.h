@@ -2,6 +2,7 @@
 #ifndef exemplar_assembler_h
 #define exemplar_assembler_h
 
+#include <exemplar/corotational_consistent.h>
 #include <exemplar/example_poses.h>
 #include <exemplar/fe_space.h>
 #include <exemplar/free_dofs.h>
@@ -24,6 +25,7 @@ namespace Exemplar
 
   enum class GradientKind
   {
+    consistent,
     frozen
   };
 
@@ -48,6 +50,7 @@ namespace Exemplar
     double                 energy_example = 0; ///< Psi - energy_elastic, ridge included [J]
     double                 min_det_F      = 0;
     unsigned int           inverted_cells = 0;
+    unsigned int           guarded_cells  = 0; ///< in which the guard of Eq. (16) acts
   };
 
   /// What frames show of a cell.
@@ -64,11 +67,12 @@ namespace Exemplar
   {
   public:
     /// `examples` and `inertia` may be null: the scene has none.
-    Assembler(const FESpace      &fe_space,
-              const Material     &material,
-              const ExamplePoses *examples,
-              const Inertia      *inertia,
-              const FreeDofs     &free_dofs);
+    Assembler(const ModelParameters &model,
+              const FESpace         &fe_space,
+              const Material        &material,
+              const ExamplePoses    *examples,
+              const Inertia         *inertia,
+              const FreeDofs        &free_dofs);
 
     /// Pattern of A on the free degrees of freedom.
     const SymmetricPattern &
@@ -102,6 +106,25 @@ namespace Exemplar
     void
     assemble_coupling(std::vector<double> &columns) const;
 
+    /// The exact tangent of the consistent forces, Eq. (18), into the matrix and, with
+    /// weights to find, the coupling; where the rotations are those of `positions`.
+    void
+    assemble_exact(const dealii::Vector<double> &positions,
+                   const std::vector<double>    &weights,
+                   std::vector<double>          &matrix_values,
+                   std::vector<double>          &columns) const;
+
+    /// What add_response_beside_held_nodes() adds, with the exact tangent.
+    void
+    add_exact_response(const dealii::Vector<double> &displacement,
+                       const dealii::Vector<double> &positions,
+                       const std::vector<double>    &weights,
+                       Evaluation                   &evaluation) const;
+
+    /// c_i with dPsi/dw = H w - c at these positions [J]; the rotations are theirs.
+    std::vector<double>
+    weight_target(const dealii::Vector<double> &positions) const;
+
     /// A residual force [N] that is nothing but rounding: strains of 1e-14 would cause
     /// as much.
     double
@@ -121,6 +144,42 @@ namespace Exemplar
     /// Entries of the lower triangle of a cell's 12x12 matrix, by rows.
     static constexpr unsigned int n_cell_entries = 12 * 13 / 2;
 
+    using CellMatrix = double[12][12];
+
+    ConsistentCell<double>
+    cell_state(unsigned int                  cell,
+               const dealii::Vector<double> &positions,
+               const std::vector<double>    &weights) const;
+
+    void
+    start_matrix(std::vector<double> &matrix_values) const;
+
+    void
+    add_cell_matrix(const unsigned int   cell,
+                    const CellMatrix    &cell_matrix,
+                    std::vector<double> &matrix_values) const
+    {
+      unsigned int entry = 0;
+      for (unsigned int p = 0; p < 12; ++p)
+        for (unsigned int q = 0; q <= p; ++q, ++entry)
+          if (const int position = scatter[cell][entry]; position != FreeDofs::held)
+            matrix_values[position] += cell_matrix[p][q];
+    }
+
+    void
+    add_to_column(const unsigned int cell,
+                  const Vector3<double> (&force)[4],
+                  const unsigned int   example,
+                  std::vector<double> &columns) const
+    {
+      double *column = columns.data() + static_cast<std::size_t>(example) * free_dofs.size();
+      for (unsigned int a = 0; a < 4; ++a)
+        for (unsigned int c = 0; c < 3; ++c)
+          if (const int dof = free_dofs.free_index(3 * fe_space.nodes(cell)[a] + c);
+              dof != FreeDofs::held)
+            column[dof] += examples->importance() * force[a][c];
+    }
+
     void
     build_pattern();
 
@@ -133,11 +192,12 @@ namespace Exemplar
     void
     estimate_rounding();
 
-    const FESpace      &fe_space;
-    const Material     &material;
-    const ExamplePoses *examples;
-    const Inertia      *inertia;
-    const FreeDofs     &free_dofs;
+    const ModelParameters model;
+    const FESpace        &fe_space;
+    const Material       &material;
+    const ExamplePoses   *examples;
+    const Inertia        *inertia;
+    const FreeDofs       &free_dofs;
 
     SymmetricPattern pattern;
     std::vector<std::array<int, n_cell_entries>>

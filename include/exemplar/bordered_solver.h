@@ -25,6 +25,7 @@ namespace Exemplar
     std::vector<double>        coupling; ///< G, its k columns one after the other
     dealii::FullMatrix<double> H;        ///< k x k
     dealii::FullMatrix<double> N;        ///< m x k
+    std::vector<double>        lower;    ///< dw_i >= lower_i; empty: no bounds
   };
 
   struct BorderedVector

@@ -20,7 +20,8 @@ namespace Exemplar
   enum class Method
   {
     one_pass,
-    fixed_point
+    fixed_point,
+    newton
   };
 
   enum class LinearSolver
@@ -47,6 +48,7 @@ namespace Exemplar
     initial,
     converged,
     one_pass,
+    stalled,
     iteration_limit,
     failed
   };
@@ -146,8 +148,56 @@ namespace Exemplar
     void
     add_inertia_and_loads(const State &state);
 
+    enum class Tangent
+    {
+      exact,
+      frozen
+    };
+
+    /// Assemble A and, with weights to find, G, and factorise.
     void
-    linear_step(State &state);
+    factorize(const State &state, Tangent tangent);
+
+    /// Solve with the factor for the step that the gradients call for, into `unknowns`.
+    void
+    solve_for_step(const State &state);
+
+    /// Add the solved step.
+    void
+    add_step(State &state) const;
+
+    SolveReport
+    solve_by_passes(State &state, double time, double step_size);
+
+    SolveReport
+    solve_by_newton(State &state, double time, double step_size);
+
+    bool
+    advance_by_newton(State &state, double to, unsigned int halvings, SolveReport &report);
+
+    void
+    start_newton(const State &accepted, State &trial);
+
+    void
+    predict_along_tangent(const State &accepted, State &trial);
+
+    void
+    iterate_newton(State &state, SolveReport &report);
+
+    bool
+    find_newton_step(const State &state);
+
+    bool
+    search_along_step(State &state);
+
+    void
+    evaluate_with_best_weights(State &state);
+
+    double
+    step_slope() const;
+
+    double
+    objective(const State &state) const;
 
     void
     measure(State &state, SolveReport &report) const;
@@ -160,8 +210,9 @@ namespace Exemplar
     dealii::Vector<double> total_gradient;
     dealii::Vector<double> force_scale; ///< a node, of the total gradient [N]
     dealii::Vector<double> external_force;
-    bool                   dynamic_terms  = false; ///< within a step of a dynamic scene
-    unsigned int           factorizations = 0;
+    double                 current_objective = 0.;    ///< of Newton's method [J]
+    bool                   dynamic_terms     = false; ///< within a step of a dynamic scene
+    unsigned int           factorizations    = 0;
   };
 } // namespace Exemplar
 

@@ -2,6 +2,7 @@
 #ifndef exemplar_example_poses_h
 #define exemplar_example_poses_h
 
+#include <exemplar/corotational_consistent.h>
 #include <exemplar/expression.h>
 #include <exemplar/fe_space.h>
 #include <exemplar/material.h>
@@ -17,11 +18,13 @@ namespace Exemplar
 {
   enum class ExampleEnergy
   {
-    scaled
+    scaled,
+    blended
   };
 
   enum class ExampleWeights
   {
+    simplex,
     free,
     prescribed
   };
@@ -137,7 +140,29 @@ namespace Exemplar
       return strain_norms[i];
     }
 
-    /// H_ij = eta^2 sum V E_i : C : E_j + sigma delta_ij, Eq. (9) [J].
+    /// Whether weights to find must also not be negative.
+    bool
+    weights_are_bounded() const
+    {
+      return bounded;
+    }
+
+    /// The second derivative by the weights of what depends on them alone: the ridge
+    /// and, with the blended energy, eta (1 - eta) sum V E_i : C : E_j [J].
+    const dealii::FullMatrix<double> &
+    penalty_matrix() const
+    {
+      return penalty;
+    }
+
+    /// p_0 of Eq. (16): such that the guard leaves every example as it is.
+    double
+    guard_bound() const
+    {
+      return p_0;
+    }
+
+    /// H_ij = eta^2 sum V E_i : C : E_j and the penalty matrix, Eq. (9) [J].
     const dealii::FullMatrix<double> &
     weight_matrix() const
     {
@@ -168,7 +193,7 @@ namespace Exemplar
     compute_strains();
 
     void
-    compute_weight_matrix(const Material &material);
+    compute_weight_matrix(const Material &material, ExampleEnergy energy);
 
     void
     check_prescribed_weights(double end) const;
@@ -185,7 +210,10 @@ namespace Exemplar
     std::vector<double>                 strains;
     std::vector<double>                 strain_norms;
     dealii::FullMatrix<double>          gram; ///< sum V E_i : C : E_j
+    dealii::FullMatrix<double>          penalty;
     dealii::FullMatrix<double>          H;
+    const bool                          bounded;
+    double                              p_0 = default_guard_bound;
     std::optional<Expression>           prescribed;
     std::vector<std::string>            warnings;
   };

@@ -38,6 +38,17 @@ namespace Exemplar
                  dealii::Vector<double>       &gradient,
                  dealii::Vector<double>       &force_scale) const;
 
+    /// 1/(2 h^2) (x - x_hat)^T M (x - x_hat) [J].
+    double
+    step_energy(const dealii::Vector<double> &positions) const;
+
+    /// x_hat, where the body would be without forces.
+    const dealii::Vector<double> &
+    predicted_positions() const
+    {
+      return predicted;
+    }
+
     /// M/h^2 is the product of the nodal mass matrix [kg] with I_3 and this factor.
     double
     matrix_factor() const

@@ -78,9 +78,10 @@ namespace Exemplar::Testing
       const Body     body;
       const auto     examples = body.examples(two_examples());
       const FreeDofs free_dofs(body.fe_space.n_dofs(), {});
-      Assembler      assembler(body.fe_space, body.material, examples.get(), nullptr, free_dofs);
-      std::mt19937   generator(1);
-      auto           positions = body.random_positions(generator, 0.1);
+      Assembler assembler(ModelParameters(), body.fe_space, body.material, examples.get(), nullptr,
+                          free_dofs);
+      std::mt19937 generator(1);
+      auto         positions = body.random_positions(generator, 0.1);
       assembler.update_rotations(body.random_positions(generator, 0.3));
       std::vector<double> weights = { 0.2, 0.5, 0.3 };
 
@@ -110,9 +111,10 @@ namespace Exemplar::Testing
       const auto     examples = body.examples(two_examples());
       const FreeDofs free_dofs(body.fe_space.n_dofs(), { 0, 4, 8, 30 });
       Inertia        inertia(body.fe_space, body.material, MassMatrix::consistent);
-      Assembler      assembler(body.fe_space, body.material, examples.get(), &inertia, free_dofs);
-      std::mt19937   generator(2);
-      auto           positions = body.random_positions(generator, 0.1);
+      Assembler assembler(ModelParameters(), body.fe_space, body.material, examples.get(), &inertia,
+                          free_dofs);
+      std::mt19937 generator(2);
+      auto         positions = body.random_positions(generator, 0.1);
       assembler.update_rotations(positions);
       std::vector<double> weights = { 0.2, 0.5, 0.3 };
 
@@ -159,9 +161,10 @@ namespace Exemplar::Testing
       const Body     body;
       const auto     examples = body.examples(two_examples());
       const FreeDofs free_dofs(body.fe_space.n_dofs(), {});
-      Assembler      assembler(body.fe_space, body.material, examples.get(), nullptr, free_dofs);
-      std::mt19937   generator(3);
-      const auto     positions = body.random_positions(generator, 0.2);
+      Assembler assembler(ModelParameters(), body.fe_space, body.material, examples.get(), nullptr,
+                          free_dofs);
+      std::mt19937 generator(3);
+      const auto   positions = body.random_positions(generator, 0.2);
       assembler.update_rotations(positions);
       Evaluation evaluation;
       assembler.evaluate(positions, { 0.2, 0.5, 0.3 }, evaluation);
@@ -182,7 +185,8 @@ namespace Exemplar::Testing
       parameters.weight_penalty    = "0";
       const auto     examples      = body.examples(parameters);
       const FreeDofs free_dofs(body.fe_space.n_dofs(), {});
-      Assembler      assembler(body.fe_space, body.material, examples.get(), nullptr, free_dofs);
+      Assembler assembler(ModelParameters(), body.fe_space, body.material, examples.get(), nullptr,
+                          free_dofs);
       const Matrix3<double> Q         = rotation_about({ { 1., 1., 0. } }, 2.);
       auto                  positions = examples->pose(1);
       for (unsigned int node = 0; node < body.fe_space.n_nodes(); ++node)
@@ -221,8 +225,9 @@ namespace Exemplar::Testing
             rollers.push_back(3 * node + c);
       }
       const FreeDofs free_dofs(body.fe_space.n_dofs(), rollers);
-      Assembler      assembler(body.fe_space, body.material, examples.get(), nullptr, free_dofs);
-      const auto    &rest = body.fe_space.rest_positions();
+      Assembler assembler(ModelParameters(), body.fe_space, body.material, examples.get(), nullptr,
+                          free_dofs);
+      const auto &rest = body.fe_space.rest_positions();
       assembler.update_rotations(rest); // R = I
 
       // the internal forces at x = 0 are -R K X: strain -I

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/equilibrium.h>
+#include <exemplar/errors.h>
+#include <exemplar/interrupt.h>
+#include <exemplar/weight_qp.h>
+
+#include <cmath>
+#include <numeric>
+
+// Newton's method on the energy as a function of the positions alone: the weights are
+// the best ones at every evaluation. Steps come from the exact tangent; where that is
+// indefinite, from the frozen one, which is convex. A line search makes each a descent.
+
+namespace Exemplar
+{
+  namespace
+  {
+    constexpr unsigned int most_halvings_of_increment = 6;
+    constexpr unsigned int most_halvings_of_step      = 30;
+
+    bool
+    is_better(const double objective,
+              const double before,
+              const double change_expected, // < 0
+              const double gradient_norm,
+              const double gradient_norm_before)
+    {
+      // near rounding the objective cannot tell any more, but the gradient can
+      if (std::abs(change_expected) < 1e-9 * std::abs(before))
+        return objective <= before + 1e-12 * std::abs(before)
+               && gradient_norm <= gradient_norm_before;
+      return objective <= before + 1e-4 * change_expected; // Armijo
+    }
+  } // namespace
+
+  double
+  Equilibrium::objective(const State &state) const
+  {
+    double value = current.energy_elastic + current.energy_example;
+    if (dynamic_terms)
+      value += parts.inertia->step_energy(state.positions);
+    if (parts.loads != nullptr)
+      value -= external_force * state.positions;
+    return value;
+  }
+
+  void
+  Equilibrium::evaluate_with_best_weights(State &state)
+  {
+    StepClock::Scope scope(parts.clock, Part::evaluate);
+    parts.assembler.update_rotations(state.positions);
+    if (block.H.m() > 0)
+    {
+      const std::vector<double> lower(
+          parts.examples->weights_are_bounded() ? state.weights.size() : 0, 0.);
+      const WeightQpSolution best = minimize_over_weights(
+          block.H, parts.assembler.weight_target(state.positions), 1., lower);
+      if (!best.found)
+        throw SolverFailure("The example weights are not determined. Set Examples/Weight penalty "
+                            "to auto.");
+      state.weights = best.weights;
+    }
+    evaluate(state);
+    current_objective = objective(state);
+  }
+
+  double
+  Equilibrium::step_slope() const
+  {
+    const auto &free  = parts.free_dofs.list();
+    double      slope = 0.;
+    for (unsigned int i = 0; i < free.size(); ++i)
+      slope += total_gradient[free[i]] * unknowns.positions[i];
+    return slope;
+  }
+
+  bool
+  Equilibrium::find_newton_step(const State &state)
+  {
+    for (const Tangent tangent : { Tangent::exact, Tangent::frozen })
+    {
+      try
+      {
+        factorize(state, tangent);
+        solve_for_step(state);
+      }
+      catch (const SolverFailure &)
+      {
+        continue; // indefinite
+      }
+      if (step_slope() < 0.)
+        return true;
+    }
+    return false;
+  }
+
+  bool
+  Equilibrium::search_along_step(State &state)
+  {
+    const State                  start        = state;
+    const std::vector<double>    step         = unknowns.positions;
+    const dealii::Vector<double> old_gradient = total_gradient;
+    const auto                  &free         = parts.free_dofs.list();
+    const double                 slope        = step_slope();
+    const double                 before       = current_objective;
+    const auto                   free_norm    = [&free](const dealii::Vector<double> &gradient)
+    {
+      double norm = 0.;
+      for (const unsigned int dof : free)
+        norm = std::max(norm, std::abs(gradient[dof]));
+      return norm;
+    };
+    double length = 1.;
+    for (unsigned int halving = 0; halving < most_halvings_of_step; ++halving, length *= 0.5)
+    {
+      state = start;
+      for (unsigned int i = 0; i < free.size(); ++i)
+        state.positions[free[i]] += length * step[i];
+      evaluate_with_best_weights(state);
+      if (is_better(current_objective, before, length * slope, free_norm(total_gradient),
+                    free_norm(old_gradient)))
+        return true;
+    }
+    state = start;
+    evaluate_with_best_weights(state);
+    return false;
+  }
+
+  void
+  Equilibrium::start_newton(const State &accepted, State &trial)
+  {
+    StepClock::Scope scope(parts.clock, Part::evaluate);
+    update_loads(trial.time);
+    if (parts.examples != nullptr && parts.examples->weights_are_prescribed())
+      trial.weights = parts.examples->prescribed_weights(trial.time);
+    if (dynamic_terms)
+    {
+      // inertia predicts better than any tangent: x + h v
+      for (const unsigned int dof : parts.free_dofs.list())
+        trial.positions[dof] = parts.inertia->predicted_positions()[dof];
+      if (parts.handles != nullptr)
+        parts.handles->move(trial.time, trial.positions);
+      return;
+    }
+    predict_along_tangent(accepted, trial);
+  }
+
+  void
+  Equilibrium::predict_along_tangent(const State &accepted, State &trial)
+  {
+    // so that free nodes move with the handles instead of being crushed by them
+    parts.assembler.update_rotations(accepted.positions);
+    parts.assembler.evaluate(accepted.positions, trial.weights, current);
+    if (parts.handles != nullptr)
+      parts.handles->move(trial.time, trial.positions);
+    dealii::Vector<double> displacement = trial.positions;
+    displacement -= accepted.positions;
+    State at                = accepted;
+    at.weights              = trial.weights;
+    const Evaluation before = current;
+    for (const Tangent tangent : { Tangent::exact, Tangent::frozen })
+      try
+      {
+        current = before;
+        if (tangent == Tangent::exact)
+          parts.assembler.add_exact_response(displacement, at.positions, at.weights, current);
+        else
+          parts.assembler.add_response_beside_held_nodes(displacement, current);
+        add_inertia_and_loads(at);
+        factorize(at, tangent);
+        solve_for_step(at);
+        const auto &free = parts.free_dofs.list();
+        for (unsigned int i = 0; i < free.size(); ++i)
+          trial.positions[free[i]] += unknowns.positions[i];
+        return;
+      }
+      catch (const SolverFailure &)
+      {
+      } // indefinite: the frozen tangent is not
+  }
+
+  void
+  Equilibrium::iterate_newton(State &state, SolveReport &report)
+  {
+    evaluate_with_best_weights(state);
+    for (unsigned int iteration = 0;; ++iteration)
+    {
+      check_interrupt();
+      measure(state, report);
+      if (std::max(report.residual, report.kkt_residual) <= parameters.tolerance)
+        report.status = SolveStatus::converged;
+      else if (iteration == parameters.maximum_iterations)
+        report.status = SolveStatus::iteration_limit;
+      else if (!find_newton_step(state) || !search_along_step(state))
+        report.status = SolveStatus::stalled;
+      if (report.status != SolveStatus::initial)
+        return;
+      ++report.iterations;
+    }
+  }
+
+  bool
+  Equilibrium::advance_by_newton(State             &state,
+                                 const double       to,
+                                 const unsigned int halvings,
+                                 SolveReport       &report)
+  {
+    State trial   = state;
+    trial.time    = to;
+    report.status = SolveStatus::initial;
+    try
+    {
+      start_newton(state, trial);
+      iterate_newton(trial, report);
+    }
+    catch (const SolverFailure &failure)
+    {
+      report.status  = SolveStatus::failed;
+      report.failure = failure.what();
+    }
+    if (report.status == SolveStatus::converged)
+    {
+      state = trial;
+      return true;
+    }
+    if (halvings == most_halvings_of_increment)
+      return false;
+    // from the accepted state again, with half the way of handles, loads and weights
+    const double middle = 0.5 * (state.time + to);
+    return advance_by_newton(state, middle, halvings + 1, report)
+           && advance_by_newton(state, to, halvings + 1, report);
+  }
+
+  SolveReport
+  Equilibrium::solve_by_newton(State &state, const double time, const double step_size)
+  {
+    SolveReport report;
+    if (parts.inertia != nullptr)
+    {
+      parts.inertia->begin_step(state, step_size);
+      dynamic_terms = true;
+    }
+    advance_by_newton(state, time, 0, report);
+    return report;
+  }
+} // namespace Exemplar
