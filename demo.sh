@@ -3,7 +3,13 @@
 # Install what is missing, build exemplar and run the cat of the paper's Fig. 2a.
 # Usage: ./demo.sh [--install-only]
 set -euo pipefail
-cd "$(dirname "$0")"
+usage="Usage: ./demo.sh [--install-only]"
+case "$*" in
+  "" | --install-only) ;;
+  -h | --help) echo "$usage"; exit 0 ;;
+  *) echo "$usage" >&2; exit 1 ;;
+esac
+cd "$(dirname "$(readlink -f "$0")")"
 
 packages=(git g++ cmake ninja-build libdeal.ii-dev libsuitesparse-dev libopenblas0-pthread
           libmuparser-dev libcli11-dev nlohmann-json3-dev libssl-dev zlib1g-dev
@@ -16,7 +22,7 @@ install_missing() {
   fi
   local missing=() package
   for package in "${packages[@]}"; do
-    dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'install ok installed' ||
+    dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q ' ok installed' ||
       missing+=("$package")
   done
   [ ${#missing[@]} -eq 0 ] && return
@@ -30,27 +36,26 @@ install_missing() {
     run_as_root=(sudo)
   fi
   echo "Installing ${missing[*]}"
-  "${run_as_root[@]}" apt-get update -qq
-  "${run_as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
-    apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
+  # a broken source among others need not keep these packages from us
+  "${run_as_root[@]}" apt-get update -qq || true
+  if ! "${run_as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+    apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null; then
+    echo "These packages are missing and could not be installed: ${missing[*]}" >&2
+    exit 1
+  fi
 }
 
 install_missing
 [ "${1:-}" = "--install-only" ] && exit 0
-if [ $# -gt 0 ]; then
-  echo "Usage: ./demo.sh [--install-only]" >&2
-  exit 1
-fi
 
-if [ ! -f build/release/build.ninja ]; then
-  cmake --preset release >/dev/null
-fi
 echo "Building (a few minutes the first time)"
-cmake --build --preset release --target exemplar | tail -n 1
+cmake --preset release >/dev/null
+cmake --build --preset release --target exemplar
 
 build/release/exemplar prm/paper/fig2a_cat.prm --output output/fig2a_cat
 echo
 echo "The frames are in $PWD/output/fig2a_cat."
 echo "Open animation.pvd there in ParaView (Debian: apt-get install paraview), press Apply, then Play:"
-echo "  paraview output/fig2a_cat/animation.pvd"
-echo "The same drag without the examples: build/release/exemplar prm/paper/fig2a_cat.prm --set Examples/Importance=0 --output output/fig2a_cat_plain"
+echo "  paraview $PWD/output/fig2a_cat/animation.pvd"
+echo "The same drag without the examples, from $PWD:"
+echo "  build/release/exemplar prm/paper/fig2a_cat.prm --set Examples/Importance=0 --output output/fig2a_cat_plain"

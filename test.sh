@@ -4,7 +4,7 @@
 # every access, and everything in Release.
 # Usage: ./test.sh [--quick]      --quick: the Release tests of the inner loop only
 set -euo pipefail
-cd "$(dirname "$0")"
+cd "$(dirname "$(readlink -f "$0")")"
 if [ $# -gt 1 ] || { [ $# -eq 1 ] && [ "$1" != "--quick" ]; }; then
   echo "Usage: ./test.sh [--quick]" >&2
   exit 1
@@ -13,9 +13,9 @@ fi
 ./demo.sh --install-only
 
 build() {
-  [ -f "build/$1/build.ninja" ] || cmake --preset "$1" >/dev/null
   echo "Building $1"
-  cmake --build --preset "$1" | tail -n 1
+  cmake --preset "$1" >/dev/null
+  cmake --build --preset "$1"
 }
 
 build release

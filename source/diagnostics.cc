@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/diagnostics.h>
 
+#include <cmath>
+
 namespace Exemplar
 {
   namespace
@@ -57,7 +59,7 @@ namespace Exemplar
                                      { "time", shortest_text(state.time) },
                                      { "status", status_name(report.status) },
                                      { "iterations", std::to_string(report.iterations) } };
-    append(row, "residual", report.residual);
+    append(row, "residual", report.status == SolveStatus::failed ? std::nan("") : report.residual);
     append(row, "energy_elastic", evaluation.energy_elastic);
     if (examples != nullptr)
       append(row, "energy_example", evaluation.energy_example);
@@ -73,6 +75,8 @@ namespace Exemplar
     }
     append(row, "min_det_F", evaluation.min_det_F);
     row.emplace_back("inverted_cells", std::to_string(evaluation.inverted_cells));
+    if (examples != nullptr)
+      row.emplace_back("guarded_cells", std::to_string(evaluation.guarded_cells));
     if (inertia != nullptr)
     {
       append(row, "momentum", sums.momentum);

@@ -124,10 +124,18 @@ namespace Exemplar
     const Parameters parameters(options.scene_file, options.overrides);
     const auto       problem = make_problem(parameters);
     Results          results(*problem);
-    if (options.resume)
-      results.resume();
-    else
-      results.begin();
+    try
+    {
+      if (options.resume)
+        results.resume();
+      else
+        results.begin();
+    }
+    catch (const std::filesystem::filesystem_error &error)
+    {
+      throw UserError(std::string("The output directory cannot be used: ") + error.what()
+                      + ". Give another one by --output or Output/Directory.");
+    }
     note_interrupts();
     if (!options.quiet)
     {

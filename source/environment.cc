@@ -24,11 +24,13 @@ namespace Exemplar
     const char *
     right_core_type()
     {
+#ifdef __x86_64__
       if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq")
           && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl"))
         return "SKYLAKEX";
       if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
         return "HASWELL";
+#endif
       return nullptr;
     }
 

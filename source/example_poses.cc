@@ -30,6 +30,15 @@ namespace Exemplar
       return sum;
     }
 
+    /// sigma for "auto" and "paper", in units of sum E V.
+    double
+    default_penalty(const ExampleParameters &parameters)
+    {
+      const bool weak
+          = parameters.weight_penalty == "auto" && parameters.weights == ExampleWeights::simplex;
+      return weak ? 1e-9 : 1e-5;
+    }
+
     /// The number in `text`, if it is one and not negative.
     std::optional<double>
     non_negative_number(const std::string &text)
@@ -73,9 +82,12 @@ namespace Exemplar
         "eta [-]: 0 is plain elasticity (no pose file is opened), 1 lets the examples "
         "alone be free of stress.",
         dealii::Patterns::Double(0., 1.));
-    prm.add_parameter("Weight penalty", weight_penalty,
-                      "sigma [J] of the ridge sigma/2 sum w_i^2 on free weights: auto, paper (both "
-                      "1e-5 sum E V over the cells) or a number not less than 0.");
+    prm.add_parameter(
+        "Weight penalty", weight_penalty,
+        "sigma [J] of the ridge sigma/2 sum w_i^2 on weights that are not prescribed: paper "
+        "(1e-5 sum E V over the cells), auto (1e-9 sum E V with simplex weights, which "
+        "decides ties and moves nothing; the paper's with free ones, which would "
+        "run away) or a number not less than 0.");
     declare_enum(
         prm, "Energy", energy, energies,
         "scaled: V/2 (strain - eta E(w)) : C : (strain - eta E(w)), as the paper; blended: (1 - "
@@ -115,7 +127,7 @@ namespace Exemplar
                              const Mesh              &mesh,
                              const FESpace           &fe_space,
                              const Material          &material,
-                             const double             end)
+                             const TimeAxis          &axis)
       : fe_space(fe_space), eta(parameters.importance),
         first_strained(parameters.include_rest_pose ? 1 : 0),
         bounded(parameters.weights == ExampleWeights::simplex)
@@ -129,11 +141,11 @@ namespace Exemplar
     if (parameters.weights == ExampleWeights::prescribed)
     {
       prescribed.emplace("Examples/Prescribed weights", parameters.prescribed_weights, "t", size());
-      check_prescribed_weights(end);
+      check_prescribed_weights(axis);
     }
     else
       sigma = non_negative_number(parameters.weight_penalty)
-                  .value_or(1e-5 * unit_energy(fe_space, material));
+                  .value_or(default_penalty(parameters) * unit_energy(fe_space, material));
 
     compute_strains();
     compute_weight_matrix(material, parameters.energy);
@@ -218,12 +230,11 @@ namespace Exemplar
   }
 
   void
-  ExamplePoses::check_prescribed_weights(const double end) const
+  ExamplePoses::check_prescribed_weights(const TimeAxis &axis) const
   {
-    const unsigned int n_samples = 10;
-    for (unsigned int sample = 0; sample <= n_samples; ++sample)
+    for (unsigned int step = 0; step <= axis.n_steps(); ++step)
     {
-      const double time = end * sample / n_samples;
+      const double time = axis.time(step);
       double       sum  = 0.;
       for (const double weight : prescribed_weights(time))
         sum += weight;

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cmath>
+#include <regex>
 
 namespace Exemplar
 {
@@ -18,6 +19,16 @@ namespace Exemplar
     natural_logarithm(const double x)
     {
       return std::log(x);
+    }
+
+    /// muParser would take "t = 1" for an assignment to t.
+    void
+    check_no_assignment(const std::string &key, const std::string &text)
+    {
+      static const std::regex comparison("[=<>!]=");
+      if (std::regex_replace(text, comparison, "").find('=') != std::string::npos)
+        throw UserError(key + ": the formula '" + text
+                        + "' holds a single '='. Write == to compare.");
     }
 
     double
@@ -62,6 +73,7 @@ namespace Exemplar
     for (unsigned int i = 0; i < n_components; ++i)
     {
       mu::Parser &parser = parsers->parsers[i];
+      check_no_assignment(key, parsers->texts[i]);
       parser.DefineConst("pi", 3.14159265358979323846);
       parser.DefineFun("log", natural_logarithm);
       parser.DefineFun("floor", floor);

@@ -46,7 +46,7 @@ namespace Exemplar
 
   Handles::Handles(const std::vector<HandleParameters> &parameters,
                    const Mesh                          &mesh,
-                   const double                         end)
+                   const TimeAxis                      &axis)
       : mesh(mesh)
   {
     for (const HandleParameters &p : parameters)
@@ -55,13 +55,27 @@ namespace Exemplar
       handles.push_back({ p.name, p.select.nodes(mesh, key), parse_components(p.components, key),
                           Expression(key + "/Motion", p.motion, "xyzt", 3) });
     }
-    const unsigned int n_samples = 10;
-    for (unsigned int sample = 0; sample <= n_samples; ++sample)
-      check_agreement(end * sample / n_samples);
+    dealii::Vector<double> anywhere(3 * mesh.n_nodes());
+    move(axis.time(0), anywhere); // are the formulas finite?
+    move(axis.time(axis.n_steps()), anywhere);
+    const std::set<unsigned int> shared = shared_nodes();
+    for (unsigned int step = 0; step <= axis.n_steps() && !shared.empty(); ++step)
+      check_agreement(shared, axis.time(step));
+  }
+
+  std::set<unsigned int>
+  Handles::shared_nodes() const
+  {
+    std::set<unsigned int> seen, shared;
+    for (const Handle &handle : handles)
+      for (const unsigned int node : handle.nodes)
+        if (!seen.insert(node).second)
+          shared.insert(node);
+    return shared;
   }
 
   void
-  Handles::check_agreement(const double time) const
+  Handles::check_agreement(const std::set<unsigned int> &shared, const double time) const
   {
     const double tolerance = 1e-10 * mesh.diameter();
     struct Target
@@ -73,6 +87,8 @@ namespace Exemplar
     for (unsigned int h = 0; h < handles.size(); ++h)
       for (const unsigned int node : handles[h].nodes)
       {
+        if (shared.count(node) == 0)
+          continue;
         const dealii::Tensor<1, 3> displacement
             = handles[h].displacement.vector(mesh.get_nodes()[node], time);
         for (const unsigned int c : handles[h].components)

@@ -11,9 +11,10 @@ namespace Exemplar
     volatile std::sig_atomic_t interrupted = 0;
 
     void
-    note(int)
+    note(const int signal)
     {
       interrupted = 1;
+      std::signal(signal, SIG_DFL); // a second one ends the program at once
     }
   } // namespace
 

@@ -14,7 +14,7 @@
 #include <cstring>
 #include <fstream>
 #include <limits>
-#include <numeric>
+#include <regex>
 #include <sstream>
 #include <utility>
 
@@ -318,7 +318,9 @@ namespace Exemplar
     const std::string           text = read_text(geo); // first: a missing file needs no gmsh
     const std::string           key  = sha256_of_text(text + "\n" + gmsh_version(geo));
     const std::filesystem::path msh  = cache_directory() / (key + ".msh");
-    if (!std::filesystem::exists(msh))
+    // what a file includes or merges is not in the key, so such meshes are made anew
+    static const std::regex others("Include|Merge");
+    if (!std::filesystem::exists(msh) || std::regex_search(text, others))
     {
       std::error_code error;
       std::filesystem::create_directories(msh.parent_path(), error);

@@ -3,7 +3,9 @@
 #include <exemplar/parameters.h>
 
 #include <algorithm>
+#include <fstream>
 #include <set>
+#include <sstream>
 
 namespace Exemplar
 {
@@ -108,6 +110,9 @@ namespace Exemplar
       : scene_file(scene_file)
   {
     std::vector<Assignment> assignments = read_assignments(scene_file);
+    std::ostringstream      bytes;
+    bytes << std::ifstream(scene_file, std::ios::binary).rdbuf();
+    scene_text = bytes.str();
     for (const std::string &text : overrides)
       assignments.push_back(parse_override(text));
     if (find_assignment(assignments, "Scene") == nullptr)
@@ -266,7 +271,7 @@ namespace Exemplar
     std::vector<std::filesystem::path> files;
     for (const DeclaredKey &key : keys())
       if (key.is_input_file)
-        for (const std::string &file : split_trimmed(key.value, ','))
+        for (const std::string &file : split_trimmed(key.value, key.is_list ? ',' : '\n'))
           files.emplace_back(file);
       else if (key.key == "Select" && key.value.compare(0, 6, "nodes ") == 0)
         files.emplace_back(key.value.substr(6));

@@ -53,6 +53,12 @@ namespace Exemplar
                  || std::isspace(static_cast<unsigned char>(line[word.size()])));
     }
 
+    int
+    lower_case(const char c)
+    {
+      return std::tolower(static_cast<unsigned char>(c));
+    }
+
     std::size_t
     edit_distance(const std::string &a, const std::string &b)
     {
@@ -63,7 +69,7 @@ namespace Exemplar
         std::size_t diagonal = row[0]++;
         for (std::size_t j = 1; j <= b.size(); ++j)
         {
-          const std::size_t same = diagonal + (std::tolower(a[i - 1]) != std::tolower(b[j - 1]));
+          const std::size_t same = diagonal + (lower_case(a[i - 1]) != lower_case(b[j - 1]));
           diagonal               = row[j];
           row[j]                 = std::min({ same, row[j] + 1, row[j - 1] + 1 });
         }
@@ -75,7 +81,7 @@ namespace Exemplar
     nearest_path(const std::string &path, const std::vector<DeclaredKey> &keys)
     {
       std::string best;
-      std::size_t best_distance = path.size() + 1;
+      std::size_t best_distance = std::string::npos;
       for (const DeclaredKey &key : keys)
         if (const std::size_t distance = edit_distance(path, key.path()); distance < best_distance)
         {
@@ -134,7 +140,8 @@ namespace Exemplar
           const std::string pattern = content.at("pattern_description");
           keys.push_back({ subsections, name, content.at("value"), content.at("default_value"),
                            content.at("documentation"), allowed_in_words(pattern),
-                           pattern.find("[FileName") != std::string::npos });
+                           pattern.find("[FileName") != std::string::npos,
+                           pattern.compare(0, 8, "[List of") == 0 });
         }
         else
         {
@@ -144,13 +151,31 @@ namespace Exemplar
         }
     }
 
+    /// A file name, absolute; refused if a scene file could not hold it.
     std::string
-    absolute_files(const std::string &value, const std::filesystem::path &directory)
+    absolute_file(const std::string           &file,
+                  const std::filesystem::path &directory,
+                  const std::string           &unwanted)
     {
+      const std::string path
+          = std::filesystem::absolute(directory / file).lexically_normal().string();
+      if (path.find_first_of(unwanted) != std::string::npos)
+        throw UserError("The path " + path + " holds one of the signs " + unwanted
+                        + " which mean something else in scene files. Rename the file or its "
+                          "directory.");
+      return path;
+    }
+
+    std::string
+    absolute_files(const DeclaredKey           &key,
+                   const std::string           &value,
+                   const std::filesystem::path &directory)
+    {
+      if (!key.is_list)
+        return value.empty() ? value : absolute_file(value, directory, "#");
       std::string files;
       for (const std::string &file : split_trimmed(value, ','))
-        files += (files.empty() ? "" : ", ")
-                 + std::filesystem::absolute(directory / file).lexically_normal().string();
+        files += (files.empty() ? "" : ", ") + absolute_file(file, directory, "#,");
       return files;
     }
 
@@ -206,6 +231,8 @@ namespace Exemplar
               read_line(whole);
           }
         }
+        if (!pending.empty())
+          fail("the file ends in a backslash, which joins a line to the next. Remove it.");
         if (!subsections.empty())
           fail("the file ends within subsection '" + subsections.back()
                + "'. Close it with a line 'end'.");
@@ -369,7 +396,7 @@ namespace Exemplar
                         + "'. Did you mean '" + nearest_path(assignment.path(), keys)
                         + "'? exemplar --print-parameters lists them all.");
       set_value(prm, *key, assignment,
-                key->is_input_file ? absolute_files(assignment.value, directory)
+                key->is_input_file ? absolute_files(*key, assignment.value, directory)
                                    : assignment.value);
     }
   }

@@ -20,7 +20,7 @@ namespace Exemplar
     {
       if (parameters.handles.empty())
         return nullptr;
-      return std::make_unique<Handles>(parameters.handles, mesh, axis.time(axis.n_steps()));
+      return std::make_unique<Handles>(parameters.handles, mesh, axis);
     }
 
     std::optional<StaticallyDeterminateSupport>
@@ -52,8 +52,7 @@ namespace Exemplar
     {
       if (!parameters.examples.in_use())
         return nullptr;
-      return std::make_unique<ExamplePoses>(parameters.examples, mesh, fe_space, material,
-                                            axis.time(axis.n_steps()));
+      return std::make_unique<ExamplePoses>(parameters.examples, mesh, fe_space, material, axis);
     }
 
     std::unique_ptr<Inertia>

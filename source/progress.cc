@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/progress.h>
 
-#include <iomanip>
 #include <iostream>
 #include <sstream>
 #include <unistd.h>
@@ -54,13 +53,13 @@ namespace Exemplar
     std::ostringstream text;
     if (terminal)
     {
-      const unsigned int width = 30, filled = width * step / n_steps;
-      text << "\r[" << std::string(filled, '#') << std::string(width - filled, '.') << "] ";
+      const unsigned int width = 20, filled = width * step / n_steps;
+      text << '[' << std::string(filled, '#') << std::string(width - filled, '.') << "] ";
     }
     text << "step " << step << " of " << n_steps << ", " << duration_text(left) << " left, "
          << note;
-    if (terminal)
-      out << std::left << std::setw(100) << text.str() << std::flush;
+    if (terminal) // one line, whatever stood there before; "\033[K" clears the rest of it
+      out << '\r' << text.str().substr(0, 79) << "\033[K" << std::flush;
     else
       out << text.str() << std::endl;
     line_open = terminal;

@@ -79,6 +79,16 @@ namespace Exemplar
           throw UserError(failure + "the file " + input + " has changed since." + remedy);
     }
 
+    /// The row of a failed step: neither its forces nor the state before would be true.
+    void
+    keep_only_report(StatisticsRow &row)
+    {
+      for (auto &[column, value] : row)
+        if (column != "step" && column != "time" && column != "status" && column != "iterations"
+            && column != "residual")
+          value.clear();
+    }
+
     void
     write_parameters(const Parameters &parameters, const fs::path &file)
     {
@@ -108,7 +118,7 @@ namespace Exemplar
       StepClock::Scope scope(problem.clock, Part::output);
       directory.clear();
       write_parameters(parameters, directory.parameters_prm());
-      fs::copy_file(parameters.scene_file, directory.original_prm());
+      write_original();
       statistics.emplace(directory.statistics());
       if (is_frame(0))
         write_frame();
@@ -118,6 +128,7 @@ namespace Exemplar
       statistics->write(row);
       accepted_bytes = statistics->n_bytes();
     }
+    save(); // so that a crash before the first interval can be resumed, too
     end_reading();
     lap();
   }
@@ -138,9 +149,13 @@ namespace Exemplar
     {
       StepClock::Scope scope(problem.clock, Part::output);
       statistics.emplace(directory.statistics(), checkpoint.statistics_bytes);
+      write_original();
       write_parameters(problem.parameters, directory.parameters_prm());
     }
-    if (!is_frame(state.step)) // it was the last, but the run now ends later
+    const auto earlier_every = checkpoint.parameters.find("Output/Every");
+    const bool was_only_last = earlier_every != checkpoint.parameters.end()
+                               && state.step % std::max(1, std::stoi(earlier_every->second)) != 0;
+    if (was_only_last && !is_frame(state.step)) // the run now ends later
       fs::remove(directory.get_path() / RunDirectory::frame_name(state.step));
     problem.resume_from(state);
     problem.diagnostics.set_work(checkpoint.work);
@@ -157,6 +172,14 @@ namespace Exemplar
   Results::end_reading()
   {
     problem.clock.switch_to(Part::evaluate);
+  }
+
+  void
+  Results::write_original() const
+  {
+    AtomicFile file(directory.original_prm());
+    file.stream() << problem.parameters.scene_text;
+    file.commit();
   }
 
   PartSeconds
@@ -192,6 +215,8 @@ namespace Exemplar
       shown.time = problem.time_axis.time(shown.step);
     }
     StatisticsRow row = problem.diagnostics.row(shown, report, problem.equilibrium);
+    if (!accepted)
+      keep_only_report(row);
     Diagnostics::append_seconds(row, lap());
     statistics->write(row);
     if (accepted)

@@ -88,6 +88,8 @@ namespace Exemplar
       throw UserError("Output directory " + path.string() + " cannot be made: " + error.message()
                       + "." + remedy);
     for (const fs::path &file : own_files())
-      fs::remove(file);
+      if (file != parameters_prm())
+        fs::remove(file);
+    fs::remove(parameters_prm()); // last: by it the directory is known as ours
   }
 } // namespace Exemplar

@@ -33,7 +33,7 @@ namespace Exemplar
   struct ModelParameters
   {
     StrainMeasure strain   = StrainMeasure::corotational;
-    GradientKind  gradient = GradientKind::frozen;
+    GradientKind  gradient = GradientKind::consistent;
 
     void
     declare(dealii::ParameterHandler &prm);

@@ -34,9 +34,9 @@ namespace Exemplar
   /// Subsection Solver.
   struct SolverParameters
   {
-    Method       method             = Method::fixed_point;
+    Method       method             = Method::newton;
     double       tolerance          = 1e-8;
-    unsigned int maximum_iterations = 500;
+    unsigned int maximum_iterations = 50;
     LinearSolver linear_solver      = LinearSolver::automatic;
 
     void

@@ -6,6 +6,7 @@
 #include <exemplar/expression.h>
 #include <exemplar/fe_space.h>
 #include <exemplar/material.h>
+#include <exemplar/time_axis.h>
 
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/lac/full_matrix.h>
@@ -38,7 +39,7 @@ namespace Exemplar
     double                   importance        = 0.8; ///< eta
     std::string              weight_penalty    = "auto";
     ExampleEnergy            energy            = ExampleEnergy::scaled;
-    ExampleWeights           weights           = ExampleWeights::free;
+    ExampleWeights           weights           = ExampleWeights::simplex;
     std::string              prescribed_weights;
 
     void
@@ -59,13 +60,13 @@ namespace Exemplar
   {
   public:
     /// Reads the pose files. Throws UserError for a pose on another mesh, for
-    /// prescribed weights that do not sum to one in t = 0 ... end [s], and for free
+    /// prescribed weights that do not sum to one in every step, and for free
     /// weights without penalty if the examples are affinely dependent.
     ExamplePoses(const ExampleParameters &parameters,
                  const Mesh              &mesh,
                  const FESpace           &fe_space,
                  const Material          &material,
-                 double                   end);
+                 const TimeAxis          &axis);
 
     unsigned int
     size() const
@@ -196,7 +197,7 @@ namespace Exemplar
     compute_weight_matrix(const Material &material, ExampleEnergy energy);
 
     void
-    check_prescribed_weights(double end) const;
+    check_prescribed_weights(const TimeAxis &axis) const;
 
     void
     check_independence(const Material &material) const;

@@ -4,10 +4,12 @@
 
 #include <exemplar/expression.h>
 #include <exemplar/selection.h>
+#include <exemplar/time_axis.h>
 
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/lac/vector.h>
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -30,8 +32,10 @@ namespace Exemplar
   {
   public:
     /// Throws UserError for a selection without nodes, a formula that is not
-    /// understood, and for handles that overlap and disagree in t = 0 ... end.
-    Handles(const std::vector<HandleParameters> &parameters, const Mesh &mesh, double end);
+    /// understood, and for handles that overlap and disagree in any step.
+    Handles(const std::vector<HandleParameters> &parameters,
+            const Mesh                          &mesh,
+            const TimeAxis                      &axis);
 
     /// Degrees of freedom 3 i + c that are held, ascending, each once.
     std::vector<unsigned int>
@@ -66,8 +70,12 @@ namespace Exemplar
       Expression                displacement;
     };
 
+    /// Nodes that more than one handle holds.
+    std::set<unsigned int>
+    shared_nodes() const;
+
     void
-    check_agreement(double time) const;
+    check_agreement(const std::set<unsigned int> &shared, double time) const;
 
     const Mesh         &mesh;
     std::vector<Handle> handles;

@@ -71,6 +71,7 @@ namespace Exemplar
     input_files() const;
 
     std::filesystem::path         scene_file;
+    std::string                   scene_text; ///< of the file, byte for byte
     SceneKind                     scene = SceneKind::dynamic;
     MeshParameters                mesh;
     MaterialParameters            material;

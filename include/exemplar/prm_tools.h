@@ -105,6 +105,7 @@ namespace Exemplar
     std::string              documentation;
     std::string              allowed; ///< in words
     bool                     is_input_file;
+    bool                     is_list; ///< values separated by commas
 
     std::string
     path() const;

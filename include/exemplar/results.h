@@ -51,6 +51,9 @@ namespace Exemplar
     is_frame(unsigned int step) const;
 
     void
+    write_original() const;
+
+    void
     write_frame() const;
 
     void

@@ -20,6 +20,14 @@ namespace Exemplar::Testing
       return parameters;
     }
 
+    ModelParameters
+    frozen_model()
+    {
+      ModelParameters model;
+      model.gradient = GradientKind::frozen;
+      return model;
+    }
+
     double
     entry(const SymmetricPattern &pattern, const std::vector<double> &values, int i, int j)
     {
@@ -78,8 +86,8 @@ namespace Exemplar::Testing
       const Body     body;
       const auto     examples = body.examples(two_examples());
       const FreeDofs free_dofs(body.fe_space.n_dofs(), {});
-      Assembler assembler(ModelParameters(), body.fe_space, body.material, examples.get(), nullptr,
-                          free_dofs);
+      Assembler    assembler(frozen_model(), body.fe_space, body.material, examples.get(), nullptr,
+                             free_dofs);
       std::mt19937 generator(1);
       auto         positions = body.random_positions(generator, 0.1);
       assembler.update_rotations(body.random_positions(generator, 0.3));
@@ -111,8 +119,8 @@ namespace Exemplar::Testing
       const auto     examples = body.examples(two_examples());
       const FreeDofs free_dofs(body.fe_space.n_dofs(), { 0, 4, 8, 30 });
       Inertia        inertia(body.fe_space, body.material, MassMatrix::consistent);
-      Assembler assembler(ModelParameters(), body.fe_space, body.material, examples.get(), &inertia,
-                          free_dofs);
+      Assembler    assembler(frozen_model(), body.fe_space, body.material, examples.get(), &inertia,
+                             free_dofs);
       std::mt19937 generator(2);
       auto         positions = body.random_positions(generator, 0.1);
       assembler.update_rotations(positions);
@@ -156,13 +164,67 @@ namespace Exemplar::Testing
       }
     }
 
+    TEST(Assembler, ExactTangentIsTheDerivativeOfTheConsistentGradient)
+    {
+      const Body     body;
+      const auto     examples = body.examples(two_examples());
+      const FreeDofs free_dofs(body.fe_space.n_dofs(), { 0, 4, 8, 30 });
+      Assembler assembler(ModelParameters(), body.fe_space, body.material, examples.get(), nullptr,
+                          free_dofs);
+      std::mt19937        generator(4);
+      auto                positions = body.random_positions(generator, 0.05);
+      std::vector<double> weights   = { 0.2, 0.5, 0.3 };
+      const auto          evaluate  = [&]
+      {
+        Evaluation evaluation;
+        assembler.update_rotations(positions);
+        assembler.evaluate(positions, weights, evaluation);
+        return evaluation;
+      };
+      const auto energy = [](const Evaluation &e) { return e.energy_elastic + e.energy_example; };
+      const Evaluation    at = evaluate();
+      std::vector<double> matrix(assembler.matrix_pattern().row.size()), columns;
+      assembler.assemble_exact(positions, weights, matrix, columns);
+      const double h = 1e-6, scale = at.gradient.linfty_norm();
+      for (unsigned int j = 0; j < free_dofs.size(); ++j)
+      {
+        const unsigned int dof   = free_dofs.list()[j];
+        const double       value = positions[dof];
+        positions[dof]           = value + h;
+        const Evaluation above   = evaluate();
+        positions[dof]           = value - h;
+        const Evaluation below   = evaluate();
+        positions[dof]           = value;
+        EXPECT_NEAR(at.gradient[dof], (energy(above) - energy(below)) / (2. * h), 1e-5 * scale);
+        for (unsigned int i = 0; i < free_dofs.size(); ++i)
+        {
+          const unsigned int other = free_dofs.list()[i];
+          EXPECT_NEAR(entry(assembler.matrix_pattern(), matrix, i, j),
+                      (above.gradient[other] - below.gradient[other]) / (2. * h), 1e-7 * 1e7);
+        }
+        for (unsigned int k = 0; k < weights.size(); ++k)
+          EXPECT_NEAR(-columns[k * free_dofs.size() + j],
+                      (above.weight_gradient[k] - below.weight_gradient[k]) / (2. * h), 1e-7 * 1e7);
+      }
+      // the weights' gradient by its linear form
+      assembler.update_rotations(positions);
+      const auto c = assembler.weight_target(positions);
+      for (unsigned int k = 0; k < weights.size(); ++k)
+      {
+        double expected = -c[k];
+        for (unsigned int m = 0; m < weights.size(); ++m)
+          expected += examples->weight_matrix()(k, m) * weights[m];
+        EXPECT_NEAR(at.weight_gradient[k], expected, 1e-10 * at.weight_scale);
+      }
+    }
+
     TEST(Assembler, ForcesOfABodySumToZero)
     {
       const Body     body;
       const auto     examples = body.examples(two_examples());
       const FreeDofs free_dofs(body.fe_space.n_dofs(), {});
-      Assembler assembler(ModelParameters(), body.fe_space, body.material, examples.get(), nullptr,
-                          free_dofs);
+      Assembler    assembler(frozen_model(), body.fe_space, body.material, examples.get(), nullptr,
+                             free_dofs);
       std::mt19937 generator(3);
       const auto   positions = body.random_positions(generator, 0.2);
       assembler.update_rotations(positions);
@@ -185,7 +247,7 @@ namespace Exemplar::Testing
       parameters.weight_penalty    = "0";
       const auto     examples      = body.examples(parameters);
       const FreeDofs free_dofs(body.fe_space.n_dofs(), {});
-      Assembler assembler(ModelParameters(), body.fe_space, body.material, examples.get(), nullptr,
+      Assembler assembler(frozen_model(), body.fe_space, body.material, examples.get(), nullptr,
                           free_dofs);
       const Matrix3<double> Q         = rotation_about({ { 1., 1., 0. } }, 2.);
       auto                  positions = examples->pose(1);
@@ -225,8 +287,8 @@ namespace Exemplar::Testing
             rollers.push_back(3 * node + c);
       }
       const FreeDofs free_dofs(body.fe_space.n_dofs(), rollers);
-      Assembler assembler(ModelParameters(), body.fe_space, body.material, examples.get(), nullptr,
-                          free_dofs);
+      Assembler   assembler(frozen_model(), body.fe_space, body.material, examples.get(), nullptr,
+                            free_dofs);
       const auto &rest = body.fe_space.rest_positions();
       assembler.update_rotations(rest); // R = I
 

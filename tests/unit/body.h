@@ -45,7 +45,8 @@ namespace Exemplar::Testing
     std::unique_ptr<ExamplePoses>
     examples(const ExampleParameters &parameters) const
     {
-      return std::make_unique<ExamplePoses>(parameters, mesh, fe_space, material, 1.);
+      return std::make_unique<ExamplePoses>(parameters, mesh, fe_space, material,
+                                            TimeAxis::of_increments(TimeParameters()));
     }
 
     dealii::Vector<double>

@@ -42,7 +42,9 @@ namespace Exemplar::Testing
     {
       const std::string text
           = "set Scene = static\n" + bar + drag
-            + examples("set Pose functions = " + twist(60.) + " | 1.1*x; y; 0.9*z\n");
+            + examples("set Pose functions = " + twist(60.)
+                       + " | 1.1*x; y; 0.9*z\n set Weights = free\n set Weight penalty = paper\n")
+            + "subsection Solver\n set Method = fixed point\n set Maximum iterations = 500\nend\n";
       Scene       cholesky(text, { "Solver/Linear solver=cholesky" });
       Scene       umfpack(text, { "Solver/Linear solver=umfpack" });
       const State a = cholesky.solve(), b = umfpack.solve();

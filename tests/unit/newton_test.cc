@@ -168,6 +168,26 @@ namespace Exemplar::Testing
       EXPECT_LT(max_difference(state.positions, scene.problem.fe_space.rest_positions()), 1e-8);
     }
 
+    TEST(Newton, TheDefaultPenaltyLeavesAnUnloadedBodyAtRest)
+    {
+      Scene       scene("set Scene = static\n" + bar + examples(two_poses)
+                        + "subsection Handles\n set Names = left\n" + held_left + "end\n" + newton);
+      const State state = scene.solve();
+      EXPECT_LT(max_difference(state.positions, scene.problem.fe_space.rest_positions()),
+                1e-6 * 4.);
+      EXPECT_GT(state.weights[0], 1. - 1e-4);
+    }
+
+    TEST(Newton, TheDefaultPenaltyDecidesTies)
+    {
+      Scene       scene("set Scene = static\n" + bar + drag
+                        + examples("set Pose functions = " + twist(60.) + " | " + twist(60.) + "\n")
+                        + newton);
+      const State state = scene.solve();
+      EXPECT_NEAR(state.weights[1], state.weights[2], 1e-6);
+      EXPECT_GT(state.weights[1], 1e-3);
+    }
+
     TEST(Newton, NeedsAnEnergy)
     {
       EXPECT_THROW(Scene("set Scene = static\n" + bar + drag
