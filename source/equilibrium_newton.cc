@@ -28,7 +28,7 @@ namespace Exemplar
       // near rounding the objective cannot tell any more, but the gradient can
       if (std::abs(change_expected) < 1e-9 * std::abs(before))
         return objective <= before + 1e-12 * std::abs(before)
-               && gradient_norm <= gradient_norm_before;
+               && gradient_norm < gradient_norm_before;
       return objective <= before + 1e-4 * change_expected; // Armijo
     }
   } // namespace
@@ -40,7 +40,12 @@ namespace Exemplar
     if (dynamic_terms)
       value += parts.inertia->step_energy(state.positions);
     if (parts.loads != nullptr)
-      value -= external_force * state.positions;
+    {
+      // of displacements: from positions the work would come with rounding of its own
+      dealii::Vector<double> displacement = state.positions;
+      displacement -= parts.rest_positions;
+      value -= external_force * displacement;
+    }
     return value;
   }
 

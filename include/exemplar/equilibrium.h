@@ -87,14 +87,15 @@ namespace Exemplar
   public:
     struct Parts
     {
-      const FreeDofs     &free_dofs;
-      Assembler          &assembler;
-      BorderedSolver     &linear_solver;
-      StepClock          &clock;
-      const Handles      *handles;
-      const Loads        *loads;
-      const ExamplePoses *examples;
-      Inertia            *inertia;
+      const FreeDofs               &free_dofs;
+      const dealii::Vector<double> &rest_positions;
+      Assembler                    &assembler;
+      BorderedSolver               &linear_solver;
+      StepClock                    &clock;
+      const Handles                *handles;
+      const Loads                  *loads;
+      const ExamplePoses           *examples;
+      Inertia                      *inertia;
     };
 
     Equilibrium(const SolverParameters &parameters, const Parts &parts);
