@@ -90,9 +90,11 @@ namespace Exemplar
         throw SolverFailure("Step " + step + " failed: " + report.failure);
       std::ostringstream message;
       message
-          << "Step " << step << " stopped at its iteration limit: residual " << report.residual
-          << " after " << report.iterations << " iterations, tolerance "
-          << problem.parameters.solver.tolerance
+          << "Step " << step
+          << (report.status == SolveStatus::stalled ? " stalled"
+                                                    : " stopped at its iteration limit")
+          << ": residual " << report.residual << " after " << report.iterations
+          << " iterations, tolerance " << problem.parameters.solver.tolerance
           << ". Take smaller steps (Time/Step or Time/Increments), or change Solver/Tolerance or "
              "Solver/Maximum iterations.";
       throw SolverFailure(message.str());

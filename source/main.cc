@@ -1,63 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/drivers.h>
+#include <exemplar/command_line.h>
 #include <exemplar/environment.h>
 #include <exemplar/errors.h>
-#include <exemplar/version.h>
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/multithread_info.h>
 
-#include <CLI/CLI.hpp>
-
 #include <iostream>
-
-namespace
-{
-  int
-  run(int argc, char *argv[])
-  {
-    using namespace Exemplar;
-    RunOptions  options;
-    std::string output;
-    bool        validate = false, print = false;
-
-    CLI::App app("exemplar: elastic solids that deform the way their examples say");
-    app.set_version_flag("--version", "exemplar " EXEMPLAR_VERSION " (" EXEMPLAR_GIT_REVISION ")");
-    app.add_option("SCENE", options.scene_file, "scene file (.prm)");
-    app.add_option("--set", options.overrides,
-                   "'Section/Key=value' instead of the scene's; repeatable")
-        ->allow_extra_args(false);
-    app.add_option("--output", output, "directory of the results instead of Output/Directory");
-    app.add_flag("--resume", options.resume, "go on from the checkpoint in the output directory");
-    app.add_flag("--quiet", options.quiet, "print warnings and errors only");
-    app.add_flag("--validate", validate, "check the scene and its files, compute nothing");
-    app.add_flag("--print-parameters", print, "every parameter, its default, range and meaning");
-    try
-    {
-      app.parse(argc, argv);
-      if (!print && options.scene_file.empty())
-        throw CLI::RequiredError("SCENE");
-    }
-    catch (const CLI::Success &request) // --help or --version
-    {
-      return app.exit(request);
-    }
-    catch (const CLI::ParseError &error)
-    {
-      throw UserError(std::string(error.what()) + ". exemplar --help lists what is allowed.");
-    }
-    if (!output.empty())
-      options.overrides.push_back("Output/Directory=" + output);
-
-    if (print)
-      print_parameters();
-    else if (validate)
-      validate_scene(options);
-    else
-      run_scene(options);
-    return 0;
-  }
-} // namespace
 
 int
 main(int argc, char *argv[])
@@ -73,7 +22,7 @@ main(int argc, char *argv[])
   };
   try
   {
-    return run(argc, argv);
+    return Exemplar::run_command_line(argc, argv);
   }
   catch (const Exemplar::UserError &error)
   {
