@@ -65,6 +65,10 @@ namespace Exemplar
                       std::vector<std::string> &values,
                       const std::string        &documentation);
 
+  /// The text without blanks at its ends.
+  std::string
+  trim(const std::string &text);
+
   /// Values separated by a sign, such as expressions by ';', without the blanks around them.
   std::vector<std::string>
   split_trimmed(const std::string &text, char separator);

@@ -3,6 +3,8 @@
 #include <exemplar/digest.h>
 #include <exemplar/errors.h>
 
+#include "temporary_directory.h"
+
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -15,30 +17,14 @@ namespace Exemplar
 {
   namespace
   {
-    /// A directory of its own, removed at the end.
-    class FilesTest : public testing::Test
+    class FilesTest : public Testing::InTemporaryDirectory
     {
     protected:
-      FilesTest()
-          : directory(std::filesystem::temp_directory_path()
-                      / ("exemplar_files_test_" + std::to_string(::getpid())))
-      {
-        std::filesystem::create_directories(directory);
-      }
-
-      ~FilesTest() override
-      {
-        std::filesystem::remove_all(directory);
-      }
-
       std::filesystem::path
       write(const std::string &bytes, const std::string &name = "file") const
       {
-        std::ofstream(directory / name, std::ios::binary) << bytes;
-        return directory / name;
+        return write_file(name, bytes);
       }
-
-      std::filesystem::path directory;
     };
 
     void

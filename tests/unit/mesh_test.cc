@@ -5,6 +5,8 @@
 #include <deal.II/grid/tria_accessor.h>
 #include <deal.II/grid/tria_iterator.h>
 
+#include "temporary_directory.h"
+
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -115,30 +117,14 @@ namespace Exemplar
       return parameters;
     }
 
-    /// A directory of its own, removed at the end.
-    class MeshFilesTest : public testing::Test
+    class MeshFilesTest : public Testing::InTemporaryDirectory
     {
     protected:
-      MeshFilesTest()
-          : directory(std::filesystem::temp_directory_path()
-                      / ("exemplar_mesh_test_" + std::to_string(::getpid())))
-      {
-        std::filesystem::create_directories(directory);
-      }
-
-      ~MeshFilesTest() override
-      {
-        std::filesystem::remove_all(directory);
-      }
-
       std::filesystem::path
       write(const std::string &name, const std::string &text) const
       {
-        std::ofstream(directory / name) << text;
-        return directory / name;
+        return write_file(name, text);
       }
-
-      std::filesystem::path directory;
     };
 
     TEST(MeshTest, KeepsTheNumberingOfTheFile)

@@ -2,6 +2,8 @@
 #include <exemplar/errors.h>
 #include <exemplar/msh_file.h>
 
+#include "temporary_directory.h"
+
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -16,27 +18,13 @@ namespace Exemplar
 {
   namespace
   {
-    /// A directory of its own, removed at the end.
-    class MshFileTest : public testing::Test
+    class MshFileTest : public Testing::InTemporaryDirectory
     {
     protected:
-      MshFileTest()
-          : directory(std::filesystem::temp_directory_path()
-                      / ("exemplar_msh_file_test_" + std::to_string(::getpid())))
-      {
-        std::filesystem::create_directories(directory);
-      }
-
-      ~MshFileTest() override
-      {
-        std::filesystem::remove_all(directory);
-      }
-
       std::filesystem::path
       write(const std::string &bytes, const std::string &name = "mesh.msh") const
       {
-        std::ofstream(directory / name, std::ios::binary) << bytes;
-        return directory / name;
+        return write_file(name, bytes);
       }
 
       MshFile
@@ -59,8 +47,6 @@ namespace Exemplar
           return error.what();
         }
       }
-
-      std::filesystem::path directory;
     };
 
     void
