@@ -67,7 +67,9 @@ namespace Exemplar::Testing
         EXPECT_GE(solution.weights[i], lower[i]);
         EXPECT_GE(g, -1e-10 * scale);
         if (solution.weights[i] > lower[i])
+        {
           EXPECT_NEAR(g, 0., 1e-10 * scale);
+        }
       }
       EXPECT_NEAR(sum, 1., 1e-12);
     }
