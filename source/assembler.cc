@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 // The loops over the cells are "flattened", because the kernels are too large for the
 // compiler to inline them by its own judgement and a call costs as much as some of them
@@ -229,13 +230,14 @@ namespace Exemplar
         Matrix3<double> weight_stress = T;
         if (consistent)
         {
+          const Matrix3<double>  A = target_stretch(target, eta);
           ConsistentCell<double> state(lame, rotations[cell], F, examples->guard_bound());
-          state.set_target(target_stretch(target, eta));
+          state.set_target(A);
           T = state.force();
           if (state.is_guarded())
           {
-            density       = state.energy(target_stretch(target, eta));
-            weight_stress = state.weight_stress(target_stretch(target, eta));
+            density       = state.energy(A);
+            weight_stress = state.weight_stress(A);
             ++result.guarded_cells;
           }
         }

@@ -174,9 +174,7 @@ namespace Exemplar
         add_inertia_and_loads(at);
         factorize(at, tangent);
         solve_for_step(at);
-        const auto &free = parts.free_dofs.list();
-        for (unsigned int i = 0; i < free.size(); ++i)
-          trial.positions[free[i]] += unknowns.positions[i];
+        add_step(trial);
         return;
       }
       catch (const SolverFailure &)

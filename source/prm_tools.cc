@@ -4,8 +4,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <fstream>
-#include <map>
 #include <numeric>
 #include <regex>
 #include <sstream>

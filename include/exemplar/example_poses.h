@@ -80,13 +80,6 @@ namespace Exemplar
       return eta;
     }
 
-    /// sigma [J].
-    double
-    weight_penalty() const
-    {
-      return sigma;
-    }
-
     bool
     weights_are_prescribed() const
     {
