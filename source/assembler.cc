@@ -1,79 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/assembler.h>
-#include <exemplar/corotational_consistent.h>
-#include <exemplar/polar_decomposition.h>
-#include <exemplar/prm_tools.h>
+#include <exemplar/hot_loop.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-// The loops over the cells are "flattened", because the kernels are too large for the
-// compiler to inline them by its own judgement and a call costs as much as some of them
-// do; and compiled for three levels of instruction sets, of which the loader takes the
-// best that the CPU has.
-#ifdef __x86_64__
-#define EXEMPLAR_HOT_LOOP                                                                          \
-  [[gnu::flatten, gnu::target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")]]
-#else
-#define EXEMPLAR_HOT_LOOP [[gnu::flatten]]
-#endif
-
 namespace Exemplar
 {
   namespace
   {
-    const EnumTable<StrainMeasure> strain_measures
-        = { { StrainMeasure::corotational, "corotational" } };
-    const EnumTable<GradientKind> gradient_kinds
-        = { { GradientKind::consistent, "consistent" }, { GradientKind::frozen, "frozen" } };
-
     double
     norm(const Matrix3<double> &A)
     {
       return std::sqrt(contract(A, A));
     }
-
-    Matrix3<double>
-    difference(const Matrix3<double> &A, const Matrix3<double> &B, const double factor)
-    {
-      Matrix3<double> C;
-      for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-          C[i][j] = A[i][j] - factor * B[i][j];
-      return C;
-    }
-
-    /// A = I + eta E(w).
-    Matrix3<double>
-    target_stretch(const Matrix3<double> &strain, const double eta)
-    {
-      return combine(1., identity_matrix<double>(), eta, strain);
-    }
-
-    void
-    add_nodal(const std::array<unsigned int, 4> &nodes,
-              const Vector3<double> (&values)[4],
-              dealii::Vector<double> &field)
-    {
-      for (unsigned int a = 0; a < 4; ++a)
-        for (unsigned int c = 0; c < 3; ++c)
-          field[3 * nodes[a] + c] += values[a][c];
-    }
   } // namespace
-
-  void
-  ModelParameters::declare(dealii::ParameterHandler &prm)
-  {
-    prm.enter_subsection("Model");
-    declare_enum(prm, "Strain", strain, strain_measures,
-                 "corotational: the strain of the deformation freed of the cell's rotation.");
-    declare_enum(
-        prm, "Gradient", gradient, gradient_kinds,
-        "consistent: the force is the gradient of the energy; frozen: the paper's force R T, "
-        "which holds the rotation fixed while it differentiates the energy.");
-    prm.leave_subsection();
-  }
 
   Assembler::Assembler(const ModelParameters &model,
                        const FESpace         &fe_space,
@@ -82,8 +24,10 @@ namespace Exemplar
                        const Inertia         *inertia,
                        const FreeDofs        &free_dofs)
       : model(model), fe_space(fe_space), material(material), examples(examples), inertia(inertia),
-        free_dofs(free_dofs), gradient_norms(fe_space.n_cells()),
-        rotations(fe_space.n_cells(), identity_matrix<double>())
+        free_dofs(free_dofs), guard_bound(model.is_frozen()     ? no_guard
+                                          : examples == nullptr ? default_guard_bound
+                                                                : examples->guard_bound()),
+        gradient_norms(fe_space.n_cells()), rotations(fe_space.n_cells(), identity_matrix<double>())
   {
     for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
       for (unsigned int a = 0; a < 4; ++a)
@@ -116,9 +60,9 @@ namespace Exemplar
   }
 
   double
-  Assembler::rounding_weight_gradient(const unsigned int i) const
+  Assembler::rounding_weight_gradient(const unsigned int weight) const
   {
-    return examples->importance() * rounding_stress_norm * examples->strain_norm(i);
+    return examples->importance() * rounding_stress_norm * examples->strain_norm(weight);
   }
 
   void
@@ -178,8 +122,138 @@ namespace Exemplar
   EXEMPLAR_HOT_LOOP void
   Assembler::update_rotations(const dealii::Vector<double> &positions)
   {
+    if (model.strain != StrainMeasure::corotational)
+      return;
     for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
       rotations[cell] = closest_rotation(fe_space.deformation_gradient(cell, positions));
+  }
+
+  void
+  Assembler::set_damping(const double s, const std::vector<WeightedPositions> &history)
+  {
+    damping = s;
+    damping_strains.assign(s > 0. ? fe_space.n_cells() : 0, Matrix3<double>{});
+    for (unsigned int cell = 0; cell < damping_strains.size(); ++cell)
+      for (const WeightedPositions &past : history)
+      {
+        const Matrix3<double> F = fe_space.deformation_gradient(cell, *past.positions);
+        const Matrix3<double> e = model_strain(model.strain, model_rotation(model.strain, F), F);
+        damping_strains[cell]   = combine(1., damping_strains[cell], past.weight, e);
+      }
+  }
+
+  Matrix3<double>
+  Assembler::example_target(const unsigned int cell, const std::vector<double> &weights) const
+  {
+    if (examples == nullptr)
+      return Matrix3<double>{};
+    const Matrix3<double> E = examples->strain(cell, weights);
+    return combine(examples->importance(), E, 0., E);
+  }
+
+  Lame<double>
+  Assembler::damped_lame(const unsigned int cell) const
+  {
+    const Lame<double> &lame = material.lame(cell);
+    return { (1. + damping) * lame.lambda, (1. + damping) * lame.mu };
+  }
+
+  Matrix3<double>
+  Assembler::damped_target(const unsigned int cell, const Matrix3<double> &target) const
+  {
+    if (damping == 0.)
+      return target;
+    return combine(1. / (1. + damping), target, damping / (1. + damping), damping_strains[cell]);
+  }
+
+  template <typename Cell>
+  void
+  Assembler::evaluate_cells(const dealii::Vector<double> &positions,
+                            const std::vector<double>    &weights,
+                            Evaluation                   &result) const
+  {
+    const double eta           = examples != nullptr ? examples->importance() : 0.;
+    const bool   frozen        = model.is_frozen();
+    double       stress_square = 0.; // sum V (|C:e| + eta |C:E(w)|)^2
+
+    for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
+    {
+      const Tetrahedron<double> &tet   = fe_space.tetrahedron(cell);
+      const Lame<double>        &lame  = material.lame(cell);
+      const Matrix3<double>      F     = fe_space.deformation_gradient(cell, positions);
+      const double               det_F = determinant(F);
+      Cell                       state(lame, rotations[cell], F, guard_bound);
+      const Matrix3<double>      elastic_stress = stress(lame, state.strain());
+      const double elastic      = 0.5 * tet.volume * contract(elastic_stress, state.strain());
+      double       stress_scale = norm(elastic_stress);
+      result.min_det_F          = std::min(result.min_det_F, det_F);
+      result.inverted_cells += (det_F <= 0.);
+      result.energy_elastic += elastic;
+
+      Matrix3<double> target{}; // eta E(w)
+      if (examples != nullptr)
+      {
+        target = example_target(cell, weights);
+        stress_scale += norm(stress(lame, target));
+        stress_square += tet.volume * stress_scale * stress_scale;
+        result.energy_example += tet.volume * state.energy(target) - elastic;
+        result.guarded_cells += state.is_guarded();
+        if (!result.weight_gradient.empty())
+        {
+          const Matrix3<double> T = state.weight_stress(target);
+          examples->for_each_weight(
+              cell,
+              [&](const unsigned int weight, const unsigned int i, const double share)
+              {
+                result.weight_gradient[weight]
+                    -= share * eta * tet.volume * contract(T, examples->strain(cell, i));
+              });
+        }
+      }
+      if (damping > 0.)
+      {
+        result.energy_damping += damping * tet.volume * state.energy(damping_strains[cell]);
+        stress_scale
+            += damping * (norm(elastic_stress) + norm(stress(lame, damping_strains[cell])));
+        target = damped_target(cell, target);
+        state  = Cell(damped_lame(cell), rotations[cell], F, guard_bound);
+      }
+
+      Matrix3<double> P; // R^T P
+      if (examples == nullptr && damping == 0.)
+        P = state.elastic_force();
+      else if (frozen)
+        P = state.weight_stress(target);
+      else
+      {
+        state.set_target(target);
+        P = state.force();
+      }
+      add_force(cell, P, result.gradient);
+      const double force_scale = tet.volume * state.force_factor() * stress_scale;
+      for (unsigned int a = 0; a < 4; ++a)
+        result.force_scale[fe_space.nodes(cell)[a]] += force_scale * gradient_norms[cell][a];
+    }
+    if (has_weights())
+      add_penalty(weights, std::sqrt(stress_square), result);
+  }
+
+  void
+  Assembler::add_penalty(const std::vector<double> &weights,
+                         const double               stress_norm,
+                         Evaluation                &result) const
+  {
+    for (unsigned int v = 0; v < weights.size(); ++v)
+    {
+      double penalty = 0.;
+      for (unsigned int w = 0; w < weights.size(); ++w)
+        penalty += examples->penalty_matrix()(v, w) * weights[w];
+      result.energy_example += 0.5 * penalty * weights[v];
+      result.weight_gradient[v] += penalty;
+      result.weight_scale = std::max(result.weight_scale,
+                                     examples->importance() * stress_norm * examples->strain_norm(v)
+                                         + std::abs(penalty));
+    }
   }
 
   EXEMPLAR_HOT_LOOP void
@@ -187,153 +261,42 @@ namespace Exemplar
                       const std::vector<double>    &weights,
                       Evaluation                   &result) const
   {
-    const double eta          = examples != nullptr ? examples->importance() : 0.;
-    const bool   free_weights = examples != nullptr && !examples->weights_are_prescribed();
-    const bool   consistent   = examples != nullptr && model.gradient == GradientKind::consistent;
-
     result.gradient.reinit(fe_space.n_dofs());
     result.force_scale.reinit(fe_space.n_nodes());
-    result.weight_gradient.assign(free_weights ? weights.size() : 0, 0.);
+    result.weight_gradient.assign(has_weights() ? weights.size() : 0, 0.);
     result.weight_scale   = 0.;
     result.energy_elastic = 0.;
     result.energy_example = 0.;
+    result.energy_damping = 0.;
     result.min_det_F      = std::numeric_limits<double>::max();
     result.inverted_cells = 0;
     result.guarded_cells  = 0;
-    double stress_square  = 0.; // sum V (|C:e| + eta |C:E(w)|)^2
+    with_cell_model(
+        model.strain, [&](auto cell_model)
+        { evaluate_cells<typename decltype(cell_model)::type>(positions, weights, result); });
+  }
 
-    for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
-    {
-      const Tetrahedron<double> &tet    = fe_space.tetrahedron(cell);
-      const Lame<double>        &lame   = material.lame(cell);
-      const Matrix3<double>      F      = fe_space.deformation_gradient(cell, positions);
-      const Matrix3<double>      strain = corotated_strain(rotations[cell], F); // e
-      const double               det_F  = determinant(F);
-
-      Matrix3<double> T           = stress(lame, strain);
-      const double    elastic     = 0.5 * tet.volume * contract(T, strain);
-      double          force_scale = norm(T);
-      result.min_det_F            = std::min(result.min_det_F, det_F);
-      result.inverted_cells += (det_F <= 0.);
-      result.energy_elastic += elastic;
-
-      if (examples != nullptr)
-      {
-        const Matrix3<double> target    = examples->strain(cell, weights); // E(w)
-        const Matrix3<double> deviation = difference(strain, target, eta);
-        force_scale += eta * norm(stress(lame, target));
-        stress_square += tet.volume * force_scale * force_scale;
-        T = stress(lame, deviation);
-        // the residual form: near an example the expanded one cancels
-        double density = 0.5 * contract(T, deviation);
-        // without a guard, C:(e - eta E(w)) is also what the weights' derivative contracts
-        Matrix3<double> weight_stress = T;
-        if (consistent)
+  EXEMPLAR_HOT_LOOP std::vector<double>
+                    Assembler::weight_target(const dealii::Vector<double> &positions) const
+  {
+    std::vector<double> c(examples->n_weights(), 0.);
+    with_cell_model(
+        model.strain,
+        [&](auto cell_model)
         {
-          const Matrix3<double>  A = target_stretch(target, eta);
-          ConsistentCell<double> state(lame, rotations[cell], F, examples->guard_bound());
-          state.set_target(A);
-          T = state.force();
-          if (state.is_guarded())
+          using Cell = typename decltype(cell_model)::type;
+          for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
           {
-            density       = state.energy(A);
-            weight_stress = state.weight_stress(A);
-            ++result.guarded_cells;
+            const Cell            state(material.lame(cell), rotations[cell],
+                                        fe_space.deformation_gradient(cell, positions), guard_bound);
+            const Matrix3<double> T = state.weight_stress(Matrix3<double>{});
+            const double factor     = examples->importance() * fe_space.tetrahedron(cell).volume;
+            examples->for_each_weight(
+                cell, [&](const unsigned int weight, const unsigned int i, const double share)
+                { c[weight] += share * factor * contract(T, examples->strain(cell, i)); });
           }
-        }
-        result.energy_example += tet.volume * density - elastic;
-        for (unsigned int i = examples->first_strained_example(); i < result.weight_gradient.size();
-             ++i)
-          result.weight_gradient[i]
-              -= eta * tet.volume * contract(weight_stress, examples->strain(cell, i));
-      }
-
-      Vector3<double> force[4];
-      frozen_forces(tet, rotations[cell], T, force);
-      add_nodal(fe_space.nodes(cell), force, result.gradient);
-      for (unsigned int a = 0; a < 4; ++a)
-        result.force_scale[fe_space.nodes(cell)[a]]
-            += tet.volume * force_scale * gradient_norms[cell][a];
-    }
-
-    for (unsigned int i = 0; i < result.weight_gradient.size(); ++i)
-    {
-      double penalty = 0.; // of the weights alone
-      for (unsigned int j = 0; j < weights.size(); ++j)
-        penalty += examples->penalty_matrix()(i, j) * weights[j];
-      result.energy_example += 0.5 * penalty * weights[i];
-      result.weight_gradient[i] += penalty;
-      result.weight_scale
-          = std::max(result.weight_scale,
-                     eta * std::sqrt(stress_square) * examples->strain_norm(i) + std::abs(penalty));
-    }
-  }
-
-  void
-  Assembler::add_response_beside_held_nodes(const dealii::Vector<double> &displacement,
-                                            Evaluation                   &result) const
-  {
-    for (const unsigned int cell : cells_beside_held_nodes)
-    {
-      const Tetrahedron<double> &tet = fe_space.tetrahedron(cell);
-      const Matrix3<double>      dF  = fe_space.deformation_gradient(cell, displacement);
-      const Matrix3<double>      dT
-          = stress(material.lame(cell), symmetric_part(transpose_times(rotations[cell], dF)));
-      Vector3<double> force[4];
-      frozen_forces(tet, rotations[cell], dT, force);
-      add_nodal(fe_space.nodes(cell), force, result.gradient);
-      for (unsigned int i = examples != nullptr ? examples->first_strained_example() : 0;
-           i < result.weight_gradient.size(); ++i)
-        result.weight_gradient[i]
-            -= examples->importance() * tet.volume * contract(dT, examples->strain(cell, i));
-    }
-  }
-
-  void
-  Assembler::start_matrix(std::vector<double> &matrix_values) const
-  {
-    if (inertia == nullptr)
-      std::fill(matrix_values.begin(), matrix_values.end(), 0.);
-    else
-      for (std::size_t i = 0; i < matrix_values.size(); ++i)
-        matrix_values[i] = inertia->matrix_factor() * mass_values[i];
-  }
-
-  EXEMPLAR_HOT_LOOP void
-  Assembler::assemble_matrix(std::vector<double> &matrix_values) const
-  {
-    start_matrix(matrix_values);
-    for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
-    {
-      const Tetrahedron<double> &tet = fe_space.tetrahedron(cell);
-      Vector3<double>            g[4];
-      rotate_gradients(tet, rotations[cell], g);
-      CellMatrix cell_matrix;
-      for (unsigned int a = 0; a < 4; ++a)
-        for (unsigned int b = 0; b <= a; ++b)
-        {
-          const Matrix3<double> block
-              = stiffness_block(material.lame(cell), tet.volume, g[a], g[b]);
-          for (unsigned int i = 0; i < 3; ++i)
-            for (unsigned int j = 0; j < 3; ++j)
-              cell_matrix[3 * a + i][3 * b + j] = block[i][j];
-        }
-      add_cell_matrix(cell, cell_matrix, matrix_values);
-    }
-  }
-
-  EXEMPLAR_HOT_LOOP void
-  Assembler::assemble_coupling(std::vector<double> &columns) const
-  {
-    columns.assign(static_cast<std::size_t>(free_dofs.size()) * examples->size(), 0.);
-    for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
-      for (unsigned int i = examples->first_strained_example(); i < examples->size(); ++i)
-      {
-        const Matrix3<double> T = stress(material.lame(cell), examples->strain(cell, i));
-        Vector3<double>       force[4];
-        frozen_forces(fe_space.tetrahedron(cell), rotations[cell], T, force);
-        add_to_column(cell, force, i, columns);
-      }
+        });
+    return c;
   }
 
   CellResults
@@ -346,14 +309,13 @@ namespace Exemplar
     {
       const Lame<double>   &lame   = material.lame(cell);
       const Matrix3<double> F      = fe_space.deformation_gradient(cell, positions);
-      const Matrix3<double> strain = corotated_strain(rotations[cell], F);
+      const Matrix3<double> strain = model_strain(model.strain, rotations[cell], F);
       Matrix3<double>       T      = stress(lame, strain);
 
       results.strain_energy_density[cell] = 0.5 * contract(T, strain);
       results.det_F[cell]                 = determinant(F);
       if (examples != nullptr)
-        T = stress(lame,
-                   difference(strain, examples->strain(cell, weights), examples->importance()));
+        T = stress(lame, combine(1., strain, -1., example_target(cell, weights)));
       const double third = trace(T) / 3.;
       for (int i = 0; i < 3; ++i)
         T[i][i] -= third;

@@ -70,13 +70,13 @@ namespace Exemplar
             schur(i, j) -= dot(G_i, columns.data() + (1 + j) * n, n);
         }
         const WeightQpSolution solution
-            = minimize_over_weights(schur, right_side, vector.multipliers[0], block.lower);
+            = minimize_over_weights(schur, right_side, vector.multipliers, block.lower);
         if (!solution.found)
           throw SolverFailure("The system for the example weights is not positive definite. Set "
                               "Examples/Weight penalty to auto, or remove an example that is a "
                               "combination of the others.");
-        vector.weights        = solution.weights;
-        vector.multipliers[0] = solution.multiplier;
+        vector.weights     = solution.weights;
+        vector.multipliers = solution.multipliers;
       }
 
       const std::unique_ptr<SpdOperator> matrix;

@@ -18,7 +18,7 @@ namespace Exemplar
 {
   namespace
   {
-    const std::string format = "exemplar checkpoint 1";
+    const std::string format = "exemplar checkpoint 2";
 
     template <typename Archive>
     void
@@ -28,8 +28,9 @@ namespace Exemplar
       Work      &work   = checkpoint.work;
       RunTotals &totals = checkpoint.totals;
       archive &checkpoint.parameters &checkpoint.input_digests;
-      archive &state.step &state.time &state.positions &state.velocities &state.weights &state
-          .multiplier;
+      archive &state.step &state.time &state.positions &state.velocities &state
+          .previous_positions &state.previous_velocities &state.previous_step &state.weights &state
+          .multipliers;
       archive &work.handles &work.gravity &work.loads;
       archive &totals.iterations &totals.factorizations &totals.worst_residual;
       for (double &seconds : totals.seconds)

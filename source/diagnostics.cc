@@ -67,10 +67,11 @@ namespace Exemplar
     if (inertia != nullptr)
       append(row, "energy_kinetic", sums.kinetic_energy);
     for (unsigned int i = 0; i < state.weights.size(); ++i)
-      append(row, "weight_" + std::to_string(i), state.weights[i]);
+      append(row, examples->weight_name("weight", i), state.weights[i]);
     if (examples != nullptr && !examples->weights_are_prescribed())
     {
-      append(row, "multiplier", state.multiplier);
+      for (unsigned int region = 0; region < state.multipliers.size(); ++region)
+        append(row, examples->region_name("multiplier", region), state.multipliers[region]);
       append(row, "kkt_residual", report.kkt_residual);
     }
     append(row, "min_det_F", evaluation.min_det_F);

@@ -88,9 +88,9 @@ namespace Exemplar
     if (parts.examples != nullptr && !parts.examples->weights_are_prescribed())
     {
       block.H = parts.examples->weight_matrix();
-      block.N.reinit(1, block.H.n()); // one constraint: the weights sum to one
-      for (unsigned int i = 0; i < block.H.n(); ++i)
-        block.N(0, i) = 1.;
+      block.N.reinit(parts.examples->n_regions(), block.H.n()); // the weights of each sum to one
+      for (unsigned int weight = 0; weight < block.H.n(); ++weight)
+        block.N(weight / parts.examples->size(), weight) = 1.;
     }
   }
 
@@ -100,33 +100,36 @@ namespace Exemplar
     StepClock::Scope scope(parts.clock, Part::evaluate);
     dynamic_terms = false;
     update_loads(state.time);
+    parts.assembler.set_damping(0., {});
     parts.assembler.update_rotations(state.positions);
     evaluate(state);
   }
 
   void
-  Equilibrium::begin_step(State &state, const double time, const double step_size)
+  Equilibrium::begin_dynamic_step(const State &state, const double step_size)
+  {
+    if (parts.inertia == nullptr)
+      return;
+    parts.inertia->begin_step(state, step_size);
+    dynamic_terms = true;
+    if (parts.inertia->stiffness_damping_factor() > 0.)
+      parts.assembler.set_damping(parts.inertia->stiffness_damping_factor(),
+                                  parts.inertia->history(state));
+  }
+
+  void
+  Equilibrium::begin_step(State &state, const double time)
   {
     StepClock::Scope scope(parts.clock, Part::evaluate);
-    if (parts.inertia != nullptr)
-    {
-      parts.inertia->begin_step(state, step_size);
-      dynamic_terms = true;
-    }
     state.time = time;
     update_loads(time);
-    if (parts.examples != nullptr && parts.examples->weights_are_prescribed())
-    {
-      if (parts.handles != nullptr)
-        parts.handles->move(time, state.positions);
+    const bool prescribed = parts.examples != nullptr && parts.examples->weights_are_prescribed();
+    if (prescribed)
       state.weights = parts.examples->prescribed_weights(time);
-      evaluate(state);
-    }
-    else
-    {
-      move_handles(state);
-      add_inertia_and_loads(state);
-    }
+    if (prescribed || (dynamic_terms && parts.inertia->stiffness_damping_factor() > 0.))
+      parts.assembler.evaluate(state.positions, state.weights, current);
+    move_handles(state);
+    add_inertia_and_loads(state);
   }
 
   void
@@ -136,10 +139,12 @@ namespace Exemplar
     // rotations are frozen their forces are linear in the displacement.
     if (parts.handles == nullptr)
       return;
-    dealii::Vector<double> displacement = state.positions;
+    const dealii::Vector<double> before       = state.positions;
+    dealii::Vector<double>       displacement = before;
     parts.handles->move(state.time, state.positions);
     displacement.sadd(-1., 1., state.positions);
-    parts.assembler.add_response_beside_held_nodes(displacement, current);
+    parts.assembler.add_response_beside_held_nodes(Tangent::convex, displacement, before,
+                                                   state.weights, current);
   }
 
   void
@@ -178,19 +183,14 @@ namespace Exemplar
   }
 
   void
-  Equilibrium::factorize(const State &state, const Tangent tangent)
+  Equilibrium::factorize(const dealii::Vector<double> &positions,
+                         const std::vector<double>    &weights,
+                         const Tangent                 tangent)
   {
     {
       StepClock::Scope scope(parts.clock, Part::assemble);
-      auto            &values = parts.linear_solver.matrix_values();
-      if (tangent == Tangent::exact)
-        parts.assembler.assemble_exact(state.positions, state.weights, values, block.coupling);
-      else
-      {
-        parts.assembler.assemble_matrix(values);
-        if (block.H.m() > 0)
-          parts.assembler.assemble_coupling(block.coupling);
-      }
+      parts.assembler.assemble_tangent(tangent, positions, weights,
+                                       parts.linear_solver.matrix_values(), block.coupling);
     }
     StepClock::Scope scope(parts.clock, Part::factorize);
     ++factorizations;
@@ -210,8 +210,9 @@ namespace Exemplar
     {
       for (const double derivative : current.weight_gradient)
         unknowns.weights.push_back(-derivative);
-      unknowns.multipliers.push_back(
-          1. - std::accumulate(state.weights.begin(), state.weights.end(), 0.));
+      const unsigned int k = parts.examples->size();
+      for (auto first = state.weights.begin(); first != state.weights.end(); first += k)
+        unknowns.multipliers.push_back(1. - std::accumulate(first, first + k, 0.));
       if (parts.examples->weights_are_bounded())
       {
         block.lower.clear();
@@ -244,30 +245,39 @@ namespace Exemplar
     report.residual
         = relative(greatest, force_scale.linfty_norm(), parts.assembler.rounding_force());
     if (!current.weight_gradient.empty())
+      measure_weights(state, report);
+    report.residual_history.push_back(report.residual);
+  }
+
+  void
+  Equilibrium::measure_weights(State &state, SolveReport &report) const
+  {
+    // the derivatives of a region's weights off their bounds equal -multiplier, others
+    // exceed it
+    const auto        &gradient = current.weight_gradient;
+    const unsigned int k        = parts.examples->size();
+    const auto         is_off   = [&](const unsigned int weight)
+    { return !parts.examples->weights_are_bounded() || state.weights[weight] > 0.; };
+    double deviation = 0., rounding = 0.;
+    for (unsigned int region = 0; region < parts.examples->n_regions(); ++region)
     {
-      // the derivatives of weights off their bounds equal -multiplier, others exceed it
-      const auto  &gradient = current.weight_gradient;
-      const bool   bounded  = parts.examples->weights_are_bounded();
-      double       sum      = 0.;
-      unsigned int n        = 0;
-      for (unsigned int i = 0; i < gradient.size(); ++i)
-        if (!bounded || state.weights[i] > 0.)
+      double       sum = 0.;
+      unsigned int n   = 0;
+      for (unsigned int weight = region * k; weight < (region + 1) * k; ++weight)
+        if (is_off(weight))
         {
-          sum += gradient[i];
+          sum += gradient[weight];
           ++n;
         }
-      state.multiplier = -sum / n;
-      double deviation = 0., rounding = 0.;
-      for (unsigned int i = 0; i < gradient.size(); ++i)
+      state.multipliers[region] = -sum / n;
+      for (unsigned int weight = region * k; weight < (region + 1) * k; ++weight)
       {
-        const double excess = gradient[i] + state.multiplier;
-        const bool   off    = !bounded || state.weights[i] > 0.;
-        deviation           = greater(off ? std::abs(excess) : std::max(-excess, 0.), deviation);
-        rounding            = std::max(rounding, parts.assembler.rounding_weight_gradient(i));
+        const double excess = gradient[weight] + state.multipliers[region];
+        deviation = greater(is_off(weight) ? std::abs(excess) : std::max(-excess, 0.), deviation);
+        rounding  = std::max(rounding, parts.assembler.rounding_weight_gradient(weight));
       }
-      report.kkt_residual = relative(deviation, current.weight_scale, rounding);
     }
-    report.residual_history.push_back(report.residual);
+    report.kkt_residual = relative(deviation, current.weight_scale, rounding);
   }
 
   SolveReport
@@ -285,13 +295,16 @@ namespace Exemplar
     {
       // The rotations are still those of the last accepted positions, before the
       // handles move: the paper's choice.
-      begin_step(state, time, step_size);
+      begin_dynamic_step(state, step_size);
+      dealii::Vector<double> linearized_at = state.positions;
+      begin_step(state, time);
       while (report.status == SolveStatus::initial)
       {
         check_interrupt();
-        factorize(state, Tangent::frozen);
+        factorize(linearized_at, state.weights, Tangent::convex);
         solve_for_step(state);
         add_step(state);
+        linearized_at = state.positions;
         ++report.iterations;
         {
           StepClock::Scope scope(parts.clock, Part::evaluate);

@@ -9,7 +9,7 @@
 
 // Newton's method on the energy as a function of the positions alone: the weights are
 // the best ones at every evaluation. Steps come from the exact tangent; where that is
-// indefinite, from the frozen one, which is convex. A line search makes each a descent.
+// indefinite, from the convex one. A line search makes each a descent.
 
 namespace Exemplar
 {
@@ -36,7 +36,7 @@ namespace Exemplar
   double
   Equilibrium::objective(const State &state) const
   {
-    double value = current.energy_elastic + current.energy_example;
+    double value = current.energy_elastic + current.energy_example + current.energy_damping;
     if (dynamic_terms)
       value += parts.inertia->step_energy(state.positions);
     if (parts.loads != nullptr)
@@ -58,8 +58,9 @@ namespace Exemplar
     {
       const std::vector<double> lower(
           parts.examples->weights_are_bounded() ? state.weights.size() : 0, 0.);
-      const WeightQpSolution best = minimize_over_weights(
-          block.H, parts.assembler.weight_target(state.positions), 1., lower);
+      const std::vector<double> sums(parts.examples->n_regions(), 1.);
+      const WeightQpSolution    best = minimize_over_weights(
+             block.H, parts.assembler.weight_target(state.positions), sums, lower);
       if (!best.found)
         throw SolverFailure("The example weights are not determined. Set Examples/Weight penalty "
                             "to auto.");
@@ -82,11 +83,11 @@ namespace Exemplar
   bool
   Equilibrium::find_newton_step(const State &state)
   {
-    for (const Tangent tangent : { Tangent::exact, Tangent::frozen })
+    for (const Tangent tangent : { Tangent::exact, Tangent::convex })
     {
       try
       {
-        factorize(state, tangent);
+        factorize(state.positions, state.weights, tangent);
         solve_for_step(state);
       }
       catch (const SolverFailure &)
@@ -163,23 +164,21 @@ namespace Exemplar
     State at                = accepted;
     at.weights              = trial.weights;
     const Evaluation before = current;
-    for (const Tangent tangent : { Tangent::exact, Tangent::frozen })
+    for (const Tangent tangent : { Tangent::exact, Tangent::convex })
       try
       {
         current = before;
-        if (tangent == Tangent::exact)
-          parts.assembler.add_exact_response(displacement, at.positions, at.weights, current);
-        else
-          parts.assembler.add_response_beside_held_nodes(displacement, current);
+        parts.assembler.add_response_beside_held_nodes(tangent, displacement, at.positions,
+                                                       at.weights, current);
         add_inertia_and_loads(at);
-        factorize(at, tangent);
+        factorize(at.positions, at.weights, tangent);
         solve_for_step(at);
         add_step(trial);
         return;
       }
       catch (const SolverFailure &)
       {
-      } // indefinite: the frozen tangent is not
+      } // indefinite: the convex tangent is not
   }
 
   void
@@ -238,11 +237,7 @@ namespace Exemplar
   Equilibrium::solve_by_newton(State &state, const double time, const double step_size)
   {
     SolveReport report;
-    if (parts.inertia != nullptr)
-    {
-      parts.inertia->begin_step(state, step_size);
-      dynamic_terms = true;
-    }
+    begin_dynamic_step(state, step_size);
     advance_by_newton(state, time, 0, report);
     return report;
   }

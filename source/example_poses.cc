@@ -2,12 +2,12 @@
 #include <exemplar/errors.h>
 #include <exemplar/example_poses.h>
 #include <exemplar/number_text.h>
-#include <exemplar/polar_decomposition.h>
 #include <exemplar/prm_tools.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <sstream>
 
 namespace Exemplar
@@ -19,16 +19,6 @@ namespace Exemplar
     const EnumTable<ExampleWeights> weight_kinds = { { ExampleWeights::simplex, "simplex" },
                                                      { ExampleWeights::free, "free" },
                                                      { ExampleWeights::prescribed, "prescribed" } };
-
-    /// sum E V [J]: the scale of the energy of a strain of 1.
-    double
-    unit_energy(const FESpace &fe_space, const Material &material)
-    {
-      double sum = 0.;
-      for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
-        sum += material.youngs_modulus(cell) * fe_space.tetrahedron(cell).volume;
-      return sum;
-    }
 
     /// sigma for "auto" and "paper", in units of sum E V.
     double
@@ -49,10 +39,7 @@ namespace Exemplar
         return value;
       return {};
     }
-  } // namespace
 
-  namespace
-  {
     /// p of Eq. (16) of a cell in an example: of its stretch I + E.
     double
     guard_product(const Matrix3<double> &E)
@@ -98,7 +85,16 @@ namespace Exemplar
         "that sum to one, as the paper; prescribed: as given.");
     prm.add_parameter("Prescribed weights", prescribed_weights,
                       "One function of t for each example, the rest pose first where it is "
-                      "included, separated by ;. They sum to one.");
+                      "included, separated by ;. They sum to one. With Weights per region either "
+                      "the same for all, or one such list a region, in ascending order of material "
+                      "ids, separated by |.");
+    prm.add_parameter("Weights per region", weights_per_region,
+                      "Whether the cells of each material id have weights of their own "
+                      "(statistics: weight_R_i for example i in region R).");
+    prm.add_parameter("Region blend length", region_blend_length,
+                      "Distance [m] over which the weights of neighbouring regions pass into each "
+                      "other; 0: at once, at the border.",
+                      dealii::Patterns::Double(0.));
     prm.leave_subsection();
   }
 
@@ -123,12 +119,34 @@ namespace Exemplar
                       "'prescribed'. Set it, or remove the weights.");
   }
 
+  namespace
+  {
+    std::optional<RegionShares>
+    make_regions(const ExampleParameters &parameters, const Mesh &mesh, const FESpace &fe_space)
+    {
+      if (!parameters.weights_per_region)
+        return {};
+      return RegionShares(fe_space, mesh.get_material_ids(), parameters.region_blend_length);
+    }
+  } // namespace
+
+  double
+  unit_energy(const FESpace &fe_space, const Material &material)
+  {
+    double sum = 0.;
+    for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
+      sum += material.youngs_modulus(cell) * fe_space.tetrahedron(cell).volume;
+    return sum;
+  }
+
   ExamplePoses::ExamplePoses(const ExampleParameters &parameters,
+                             const StrainMeasure      measure,
                              const Mesh              &mesh,
                              const FESpace           &fe_space,
                              const Material          &material,
                              const TimeAxis          &axis)
-      : fe_space(fe_space), eta(parameters.importance),
+      : fe_space(fe_space), eta(parameters.importance), measure(measure),
+        regions(make_regions(parameters, mesh, fe_space)),
         first_strained(parameters.include_rest_pose ? 1 : 0),
         bounded(parameters.weights == ExampleWeights::simplex)
   {
@@ -137,20 +155,29 @@ namespace Exemplar
     for (const std::string &file : parameters.poses)
       add_pose(file, mesh.read_pose(file));
     add_pose_functions(parameters.pose_functions, mesh);
-
     if (parameters.weights == ExampleWeights::prescribed)
     {
-      prescribed.emplace("Examples/Prescribed weights", parameters.prescribed_weights, "t", size());
+      read_prescribed_weights(parameters.prescribed_weights);
       check_prescribed_weights(axis);
     }
-    else
-      sigma = non_negative_number(parameters.weight_penalty)
-                  .value_or(default_penalty(parameters) * unit_energy(fe_space, material));
 
     compute_strains();
-    compute_weight_matrix(material, parameters.energy);
-    if (!prescribed && sigma == 0.)
+    compute_gram_matrix(material);
+    compute_weight_matrix(material, parameters);
+    if (!weights_are_prescribed())
       check_independence(material);
+  }
+
+  std::string
+  ExamplePoses::region_name(const std::string &prefix, const unsigned int region) const
+  {
+    return regions ? prefix + "_" + std::to_string(regions->material_id(region)) : prefix;
+  }
+
+  std::string
+  ExamplePoses::weight_name(const std::string &prefix, const unsigned int weight) const
+  {
+    return region_name(prefix, weight / size()) + "_" + std::to_string(weight % size());
   }
 
   void
@@ -180,21 +207,30 @@ namespace Exemplar
   ExamplePoses::compute_strains()
   {
     strains.assign(6 * static_cast<std::size_t>(fe_space.n_cells()) * size(), 0.);
-    strain_norms.assign(size(), 0.);
+    strain_norms.assign(n_weights(), 0.);
     std::vector<unsigned int> n_inverted(size(), 0);
     for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
+    {
       for (unsigned int i = first_strained; i < size(); ++i)
       {
         const Matrix3<double>       F = fe_space.deformation_gradient(cell, positions[i]);
-        const Matrix3<double>       E = corotated_strain(closest_rotation(F), F);
+        const Matrix3<double>       E = model_strain(measure, model_rotation(measure, F), F);
         const std::array<double, 6> upper
             = { { E[0][0], E[1][1], E[2][2], E[1][2], E[0][2], E[0][1] } };
         std::copy(upper.begin(), upper.end(),
                   &strains[6 * (static_cast<std::size_t>(cell) * size() + i)]);
-        strain_norms[i] += fe_space.tetrahedron(cell).volume * contract(E, E);
         n_inverted[i] += (determinant(F) <= 0.);
-        p_0 = std::min(p_0, 0.5 * guard_product(E));
+        if (measure == StrainMeasure::corotational)
+          p_0 = std::min(p_0, 0.5 * guard_product(E));
       }
+      for_each_weight(cell,
+                      [&](const unsigned int weight, const unsigned int i, const double share)
+                      {
+                        const Matrix3<double> E = strain(cell, i);
+                        strain_norms[weight]
+                            += fe_space.tetrahedron(cell).volume * share * share * contract(E, E);
+                      });
+    }
     for (double &norm : strain_norms)
       norm = std::sqrt(norm);
     for (unsigned int i = 0; i < size(); ++i)
@@ -205,72 +241,92 @@ namespace Exemplar
   }
 
   void
-  ExamplePoses::compute_weight_matrix(const Material &material, const ExampleEnergy energy)
+  ExamplePoses::compute_gram_matrix(const Material &material)
   {
-    gram.reinit(size(), size());
+    gram.reinit(n_weights(), n_weights());
     for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
-      for (unsigned int i = 0; i < size(); ++i)
-      {
-        const Matrix3<double> T = stress(material.lame(cell), strain(cell, i));
-        for (unsigned int j = 0; j < size(); ++j)
-          gram(i, j) += fe_space.tetrahedron(cell).volume * contract(T, strain(cell, j));
-      }
-    penalty.reinit(size(), size());
-    penalty.diagadd(sigma);
-    if (energy == ExampleEnergy::blended)
+      for_each_weight(cell,
+                      [&](const unsigned int v, const unsigned int i, const double share_v)
+                      {
+                        const Matrix3<double> T = stress(material.lame(cell), strain(cell, i));
+                        for_each_weight(
+                            cell,
+                            [&](const unsigned int w, const unsigned int j, const double share_w)
+                            {
+                              gram(v, w) += fe_space.tetrahedron(cell).volume * share_v * share_w
+                                            * contract(T, strain(cell, j));
+                            });
+                      });
+  }
+
+  void
+  ExamplePoses::compute_weight_matrix(const Material &material, const ExampleParameters &parameters)
+  {
+    penalty.reinit(n_weights(), n_weights());
+    if (!weights_are_prescribed())
+    {
+      const double sigma
+          = non_negative_number(parameters.weight_penalty)
+                .value_or(default_penalty(parameters) * unit_energy(fe_space, material));
+      // of a region its part of the body, so that equal weights in all regions cost what
+      // global ones do
+      std::vector<double> fraction(n_regions(), regions ? 0. : 1.);
+      for (unsigned int cell = 0; regions && cell < fe_space.n_cells(); ++cell)
+        for (const RegionShares::Share &share : regions->in_cell(cell))
+          fraction[share.region]
+              += share.value * fe_space.tetrahedron(cell).volume / fe_space.total_volume();
+      if (n_regions() == 1)
+        fraction[0] = 1.; // without the sum's rounding
+      for (unsigned int weight = 0; weight < n_weights(); ++weight)
+        penalty(weight, weight) = sigma * fraction[weight / size()];
+    }
+    if (parameters.energy == ExampleEnergy::blended)
       penalty.add(eta * (1. - eta), gram);
     H = penalty;
     H.add(eta * eta, gram);
   }
 
+  void
+  ExamplePoses::read_prescribed_weights(const std::string &text)
+  {
+    const std::string              key   = "Examples/Prescribed weights";
+    const std::vector<std::string> lists = split_trimmed(text, '|');
+    if (lists.size() != 1 && lists.size() != n_regions())
+      throw UserError(key + " has " + std::to_string(lists.size()) + " lists separated by |, but "
+                      + (regions ? "there are " + std::to_string(n_regions()) + " regions."
+                                 : "Examples/Weights per region is false.")
+                      + " Give one list for all"
+                      + (regions ? " or one for each material id." : "."));
+    for (const std::string &list : lists)
+      prescribed.emplace_back(key, list, "t", size());
+  }
+
   std::vector<double>
   ExamplePoses::prescribed_weights(const double time) const
   {
-    return prescribed->values(dealii::Point<3>(), time);
+    std::vector<double> all;
+    for (unsigned int region = 0; region < n_regions(); ++region)
+    {
+      const auto values
+          = prescribed[prescribed.size() == 1 ? 0 : region].values(dealii::Point<3>(), time);
+      all.insert(all.end(), values.begin(), values.end());
+    }
+    return all;
   }
 
   void
   ExamplePoses::check_prescribed_weights(const TimeAxis &axis) const
   {
     for (unsigned int step = 0; step <= axis.n_steps(); ++step)
-    {
-      const double time = axis.time(step);
-      double       sum  = 0.;
-      for (const double weight : prescribed_weights(time))
-        sum += weight;
-      if (std::abs(sum - 1.) > 1e-10)
-        throw UserError("Examples/Prescribed weights sum to " + shortest_text(sum)
-                        + " at t = " + shortest_text(time)
-                        + ", not to 1. Make the last one 1 minus the others.");
-    }
-  }
-
-  void
-  ExamplePoses::check_independence(const Material &material) const
-  {
-    // Cholesky of the Gram matrix of the differences to example 0: a vanishing pivot
-    // is an example that is an affine combination of those before it, and strains of
-    // 1e-10 are the rounding of a rest pose.
-    const double               rounding = 1e-20 * unit_energy(fe_space, material);
-    const unsigned int         n        = size() - 1;
-    dealii::FullMatrix<double> L(n, n);
-    for (unsigned int i = 0; i < n; ++i)
-      for (unsigned int j = 0; j <= i; ++j)
+      for (const Expression &expression : prescribed)
       {
-        double       value  = gram(i + 1, j + 1) - gram(i + 1, 0) - gram(0, j + 1) + gram(0, 0);
-        const double before = value;
-        for (unsigned int m = 0; m < j; ++m)
-          value -= L(i, m) * L(j, m);
-        if (i != j)
-          L(i, j) = value / L(j, j);
-        else if (value > 1e-12 * before && value > rounding)
-          L(i, i) = std::sqrt(value);
-        else
-          throw UserError(
-              "Example " + std::to_string(i + 1) + " (" + names[i + 1]
-              + ") is an affine combination of the examples before it, so their weights "
-                "are not determined. Remove it from Examples/Poses or Examples/Pose "
-                "functions, or set Examples/Weight penalty to auto.");
+        const double time   = axis.time(step);
+        const auto   values = expression.values(dealii::Point<3>(), time);
+        const double sum    = std::accumulate(values.begin(), values.end(), 0.);
+        if (std::abs(sum - 1.) > 1e-10)
+          throw UserError("Examples/Prescribed weights sum to " + shortest_text(sum)
+                          + " at t = " + shortest_text(time)
+                          + ", not to 1. Make the last one 1 minus the others.");
       }
   }
 } // namespace Exemplar

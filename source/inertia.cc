@@ -23,8 +23,12 @@ namespace Exemplar
     }
   } // namespace
 
-  Inertia::Inertia(const FESpace &fe_space, const Material &material, const MassMatrix kind)
-      : pattern(fe_space.nodal_pattern()), mass(pattern), predicted(fe_space.n_dofs())
+  Inertia::Inertia(const FESpace        &fe_space,
+                   const Material       &material,
+                   const MassMatrix      kind,
+                   const TimeParameters &time)
+      : pattern(fe_space.nodal_pattern()), mass(pattern), scheme(time.scheme),
+        mass_damping(time.mass_damping), stiffness_damping(time.stiffness_damping)
   {
     std::vector<double> density(fe_space.n_cells());
     for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
@@ -38,8 +42,38 @@ namespace Exemplar
   Inertia::begin_step(const State &state, const double step_size)
   {
     this->step_size = step_size;
-    predicted       = state.positions;
-    predicted.add(step_size, state.velocities);
+    if (scheme == TimeScheme::bdf2 && state.previous_step > 0.)
+    {
+      // BDF2 for steps whose ratio is r; the first step is one of implicit Euler
+      const double r = step_size / state.previous_step;
+      gamma          = (1. + 2. * r) / ((1. + r) * step_size);
+      c_last         = (1. + r) * (1. + r) / (1. + 2. * r);
+      c_previous     = -r * r / (1. + 2. * r);
+    }
+    else
+    {
+      gamma      = 1. / step_size;
+      c_last     = 1.;
+      c_previous = 0.;
+    }
+    base                              = state.positions;
+    dealii::Vector<double> velocities = state.velocities; // v_star
+    if (c_previous != 0.)
+    {
+      base.sadd(c_last, c_previous, state.previous_positions);
+      velocities.sadd(c_last, c_previous, state.previous_velocities);
+    }
+    predicted = base;
+    predicted.add(1. / (gamma + mass_damping), velocities);
+  }
+
+  std::vector<WeightedPositions>
+  Inertia::history(const State &state) const
+  {
+    std::vector<WeightedPositions> terms = { { c_last, &state.positions } };
+    if (c_previous != 0.)
+      terms.push_back({ c_previous, &state.previous_positions });
+    return terms;
   }
 
   dealii::Vector<double>
@@ -81,11 +115,17 @@ namespace Exemplar
   }
 
   void
-  Inertia::end_step(const dealii::Vector<double> &old_positions, State &state) const
+  Inertia::end_step(const State &old, State &state) const
   {
     state.velocities = state.positions;
-    state.velocities -= old_positions;
-    state.velocities /= step_size;
+    state.velocities -= base;
+    state.velocities *= gamma;
+    if (scheme == TimeScheme::bdf2)
+    {
+      state.previous_positions  = old.positions;
+      state.previous_velocities = old.velocities;
+      state.previous_step       = step_size;
+    }
   }
 
   MotionSums

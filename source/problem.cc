@@ -52,7 +52,8 @@ namespace Exemplar
     {
       if (!parameters.examples.in_use())
         return nullptr;
-      return std::make_unique<ExamplePoses>(parameters.examples, mesh, fe_space, material, axis);
+      return std::make_unique<ExamplePoses>(parameters.examples, parameters.model.strain, mesh,
+                                            fe_space, material, axis);
     }
 
     std::unique_ptr<Inertia>
@@ -60,7 +61,8 @@ namespace Exemplar
     {
       if (parameters.scene != SceneKind::dynamic)
         return nullptr;
-      return std::make_unique<Inertia>(fe_space, material, parameters.material.mass_matrix);
+      return std::make_unique<Inertia>(fe_space, material, parameters.material.mass_matrix,
+                                       parameters.time);
     }
 
     std::unique_ptr<BorderedSolver>
@@ -126,7 +128,7 @@ namespace Exemplar
     if (parameters.initial.pose.empty() && parameters.initial.pose_function.empty())
     {
       const auto greatest = std::max_element(state.weights.begin(), state.weights.end());
-      state.positions     = examples->pose(greatest - state.weights.begin());
+      state.positions     = examples->pose((greatest - state.weights.begin()) % examples->size());
     }
   }
 
@@ -146,7 +148,7 @@ namespace Exemplar
     if (is_success(report.status))
     {
       if (inertia != nullptr)
-        inertia->end_step(state.positions, next);
+        inertia->end_step(state, next);
       if (support)
       {
         align(state.positions, next.positions);

@@ -62,8 +62,10 @@ namespace Exemplar
       state.weights = examples->prescribed_weights(0.);
     else if (examples != nullptr)
     {
-      state.weights.assign(examples->size(), 0.);
-      state.weights[0] = 1.;
+      state.weights.assign(examples->n_weights(), 0.);
+      for (unsigned int region = 0; region < examples->n_regions(); ++region)
+        state.weights[region * examples->size()] = 1.;
+      state.multipliers.assign(examples->n_regions(), 0.);
     }
     return state;
   }

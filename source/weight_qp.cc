@@ -49,19 +49,26 @@ namespace Exemplar
     public:
       ActiveSet(const dealii::FullMatrix<double> &H,
                 const std::vector<double>        &c,
-                const double                      sum,
+                const std::vector<double>        &sums,
                 const std::vector<double>        &lower)
-          : H(H), c(c), lower(lower), weights(lower), at_bound(c.size(), !lower.empty())
+          : H(H), c(c), lower(lower), group_size(c.size() / sums.size()), weights(lower),
+            at_bound(c.size(), !lower.empty())
       {
-        // a corner of the simplex, or, unbounded, any point on the plane
-        if (lower.empty())
-          weights.assign(c.size(), sum / static_cast<double>(c.size()));
-        else
+        // of each group a corner of the simplex, or, unbounded, any point on the plane
+        weights.resize(c.size());
+        for (unsigned int group = 0; group < sums.size(); ++group)
         {
-          const auto first
-              = static_cast<std::size_t>(std::max_element(c.begin(), c.end()) - c.begin());
-          weights[first] += sum - std::accumulate(lower.begin(), lower.end(), 0.);
-          at_bound[first] = false;
+          const std::size_t begin = first_of(group), end = begin + group_size;
+          if (lower.empty())
+            std::fill(weights.begin() + begin, weights.begin() + end,
+                      sums[group] / static_cast<double>(group_size));
+          else
+          {
+            const auto   best = std::max_element(c.begin() + begin, c.begin() + end) - c.begin();
+            const double used = std::accumulate(lower.begin() + begin, lower.begin() + end, 0.);
+            weights[best] += sums[group] - used;
+            at_bound[best] = false;
+          }
         }
       }
 
@@ -77,8 +84,10 @@ namespace Exemplar
           if (!take(step))
             continue; // a bound was met
           const std::vector<double> g = gradient();
-          solution.multiplier         = -mean_of_free(g);
-          if (!release_a_bound(g, solution.multiplier))
+          solution.multipliers.clear();
+          for (unsigned int group = 0; group < c.size() / group_size; ++group)
+            solution.multipliers.push_back(-mean_of_free(g, group));
+          if (!release_a_bound(g, solution.multipliers))
           {
             solution.found   = true;
             solution.weights = weights;
@@ -89,6 +98,12 @@ namespace Exemplar
       }
 
     private:
+      std::size_t
+      first_of(const unsigned int group) const
+      {
+        return group * group_size;
+      }
+
       std::vector<double>
       gradient() const
       {
@@ -103,11 +118,11 @@ namespace Exemplar
       }
 
       double
-      mean_of_free(const std::vector<double> &g) const
+      mean_of_free(const std::vector<double> &g, const unsigned int group) const
       {
         double       total = 0.;
         unsigned int n     = 0;
-        for (unsigned int i = 0; i < g.size(); ++i)
+        for (std::size_t i = first_of(group); i < first_of(group + 1); ++i)
           if (!at_bound[i])
           {
             total += g[i];
@@ -116,31 +131,46 @@ namespace Exemplar
         return total / n;
       }
 
-      /// To the minimiser over the free weights, in coordinates e_i - e_r of the plane.
+      /// To the minimiser over the free weights, in coordinates e_i - e_r with the last
+      /// free weight r of i's group.
       bool
       find_step(std::vector<double> &step) const
       {
-        std::vector<unsigned int> free;
-        for (unsigned int i = 0; i < c.size(); ++i)
-          if (!at_bound[i])
-            free.push_back(i);
-        const unsigned int         r = free.back(), n = free.size() - 1;
+        struct Coordinate
+        {
+          std::size_t i, r;
+        };
+        std::vector<Coordinate> coordinates;
+        for (unsigned int group = 0; group < c.size() / group_size; ++group)
+        {
+          std::size_t r = first_of(group + 1) - 1;
+          while (at_bound[r]) // one is always free
+            --r;
+          for (std::size_t i = first_of(group); i < r; ++i)
+            if (!at_bound[i])
+              coordinates.push_back({ i, r });
+        }
+        const std::size_t          n = coordinates.size();
         const std::vector<double>  g = gradient();
         dealii::FullMatrix<double> A(n, n);
         std::vector<double>        x(n);
-        for (unsigned int i = 0; i < n; ++i)
+        for (std::size_t m = 0; m < n; ++m)
         {
-          x[i] = g[r] - g[free[i]];
-          for (unsigned int j = 0; j < n; ++j)
-            A(i, j) = H(free[i], free[j]) - H(free[i], r) - H(r, free[j]) + H(r, r);
+          const auto [i, r] = coordinates[m];
+          x[m]              = g[r] - g[i];
+          for (std::size_t o = 0; o < n; ++o)
+          {
+            const auto [j, s] = coordinates[o];
+            A(m, o)           = H(i, j) - H(i, s) - H(r, j) + H(r, s);
+          }
         }
         if (!solve_by_cholesky(A, x))
           return false;
         step.assign(c.size(), 0.);
-        for (unsigned int i = 0; i < n; ++i)
+        for (std::size_t m = 0; m < n; ++m)
         {
-          step[free[i]] = x[i];
-          step[r] -= x[i];
+          step[coordinates[m].i] = x[m];
+          step[coordinates[m].r] -= x[m];
         }
         return true;
       }
@@ -169,17 +199,18 @@ namespace Exemplar
 
       /// Let go the bound whose multiplier has the worst sign; whether there was one.
       bool
-      release_a_bound(const std::vector<double> &g, const double multiplier)
+      release_a_bound(const std::vector<double> &g, const std::vector<double> &multipliers)
       {
-        double scale = std::abs(multiplier);
+        double scale = 0.;
         for (const double entry : g)
           scale = std::max(scale, std::abs(entry));
         double       worst   = -1e-13 * scale;
         unsigned int release = c.size();
         for (unsigned int i = 0; i < c.size(); ++i)
-          if (at_bound[i] && g[i] + multiplier < worst)
+          if (const double excess = g[i] + multipliers[i / group_size];
+              at_bound[i] && excess < worst)
           {
-            worst   = g[i] + multiplier;
+            worst   = excess;
             release = i;
           }
         if (release == c.size())
@@ -191,6 +222,7 @@ namespace Exemplar
       const dealii::FullMatrix<double> &H;
       const std::vector<double>        &c;
       const std::vector<double>        &lower;
+      const std::size_t                 group_size;
       std::vector<double>               weights;
       std::vector<bool>                 at_bound;
     };
@@ -199,9 +231,9 @@ namespace Exemplar
   WeightQpSolution
   minimize_over_weights(const dealii::FullMatrix<double> &H,
                         const std::vector<double>        &c,
-                        const double                      sum,
+                        const std::vector<double>        &sums,
                         const std::vector<double>        &lower)
   {
-    return ActiveSet(H, c, sum, lower).solve();
+    return ActiveSet(H, c, sums, lower).solve();
   }
 } // namespace Exemplar

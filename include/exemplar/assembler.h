@@ -2,15 +2,15 @@
 #ifndef exemplar_assembler_h
 #define exemplar_assembler_h
 
-#include <exemplar/corotational_consistent.h>
+#include <exemplar/cell_model.h>
 #include <exemplar/example_poses.h>
 #include <exemplar/fe_space.h>
 #include <exemplar/free_dofs.h>
 #include <exemplar/inertia.h>
 #include <exemplar/material.h>
+#include <exemplar/model.h>
 #include <exemplar/spd_operator.h>
 
-#include <deal.II/base/parameter_handler.h>
 #include <deal.II/lac/vector.h>
 
 #include <array>
@@ -18,25 +18,11 @@
 
 namespace Exemplar
 {
-  enum class StrainMeasure
+  /// The matrix with which a step is solved.
+  enum class Tangent
   {
-    corotational
-  };
-
-  enum class GradientKind
-  {
-    consistent,
-    frozen
-  };
-
-  /// Subsection Model.
-  struct ModelParameters
-  {
-    StrainMeasure strain   = StrainMeasure::corotational;
-    GradientKind  gradient = GradientKind::consistent;
-
-    void
-    declare(dealii::ParameterHandler &prm);
+    exact, ///< the derivative of the gradient, Eq. (18)
+    convex ///< never indefinite, together with the weights: R K R^T, Eq. (8), or its counterpart
   };
 
   /// Everything that a loop over the cells finds at given positions and weights.
@@ -48,6 +34,7 @@ namespace Exemplar
     double                 weight_scale   = 0; ///< of the weight gradient [J]
     double                 energy_elastic = 0; ///< sum V/2 e:C:e [J], Eq. (5)
     double                 energy_example = 0; ///< Psi - energy_elastic, ridge included [J]
+    double                 energy_damping = 0; ///< whose gradient is the stiffness damping [J]
     double                 min_det_F      = 0;
     unsigned int           inverted_cells = 0;
     unsigned int           guarded_cells  = 0; ///< in which the guard of Eq. (16) acts
@@ -81,9 +68,15 @@ namespace Exemplar
       return pattern;
     }
 
-    /// R of every cell from the polar decomposition at these positions.
+    /// R of every cell from the polar decomposition at these positions. Models other
+    /// than the corotational have none: theirs stay I.
     void
     update_rotations(const dealii::Vector<double> &positions);
+
+    /// From now on forces contain the stiffness damping s C:(e - sum_m c_m e(x_m)), with
+    /// s [-] the damping time over the time step. s = 0: none.
+    void
+    set_damping(double s, const std::vector<WeightedPositions> &history);
 
     /// Energies and their derivatives with the rotations as they are.
     void
@@ -91,35 +84,24 @@ namespace Exemplar
              const std::vector<double>    &weights,
              Evaluation                   &evaluation) const;
 
-    /// What `displacement` [m], zero but on held degrees of freedom, adds to the forces
-    /// and to the weight gradient while the rotations are as they are.
+    /// A, Eq. (8) or (18), into the values on matrix_pattern() [N/m] and, with weights to
+    /// find, the coupling G, Eq. (9): a column a weight on the free degrees of freedom, one
+    /// after the other [N]. An exact tangent needs the rotations of these positions.
     void
-    add_response_beside_held_nodes(const dealii::Vector<double> &displacement,
+    assemble_tangent(Tangent                       tangent,
+                     const dealii::Vector<double> &positions,
+                     const std::vector<double>    &weights,
+                     std::vector<double>          &matrix_values,
+                     std::vector<double>          &columns) const;
+
+    /// What `displacement` [m] from `positions`, zero but on held degrees of freedom, adds
+    /// to the forces and to the weight gradient by that tangent.
+    void
+    add_response_beside_held_nodes(Tangent                       tangent,
+                                   const dealii::Vector<double> &displacement,
+                                   const dealii::Vector<double> &positions,
+                                   const std::vector<double>    &weights,
                                    Evaluation                   &evaluation) const;
-
-    /// A = [M/h^2] + sum R K R^T, Eq. (8), into the values on matrix_pattern() [N/m].
-    void
-    assemble_matrix(std::vector<double> &matrix_values) const;
-
-    /// G_i = eta sum R K q_i, Eq. (9), on the free degrees of freedom: one column an
-    /// example, one after the other [N].
-    void
-    assemble_coupling(std::vector<double> &columns) const;
-
-    /// The exact tangent of the consistent forces, Eq. (18), into the matrix and, with
-    /// weights to find, the coupling; where the rotations are those of `positions`.
-    void
-    assemble_exact(const dealii::Vector<double> &positions,
-                   const std::vector<double>    &weights,
-                   std::vector<double>          &matrix_values,
-                   std::vector<double>          &columns) const;
-
-    /// What add_response_beside_held_nodes() adds, with the exact tangent.
-    void
-    add_exact_response(const dealii::Vector<double> &displacement,
-                       const dealii::Vector<double> &positions,
-                       const std::vector<double>    &weights,
-                       Evaluation                   &evaluation) const;
 
     /// c_i with dPsi/dw = H w - c at these positions [J]; the rotations are theirs.
     std::vector<double>
@@ -133,9 +115,9 @@ namespace Exemplar
       return greatest_rounding_force;
     }
 
-    /// The same for the derivative of the energy by the weight of example i [J].
+    /// The same for the derivative of the energy by a weight [J].
     double
-    rounding_weight_gradient(unsigned int i) const;
+    rounding_weight_gradient(unsigned int weight) const;
 
     CellResults
     cell_results(const dealii::Vector<double> &positions, const std::vector<double> &weights) const;
@@ -146,13 +128,93 @@ namespace Exemplar
 
     using CellMatrix = double[12][12];
 
-    ConsistentCell<double>
-    cell_state(unsigned int                  cell,
+    bool
+    has_weights() const
+    {
+      return examples != nullptr && !examples->weights_are_prescribed();
+    }
+
+    /// Whether a tangent is R K R^T: always with the linear strain, whose exact one it is.
+    bool
+    is_rotated_stiffness(const Tangent tangent) const
+    {
+      return model.strain == StrainMeasure::linear
+             || (model.strain == StrainMeasure::corotational && tangent == Tangent::convex);
+    }
+
+    /// eta E(w) in a cell; 0 without examples.
+    Matrix3<double>
+    example_target(unsigned int cell, const std::vector<double> &weights) const;
+
+    /// The elastic constants and the target strain of a cell with the damping added: both
+    /// are quadratics around a strain, and so is their sum.
+    Lame<double>
+    damped_lame(unsigned int cell) const;
+
+    Matrix3<double>
+    damped_target(unsigned int cell, const Matrix3<double> &target) const;
+
+    template <typename Cell>
+    void
+    evaluate_cells(const dealii::Vector<double> &positions,
+                   const std::vector<double>    &weights,
+                   Evaluation                   &result) const;
+
+    void
+    add_penalty(const std::vector<double> &weights, double stress_norm, Evaluation &result) const;
+
+    /// A cell as it is driven, its target set.
+    template <typename Cell>
+    Cell
+    cell_state(Tangent                       tangent,
+               unsigned int                  cell,
                const dealii::Vector<double> &positions,
                const std::vector<double>    &weights) const;
 
+    template <typename Cell>
+    void
+    assemble_cells(Tangent                       tangent,
+                   const dealii::Vector<double> &positions,
+                   const std::vector<double>    &weights,
+                   std::vector<double>          &matrix_values,
+                   std::vector<double>          &columns) const;
+
+    template <typename Cell>
+    void
+    add_cell_responses(Tangent                       tangent,
+                       const dealii::Vector<double> &displacement,
+                       const dealii::Vector<double> &positions,
+                       const std::vector<double>    &weights,
+                       Evaluation                   &result) const;
+
+    void
+    assemble_rotated_stiffness(std::vector<double> &matrix_values) const;
+
+    void
+    assemble_rotated_coupling(std::vector<double> &columns) const;
+
+    void
+    add_rotated_responses(const dealii::Vector<double> &displacement, Evaluation &result) const;
+
+    /// Into the gradient: nodal forces of a change of R^T P.
+    void
+    add_force(unsigned int cell, const Matrix3<double> &dP, dealii::Vector<double> &gradient) const
+    {
+      Vector3<double> force[4];
+      frozen_forces(fe_space.tetrahedron(cell), rotations[cell], dP, force);
+      for (unsigned int a = 0; a < 4; ++a)
+        for (unsigned int c = 0; c < 3; ++c)
+          gradient[3 * fe_space.nodes(cell)[a] + c] += force[a][c];
+    }
+
     void
     start_matrix(std::vector<double> &matrix_values) const;
+
+    void
+    start_columns(std::vector<double> &columns) const
+    {
+      columns.assign(static_cast<std::size_t>(free_dofs.size()) * examples->n_weights(), 0.);
+    }
 
     void
     add_cell_matrix(const unsigned int   cell,
@@ -169,15 +231,16 @@ namespace Exemplar
     void
     add_to_column(const unsigned int cell,
                   const Vector3<double> (&force)[4],
-                  const unsigned int   example,
+                  const unsigned int   weight,
+                  const double         factor,
                   std::vector<double> &columns) const
     {
-      double *column = columns.data() + static_cast<std::size_t>(example) * free_dofs.size();
+      double *column = columns.data() + static_cast<std::size_t>(weight) * free_dofs.size();
       for (unsigned int a = 0; a < 4; ++a)
         for (unsigned int c = 0; c < 3; ++c)
           if (const int dof = free_dofs.free_index(3 * fe_space.nodes(cell)[a] + c);
               dof != FreeDofs::held)
-            column[dof] += examples->importance() * force[a][c];
+            column[dof] += factor * force[a][c];
     }
 
     void
@@ -198,6 +261,7 @@ namespace Exemplar
     const ExamplePoses   *examples;
     const Inertia        *inertia;
     const FreeDofs       &free_dofs;
+    const double          guard_bound; ///< p_0 of Eq. (16)
 
     SymmetricPattern pattern;
     std::vector<std::array<int, n_cell_entries>>
@@ -206,6 +270,8 @@ namespace Exemplar
     std::vector<double>                mass_values;    ///< M on the pattern; empty in statics
     std::vector<std::array<double, 4>> gradient_norms; ///< |g_a|
     std::vector<Matrix3<double>>       rotations;
+    double                             damping = 0.; ///< s of set_damping()
+    std::vector<Matrix3<double>>       damping_strains;
     double                             greatest_rounding_force = 0.;
     double                             rounding_stress_norm    = 0.; ///< (sum V T^2)^(1/2)
   };

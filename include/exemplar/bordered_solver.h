@@ -18,8 +18,9 @@ namespace Exemplar
   ///     [ -G^T   H   N^T ] [ dw ] = [ r_w ]
   ///     [  0     N    0  ] [ l  ]   [ r_c ]
   ///
-  /// N is a row of ones for global weights, a row a region for local ones. k = 0 if
-  /// the scene has no weights to find.
+  /// N has a row a region, of ones where the weights are the region's; they are k/m
+  /// consecutive ones. Global weights are one region. k = 0 if the scene has no weights to
+  /// find.
   struct WeightBlock
   {
     std::vector<double>        coupling; ///< G, its k columns one after the other

@@ -4,13 +4,13 @@
 
 #include <exemplar/corotational.h>
 
-#include <cmath>
+#include <limits>
 
-// The force that is the gradient of the energy with examples, and its tangent. A cell's
-// energy density is a function of S, the symmetric factor of F = R S, and of the target
-// stretch A = I + eta E(w):
+// The corotational model with the force that is the gradient of its energy, and the exact
+// tangent. A cell's energy density is a function of S, the symmetric factor of F = R S,
+// through the strain e = S - I, and of the target strain D = eta E(w):
 //
-//   psi = mu |S - A|^2 + lambda/2 tr^2(S - A) + 2 mu (1 - phi) S : dev A,      Eq. (16)
+//   psi = 1/2 (e - D) : C : (e - D) + 2 mu (1 - phi) S : dev D,      Eq. (16)
 //
 // where the guard phi is 1 but in badly inverted cells. No deal.II header here: see
 // matrix3.h.
@@ -18,6 +18,7 @@
 namespace Exemplar
 {
   constexpr double default_guard_bound = 0.8; ///< p_0 of guard()
+  constexpr double no_guard            = std::numeric_limits<double>::lowest();
 
   /// Vector a of the skew matrix W, W b = a x b.
   template <typename Number>
@@ -47,28 +48,15 @@ namespace Exemplar
     return C;
   }
 
-  /// a A + b B.
+  /// A - tr(A)/3 I.
   template <typename Number>
   Matrix3<Number>
-  combine(const Number &a, const Matrix3<Number> &A, const Number &b, const Matrix3<Number> &B)
+  deviator(Matrix3<Number> A)
   {
-    Matrix3<Number> C;
+    const Number third = trace(A) / Number(3.);
     for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j)
-        C[i][j] = a * A[i][j] + b * B[i][j];
-    return C;
-  }
-
-  /// The part of a symmetric matrix that the guard keeps: its sphere, and phi of the rest.
-  template <typename Number>
-  Matrix3<Number>
-  guarded(const Matrix3<Number> &A, const Number &phi)
-  {
-    const Number    third  = trace(A) / Number(3.);
-    Matrix3<Number> result = combine(phi, A, Number(0.), A);
-    for (int i = 0; i < 3; ++i)
-      result[i][i] += (Number(1.) - phi) * third;
-    return result;
+      A[i][i] -= third;
+    return A;
   }
 
   /// phi = z^2 (3 - 2 z), z = clamp(p/p_0, 0, 1), and its derivative by p. The product
@@ -85,75 +73,44 @@ namespace Exemplar
   Guard<Number>
   guard(const Number &p, const Number &p_0)
   {
-    Number z = p / p_0;
-    if (z >= Number(1.))
+    if (p >= p_0)
       return { Number(1.), Number(0.) };
+    Number z = p / p_0;
     if (!(z > Number(0.)))
       z = Number(0.);
     return { z * z * (Number(3.) - Number(2.) * z), Number(6.) * z * (Number(1.) - z) / p_0 };
   }
 
   /// Inverse of the symmetric positive semidefinite matrix B = tr(S) I - S with its
-  /// eigenvalues s_i + s_j held above `least`, by cyclic Jacobi rotations.
+  /// eigenvalues s_i + s_j held above `least`.
   template <typename Number>
   Matrix3<Number>
-  bounded_inverse(Matrix3<Number> B, const Number &least)
+  bounded_inverse(const Matrix3<Number> &B, const Number &least)
   {
-    Matrix3<Number> V = identity_matrix<Number>();
-    for (int sweep = 0; sweep < 8; ++sweep)
-      for (int p = 0; p < 2; ++p)
-        for (int q = p + 1; q < 3; ++q)
-        {
-          if (B[p][q] == Number(0.))
-            continue;
-          const Number theta = (B[q][q] - B[p][p]) / (Number(2.) * B[p][q]);
-          const Number sign  = theta >= Number(0.) ? Number(1.) : Number(-1.);
-          const Number t     = sign / (std::abs(theta) + std::sqrt(theta * theta + Number(1.)));
-          const Number c     = Number(1.) / std::sqrt(t * t + Number(1.));
-          const Number s     = t * c;
-          for (int k = 0; k < 3; ++k)
-          {
-            const Number b = B[k][p];
-            B[k][p]        = c * b - s * B[k][q];
-            B[k][q]        = s * b + c * B[k][q];
-          }
-          for (int k = 0; k < 3; ++k)
-          {
-            const Number b = B[p][k];
-            B[p][k]        = c * b - s * B[q][k];
-            B[q][k]        = s * b + c * B[q][k];
-            const Number v = V[k][p];
-            V[k][p]        = c * v - s * V[k][q];
-            V[k][q]        = s * v + c * V[k][q];
-          }
-        }
-    Matrix3<Number> inverse{};
-    for (int e = 0; e < 3; ++e)
-    {
-      const Number eigenvalue = B[e][e] > least ? B[e][e] : least;
-      for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-          inverse[i][j] += V[i][e] * V[j][e] / eigenvalue;
-    }
-    return inverse;
+    return spectral_function(B, [&least](const Number &eigenvalue)
+                             { return Number(1.) / (eigenvalue > least ? eigenvalue : least); });
   }
 
-  /// What the energy of Eq. (16) needs of a deformed cell, in the frame of the rotation.
+  /// A deformed cell; what every model of cell_model.h offers. Forces and their changes are
+  /// in the frame of the rotation: R^T P for the first Piola-Kirchhoff stress P.
   template <typename Number>
-  class ConsistentCell
+  class CorotationalCell
   {
   public:
-    /// `p_0` is the bound below which the guard acts; `has_example` tells whether the
-    /// target may differ from the identity.
-    ConsistentCell(const Lame<Number>    &lame,
-                   const Matrix3<Number> &rotation,
-                   const Matrix3<Number> &deformation_gradient,
-                   const Number          &p_0)
+    /// `p_0` is the bound below which the guard acts.
+    CorotationalCell(const Lame<Number>    &lame,
+                     const Matrix3<Number> &rotation,
+                     const Matrix3<Number> &deformation_gradient,
+                     const Number          &p_0)
         : lame(lame), S(symmetric_part(transpose_times(rotation, deformation_gradient)))
     {
+      e = S;
       B = combine(Number(-1.), S, Number(0.), S);
       for (int i = 0; i < 3; ++i)
+      {
+        e[i][i] -= Number(1.);
         B[i][i] += trace(S);
+      }
       p                     = determinant(B);
       const Guard<Number> g = guard(p, p_0);
       phi                   = g.phi;
@@ -166,48 +123,55 @@ namespace Exemplar
       return phi < Number(1.);
     }
 
+    /// e = S - I, Eq. (2).
     const Matrix3<Number> &
-    stretch() const
+    strain() const
     {
-      return S;
+      return e;
     }
 
-    /// psi for the target stretch A, in the residual form: near an example the expanded
+    /// At most this times the stress C:e is the force.
+    Number
+    force_factor() const
+    {
+      return Number(1.);
+    }
+
+    /// psi for the target strain D, in the residual form: near an example the expanded
     /// one cancels.
     Number
-    energy(const Matrix3<Number> &A) const
+    energy(const Matrix3<Number> &D) const
     {
-      const Matrix3<Number> D     = combine(Number(1.), S, Number(-1.), A);
-      const Number          t     = trace(D);
-      const Number          shift = contract(S, A) - trace(A) / Number(3.) * trace(S); // S : dev A
-      return lame.mu * contract(D, D) + Number(0.5) * lame.lambda * t * t
-             + Number(2.) * lame.mu * (Number(1.) - phi) * shift;
+      const Matrix3<Number> deviation = combine(Number(1.), e, Number(-1.), D);
+      return Number(0.5) * contract(stress(lame, deviation), deviation)
+             + Number(2.) * lame.mu * (Number(1.) - phi) * contract(S, deviator(D));
     }
 
-    /// -d psi / dA: contracted with E_i, the derivative by a weight less the factor -eta.
+    /// -d psi / dD: contracted with E_i, the derivative by a weight less the factor -eta.
     Matrix3<Number>
-    weight_stress(const Matrix3<Number> &A) const
+    weight_stress(const Matrix3<Number> &D) const
     {
-      Matrix3<Number> result
-          = combine(Number(2.) * lame.mu, guarded(S, phi), Number(-2.) * lame.mu, A);
-      for (int i = 0; i < 3; ++i)
-        result[i][i] += lame.lambda * (trace(S) - trace(A));
-      return result;
+      return combine(Number(1.), stress(lame, combine(Number(1.), e, Number(-1.), D)),
+                     Number(-2.) * lame.mu * (Number(1.) - phi), deviator(S));
     }
 
-    /// Prepare force() and response() for the target A.
-    void
-    set_target(const Matrix3<Number> &A)
+    /// R^T P without a target.
+    Matrix3<Number>
+    elastic_force() const
     {
-      const Number t = trace(S) - trace(A);
-      T              = combine(Number(2.) * lame.mu, S, Number(-2.) * lame.mu, guarded(A, phi));
-      for (int i = 0; i < 3; ++i)
-        T[i][i] += lame.lambda * t;
+      return stress(lame, e);
+    }
+
+    /// Prepare force() and the responses for the target strain D.
+    void
+    set_target(const Matrix3<Number> &D)
+    {
+      T = combine(Number(1.), stress(lame, combine(Number(1.), e, Number(-1.), D)),
+                  Number(2.) * lame.mu * (Number(1.) - phi), deviator(D));
       // the force divides by s_i + s_j only what the guard makes vanish faster
       B_inverse   = is_guarded() ? bounded_inverse(B, Number(1e-8)) : inverse(B);
       W           = skew_matrix(B_inverse * axial_vector(commutator(S, T)));
-      guard_force = Number(-2.) * lame.mu * phi_derivative
-                    * (contract(S, A) - trace(A) / Number(3.) * trace(S));
+      guard_force = Number(-2.) * lame.mu * phi_derivative * contract(S, deviator(D));
       if (is_guarded())
         B_inverse = bounded_inverse(B, Number(1e-2));
     }
@@ -251,7 +215,8 @@ namespace Exemplar
     Matrix3<Number>
     example_response(const Matrix3<Number> &E) const
     {
-      const Matrix3<Number> dT = stress(lame, guarded(E, phi));
+      const Matrix3<Number> dT = combine(Number(1.), stress(lame, E),
+                                         Number(-2.) * lame.mu * (Number(1.) - phi), deviator(E));
       return combine(Number(1.), dT, Number(1.),
                      skew_matrix(B_inverse * axial_vector(commutator(S, dT))));
     }
@@ -279,6 +244,7 @@ namespace Exemplar
 
     Lame<Number>    lame;
     Matrix3<Number> S;
+    Matrix3<Number> e; ///< S - I
     Matrix3<Number> B; ///< tr(S) I - S
     Number          p;
     Number          phi;

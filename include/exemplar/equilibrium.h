@@ -135,7 +135,10 @@ namespace Exemplar
 
   private:
     void
-    begin_step(State &state, double time, double step_size);
+    begin_dynamic_step(const State &state, double step_size);
+
+    void
+    begin_step(State &state, double time);
 
     void
     move_handles(State &state);
@@ -149,15 +152,11 @@ namespace Exemplar
     void
     add_inertia_and_loads(const State &state);
 
-    enum class Tangent
-    {
-      exact,
-      frozen
-    };
-
     /// Assemble A and, with weights to find, G, and factorise.
     void
-    factorize(const State &state, Tangent tangent);
+    factorize(const dealii::Vector<double> &positions,
+              const std::vector<double>    &weights,
+              Tangent                       tangent);
 
     /// Solve with the factor for the step that the gradients call for, into `unknowns`.
     void
@@ -202,6 +201,9 @@ namespace Exemplar
 
     void
     measure(State &state, SolveReport &report) const;
+
+    void
+    measure_weights(State &state, SolveReport &report) const;
 
     SolverParameters       parameters;
     Parts                  parts;

@@ -2,10 +2,11 @@
 #ifndef exemplar_example_poses_h
 #define exemplar_example_poses_h
 
-#include <exemplar/corotational_consistent.h>
+#include <exemplar/cell_model.h>
 #include <exemplar/expression.h>
 #include <exemplar/fe_space.h>
 #include <exemplar/material.h>
+#include <exemplar/region_shares.h>
 #include <exemplar/time_axis.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -41,6 +42,8 @@ namespace Exemplar
     ExampleEnergy            energy            = ExampleEnergy::scaled;
     ExampleWeights           weights           = ExampleWeights::simplex;
     std::string              prescribed_weights;
+    bool                     weights_per_region  = false;
+    double                   region_blend_length = 0.; ///< [m]
 
     void
     declare(dealii::ParameterHandler &prm);
@@ -54,8 +57,14 @@ namespace Exemplar
     check() const;
   };
 
-  /// The example poses and their strains E_i = S_i - I in every cell, Eq. (4),
-  /// computed once. Example 0 is the rest pose where it is included.
+  /// sum E V over the cells [J]: the scale of the energy of a strain of 1.
+  double
+  unit_energy(const FESpace &fe_space, const Material &material);
+
+  /// The example poses and their strains E_i in every cell, Eq. (4), computed once.
+  /// Example 0 is the rest pose where it is included. Each example has one weight or,
+  /// with Weights per region, one a region: weight r * size() + i is that of example i in
+  /// region r.
   class ExamplePoses
   {
   public:
@@ -63,16 +72,39 @@ namespace Exemplar
     /// prescribed weights that do not sum to one in every step, and for free
     /// weights without penalty if the examples are affinely dependent.
     ExamplePoses(const ExampleParameters &parameters,
+                 StrainMeasure            measure,
                  const Mesh              &mesh,
                  const FESpace           &fe_space,
                  const Material          &material,
                  const TimeAxis          &axis);
 
+    /// Number of examples.
     unsigned int
     size() const
     {
       return positions.size();
     }
+
+    /// Number of regions with weights of their own; each region's weights sum to one.
+    unsigned int
+    n_regions() const
+    {
+      return regions ? regions->n_regions() : 1;
+    }
+
+    unsigned int
+    n_weights() const
+    {
+      return n_regions() * size();
+    }
+
+    /// Column of statistics.csv: `prefix`_i, or `prefix`_R_i with the material id R.
+    std::string
+    weight_name(const std::string &prefix, unsigned int weight) const;
+
+    /// `prefix`, or `prefix`_R.
+    std::string
+    region_name(const std::string &prefix, unsigned int region) const;
 
     double
     importance() const
@@ -83,7 +115,7 @@ namespace Exemplar
     bool
     weights_are_prescribed() const
     {
-      return prescribed.has_value();
+      return !prescribed.empty();
     }
 
     /// Prescribed weights at time t.
@@ -105,33 +137,43 @@ namespace Exemplar
       return { { { E[0], E[5], E[4] }, { E[5], E[1], E[3] }, { E[4], E[3], E[2] } } };
     }
 
+    /// Call function(weight, example, share) for the weights that matter in a cell. The
+    /// rest pose, where it is included, has no strain and is left out.
+    template <typename Function>
+    void
+    for_each_weight(const unsigned int cell, const Function &function) const
+    {
+      if (!regions)
+        for (unsigned int i = first_strained; i < size(); ++i)
+          function(i, i, 1.);
+      else
+        for (const RegionShares::Share &share : regions->in_cell(cell))
+          for (unsigned int i = first_strained; i < size(); ++i)
+            function(share.region * size() + i, i, share.value);
+    }
+
     /// E(w) = sum_i w_i E_i in a cell.
     Matrix3<double>
     strain(const unsigned int cell, const std::vector<double> &weights) const
     {
       double        sum[6] = { 0., 0., 0., 0., 0., 0. };
       const double *E      = entries(cell);
-      for (unsigned int i = first_strained; i < size(); ++i)
-        for (unsigned int entry = 0; entry < 6; ++entry)
-          sum[entry] += weights[i] * E[6 * i + entry];
+      for_each_weight(cell,
+                      [&](const unsigned int weight, const unsigned int i, const double share)
+                      {
+                        for (unsigned int entry = 0; entry < 6; ++entry)
+                          sum[entry] += share * weights[weight] * E[6 * i + entry];
+                      });
       return {
         { { sum[0], sum[5], sum[4] }, { sum[5], sum[1], sum[3] }, { sum[4], sum[3], sum[2] } }
       };
     }
 
-    /// The first example that has strain: the rest pose, where it is included, is
-    /// example 0 and has none, so that loops may leave it out.
-    unsigned int
-    first_strained_example() const
-    {
-      return first_strained;
-    }
-
-    /// (sum V |E_i|^2)^(1/2) over the cells [m^(3/2)].
+    /// (sum V |dE/dw|^2)^(1/2) over the cells [m^(3/2)] for a weight.
     double
-    strain_norm(const unsigned int i) const
+    strain_norm(const unsigned int weight) const
     {
-      return strain_norms[i];
+      return strain_norms[weight];
     }
 
     /// Whether weights to find must also not be negative.
@@ -187,17 +229,24 @@ namespace Exemplar
     compute_strains();
 
     void
-    compute_weight_matrix(const Material &material, ExampleEnergy energy);
+    compute_gram_matrix(const Material &material);
+
+    void
+    compute_weight_matrix(const Material &material, const ExampleParameters &parameters);
+
+    void
+    read_prescribed_weights(const std::string &text);
 
     void
     check_prescribed_weights(const TimeAxis &axis) const;
 
     void
-    check_independence(const Material &material) const;
+    check_independence(const Material &material);
 
     const FESpace                      &fe_space;
     const double                        eta;
-    double                              sigma = 0.;
+    const StrainMeasure                 measure;
+    const std::optional<RegionShares>   regions; ///< none: weights are global
     std::vector<std::string>            names;
     std::vector<dealii::Vector<double>> positions;
     const unsigned int                  first_strained;
@@ -208,7 +257,7 @@ namespace Exemplar
     dealii::FullMatrix<double>          H;
     const bool                          bounded;
     double                              p_0 = default_guard_bound;
-    std::optional<Expression>           prescribed;
+    std::vector<Expression>             prescribed; ///< one, or one a region
     std::vector<std::string>            warnings;
   };
 } // namespace Exemplar

@@ -5,10 +5,13 @@
 #include <exemplar/fe_space.h>
 #include <exemplar/material.h>
 #include <exemplar/state.h>
+#include <exemplar/time_axis.h>
 
 #include <deal.II/base/tensor.h>
 #include <deal.II/lac/sparse_matrix.h>
 #include <deal.II/lac/vector.h>
+
+#include <vector>
 
 namespace Exemplar
 {
@@ -20,25 +23,37 @@ namespace Exemplar
     dealii::Tensor<1, 3> angular_momentum;    ///< sum x times p, about the origin [kg m^2/s]
   };
 
-  /// Mass and time stepping of dynamic scenes: implicit Euler, Eq. (12). Statics and
-  /// interpolation have no such object.
+  /// Positions of earlier steps and their weights in a formula of the time scheme.
+  struct WeightedPositions
+  {
+    double                        weight;
+    const dealii::Vector<double> *positions; ///< by degree of freedom [m]
+  };
+
+  /// Mass, time stepping and mass damping of dynamic scenes, Eq. (12). Statics and
+  /// interpolation have no such object. Rates at the end of a step are
+  /// v = gamma (x - x_star), with x_star from earlier positions.
   class Inertia
   {
   public:
-    Inertia(const FESpace &fe_space, const Material &material, MassMatrix kind);
+    Inertia(const FESpace        &fe_space,
+            const Material       &material,
+            MassMatrix            kind,
+            const TimeParameters &time = TimeParameters());
 
-    /// Start a step of length h [s] from `state`: x_hat = x + h v.
+    /// Start a step of length h [s] from `state`.
     void
     begin_step(const State &state, double step_size);
 
-    /// Add M (x - x_hat) / h^2 [N] to `gradient`, and the length of this nodal
-    /// vector to the entry of `force_scale` of each node.
+    /// Add [M (gamma^2 + a gamma)] (x - x_hat) [N], inertia and mass damping a, to
+    /// `gradient`, and the length of this nodal vector to the entry of `force_scale` of
+    /// each node.
     void
     add_gradient(const dealii::Vector<double> &positions,
                  dealii::Vector<double>       &gradient,
                  dealii::Vector<double>       &force_scale) const;
 
-    /// 1/(2 h^2) (x - x_hat)^T M (x - x_hat) [J].
+    /// Half the square of x - x_hat in that matrix [J].
     double
     step_energy(const dealii::Vector<double> &positions) const;
 
@@ -49,12 +64,23 @@ namespace Exemplar
       return predicted;
     }
 
-    /// M/h^2 is the product of the nodal mass matrix [kg] with I_3 and this factor.
+    /// The matrix is the product of the nodal mass matrix [kg] with I_3 and this factor.
     double
     matrix_factor() const
     {
-      return 1. / (step_size * step_size);
+      return gamma * (gamma + mass_damping);
     }
+
+    /// Stiffness damping over the time that gamma stands for [-].
+    double
+    stiffness_damping_factor() const
+    {
+      return stiffness_damping * gamma;
+    }
+
+    /// The positions that make x_star in the step from `state`.
+    std::vector<WeightedPositions>
+    history(const State &state) const;
 
     const dealii::SparseMatrix<double> &
     nodal_mass() const
@@ -62,9 +88,9 @@ namespace Exemplar
       return mass;
     }
 
-    /// v = (x - x_old) / h.
+    /// Velocities, and what the next step needs of the one from `old` to `state`.
     void
-    end_step(const dealii::Vector<double> &old_positions, State &state) const;
+    end_step(const State &old, State &state) const;
 
     MotionSums
     motion_sums(const State &state) const;
@@ -75,7 +101,14 @@ namespace Exemplar
 
     dealii::SparsityPattern      pattern;
     dealii::SparseMatrix<double> mass;
-    double                       step_size = 0.;
+    const TimeScheme             scheme;
+    const double                 mass_damping;      ///< [1/s]
+    const double                 stiffness_damping; ///< [s]
+    double                       step_size  = 0.;
+    double                       gamma      = 0.; ///< [1/s]
+    double                       c_last     = 1.; ///< x_star = c_last x_n + c_previous x_(n-1)
+    double                       c_previous = 0.;
+    dealii::Vector<double>       base;      ///< x_star
     dealii::Vector<double>       predicted; ///< x_hat
   };
 } // namespace Exemplar

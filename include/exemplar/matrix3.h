@@ -6,6 +6,8 @@
 // generic over the number type and include no deal.II header, because the
 // kernels are to be compiled for several instruction sets.
 
+#include <cmath>
+
 namespace Exemplar
 {
   template <typename Number>
@@ -69,6 +71,18 @@ namespace Exemplar
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
         C[i][j] = A[i][0] * B[0][j] + A[i][1] * B[1][j] + A[i][2] * B[2][j];
+    return C;
+  }
+
+  /// a A + b B.
+  template <typename Number>
+  Matrix3<Number>
+  combine(const Number &a, const Matrix3<Number> &A, const Number &b, const Matrix3<Number> &B)
+  {
+    Matrix3<Number> C;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        C[i][j] = a * A[i][j] + b * B[i][j];
     return C;
   }
 
@@ -147,6 +161,68 @@ namespace Exemplar
         C[i][j] = A[p][r] * A[q][s] - A[p][s] * A[q][r];
       }
     return C;
+  }
+
+  /// Eigenvalues of a symmetric matrix, in no order, and the eigenvectors in the columns
+  /// of a rotation.
+  template <typename Number>
+  struct Eigensystem
+  {
+    Vector3<Number> values;
+    Matrix3<Number> vectors;
+  };
+
+  /// By cyclic Jacobi rotations; never fails, also where eigenvalues coincide.
+  template <typename Number>
+  Eigensystem<Number>
+  symmetric_eigensystem(Matrix3<Number> A)
+  {
+    Matrix3<Number> V = identity_matrix<Number>();
+    for (int sweep = 0; sweep < 8; ++sweep)
+      for (int p = 0; p < 2; ++p)
+        for (int q = p + 1; q < 3; ++q)
+        {
+          if (A[p][q] == Number(0.))
+            continue;
+          const Number theta = (A[q][q] - A[p][p]) / (Number(2.) * A[p][q]);
+          const Number sign  = theta >= Number(0.) ? Number(1.) : Number(-1.);
+          const Number t     = sign / (std::abs(theta) + std::sqrt(theta * theta + Number(1.)));
+          const Number c     = Number(1.) / std::sqrt(t * t + Number(1.));
+          const Number s     = t * c;
+          for (int k = 0; k < 3; ++k)
+          {
+            const Number a = A[k][p];
+            A[k][p]        = c * a - s * A[k][q];
+            A[k][q]        = s * a + c * A[k][q];
+          }
+          for (int k = 0; k < 3; ++k)
+          {
+            const Number a = A[p][k];
+            A[p][k]        = c * a - s * A[q][k];
+            A[q][k]        = s * a + c * A[q][k];
+            const Number v = V[k][p];
+            V[k][p]        = c * v - s * V[k][q];
+            V[k][q]        = s * v + c * V[k][q];
+          }
+        }
+    return { { { A[0][0], A[1][1], A[2][2] } }, V };
+  }
+
+  /// sum_e f(l_e) v_e v_e^T over the eigenvalues l_e of a symmetric matrix.
+  template <typename Number, typename Function>
+  Matrix3<Number>
+  spectral_function(const Matrix3<Number> &A, const Function &f)
+  {
+    const Eigensystem<Number> eigen = symmetric_eigensystem(A);
+    Matrix3<Number>           result{};
+    for (int e = 0; e < 3; ++e)
+    {
+      const Number value = f(eigen.values[e]);
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+          result[i][j] += value * eigen.vectors[i][e] * eigen.vectors[j][e];
+    }
+    return result;
   }
 } // namespace Exemplar
 

@@ -13,16 +13,18 @@ namespace Exemplar
   {
     bool                found = false; ///< false: H is not positive definite where it must be
     std::vector<double> weights;
-    double              multiplier = 0.; ///< l with H w - c + l = 0 on the weights off their bounds
+    std::vector<double> multipliers; ///< l_g with (H w - c)_i + l_g = 0 on weights off their bounds
   };
 
-  /// Minimise 1/2 w^T H w - c^T w over sum w = `sum` and, unless `lower` is empty,
-  /// w_i >= lower_i, by a primal active set method (Nocedal and Wright, Algorithm 16.3).
-  /// H need be positive definite only on differences of weights. Requires sum lower <= sum.
+  /// Minimise 1/2 w^T H w - c^T w by a primal active set method (Nocedal and Wright,
+  /// Algorithm 16.3). The weights are groups of equal size, one after the other, of which
+  /// each has its sum in `sums`; unless `lower` is empty, w_i >= lower_i. H need be positive
+  /// definite only on differences of weights of a group. Requires that the bounds allow
+  /// the sums.
   WeightQpSolution
   minimize_over_weights(const dealii::FullMatrix<double> &H,
                         const std::vector<double>        &c,
-                        double                            sum,
+                        const std::vector<double>        &sums,
                         const std::vector<double>        &lower);
 } // namespace Exemplar
 

@@ -10,7 +10,8 @@ import sys
 from pathlib import Path
 
 TOP = Path(__file__).resolve().parents[2]
-KERNELS = ["matrix3", "lame", "polar_decomposition", "corotational"]
+KERNELS = ["matrix3", "lame", "polar_decomposition", "corotational", "corotational_consistent", "linear",
+           "green", "cell_model"]
 
 
 def floors():

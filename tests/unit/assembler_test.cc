@@ -131,8 +131,7 @@ namespace Exemplar::Testing
       state.velocities = positions;
       inertia.begin_step(state, 0.1);
       std::vector<double> matrix(assembler.matrix_pattern().row.size()), columns;
-      assembler.assemble_matrix(matrix);
-      assembler.assemble_coupling(columns);
+      assembler.assemble_tangent(Tangent::convex, positions, weights, matrix, columns);
 
       const auto gradient = [&]
       {
@@ -164,27 +163,45 @@ namespace Exemplar::Testing
       }
     }
 
-    TEST(Assembler, ExactTangentIsTheDerivativeOfTheConsistentGradient)
+    struct TangentCase
     {
-      const Body     body;
-      const auto     examples = body.examples(two_examples());
-      const FreeDofs free_dofs(body.fe_space.n_dofs(), { 0, 4, 8, 30 });
-      Assembler assembler(ModelParameters(), body.fe_space, body.material, examples.get(), nullptr,
-                          free_dofs);
-      std::mt19937        generator(4);
-      auto                positions = body.random_positions(generator, 0.05);
-      std::vector<double> weights   = { 0.2, 0.5, 0.3 };
-      const auto          evaluate  = [&]
+      StrainMeasure strain;
+      bool          per_region;
+      double        damping;
+    };
+
+    /// Gradient, exact tangent and columns by central differences of energy and gradient.
+    void
+    expect_derivatives(const TangentCase &test_case)
+    {
+      const Body        body(bar_of_two_regions(2., box_mesh(4., 4, 1)));
+      ExampleParameters parameters   = two_examples();
+      parameters.weights_per_region  = test_case.per_region;
+      parameters.region_blend_length = 2.;
+      const auto      examples       = body.examples(parameters, test_case.strain);
+      const FreeDofs  free_dofs(body.fe_space.n_dofs(), { 0, 4, 8, 30 });
+      ModelParameters model;
+      model.strain = test_case.strain;
+      Assembler assembler(model, body.fe_space, body.material, examples.get(), nullptr, free_dofs);
+      std::mt19937 generator(4);
+      auto         positions = body.random_positions(generator, 0.05);
+      const auto   past = body.random_positions(generator, 0.05), before = past;
+      assembler.set_damping(test_case.damping, { { 1.5, &past }, { -0.5, &before } });
+      std::vector<double> weights  = test_case.per_region
+                                         ? std::vector<double>{ 0.2, 0.5, 0.3, 0.6, 0.1, 0.3 }
+                                         : std::vector<double>{ 0.2, 0.5, 0.3 };
+      const auto          evaluate = [&]
       {
         Evaluation evaluation;
         assembler.update_rotations(positions);
         assembler.evaluate(positions, weights, evaluation);
         return evaluation;
       };
-      const auto energy = [](const Evaluation &e) { return e.energy_elastic + e.energy_example; };
+      const auto energy = [](const Evaluation &e)
+      { return e.energy_elastic + e.energy_example + e.energy_damping; };
       const Evaluation    at = evaluate();
       std::vector<double> matrix(assembler.matrix_pattern().row.size()), columns;
-      assembler.assemble_exact(positions, weights, matrix, columns);
+      assembler.assemble_tangent(Tangent::exact, positions, weights, matrix, columns);
       const double h = 1e-6, scale = at.gradient.linfty_norm();
       for (unsigned int j = 0; j < free_dofs.size(); ++j)
       {
@@ -206,7 +223,7 @@ namespace Exemplar::Testing
           EXPECT_NEAR(-columns[k * free_dofs.size() + j],
                       (above.weight_gradient[k] - below.weight_gradient[k]) / (2. * h), 1e-7 * 1e7);
       }
-      // the weights' gradient by its linear form
+      // the weights' gradient by its linear form and by differences
       assembler.update_rotations(positions);
       const auto c = assembler.weight_target(positions);
       for (unsigned int k = 0; k < weights.size(); ++k)
@@ -215,6 +232,74 @@ namespace Exemplar::Testing
         for (unsigned int m = 0; m < weights.size(); ++m)
           expected += examples->weight_matrix()(k, m) * weights[m];
         EXPECT_NEAR(at.weight_gradient[k], expected, 1e-10 * at.weight_scale);
+        const double value = weights[k];
+        weights[k]         = value + 1e-3;
+        const double above = energy(evaluate());
+        weights[k]         = value - 1e-3;
+        const double below = energy(evaluate());
+        weights[k]         = value;
+        EXPECT_NEAR(at.weight_gradient[k], (above - below) / 2e-3, 1e-8 * at.weight_scale);
+      }
+    }
+
+    TEST(Assembler, TangentsAreDerivativesInEveryModel)
+    {
+      for (const StrainMeasure strain :
+           { StrainMeasure::corotational, StrainMeasure::linear, StrainMeasure::green })
+        expect_derivatives({ strain, false, 0. });
+    }
+
+    TEST(Assembler, TangentsAreDerivativesWithDamping)
+    {
+      for (const StrainMeasure strain :
+           { StrainMeasure::corotational, StrainMeasure::linear, StrainMeasure::green })
+        expect_derivatives({ strain, false, 0.7 });
+    }
+
+    TEST(Assembler, TangentsAreDerivativesWithWeightsPerRegion)
+    {
+      expect_derivatives({ StrainMeasure::corotational, true, 0. });
+      expect_derivatives({ StrainMeasure::green, true, 0.7 });
+    }
+
+    TEST(Assembler, ResponseBesideHeldNodesIsTheDerivativeByThem)
+    {
+      for (const StrainMeasure strain :
+           { StrainMeasure::corotational, StrainMeasure::linear, StrainMeasure::green })
+      {
+        const Body      body;
+        const auto      examples = body.examples(two_examples(), strain);
+        const FreeDofs  free_dofs(body.fe_space.n_dofs(), { 0, 4, 8, 30 });
+        ModelParameters model;
+        model.strain = strain;
+        Assembler    assembler(model, body.fe_space, body.material, examples.get(), nullptr,
+                               free_dofs);
+        std::mt19937 generator(5);
+        auto         positions            = body.random_positions(generator, 0.05);
+        const std::vector<double> weights = { 0.2, 0.5, 0.3 };
+        dealii::Vector<double>    displacement(positions.size());
+        for (const unsigned int dof : { 0, 4, 8, 30 })
+          displacement[dof] = 0.1 + 0.01 * dof;
+        const auto evaluate_at = [&](const double h)
+        {
+          Evaluation             evaluation;
+          dealii::Vector<double> moved = positions;
+          moved.add(h, displacement);
+          assembler.update_rotations(moved);
+          assembler.evaluate(moved, weights, evaluation);
+          return evaluation;
+        };
+        const Evaluation above = evaluate_at(1e-6), below = evaluate_at(-1e-6);
+        const Evaluation at     = evaluate_at(0.);
+        Evaluation       change = at;
+        assembler.add_response_beside_held_nodes(Tangent::exact, displacement, positions, weights,
+                                                 change);
+        for (unsigned int dof = 0; dof < positions.size(); ++dof)
+          EXPECT_NEAR(change.gradient[dof] - at.gradient[dof],
+                      (above.gradient[dof] - below.gradient[dof]) / 2e-6, 1.);
+        for (unsigned int k = 0; k < weights.size(); ++k)
+          EXPECT_NEAR(change.weight_gradient[k] - at.weight_gradient[k],
+                      (above.weight_gradient[k] - below.weight_gradient[k]) / 2e-6, 1.);
       }
     }
 
@@ -297,7 +382,8 @@ namespace Exemplar::Testing
       Evaluation             evaluation;
       assembler.evaluate(origin, { 1. }, evaluation);
       const auto solver = make_block_solver(make_cholmod_operator(), assembler.matrix_pattern());
-      assembler.assemble_matrix(solver->matrix_values());
+      std::vector<double> columns;
+      assembler.assemble_tangent(Tangent::convex, origin, { 1. }, solver->matrix_values(), columns);
       solver->factorize(WeightBlock());
       const auto solve = [&](const double factor)
       {

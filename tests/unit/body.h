@@ -32,6 +32,23 @@ namespace Exemplar::Testing
     return "x; y*cos" + angle + "-z*sin" + angle + "; y*sin" + angle + "+z*cos" + angle;
   }
 
+  /// A bar of which the cells with their centroid beyond x = `border` are material 2,
+  /// the others 1.
+  inline MshFile
+  bar_of_two_regions(const double border, const MeshParameters &bar = box_mesh(4., 8, 1))
+  {
+    MshFile contents = Mesh(bar).get_contents();
+    for (MshElement &element : contents.elements)
+      if (element.type == MshElementType::tetrahedron)
+      {
+        double x = 0.;
+        for (const std::size_t node : element.nodes)
+          x += 0.25 * contents.nodes[node][0];
+        element.physical = x < border ? 1 : 2;
+      }
+    return contents;
+  }
+
   /// An elastic body without anything that holds or solves it.
   struct Body
   {
@@ -42,10 +59,17 @@ namespace Exemplar::Testing
     {
     }
 
-    std::unique_ptr<ExamplePoses>
-    examples(const ExampleParameters &parameters) const
+    explicit Body(const MshFile &contents)
+        : mesh(contents, "test"), material(MaterialParameters(), mesh.get_material_ids()),
+          fe_space(mesh)
     {
-      return std::make_unique<ExamplePoses>(parameters, mesh, fe_space, material,
+    }
+
+    std::unique_ptr<ExamplePoses>
+    examples(const ExampleParameters &parameters,
+             const StrainMeasure      measure = StrainMeasure::corotational) const
+    {
+      return std::make_unique<ExamplePoses>(parameters, measure, mesh, fe_space, material,
                                             TimeAxis::of_increments(TimeParameters()));
     }
 

@@ -51,7 +51,7 @@ namespace Exemplar::Testing
       EXPECT_LT(max_difference(a.positions, b.positions), 1e-10);
       for (unsigned int i = 0; i < a.weights.size(); ++i)
         EXPECT_NEAR(a.weights[i], b.weights[i], 1e-10);
-      EXPECT_NEAR(a.multiplier, b.multiplier, 1e-10 * std::abs(a.multiplier));
+      EXPECT_NEAR(a.multipliers[0], b.multipliers[0], 1e-10 * std::abs(a.multipliers[0]));
     }
 
     TEST(Equilibrium, ImportanceZeroIsPlainElasticityBitForBit)

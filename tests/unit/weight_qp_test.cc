@@ -52,18 +52,23 @@ namespace Exemplar::Testing
     }
 
     void
-    expect_kkt(const Qp &qp, const WeightQpSolution &solution, const std::vector<double> &lower)
+    expect_kkt(const Qp                  &qp,
+               const WeightQpSolution    &solution,
+               const std::vector<double> &lower,
+               const std::vector<double> &sums = { 1. })
     {
       ASSERT_TRUE(solution.found);
-      double sum = 0., scale = 1.;
+      const unsigned int  group_size = qp.c.size() / sums.size();
+      std::vector<double> found_sums(sums.size());
+      double              scale = 1.;
       for (const double c : qp.c)
         scale = std::max(scale, std::abs(c));
       for (unsigned int i = 0; i < qp.c.size(); ++i)
       {
-        double g = -qp.c[i] + solution.multiplier;
+        double g = -qp.c[i] + solution.multipliers[i / group_size];
         for (unsigned int j = 0; j < qp.c.size(); ++j)
           g += qp.H(i, j) * solution.weights[j];
-        sum += solution.weights[i];
+        found_sums[i / group_size] += solution.weights[i];
         EXPECT_GE(solution.weights[i], lower[i]);
         EXPECT_GE(g, -1e-10 * scale);
         if (solution.weights[i] > lower[i])
@@ -71,7 +76,8 @@ namespace Exemplar::Testing
           EXPECT_NEAR(g, 0., 1e-10 * scale);
         }
       }
-      EXPECT_NEAR(sum, 1., 1e-12);
+      for (unsigned int group = 0; group < sums.size(); ++group)
+        EXPECT_NEAR(found_sums[group], sums[group], 1e-12);
     }
 
     TEST(WeightQp, EqualsBruteForceOverActiveSets)
@@ -82,7 +88,7 @@ namespace Exemplar::Testing
         const unsigned int        k  = 1 + sample % 5;
         const Qp                  qp = random_qp(generator, k, k, 1e-3);
         const std::vector<double> lower(k, 0.);
-        const auto                found = minimize_over_weights(qp.H, qp.c, 1., lower);
+        const auto                found = minimize_over_weights(qp.H, qp.c, { 1. }, lower);
         expect_kkt(qp, found, lower);
 
         // every subset of free weights, the others 0: the least value among the feasible
@@ -100,7 +106,7 @@ namespace Exemplar::Testing
             for (unsigned int j = 0; j < free.size(); ++j)
               part.H(i, j) = qp.H(free[i], free[j]);
           }
-          const auto w = minimize_over_weights(part.H, part.c, 1., {}).weights;
+          const auto w = minimize_over_weights(part.H, part.c, { 1. }, {}).weights;
           if (*std::min_element(w.begin(), w.end()) >= 0.)
             least = std::min(least, value(part, w));
         }
@@ -115,7 +121,18 @@ namespace Exemplar::Testing
       for (int sample = 0; sample < 5; ++sample)
       {
         const Qp qp = random_qp(generator, 64, 10, 1e-6);
-        expect_kkt(qp, minimize_over_weights(qp.H, qp.c, 1., lower), lower);
+        expect_kkt(qp, minimize_over_weights(qp.H, qp.c, { 1. }, lower), lower);
+      }
+    }
+
+    TEST(WeightQp, GroupsKeepTheirOwnSums)
+    {
+      std::mt19937              generator(4);
+      const std::vector<double> lower(12, 0.), sums = { 1., 0.5, 2. };
+      for (int sample = 0; sample < 50; ++sample)
+      {
+        const Qp qp = random_qp(generator, 12, 12, 1e-3);
+        expect_kkt(qp, minimize_over_weights(qp.H, qp.c, sums, lower), lower, sums);
       }
     }
 
@@ -128,7 +145,7 @@ namespace Exemplar::Testing
       std::vector<double>       lower;
       for (const double weight : w)
         lower.push_back(-weight);
-      const auto step = minimize_over_weights(qp.H, qp.c, 0., lower);
+      const auto step = minimize_over_weights(qp.H, qp.c, { 0. }, lower);
       ASSERT_TRUE(step.found);
       double sum = 0.;
       for (unsigned int i = 0; i < 4; ++i)
@@ -143,11 +160,11 @@ namespace Exemplar::Testing
     {
       dealii::FullMatrix<double> H(2, 2);
       H(0, 0) = H(1, 1) = -1.;
-      EXPECT_FALSE(minimize_over_weights(H, { 1., 2. }, 1., {}).found);
+      EXPECT_FALSE(minimize_over_weights(H, { 1., 2. }, { 1. }, {}).found);
       // indefinite, but positive definite on differences: that is enough
       H(0, 0) = H(1, 1) = 0.;
       H(0, 1) = H(1, 0) = -1.;
-      EXPECT_TRUE(minimize_over_weights(H, { 1., 2. }, 1., {}).found);
+      EXPECT_TRUE(minimize_over_weights(H, { 1., 2. }, { 1. }, {}).found);
     }
   } // namespace
 } // namespace Exemplar::Testing

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/errors.h>
+#include <exemplar/example_poses.h>
+
+#include <deal.II/lac/lapack_full_matrix.h>
+
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+// Examples that are combinations of others: their weights are not determined.
+
+namespace Exemplar
+{
+  namespace
+  {
+    /// Ratio of the greatest to the least eigenvalue of a positive semidefinite matrix,
+    /// whose rows and columns are first scaled to a diagonal of ones.
+    double
+    condition_number(const dealii::FullMatrix<double> &matrix)
+    {
+      const unsigned int               n = matrix.m();
+      dealii::LAPACKFullMatrix<double> scaled(n, n);
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j < n; ++j)
+          scaled(i, j) = matrix(i, j) / std::sqrt(matrix(i, i) * matrix(j, j));
+      dealii::Vector<double>     values(n);
+      dealii::FullMatrix<double> vectors;
+      scaled.compute_eigenvalues_symmetric(-1., 2. * n, 0., values, vectors);
+      return values[0] > 0. ? values[n - 1] / values[0] : std::numeric_limits<double>::infinity();
+    }
+
+    /// The row at which Cholesky's factorisation finds the least pivot relative to its
+    /// diagonal entry: that depends most on the rows before it.
+    struct LeastPivot
+    {
+      unsigned int row   = 0;
+      double       ratio = 1.;
+    };
+
+    LeastPivot
+    least_pivot(const dealii::FullMatrix<double> &matrix, const double rounding)
+    {
+      const unsigned int         n = matrix.m();
+      dealii::FullMatrix<double> L(n, n);
+      LeastPivot                 least;
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j <= i; ++j)
+        {
+          double value = matrix(i, j);
+          for (unsigned int m = 0; m < j; ++m)
+            value -= L(i, m) * L(j, m);
+          if (i != j)
+          {
+            L(i, j) = value / L(j, j);
+            continue;
+          }
+          const double ratio = value > rounding ? value / matrix(i, i) : 0.;
+          if (ratio < least.ratio)
+            least = { i, ratio };
+          if (ratio < 1e-14)
+            return { i, 0. };
+          L(i, i) = std::sqrt(value);
+        }
+      return least;
+    }
+  } // namespace
+
+  void
+  ExamplePoses::check_independence(const Material &material)
+  {
+    // the Gram matrix of the differences to each region's first example
+    const unsigned int         n = n_weights() - n_regions(), k = size();
+    dealii::FullMatrix<double> differences(n, n);
+    const auto                 first  = [k](const unsigned int d) { return d / (k - 1) * k; };
+    const auto                 second = [&](const unsigned int d) { return d + d / (k - 1) + 1; };
+    for (unsigned int d = 0; d < n; ++d)
+      for (unsigned int f = 0; f < n; ++f)
+        differences(d, f) = gram(second(d), second(f)) - gram(second(d), first(f))
+                            - gram(first(d), second(f)) + gram(first(d), first(f));
+    // strains of 1e-10 are the rounding of a rest pose
+    const LeastPivot least = least_pivot(differences, 1e-20 * unit_energy(fe_space, material));
+    if (n == 0 || least.ratio > 1e-8)
+      return;
+    const unsigned int example = second(least.row) % k;
+    const std::string  where
+        = regions ? " in region " + std::to_string(regions->material_id(second(least.row) / k))
+                  : "";
+    const std::string which
+        = "Example " + std::to_string(example) + " (" + names[example] + ")" + where;
+    const bool decided = penalty(0, 0) > 0.;
+    if (least.ratio < 1e-12 && !decided)
+      throw UserError(which
+                      + " is an affine combination of the examples before it, so their weights "
+                        "are not determined. Remove it from Examples/Poses or Examples/Pose "
+                        "functions, or set Examples/Weight penalty to auto.");
+    const double       condition = least.ratio > 0. ? condition_number(differences)
+                                                    : std::numeric_limits<double>::infinity();
+    std::ostringstream text;
+    text << which << " is " << (least.ratio < 1e-12 ? "" : "nearly ")
+         << "an affine combination of the examples before it (condition number of their Gram "
+            "matrix: "
+         << condition << "). "
+         << (decided ? "The weight penalty decides between them; remove the example if it is there "
+                       "by mistake."
+                     : "Their weights are sensitive; remove the example, or set Examples/Weight "
+                       "penalty to auto.");
+    warnings.push_back(text.str());
+  }
+} // namespace Exemplar

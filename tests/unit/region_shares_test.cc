@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "body.h"
+
+#include <gtest/gtest.h>
+
+namespace Exemplar::Testing
+{
+  namespace
+  {
+    double
+    share_of(const RegionShares &shares, const unsigned int region, const unsigned int cell)
+    {
+      for (const RegionShares::Share &share : shares.in_cell(cell))
+        if (share.region == region)
+          return share.value;
+      return 0.;
+    }
+
+    double
+    centroid_x(const Body &body, const unsigned int cell)
+    {
+      double x = 0.;
+      for (const unsigned int node : body.fe_space.nodes(cell))
+        x += 0.25 * body.mesh.get_nodes()[node][0];
+      return x;
+    }
+
+    TEST(RegionShares, WithoutLengthACellBelongsToItsRegion)
+    {
+      const Body         body(bar_of_two_regions(1.5));
+      const RegionShares shares(body.fe_space, body.mesh.get_material_ids(), 0.);
+      ASSERT_EQ(shares.n_regions(), 2u);
+      EXPECT_EQ(shares.material_id(1), 2u);
+      for (unsigned int cell = 0; cell < body.fe_space.n_cells(); ++cell)
+        EXPECT_EQ(share_of(shares, 1, cell), centroid_x(body, cell) < 1.5 ? 0. : 1.);
+    }
+
+    TEST(RegionShares, PassIntoEachOtherLikeTheSolutionOfTheFilter)
+    {
+      // in a long bar: 1/2 exp(-d/l) on the far side of the border, l = length / (2 sqrt 3)
+      const double       length = 1.2, l = length / std::sqrt(12.);
+      const Body         body(bar_of_two_regions(2., box_mesh(4., 160, 1)));
+      const RegionShares shares(body.fe_space, body.mesh.get_material_ids(), length);
+      for (unsigned int cell = 0; cell < body.fe_space.n_cells(); ++cell)
+      {
+        const double x = centroid_x(body, cell), far = 0.5 * std::exp(-std::abs(x - 2.) / l);
+        EXPECT_NEAR(share_of(shares, 1, cell), x < 2. ? far : 1. - far, 0.02);
+        EXPECT_NEAR(share_of(shares, 0, cell) + share_of(shares, 1, cell), 1., 1e-14);
+      }
+    }
+
+    TEST(RegionShares, OneRegionIsGlobal)
+    {
+      const Body         body;
+      const RegionShares shares(body.fe_space, body.mesh.get_material_ids(), 1.);
+      for (unsigned int cell = 0; cell < body.fe_space.n_cells(); ++cell)
+        EXPECT_EQ(share_of(shares, 0, cell), 1.);
+    }
+  } // namespace
+} // namespace Exemplar::Testing
