@@ -138,7 +138,9 @@ namespace Exemplar
     State              next = state;
     const unsigned int step = state.step + 1;
     next.step               = step;
-    if (support)
+    // infinitesimal rotations alone leave the linear strain as it is
+    const bool turns_freely = support && parameters.model.strain != StrainMeasure::linear;
+    if (turns_freely)
     {
       turn_to_support(mesh, *support, next.positions);
       equilibrium.start(next);
@@ -149,7 +151,7 @@ namespace Exemplar
     {
       if (inertia != nullptr)
         inertia->end_step(state, next);
-      if (support)
+      if (turns_freely)
       {
         align(state.positions, next.positions);
         equilibrium.start(next);
