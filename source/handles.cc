@@ -26,6 +26,28 @@ namespace Exemplar
                         + "' is not allowed. Allowed: some of x, y, z, separated by commas.");
       return { components.begin(), components.end() };
     }
+
+    std::vector<dealii::Point<3>>
+    read_pose(const Mesh &mesh, const std::string &file, const std::string &key)
+    {
+      try
+      {
+        return mesh.read_pose(file);
+      }
+      catch (const UserError &error)
+      {
+        throw UserError(key + ": " + error.what());
+      }
+    }
+
+    std::vector<dealii::Point<3>>
+    choose(const std::vector<dealii::Point<3>> &all, const std::vector<unsigned int> &nodes)
+    {
+      std::vector<dealii::Point<3>> chosen;
+      for (const unsigned int node : nodes)
+        chosen.push_back(all[node]);
+      return chosen;
+    }
   } // namespace
 
   void
@@ -41,7 +63,30 @@ namespace Exemplar
         "Components", components,
         "The components that are held; fewer than x, y, z make a roller or a plane of "
         "symmetry.");
+    declare_input_file(
+        prm, "Follow pose", follow_pose,
+        "A .msh file with the nodes and tetrahedra of the mesh: the held nodes go to "
+        "their places in this pose, turned and moved rigidly together, instead of "
+        "by Motion.");
+    prm.add_parameter("Progress", progress,
+                      "How far the nodes are on the way to the pose that they follow, a function "
+                      "of t [s]: 0 at rest, 1 in the pose.");
     prm.leave_subsection();
+  }
+
+  void
+  HandleParameters::check() const
+  {
+    const std::string key = "Handles/" + name;
+    if (!follow_pose.empty()
+        && split_trimmed(motion, ';') != split_trimmed(HandleParameters().motion, ';'))
+      throw UserError(key + "/Follow pose and " + key + "/Motion = '" + motion
+                      + "' are both given, but only one of them can say where the nodes go. Remove "
+                        "one of them.");
+    if (follow_pose.empty() && progress != HandleParameters().progress)
+      throw UserError(key + "/Progress = '" + progress + "' is given, but no " + key
+                      + "/Follow pose. Give the pose that is followed, or remove Progress and put "
+                        "the function of t into Motion.");
   }
 
   Handles::Handles(const std::vector<HandleParameters> &parameters,
@@ -50,17 +95,47 @@ namespace Exemplar
       : mesh(mesh)
   {
     for (const HandleParameters &p : parameters)
-    {
-      const std::string key = "Handles/" + p.name;
-      handles.push_back({ p.name, p.select.nodes(mesh, key), parse_components(p.components, key),
-                          Expression(key + "/Motion", p.motion, "xyzt", 3) });
-    }
+      handles.push_back(make_handle(p));
     dealii::Vector<double> anywhere(3 * mesh.n_nodes());
     move(axis.time(0), anywhere); // are the formulas finite?
     move(axis.time(axis.n_steps()), anywhere);
     const std::set<unsigned int> shared = shared_nodes();
     for (unsigned int step = 0; step <= axis.n_steps() && !shared.empty(); ++step)
       check_agreement(shared, axis.time(step));
+    look_for_straight_turns(axis);
+  }
+
+  Handles::Handle
+  Handles::make_handle(const HandleParameters &p) const
+  {
+    p.check();
+    const std::string key = "Handles/" + p.name;
+    Handle            handle{ p.name,
+                   p.select.nodes(mesh, key),
+                   parse_components(p.components, key),
+                   Expression(key + "/Motion", p.motion, "xyzt", 3),
+                   Expression(key + "/Progress", p.progress, "t", 1),
+                   {} };
+    if (!p.follow_pose.empty())
+      handle.path.emplace(
+          rest_positions(handle),
+          choose(read_pose(mesh, p.follow_pose, key + "/Follow pose"), handle.nodes));
+    return handle;
+  }
+
+  std::vector<dealii::Point<3>>
+  Handles::rest_positions(const Handle &handle) const
+  {
+    return choose(mesh.get_nodes(), handle.nodes);
+  }
+
+  dealii::Tensor<1, 3>
+  Handles::Handle::displacement(const unsigned int      point,
+                                const dealii::Point<3> &rest,
+                                const double            time) const
+  {
+    return path ? path->displacement(point, progress.values(rest, time)[0])
+                : motion.vector(rest, time);
   }
 
   std::set<unsigned int>
@@ -85,12 +160,13 @@ namespace Exemplar
     };
     std::map<unsigned int, Target> targets;
     for (unsigned int h = 0; h < handles.size(); ++h)
-      for (const unsigned int node : handles[h].nodes)
+      for (unsigned int point = 0; point < handles[h].nodes.size(); ++point)
       {
+        const unsigned int node = handles[h].nodes[point];
         if (shared.count(node) == 0)
           continue;
         const dealii::Tensor<1, 3> displacement
-            = handles[h].displacement.vector(mesh.get_nodes()[node], time);
+            = handles[h].displacement(point, mesh.get_nodes()[node], time);
         for (const unsigned int c : handles[h].components)
         {
           const auto [first, is_new] = targets.emplace(3 * node + c, Target{ displacement[c], h });
@@ -119,10 +195,11 @@ namespace Exemplar
   Handles::move(const double time, dealii::Vector<double> &positions) const
   {
     for (const Handle &handle : handles)
-      for (const unsigned int node : handle.nodes)
+      for (unsigned int point = 0; point < handle.nodes.size(); ++point)
       {
+        const unsigned int         node         = handle.nodes[point];
         const dealii::Point<3>    &rest         = mesh.get_nodes()[node];
-        const dealii::Tensor<1, 3> displacement = handle.displacement.vector(rest, time);
+        const dealii::Tensor<1, 3> displacement = handle.displacement(point, rest, time);
         for (const unsigned int c : handle.components)
           positions[3 * node + c] = rest[c] + displacement[c];
       }

@@ -270,7 +270,9 @@ namespace Exemplar
   {
     std::vector<std::filesystem::path> files;
     for (const DeclaredKey &key : keys())
-      if (key.is_input_file)
+      if (key.path() == "Examples/Poses" && !examples.in_use())
+        continue; // with importance 0 the poses need not be there
+      else if (key.is_input_file)
         for (const std::string &file : split_trimmed(key.value, key.is_list ? ',' : '\n'))
           files.emplace_back(file);
       else if (key.key == "Select" && key.value.compare(0, 6, "nodes ") == 0)

@@ -197,6 +197,8 @@ namespace Exemplar
   Problem::warnings() const
   {
     std::vector<std::string> all = mesh.get_warnings();
+    if (handles != nullptr)
+      all.insert(all.end(), handles->get_warnings().begin(), handles->get_warnings().end());
     if (examples != nullptr)
       all.insert(all.end(), examples->get_warnings().begin(), examples->get_warnings().end());
     return all;

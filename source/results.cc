@@ -27,15 +27,9 @@ namespace Exemplar
     std::map<std::string, std::string>
     digests_of(const Parameters &parameters)
     {
-      const ExampleParameters           &examples = parameters.examples;
       std::map<std::string, std::string> digests;
       for (const fs::path &file : parameters.input_files())
-      {
-        const bool is_pose
-            = std::find(examples.poses.begin(), examples.poses.end(), file) != examples.poses.end();
-        if (examples.in_use() || !is_pose) // with importance 0 the poses need not be there
-          digests[file.string()] = sha256(file);
-      }
+        digests[file.string()] = sha256(file);
       return digests;
     }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/polar_decomposition.h>
+#include <exemplar/rigid_motion.h>
 #include <exemplar/supports.h>
 
 #include <deal.II/lac/full_matrix.h>
@@ -12,63 +12,24 @@ namespace Exemplar
 {
   namespace
   {
-    dealii::Point<3>
-    centroid(const std::vector<dealii::Point<3>> &nodes)
-    {
-      dealii::Point<3> sum;
-      for (const dealii::Point<3> &x : nodes)
-        sum += x;
-      return dealii::Point<3>(sum / static_cast<double>(nodes.size()));
-    }
-
-    dealii::Point<3>
-    node_of(const dealii::Vector<double> &positions, const unsigned int node)
-    {
-      return { positions[3 * node], positions[3 * node + 1], positions[3 * node + 2] };
-    }
-
     std::vector<dealii::Point<3>>
     nodes_of(const dealii::Vector<double> &positions)
     {
       std::vector<dealii::Point<3>> nodes;
-      for (unsigned int node = 0; node < positions.size() / 3; ++node)
-        nodes.push_back(node_of(positions, node));
+      for (unsigned int dof = 0; dof < positions.size(); dof += 3)
+        nodes.emplace_back(positions[dof], positions[dof + 1], positions[dof + 2]);
       return nodes;
-    }
-
-    /// y = to + R (x - from).
-    struct RigidMotion
-    {
-      dealii::Point<3> from, to;
-      Matrix3<double>  rotation;
-    };
-
-    /// The motion that brings points nearest to reference points.
-    RigidMotion
-    motion_to(const dealii::Vector<double> &reference, const dealii::Vector<double> &points)
-    {
-      RigidMotion motion{ centroid(nodes_of(points)), centroid(nodes_of(reference)), {} };
-      for (unsigned int node = 0; node < points.size() / 3; ++node)
-      {
-        const dealii::Tensor<1, 3> p = node_of(reference, node) - motion.to;
-        const dealii::Tensor<1, 3> q = node_of(points, node) - motion.from;
-        for (int i = 0; i < 3; ++i)
-          for (int j = 0; j < 3; ++j)
-            motion.rotation[i][j] += p[i] * q[j];
-      }
-      motion.rotation = closest_rotation(motion.rotation);
-      return motion;
     }
 
     void
     move_rigidly(const RigidMotion &motion, dealii::Vector<double> &positions)
     {
-      const Matrix3<double> &R = motion.rotation;
-      for (unsigned int node = 0; node < positions.size() / 3; ++node)
+      const std::vector<dealii::Point<3>> nodes = nodes_of(positions);
+      for (unsigned int node = 0; node < nodes.size(); ++node)
       {
-        const dealii::Tensor<1, 3> q = node_of(positions, node) - motion.from;
-        for (int i = 0; i < 3; ++i)
-          positions[3 * node + i] = motion.to[i] + R[i][0] * q[0] + R[i][1] * q[1] + R[i][2] * q[2];
+        const dealii::Point<3> moved = motion(nodes[node]);
+        for (unsigned int c = 0; c < 3; ++c)
+          positions[3 * node + c] = moved[c];
       }
     }
 
@@ -170,19 +131,19 @@ namespace Exemplar
                   const StaticallyDeterminateSupport &support,
                   dealii::Vector<double>             &positions)
   {
-    const auto            &cell = mesh.get_cells()[support.cell];
-    dealii::Vector<double> rest(12), current(12);
-    for (unsigned int i = 0; i < 12; ++i)
+    const std::vector<dealii::Point<3>> nodes = nodes_of(positions);
+    std::vector<dealii::Point<3>>       rest, current;
+    for (const unsigned int node : mesh.get_cells()[support.cell])
     {
-      rest[i]    = mesh.get_nodes()[cell[i / 3]][i % 3];
-      current[i] = positions[3 * cell[i / 3] + i % 3];
+      rest.push_back(mesh.get_nodes()[node]);
+      current.push_back(nodes[node]);
     }
-    move_rigidly(motion_to(rest, current), positions);
+    move_rigidly(best_rigid_motion(current, rest), positions);
   }
 
   void
   align(const dealii::Vector<double> &reference, dealii::Vector<double> &positions)
   {
-    move_rigidly(motion_to(reference, positions), positions);
+    move_rigidly(best_rigid_motion(nodes_of(positions), nodes_of(reference)), positions);
   }
 } // namespace Exemplar

@@ -66,7 +66,7 @@ namespace Exemplar
     std::vector<DeclaredKey>
     keys() const;
 
-    /// The input files that the scene names.
+    /// The input files that the scene needs.
     std::vector<std::filesystem::path>
     input_files() const;
 

@@ -194,6 +194,23 @@ SCENES = [
      ["Solver/Method = newton", "Model/Gradient = consistent"]),
     ("umfpack with newton", {**BAR, "Solver/Linear solver": "umfpack"},
      ["Solver/Linear solver = umfpack", "cholesky"]),
+    ("pose to follow and a motion",
+     {**BAR, "Handles/left/Follow pose": "bar.msh", "Handles/left/Motion": "0; 0; t"},
+     ["Handles/left/Follow pose and Handles/left/Motion = '0; 0; t'", "only one", "Remove"]),
+    ("progress without a pose to follow", {**BAR, "Handles/left/Progress": "t^2"},
+     ["Handles/left/Progress = 't^2'", "no Handles/left/Follow pose", "remove Progress"]),
+    ("progress that depends on x",
+     {**BAR, "Handles/left/Follow pose": "bar.msh", "Handles/left/Progress": "x*t"},
+     ["Handles/left/Progress", "'x*t'", "variables t"]),
+    ("progress that gives inf",
+     {**BAR, "Handles/left/Follow pose": "bar.msh", "Handles/left/Progress": "1/t"},
+     ["Handles/left/Progress", "'1/t'", "not finite at t = 0"]),
+    ("no pose to follow", {**BAR, "Handles/left/Follow pose": "absent.msh"},
+     ["Handles/left/Follow pose", "/absent.msh", "cannot be opened"]),
+    ("pose to follow is a directory", {**BAR, "Handles/left/Follow pose": "a directory"},
+     ["Handles/left/Follow pose", "/a directory", "directory"]),
+    ("pose to follow of another mesh", {**BAR, "Handles/left/Follow pose": "small.msh"},
+     ["Handles/left/Follow pose", "/small.msh", "8 nodes, the mesh has 12", "final.msh"]),
     ("unbalanced formula", {**BAR, "Handles/left/Motion": "(t; 0; 0"},
      ["Handles/left/Motion", "'(t'", "not understood"]),
     ("formula that gives nan", {**BAR, "Handles/left/Motion": "sqrt(-1-x); 0; 0"},
@@ -326,6 +343,7 @@ class BadInputs(SceneTest):
         weights = {"Examples/Prescribed weights": "1-t; t"}
         for scene in (BAR, FREE, {**PRESCRIBED, **weights}, DYNAMIC, INTERPOLATION, LOADED,
                       {**FILE, "Mesh/File": "bar.msh"}, {**BAR, "Initial/Pose": "bar.msh"},
+                      {**BAR, "Handles/left/Follow pose": "bar.msh"},
                       {**TWO_HANDLES, "Handles/right/Select": "boundary 2"}):
             with self.subTest(scene):
                 self.write("scene.prm", prm(scene))
@@ -341,8 +359,12 @@ class BadInputs(SceneTest):
                    ["locked/out", "no right to write", "--output"], self.tree())
 
     def test_resume_of_a_changed_scene(self):
-        scene = {**FILE, "Mesh/File": "bar.msh", "Handles/left/Select": "nodes held.txt"}
+        # the pose is an example, too, but not in use
+        scene = {**FILE, "Mesh/File": "bar.msh", "Handles/left/Select": "nodes held.txt",
+                 "Handles/left/Follow pose": "pose.msh",
+                 "Examples/Poses": "pose.msh", "Examples/Importance": "0"}
         nodes = read_msh(self.directory / "bar.msh").nodes
+        self.write("pose.msh", (self.directory / "bar.msh").read_text())
         self.write("held.txt", "\n".join(str(n) for n, x in nodes.items() if x[0] == 0))
         good = prm(scene)
         self.solve(good)
@@ -354,11 +376,11 @@ class BadInputs(SceneTest):
 
         refused(["Material/Density was '1000' and is now '1001'", "Change it back",
                  "Only Time/End"], prm({**scene, "Material/Density": "1001"}))
-        refused(["Handles/left/Motion was '0; 0; 0' and is now '0; 0; t'"],
-                prm({**scene, "Handles/left/Motion": "0; 0; t"}))
+        refused(["Handles/left/Progress was 't' and is now 't^2'"],
+                prm({**scene, "Handles/left/Progress": "t^2"}))
         refused(["Material/region 1/Density was '(absent)' and is now '1000'"],
                 prm({**scene, "Material/region 1/Density": "1000"}))
-        for file in ("bar.msh", "held.txt"):
+        for file in ("bar.msh", "held.txt", "pose.msh"):
             original = (self.directory / file).read_text()
             self.write(file, original + "\n")
             refused([f"/{file} has changed"])

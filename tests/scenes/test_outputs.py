@@ -268,7 +268,7 @@ class Outputs(SceneTest):
             "Examples/": ["Poses", "Pose functions", "Include rest pose", "Importance",
                           "Weight penalty", "Energy", "Weights", "Prescribed weights"],
             "Handles/": ["Names"],
-            "Handles/NAME/": ["Select", "Motion", "Components"],
+            "Handles/NAME/": ["Select", "Motion", "Components", "Follow pose", "Progress"],
             "Loads/": ["Gravity", "Names"],
             "Loads/NAME/": ["Select", "Force"],
             "Initial/": ["Pose", "Pose function", "Velocity"],

@@ -178,6 +178,33 @@ class Physics(SceneTest):
             self.assertGreater(greatest_distance(nodes, read_msh(
                 self.directory / "rest.msh").nodes), 0.2)
 
+    def test_a_free_body_follows_a_turned_handle(self):
+        angle = math.radians(157)
+
+        def turned(x, y, z):
+            return (math.cos(angle) * x + math.sin(angle) * z + 1, y - 2,
+                    math.cos(angle) * z - math.sin(angle) * x)
+
+        (self.directory / "poses").mkdir()
+        pose = self.write_box(BLOCK, "poses/turned.msh", turned).nodes
+        scene = {**BLOCK, "Scene": "static", "Time/Increments": "3", "Handles/Names": "end",
+                 "Handles/end/Select": "boundary 1"}
+        output = self.solve({**scene, "Handles/end/Follow pose": "poses/turned.msh"})
+        self.assertLess(greatest_distance(read_msh(output / "final.msh").nodes, pose), 1e-9)
+        # again from what has been written down
+        again = self.call(output / "parameters.prm", "--output", "again", "--quiet")
+        self.assertEqual((again.status, again.stderr), (0, ""))
+        self.assertEqual((self.directory / "again/final.msh").read_bytes(),
+                         (output / "final.msh").read_bytes())
+
+        # on straight lines it is warned of
+        straight = (f"t*({math.cos(angle)}*x+{math.sin(angle)}*z+1-x); -2*t; "
+                    f"t*({math.cos(angle)}*z-{math.sin(angle)}*x-z)")
+        run = self.attempt({**scene, "Handles/end/Motion": straight}, "--validate")
+        self.assertEqual(run.status, 0)
+        self.assertRegex(run.stderr, r"^Warning: Handles/end/Motion .* 157 degrees .*"
+                                     r"Handles/end/Follow pose.*\n$")
+
     def test_umfpack_and_cholesky_agree(self):
         scene = {**STRETCHED, "Examples/Pose functions": f"1.2*x; y; z | {BENT}",
                  "Loads/Gravity": "0, 0, -1", "Material/Poisson's ratio": "0.3",
