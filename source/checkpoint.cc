@@ -29,8 +29,8 @@ namespace Exemplar
       RunTotals &totals = checkpoint.totals;
       archive &checkpoint.parameters &checkpoint.input_digests;
       archive &state.step &state.time &state.positions &state.velocities &state
-          .previous_positions &state.previous_velocities &state.previous_step &state.weights &state
-          .multipliers;
+          .previous_positions &state.previous_velocities &state.previous_step &state
+          .linearized_positions &state.linearized_weights &state.weights &state.multipliers;
       archive &work.handles &work.gravity &work.loads;
       archive &totals.iterations &totals.factorizations &totals.worst_residual;
       for (double &seconds : totals.seconds)

@@ -24,6 +24,7 @@ namespace Exemplar
     app.add_option("--output", output, "directory of the results instead of Output/Directory");
     app.add_flag("--resume", options.resume, "go on from the checkpoint in the output directory");
     app.add_flag("--quiet", options.quiet, "print warnings and errors only");
+    app.add_flag("--verbose", options.verbose, "print a line an iteration");
     app.add_flag("--validate", validate, "check the scene and its files, compute nothing");
     app.add_flag("--print-parameters", print, "every parameter, its default, range and meaning");
     try

@@ -82,12 +82,31 @@ namespace Exemplar
       return text.str();
     }
 
+    /// A line for what an iteration has come to.
+    void
+    print_iteration(const Problem &problem, const SolveReport &report)
+    {
+      std::ostringstream line;
+      line << "step " << problem.state.step + 1 << ", iteration " << report.iterations
+           << std::scientific << std::setprecision(2) << ": residual " << report.residual;
+      if (!problem.state.multipliers.empty())
+        line << ", weights' " << report.kkt_residual;
+      if (report.step_length < 1.)
+        line << ", step halved to " << report.step_length;
+      if (report.tangent == Tangent::convex)
+        line << ", convex tangent";
+      std::cout << line.str() << std::endl;
+    }
+
     [[noreturn]] void
     fail(const Problem &problem, const SolveReport &report)
     {
       const std::string step = std::to_string(problem.state.step + 1);
-      if (report.status == SolveStatus::failed)
-        throw SolverFailure("Step " + step + " failed: " + report.failure);
+      if (report.status == SolveStatus::failed || report.status == SolveStatus::indefinite)
+        throw SolverFailure(
+            "Step " + step
+            + (report.status == SolveStatus::failed ? " failed: " : " has no descent: ")
+            + report.failure);
       std::ostringstream message;
       message
           << "Step " << step
@@ -145,7 +164,11 @@ namespace Exemplar
       print_header(*problem);
     }
 
-    Progress progress(std::cout, options.quiet, problem->state.step, problem->time_axis.n_steps());
+    if (options.verbose)
+      problem->equilibrium.observe_iteration
+          = [&problem](const SolveReport &report) { print_iteration(*problem, report); };
+    Progress progress(std::cout, options.quiet || options.verbose, problem->state.step,
+                      problem->time_axis.n_steps());
     try
     {
       run_steps(*problem, results, progress);
@@ -161,6 +184,11 @@ namespace Exemplar
     results.finish(status_name(parameters.solver.method == Method::one_pass
                                    ? SolveStatus::one_pass
                                    : SolveStatus::converged));
+    if (const unsigned int inverted = problem->equilibrium.evaluation().inverted_cells)
+      std::cerr << "Warning: " << inverted
+                << " cells are inverted at the end. The state is an equilibrium, but there may be "
+                   "one of less energy: look at the frames, or take smaller steps."
+                << std::endl;
     if (!options.quiet)
       print_times(results.get_totals());
   }

@@ -23,6 +23,7 @@ namespace Exemplar
                                               { SolveStatus::converged, "converged" },
                                               { SolveStatus::one_pass, "one pass" },
                                               { SolveStatus::stalled, "stalled" },
+                                              { SolveStatus::indefinite, "indefinite" },
                                               { SolveStatus::iteration_limit, "iteration limit" },
                                               { SolveStatus::failed, "failed" } };
 
@@ -194,6 +195,7 @@ namespace Exemplar
     }
     StepClock::Scope scope(parts.clock, Part::factorize);
     ++factorizations;
+    has_last_factor = false;
     parts.linear_solver.factorize(block);
   }
 
@@ -242,11 +244,14 @@ namespace Exemplar
     double greatest = 0.;
     for (const unsigned int dof : parts.free_dofs.list())
       greatest = greater(std::abs(total_gradient[dof]), greatest);
-    report.residual
-        = relative(greatest, force_scale.linfty_norm(), parts.assembler.rounding_force());
+    const double rounding
+        = parts.assembler.rounding_force() + (dynamic_terms ? parts.inertia->rounding_force() : 0.);
+    report.residual = relative(greatest, force_scale.linfty_norm(), rounding);
     if (!current.weight_gradient.empty())
       measure_weights(state, report);
     report.residual_history.push_back(report.residual);
+    if (observe_iteration)
+      observe_iteration(report);
   }
 
   void

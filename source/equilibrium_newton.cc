@@ -81,27 +81,31 @@ namespace Exemplar
   }
 
   bool
-  Equilibrium::find_newton_step(const State &state)
+  Equilibrium::find_newton_step(const State &state, SolveReport &report)
   {
     for (const Tangent tangent : { Tangent::exact, Tangent::convex })
     {
+      report.tangent = tangent;
       try
       {
         factorize(state.positions, state.weights, tangent);
         solve_for_step(state);
       }
-      catch (const SolverFailure &)
+      catch (const SolverFailure &failure)
       {
+        report.failure = failure.what();
         continue; // indefinite
       }
+      report.failure.clear();
       if (step_slope() < 0.)
         return true;
     }
+    report.status = report.failure.empty() ? SolveStatus::stalled : SolveStatus::indefinite;
     return false;
   }
 
   bool
-  Equilibrium::search_along_step(State &state)
+  Equilibrium::search_along_step(State &state, SolveReport &report)
   {
     const State                  start        = state;
     const std::vector<double>    step         = unknowns.positions;
@@ -116,7 +120,7 @@ namespace Exemplar
         norm = std::max(norm, std::abs(gradient[dof]));
       return norm;
     };
-    double length = 1.;
+    double &length = report.step_length = 1.;
     for (unsigned int halving = 0; halving < most_halvings_of_step; ++halving, length *= 0.5)
     {
       state = start;
@@ -129,6 +133,7 @@ namespace Exemplar
     }
     state = start;
     evaluate_with_best_weights(state);
+    report.status = SolveStatus::stalled;
     return false;
   }
 
@@ -151,34 +156,59 @@ namespace Exemplar
     predict_along_tangent(accepted, trial);
   }
 
+  bool
+  Equilibrium::find_last_factor(const State &accepted)
+  {
+    // the exact tangent of the last iteration is next to that of the accepted state; a
+    // resumed run makes it anew
+    if (accepted.linearized_positions.size() == 0)
+      return false;
+    if (!has_last_factor)
+    {
+      parts.assembler.update_rotations(accepted.linearized_positions);
+      factorize(accepted.linearized_positions, accepted.linearized_weights, Tangent::exact);
+      has_last_factor = true;
+    }
+    return true;
+  }
+
+  bool
+  Equilibrium::solve_for_prediction(const State                  &accepted,
+                                    const dealii::Vector<double> &displacement,
+                                    const Tangent                 tangent)
+  {
+    try
+    {
+      const bool has_factor = tangent == Tangent::exact && find_last_factor(accepted);
+      parts.assembler.update_rotations(accepted.positions);
+      parts.assembler.evaluate(accepted.positions, accepted.weights, current);
+      parts.assembler.add_response_beside_held_nodes(tangent, displacement, accepted.positions,
+                                                     accepted.weights, current);
+      add_inertia_and_loads(accepted);
+      if (!has_factor)
+        factorize(accepted.positions, accepted.weights, tangent);
+      solve_for_step(accepted);
+      return true;
+    }
+    catch (const SolverFailure &)
+    {
+      return false; // indefinite
+    }
+  }
+
   void
   Equilibrium::predict_along_tangent(const State &accepted, State &trial)
   {
     // so that free nodes move with the handles instead of being crushed by them
-    parts.assembler.update_rotations(accepted.positions);
-    parts.assembler.evaluate(accepted.positions, trial.weights, current);
     if (parts.handles != nullptr)
       parts.handles->move(trial.time, trial.positions);
     dealii::Vector<double> displacement = trial.positions;
     displacement -= accepted.positions;
-    State at                = accepted;
-    at.weights              = trial.weights;
-    const Evaluation before = current;
-    for (const Tangent tangent : { Tangent::exact, Tangent::convex })
-      try
-      {
-        current = before;
-        parts.assembler.add_response_beside_held_nodes(tangent, displacement, at.positions,
-                                                       at.weights, current);
-        add_inertia_and_loads(at);
-        factorize(at.positions, at.weights, tangent);
-        solve_for_step(at);
-        add_step(trial);
-        return;
-      }
-      catch (const SolverFailure &)
-      {
-      } // indefinite: the convex tangent is not
+    State at   = accepted;
+    at.weights = trial.weights; // prescribed ones are those of the new time
+    if (solve_for_prediction(at, displacement, Tangent::exact)
+        || solve_for_prediction(at, displacement, Tangent::convex))
+      add_step(trial);
   }
 
   void
@@ -193,12 +223,27 @@ namespace Exemplar
         report.status = SolveStatus::converged;
       else if (iteration == parameters.maximum_iterations)
         report.status = SolveStatus::iteration_limit;
-      else if (!find_newton_step(state) || !search_along_step(state))
-        report.status = SolveStatus::stalled;
+      else
+        take_newton_step(state, report);
       if (report.status != SolveStatus::initial)
         return;
       ++report.iterations;
     }
+  }
+
+  void
+  Equilibrium::take_newton_step(State &state, SolveReport &report)
+  {
+    dealii::Vector<double> positions = state.positions;
+    std::vector<double>    weights   = state.weights;
+    if (!find_newton_step(state, report) || !search_along_step(state, report))
+      return;
+    // what the factor is of, if the next step may predict with it
+    has_last_factor = !dynamic_terms && report.tangent == Tangent::exact;
+    if (!has_last_factor)
+      positions.reinit(0);
+    state.linearized_positions = std::move(positions);
+    state.linearized_weights   = std::move(weights);
   }
 
   bool
@@ -225,6 +270,7 @@ namespace Exemplar
       state = trial;
       return true;
     }
+    state.linearized_positions.reinit(0); // the factor is that of a failed trial
     if (halvings == most_halvings_of_increment)
       return false;
     // from the accepted state again, with half the way of handles, loads and weights

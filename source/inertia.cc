@@ -34,6 +34,7 @@ namespace Exemplar
     for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
       density[cell] = material.density(cell);
     fe_space.compute_mass_matrix(density, mass);
+    greatest_mass = mass.linfty_norm(); // the greatest sum of a row
     if (kind == MassMatrix::lumped)
       lump(mass);
   }

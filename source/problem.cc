@@ -166,6 +166,7 @@ namespace Exemplar
   Problem::resume_from(const State &earlier)
   {
     state = earlier;
+    equilibrium.forget_factor();
     equilibrium.start(state);
   }
 

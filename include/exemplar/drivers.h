@@ -13,8 +13,9 @@ namespace Exemplar
   {
     std::filesystem::path    scene_file;
     std::vector<std::string> overrides; ///< "Section/Key=value"
-    bool                     resume = false;
-    bool                     quiet  = false;
+    bool                     resume  = false;
+    bool                     quiet   = false;
+    bool                     verbose = false; ///< a line an iteration instead of the bar
   };
 
   /// Solve a scene from its first (or, resumed, its next) step to the last and write

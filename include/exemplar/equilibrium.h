@@ -12,6 +12,7 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -49,6 +50,7 @@ namespace Exemplar
     converged,
     one_pass,
     stalled,
+    indefinite,
     iteration_limit,
     failed
   };
@@ -76,7 +78,9 @@ namespace Exemplar
     double              residual     = 0.; ///< relative, doc/method.md Eq. (13)
     double              kkt_residual = 0.; ///< of the weights, relative, Eq. (13)
     std::vector<double> residual_history;  ///< one entry an iteration
-    std::string         failure;           ///< why, if the status is `failed`
+    double              step_length = 1.;  ///< of the last step, as the line search left it
+    Tangent             tangent     = Tangent::exact; ///< of the last factorisation
+    std::string         failure; ///< why, if the status is `failed` or `indefinite`
   };
 
   /// Finds positions and example weights at the end of a step: statics,
@@ -99,6 +103,9 @@ namespace Exemplar
     };
 
     Equilibrium(const SolverParameters &parameters, const Parts &parts);
+
+    /// Called after the evaluation of every iteration; for those who want to watch.
+    std::function<void(const SolveReport &)> observe_iteration;
 
     /// Evaluate at a state that no solve has led to: before the first step, after a
     /// resume, and after a state was moved rigidly.
@@ -124,6 +131,13 @@ namespace Exemplar
     gradient() const
     {
       return total_gradient;
+    }
+
+    /// The next step must make its factor from the state alone, as after a resume.
+    void
+    forget_factor()
+    {
+      has_last_factor = false;
     }
 
     /// Factorisations so far.
@@ -181,14 +195,25 @@ namespace Exemplar
     void
     predict_along_tangent(const State &accepted, State &trial);
 
+    bool
+    solve_for_prediction(const State                  &accepted,
+                         const dealii::Vector<double> &displacement,
+                         Tangent                       tangent);
+
+    bool
+    find_last_factor(const State &accepted);
+
     void
     iterate_newton(State &state, SolveReport &report);
 
-    bool
-    find_newton_step(const State &state);
+    void
+    take_newton_step(State &state, SolveReport &report);
 
     bool
-    search_along_step(State &state);
+    find_newton_step(const State &state, SolveReport &report);
+
+    bool
+    search_along_step(State &state, SolveReport &report);
 
     void
     evaluate_with_best_weights(State &state);
@@ -216,6 +241,7 @@ namespace Exemplar
     double                 current_objective = 0.;    ///< of Newton's method [J]
     bool                   dynamic_terms     = false; ///< within a step of a dynamic scene
     unsigned int           factorizations    = 0;
+    bool                   has_last_factor   = false; ///< that of State::linearized_positions
   };
 } // namespace Exemplar
 

@@ -11,6 +11,7 @@
 #include <deal.II/lac/sparse_matrix.h>
 #include <deal.II/lac/vector.h>
 
+#include <limits>
 #include <vector>
 
 namespace Exemplar
@@ -57,6 +58,14 @@ namespace Exemplar
     double
     step_energy(const dealii::Vector<double> &positions) const;
 
+    /// A nodal force [N] that is nothing but the rounding of x - x_hat.
+    double
+    rounding_force() const
+    {
+      return 4. * std::numeric_limits<double>::epsilon() * predicted.linfty_norm() * greatest_mass
+             * matrix_factor();
+    }
+
     /// x_hat, where the body would be without forces.
     const dealii::Vector<double> &
     predicted_positions() const
@@ -102,12 +111,13 @@ namespace Exemplar
     dealii::SparsityPattern      pattern;
     dealii::SparseMatrix<double> mass;
     const TimeScheme             scheme;
-    const double                 mass_damping;      ///< [1/s]
-    const double                 stiffness_damping; ///< [s]
-    double                       step_size  = 0.;
-    double                       gamma      = 0.; ///< [1/s]
-    double                       c_last     = 1.; ///< x_star = c_last x_n + c_previous x_(n-1)
-    double                       c_previous = 0.;
+    const double                 mass_damping;       ///< [1/s]
+    const double                 stiffness_damping;  ///< [s]
+    double                       greatest_mass = 0.; ///< of a node, its row's sum [kg]
+    double                       step_size     = 0.;
+    double                       gamma         = 0.; ///< [1/s]
+    double                       c_last        = 1.; ///< x_star = c_last x_n + c_previous x_(n-1)
+    double                       c_previous    = 0.;
     dealii::Vector<double>       base;      ///< x_star
     dealii::Vector<double>       predicted; ///< x_hat
   };

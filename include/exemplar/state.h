@@ -28,14 +28,16 @@ namespace Exemplar
   struct State
   {
     unsigned int           step = 0;
-    double                 time = 0.;           ///< [s]
-    dealii::Vector<double> positions;           ///< [m], by degree of freedom 3 i + c
-    dealii::Vector<double> velocities;          ///< [m/s]; empty unless dynamic
-    dealii::Vector<double> previous_positions;  ///< before the last step; empty unless
-    dealii::Vector<double> previous_velocities; ///< the time scheme has two steps
-    double                 previous_step = 0.;  ///< size of the last step [s]; 0: none
-    std::vector<double>    weights;             ///< of the examples; empty without examples
-    std::vector<double>    multipliers;         ///< of each region's sum of weights to find [J]
+    double                 time = 0.;            ///< [s]
+    dealii::Vector<double> positions;            ///< [m], by degree of freedom 3 i + c
+    dealii::Vector<double> velocities;           ///< [m/s]; empty unless dynamic
+    dealii::Vector<double> previous_positions;   ///< before the last step; empty unless
+    dealii::Vector<double> previous_velocities;  ///< the time scheme has two steps
+    double                 previous_step = 0.;   ///< size of the last step [s]; 0: none
+    dealii::Vector<double> linearized_positions; ///< of the exact tangent that led to
+    std::vector<double>    linearized_weights;   ///< a static state; empty: none did
+    std::vector<double>    weights;              ///< of the examples; empty without examples
+    std::vector<double>    multipliers;          ///< of each region's sum of weights to find [J]
   };
 
   /// The state before the first step: the rest pose or the one that Initial asks

@@ -85,6 +85,11 @@ class Resume(SceneTest):
         self.assertGreater(max(row["weight_2"] for row in rows) -
                            min(row["weight_2"] for row in rows), 0.1)
 
+    def test_killed_scene_of_second_order_with_damping(self):
+        # BDF2 needs the step before, damping its strains
+        self.check_kills({**DYNAMIC, "Time/Scheme": "bdf2", "Time/Stiffness damping": "0.01",
+                          "Time/Mass damping": "0.1"}, [(1, 0.), (20, 0.003)])
+
     def test_killed_static_scene(self):
         self.check_kills(STATIC, [(20, 0.)])
 
