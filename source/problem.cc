@@ -177,12 +177,17 @@ namespace Exemplar
     const bool umfpack     = parameters.solver.linear_solver == LinearSolver::umfpack;
     const std::vector<std::pair<std::string, bool>> all
         = { { "mass matrix", inertia != nullptr },
+            { "second-order time scheme",
+              inertia != nullptr && parameters.time.scheme != TimeScheme::implicit_euler },
+            { "mass damping", inertia != nullptr && parameters.time.mass_damping > 0. },
+            { "stiffness damping", inertia != nullptr && parameters.time.stiffness_damping > 0. },
             { "handles", handles != nullptr },
             { "own support of interpolation", support.has_value() },
             { "gravity", loads != nullptr && loads->has_gravity() },
             { "loads", loads != nullptr && loads->has_named_loads() },
             { "example poses", examples != nullptr },
             { "weight block", has_weights },
+            { "weights per region", examples != nullptr && parameters.examples.weights_per_region },
             { "Schur complement", has_weights && !umfpack },
             { "CHOLMOD", !umfpack },
             { "UMFPACK", umfpack },
