@@ -247,7 +247,7 @@ namespace Exemplar
   {
     material.check();
     examples.check();
-    if (solver.method == Method::newton && model.gradient == GradientKind::frozen)
+    if (solver.method == Method::newton && model.is_frozen())
       throw UserError("Solver/Method = newton needs a force that is the gradient of an energy, but "
                       "Model/Gradient = frozen is not. Set Model/Gradient = consistent, or "
                       "Solver/Method = fixed point.");

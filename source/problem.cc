@@ -106,7 +106,14 @@ namespace Exemplar
   {
     if (support)
       return support->held_dofs;
-    return handles != nullptr ? handles->held_dofs() : std::vector<unsigned int>();
+    if (handles == nullptr)
+      return {};
+    const std::vector<unsigned int> held = handles->held_dofs();
+    if (held.size() == fe_space.n_dofs())
+      throw UserError(parameters.scene_file.string()
+                      + ": the handles hold every node, so there is nothing to solve. Make "
+                        "Handles/NAME/Select smaller.");
+    return held;
   }
 
   void
@@ -203,6 +210,10 @@ namespace Exemplar
   Problem::warnings() const
   {
     std::vector<std::string> all = mesh.get_warnings();
+    if (parameters.model.gradient == GradientKind::frozen && !parameters.model.is_frozen())
+      all.push_back(
+          "Model/Gradient = frozen holds rotations, which this Model/Strain does not have: "
+          "its forces are the gradient of its energy.");
     if (handles != nullptr)
       all.insert(all.end(), handles->get_warnings().begin(), handles->get_warnings().end());
     if (examples != nullptr)
