@@ -2,6 +2,7 @@
 #include <exemplar/command_line.h>
 #include <exemplar/drivers.h>
 #include <exemplar/errors.h>
+#include <exemplar/verification.h>
 #include <exemplar/version.h>
 
 #include <CLI/CLI.hpp>
@@ -26,10 +27,15 @@ namespace Exemplar
     app.add_flag("--quiet", options.quiet, "print warnings and errors only");
     app.add_flag("--validate", validate, "check the scene and its files, compute nothing");
     app.add_flag("--print-parameters", print, "every parameter, its default, range and meaning");
+    std::vector<std::string> cases;
+    bool                     list         = false;
+    CLI::App                *verification = app.add_subcommand("verify", "run the reference cases");
+    verification->add_option("NAME", cases, "cases to run instead of all");
+    verification->add_flag("--list", list, "the cases' names and sources, compute nothing");
     try
     {
       app.parse(argc, argv);
-      if (!print && options.scene_file.empty())
+      if (!print && !*verification && options.scene_file.empty())
         throw CLI::RequiredError("SCENE");
     }
     catch (const CLI::Success &request) // --help or --version
@@ -43,7 +49,13 @@ namespace Exemplar
     if (!output.empty())
       options.overrides.push_back("Output/Directory=" + output);
 
-    if (print)
+    if (*verification)
+    {
+      if (!list)
+        return verify(cases);
+      list_verification_cases();
+    }
+    else if (print)
       print_parameters();
     else if (validate)
       validate_scene(options);

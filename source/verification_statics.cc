@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/errors.h>
+#include <exemplar/polar_decomposition.h>
+#include <exemplar/verification.h>
+#include <exemplar/verification_scene.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+// Patch test, Newton's method, and interpolation between poses.
+
+namespace Exemplar::Verification
+{
+  namespace
+  {
+    /// A box of 2 x 1 x 1 whose interior nodes are off their places by up to 0.1.
+    MovedBox
+    irregular_box()
+    {
+      std::mt19937                           generator(1);
+      std::uniform_real_distribution<double> uniform(-0.1, 0.1);
+      const auto                             is_inside = [](const dealii::Point<3> &p)
+      {
+        return p[0] > 1e-9 && p[0] < 2. - 1e-9 && std::abs(p[1]) < 0.5 - 1e-9
+               && std::abs(p[2]) < 0.5 - 1e-9;
+      };
+      return MovedBox({ { 2., 1., 1. } }, { { 4, 3, 3 } },
+                      [&](const dealii::Point<3> &p)
+                      {
+                        dealii::Point<3> moved = p;
+                        if (is_inside(p))
+                          for (unsigned int c = 0; c < 3; ++c)
+                            moved[c] += uniform(generator);
+                        return moved;
+                      });
+    }
+
+    std::vector<Measurement>
+    patch()
+    {
+      const Matrix3<double> F      = { { { 1.3, 0.2, 0. }, { 0.1, 0.8, 0.1 }, { 0., 0.4, 1.1 } } };
+      const std::string     motion = "t*(0.3*x+0.2*y); t*(0.1*x-0.2*y+0.1*z); t*(0.4*y+0.1*z)";
+      std::vector<std::pair<std::string, std::string>> faces;
+      for (unsigned int face = 1; face <= 6; ++face)
+        faces.emplace_back("face " + std::to_string(face),
+                           set("Select", "boundary " + std::to_string(face))
+                               + set("Motion", motion));
+      const MovedBox box = irregular_box();
+      Scene          scene(set("Scene", "static") + box.section() + named_sections("Handles", faces)
+                           + section("Time", set("Increments", "2"))
+                           + section("Solver", set("Tolerance", 1e-13)));
+      const State    state = scene.solve();
+      const auto     field = moved_rigidly(scene.problem.fe_space.rest_positions(), F, {});
+      return { { "inside less affine field", 0., max_difference(state.positions, field),
+                 Comparison::absolute, 1e-12 } };
+    }
+
+    std::vector<Measurement>
+    newton_quadratic()
+    {
+      Scene scene(
+          set("Scene", "static") + box({ { 4., 1., 1. } }, { { 4, 1, 1 } })
+          + named_sections("Handles", { { "left", set("Select", "boundary 1") },
+                                        { "right", set("Select", "boundary 2")
+                                                       + set("Motion", "0.2*t; 0.6*t; 0.3*t") } })
+          + section("Examples", set("Pose functions", twist(60., 4.) + " | 1.2*x; 0.9*y; z")
+                                    + set("Weights", "free"))
+          + section("Time", set("Increments", "1")) + section("Solver", set("Tolerance", 1e-12)));
+      const SolveReport report = scene.problem.advance();
+      // of the residuals that are small, but no rounding, the last three tell the order
+      std::vector<double> r;
+      for (const double residual : report.residual_history)
+        if (residual > 1e-12)
+          r.push_back(residual);
+      if (report.status != SolveStatus::converged || r.size() < 3)
+        throw SolverFailure("too few iterations to tell an order");
+      const double *last  = &r.back();
+      const double  order = std::log(last[0] / last[-1]) / std::log(last[-1] / last[-2]);
+      return { { "order", 1.8, order, Comparison::at_least } };
+    }
+
+    /// max |S - I - E_1| over the cells.
+    double
+    strain_error(const Problem &p, const State &state)
+    {
+      double greatest = 0.;
+      for (unsigned int cell = 0; cell < p.mesh.n_cells(); ++cell)
+      {
+        const Matrix3<double> F     = p.fe_space.deformation_gradient(cell, state.positions);
+        const Matrix3<double> error = combine(1., corotated_strain(closest_rotation(F), F), -1.,
+                                              p.examples->strain(cell, 1));
+        greatest                    = std::max(greatest, std::sqrt(contract(error, error)));
+      }
+      return greatest;
+    }
+
+    std::vector<Measurement>
+    interpolation(const std::string &pose, const unsigned int increments)
+    {
+      Scene scene(
+          set("Scene", "interpolation") + box({ { 4., 1., 1. } }, { { 16, 4, 4 } })
+          + section("Examples", set("Pose functions", pose) + set("Prescribed weights", "1-t; t"))
+          + section("Time", set("Increments", std::to_string(increments)))
+          + section("Solver", set("Tolerance", 1e-13)));
+      Problem     &p               = scene.problem;
+      unsigned int most_iterations = 0;
+      for (unsigned int step = 0; step < increments; ++step)
+      {
+        const SolveReport report = p.advance();
+        if (!is_success(report.status))
+          throw SolverFailure("increment " + std::to_string(step + 1) + ": "
+                              + status_name(report.status));
+        most_iterations = std::max(most_iterations, report.iterations);
+      }
+      dealii::Vector<double> aligned = p.state.positions;
+      align(p.examples->pose(1), aligned);
+      return { { "|S - I - E|", 1e-12, strain_error(p, p.state), Comparison::at_most },
+               { "distance to the pose", 0., max_difference(aligned, p.examples->pose(1)) / 4.,
+                 Comparison::absolute, 1e-8 },
+               { "iterations an increment", 6., static_cast<double>(most_iterations),
+                 Comparison::at_most } };
+    }
+  } // namespace
+
+  std::vector<Case>
+  static_cases()
+  {
+    return {
+      { "patch", "affine boundary data give the affine field; doc/method.md, closed forms", patch },
+      { "newton-quadratic", "order of the residuals of Newton's method with the tangent (18)",
+        newton_quadratic },
+      { "interpolation-twist-360", "16x4x4 bar, 10 increments: reaches the pose's strains",
+        [] { return interpolation(twist(360., 4.), 10); } },
+      { "interpolation-twist-720", "16x4x4 bar, 20 increments: reaches the pose's strains",
+        [] { return interpolation(twist(720., 4.), 20); } },
+      { "interpolation-bend-180", "16x4x4 bar, 10 increments: reaches the pose's strains",
+        [] { return interpolation(bend(180., 4.), 10); } }
+    };
+  }
+} // namespace Exemplar::Verification
