@@ -27,11 +27,16 @@ namespace Exemplar
     app.add_flag("--quiet", options.quiet, "print warnings and errors only");
     app.add_flag("--validate", validate, "check the scene and its files, compute nothing");
     app.add_flag("--print-parameters", print, "every parameter, its default, range and meaning");
+
     std::vector<std::string> cases;
     bool                     list         = false;
-    CLI::App                *verification = app.add_subcommand("verify", "run the reference cases");
-    verification->add_option("NAME", cases, "cases to run instead of all");
-    verification->add_flag("--list", list, "the cases' names and sources, compute nothing");
+    CLI::App                *verification = app.add_subcommand(
+                       "verify", "compute the reference cases and compare: pass or fail, a line a number");
+    for (CLI::Option *of_scenes : app.get_options())
+      verification->excludes(of_scenes);
+    verification->add_option("NAME", cases, "cases to compute instead of all");
+    verification->add_flag("--list", list,
+                           "names, contents and sources of the cases; computes nothing");
     try
     {
       app.parse(argc, argv);

@@ -132,18 +132,17 @@ namespace Exemplar::Verification
     std::vector<Measurement>
     implicit_euler_order()
     {
-      std::array<dealii::Vector<double>, 4> ends;
-      for (unsigned int halvings = 0; halvings < 4; ++halvings)
+      std::array<dealii::Vector<double>, 3> ends;
+      for (unsigned int halvings = 0; halvings < 3; ++halvings)
         ends[halvings]
             = Scene(bar + held_end
-                    + section("Material", set("Young's modulus", 1e6) + set("Poisson's ratio", 0.3))
+                    + section("Material", set("Young's modulus", 1e5) + set("Poisson's ratio", 0.3))
                     + section("Initial", set("Velocity", "0; 0.2*x*x; -0.1*x*x"))
-                    + time(0.002 / (1u << halvings), 0.1)
-                    + section("Solver", set("Tolerance", 1e-11)))
+                    + time(0.002 / (1u << halvings), 0.1))
                   .solve()
                   .positions;
-      const double coarse = max_difference(ends[1], ends[2]),
-                   fine   = max_difference(ends[2], ends[3]);
+      const double coarse = max_difference(ends[0], ends[1]),
+                   fine   = max_difference(ends[1], ends[2]);
       return { { "order", 1., std::log2(coarse / fine), Comparison::absolute, 0.1 } };
     }
 
