@@ -45,17 +45,22 @@ namespace Exemplar
   void
   Assembler::estimate_rounding()
   {
+    // F of Eq. (1) carries the rounding of the positions, divided by the cell's size
+    const double rounding
+        = 2. * std::numeric_limits<double>::epsilon() * fe_space.rest_positions().linfty_norm();
     dealii::Vector<double> force(fe_space.n_nodes());
     for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
     {
       const Lame<double> &lame   = material.lame(cell);
       const double        volume = fe_space.tetrahedron(cell).volume;
-      const double        stress = 1e-14 * (std::abs(lame.lambda) + 2. * lame.mu);
+      const double        strain
+          = rounding * *std::max_element(gradient_norms[cell].begin(), gradient_norms[cell].end());
+      const double stress = strain * (std::abs(lame.lambda) + 2. * lame.mu);
       rounding_stress_norm += volume * stress * stress;
       for (unsigned int a = 0; a < 4; ++a)
-        force[fe_space.nodes(cell)[a]] += volume * stress * gradient_norms[cell][a];
+        force[fe_space.nodes(cell)[a]] += std::pow(volume * stress * gradient_norms[cell][a], 2);
     }
-    greatest_rounding_force = force.linfty_norm();
+    greatest_rounding_force = std::sqrt(force.linfty_norm()); // cells round independently
     rounding_stress_norm    = std::sqrt(rounding_stress_norm);
   }
 

@@ -198,6 +198,7 @@ namespace Exemplar
     {
       parts.assembler.update_rotations(accepted.linearized_positions);
       factorize(accepted.linearized_positions, accepted.linearized_weights, Tangent::exact);
+      solve_for_step(accepted); // as then: the same columns beside the same right side's
       has_last_factor = true;
     }
     return true;

@@ -114,8 +114,7 @@ namespace Exemplar
     std::vector<double>
     weight_target(const dealii::Vector<double> &positions) const;
 
-    /// A residual force [N] that is nothing but rounding: strains of 1e-14 would cause
-    /// as much.
+    /// A residual force [N] that is nothing but the rounding of the positions.
     double
     rounding_force() const
     {
