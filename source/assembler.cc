@@ -196,7 +196,7 @@ namespace Exemplar
         target = example_target(cell, weights);
         stress_scale += norm(stress(lame, target));
         stress_square += tet.volume * stress_scale * stress_scale;
-        result.energy_example += tet.volume * state.energy(target) - elastic;
+        result.energy += tet.volume * state.energy(target);
         result.guarded_cells += state.is_guarded();
         if (!result.weight_gradient.empty())
         {
@@ -210,6 +210,8 @@ namespace Exemplar
               });
         }
       }
+      else
+        result.energy += elastic;
       if (damping > 0.)
       {
         result.energy_damping += damping * tet.volume * state.energy(damping_strains[cell]);
@@ -248,7 +250,7 @@ namespace Exemplar
       double penalty = 0.;
       for (unsigned int w = 0; w < weights.size(); ++w)
         penalty += examples->penalty_matrix()(v, w) * weights[w];
-      result.energy_example += 0.5 * penalty * weights[v];
+      result.energy += 0.5 * penalty * weights[v];
       result.weight_gradient[v] += penalty;
       result.weight_scale = std::max(result.weight_scale,
                                      examples->importance() * stress_norm * examples->strain_norm(v)
@@ -266,7 +268,7 @@ namespace Exemplar
     result.weight_gradient.assign(has_weights() ? weights.size() : 0, 0.);
     result.weight_scale   = 0.;
     result.energy_elastic = 0.;
-    result.energy_example = 0.;
+    result.energy         = 0.;
     result.energy_damping = 0.;
     result.min_det_F      = std::numeric_limits<double>::max();
     result.inverted_cells = 0;

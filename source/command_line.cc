@@ -2,6 +2,7 @@
 #include <exemplar/command_line.h>
 #include <exemplar/drivers.h>
 #include <exemplar/errors.h>
+#include <exemplar/verification.h>
 #include <exemplar/version.h>
 
 #include <CLI/CLI.hpp>
@@ -27,10 +28,20 @@ namespace Exemplar
     app.add_flag("--verbose", options.verbose, "print a line an iteration");
     app.add_flag("--validate", validate, "check the scene and its files, compute nothing");
     app.add_flag("--print-parameters", print, "every parameter, its default, range and meaning");
+
+    std::vector<std::string> cases;
+    bool                     list         = false;
+    CLI::App                *verification = app.add_subcommand(
+                       "verify", "compute the reference cases and compare: pass or fail, a line a number");
+    for (CLI::Option *of_scenes : app.get_options())
+      verification->excludes(of_scenes);
+    verification->add_option("NAME", cases, "cases to compute instead of all");
+    verification->add_flag("--list", list,
+                           "names, contents and sources of the cases; computes nothing");
     try
     {
       app.parse(argc, argv);
-      if (!print && options.scene_file.empty())
+      if (!print && !*verification && options.scene_file.empty())
         throw CLI::RequiredError("SCENE");
     }
     catch (const CLI::Success &request) // --help or --version
@@ -44,7 +55,13 @@ namespace Exemplar
     if (!output.empty())
       options.overrides.push_back("Output/Directory=" + output);
 
-    if (print)
+    if (*verification)
+    {
+      if (!list)
+        return verify(cases);
+      list_verification_cases();
+    }
+    else if (print)
       print_parameters();
     else if (validate)
       validate_scene(options);

@@ -62,7 +62,7 @@ namespace Exemplar
     append(row, "residual", report.status == SolveStatus::failed ? std::nan("") : report.residual);
     append(row, "energy_elastic", evaluation.energy_elastic);
     if (examples != nullptr)
-      append(row, "energy_example", evaluation.energy_example);
+      append(row, "energy_example", evaluation.energy_example());
     const MotionSums sums = inertia != nullptr ? inertia->motion_sums(state) : MotionSums();
     if (inertia != nullptr)
       append(row, "energy_kinetic", sums.kinetic_energy);

@@ -36,7 +36,7 @@ namespace Exemplar
   double
   Equilibrium::objective(const State &state) const
   {
-    double value = current.energy_elastic + current.energy_example + current.energy_damping;
+    double value = current.energy + current.energy_damping;
     if (dynamic_terms)
       value += parts.inertia->step_energy(state.positions);
     if (parts.loads != nullptr)

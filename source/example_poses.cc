@@ -114,6 +114,9 @@ namespace Exemplar
     if (weights == ExampleWeights::prescribed && in_use() && prescribed_weights.empty())
       throw UserError("Examples/Weights = prescribed, but Examples/Prescribed weights is empty. "
                       "Give one function of t for each example, for instance '1-t; t'.");
+    if (region_blend_length > 0. && !weights_per_region)
+      throw UserError("Examples/Region blend length is given, but Examples/Weights per region is "
+                      "false. Set it to true, or remove the length.");
     if (weights != ExampleWeights::prescribed && !prescribed_weights.empty())
       throw UserError("Examples/Prescribed weights is given, but Examples/Weights is not "
                       "'prescribed'. Set it, or remove the weights.");

@@ -19,6 +19,19 @@ namespace Exemplar
 
     const dealii::Patterns::List names_pattern{ dealii::Patterns::Anything() };
 
+    /// The bytes of a scene file.
+    std::string
+    read_scene(const std::filesystem::path &file)
+    {
+      std::ifstream in(file, std::ios::binary);
+      if (!in || std::filesystem::is_directory(file))
+        throw UserError(file.string()
+                        + ": cannot be read. Give the name of an existing .prm file.");
+      std::ostringstream bytes;
+      bytes << in.rdbuf();
+      return bytes.str();
+    }
+
     /// Named subsections are the ones two deep: Handles/NAME, Loads/NAME, Material/region N.
     bool
     is_named(const Assignment &assignment)
@@ -107,12 +120,16 @@ namespace Exemplar
 
   Parameters::Parameters(const std::filesystem::path    &scene_file,
                          const std::vector<std::string> &overrides)
-      : scene_file(scene_file)
+      : Parameters(scene_file, read_scene(scene_file), overrides)
   {
-    std::vector<Assignment> assignments = read_assignments(scene_file);
-    std::ostringstream      bytes;
-    bytes << std::ifstream(scene_file, std::ios::binary).rdbuf();
-    scene_text = bytes.str();
+  }
+
+  Parameters::Parameters(const std::filesystem::path    &scene_file,
+                         const std::string              &scene_text,
+                         const std::vector<std::string> &overrides)
+      : scene_file(scene_file), scene_text(scene_text)
+  {
+    std::vector<Assignment> assignments = read_assignments(scene_text, scene_file.string());
     for (const std::string &text : overrides)
       assignments.push_back(parse_override(text));
     if (find_assignment(assignments, "Scene") == nullptr)
@@ -247,7 +264,7 @@ namespace Exemplar
   {
     material.check();
     examples.check();
-    if (solver.method == Method::newton && model.gradient == GradientKind::frozen)
+    if (solver.method == Method::newton && model.is_frozen())
       throw UserError("Solver/Method = newton needs a force that is the gradient of an energy, but "
                       "Model/Gradient = frozen is not. Set Model/Gradient = consistent, or "
                       "Solver/Method = fixed point.");

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <fstream>
 #include <map>
 #include <sstream>
 
@@ -32,19 +31,16 @@ namespace Exemplar
                  || std::isspace(static_cast<unsigned char>(line[word.size()])));
     }
 
-    /// Reads a .prm line by line and keeps track of the subsection it is in.
+    /// Reads the text of a .prm line by line and keeps track of the subsection it is in.
     class AssignmentReader
     {
     public:
-      explicit AssignmentReader(const std::filesystem::path &file) : file(file) {}
+      explicit AssignmentReader(const std::string &file) : file(file) {}
 
       std::vector<Assignment>
-      read()
+      read(const std::string &text)
       {
-        std::ifstream in(file);
-        if (!in || std::filesystem::is_directory(file))
-          throw UserError(file.string()
-                          + ": cannot be read. Give the name of an existing .prm file.");
+        std::istringstream in(text);
         for (std::string line; std::getline(in, line);)
         {
           ++line_number;
@@ -77,7 +73,7 @@ namespace Exemplar
       std::string
       place() const
       {
-        return file.string() + ":" + std::to_string(line_number);
+        return file + ":" + std::to_string(line_number);
       }
 
       void
@@ -114,7 +110,7 @@ namespace Exemplar
         assignments.push_back(std::move(assignment));
       }
 
-      const std::filesystem::path        file;
+      const std::string                  file;
       unsigned int                       line_number = 0;
       std::string                        pending; ///< lines that ended in a backslash
       std::vector<std::string>           subsections;
@@ -156,9 +152,9 @@ namespace Exemplar
   }
 
   std::vector<Assignment>
-  read_assignments(const std::filesystem::path &prm_file)
+  read_assignments(const std::string &prm_text, const std::string &file)
   {
-    return AssignmentReader(prm_file).read();
+    return AssignmentReader(file).read(prm_text);
   }
 
   Assignment

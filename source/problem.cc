@@ -106,7 +106,14 @@ namespace Exemplar
   {
     if (support)
       return support->held_dofs;
-    return handles != nullptr ? handles->held_dofs() : std::vector<unsigned int>();
+    if (handles == nullptr)
+      return {};
+    const std::vector<unsigned int> held = handles->held_dofs();
+    if (held.size() == fe_space.n_dofs())
+      throw UserError(parameters.scene_file.string()
+                      + ": the handles hold every node, so there is nothing to solve. Make "
+                        "Handles/NAME/Select smaller.");
+    return held;
   }
 
   void
@@ -177,12 +184,17 @@ namespace Exemplar
     const bool umfpack     = parameters.solver.linear_solver == LinearSolver::umfpack;
     const std::vector<std::pair<std::string, bool>> all
         = { { "mass matrix", inertia != nullptr },
+            { "second-order time scheme",
+              inertia != nullptr && parameters.time.scheme != TimeScheme::implicit_euler },
+            { "mass damping", inertia != nullptr && parameters.time.mass_damping > 0. },
+            { "stiffness damping", inertia != nullptr && parameters.time.stiffness_damping > 0. },
             { "handles", handles != nullptr },
             { "own support of interpolation", support.has_value() },
             { "gravity", loads != nullptr && loads->has_gravity() },
             { "loads", loads != nullptr && loads->has_named_loads() },
             { "example poses", examples != nullptr },
             { "weight block", has_weights },
+            { "weights per region", examples != nullptr && parameters.examples.weights_per_region },
             { "Schur complement", has_weights && !umfpack },
             { "CHOLMOD", !umfpack },
             { "UMFPACK", umfpack },
@@ -198,6 +210,10 @@ namespace Exemplar
   Problem::warnings() const
   {
     std::vector<std::string> all = mesh.get_warnings();
+    if (parameters.model.gradient == GradientKind::frozen && !parameters.model.is_frozen())
+      all.push_back(
+          "Model/Gradient = frozen holds rotations, which this Model/Strain does not have: "
+          "its forces are the gradient of its energy.");
     if (handles != nullptr)
       all.insert(all.end(), handles->get_warnings().begin(), handles->get_warnings().end());
     if (examples != nullptr)

@@ -32,12 +32,19 @@ namespace Exemplar
     dealii::Vector<double> force_scale;        ///< a node: sum V (|C:e| + eta |C:E(w)|) |g_a| [N]
     std::vector<double>    weight_gradient;    ///< dPsi/dw_i [J], Eq. (7)
     double                 weight_scale   = 0; ///< of the weight gradient [J]
-    double                 energy_elastic = 0; ///< sum V/2 e:C:e [J], Eq. (5)
-    double                 energy_example = 0; ///< Psi - energy_elastic, ridge included [J]
+    double                 energy         = 0; ///< Psi [J], Eq. (5), ridge included
+    double                 energy_elastic = 0; ///< sum V/2 e:C:e of it [J]
     double                 energy_damping = 0; ///< whose gradient is the stiffness damping [J]
     double                 min_det_F      = 0;
     unsigned int           inverted_cells = 0;
     unsigned int           guarded_cells  = 0; ///< in which the guard of Eq. (16) acts
+
+    /// Psi - energy_elastic [J]; near an example the two almost cancel.
+    double
+    energy_example() const
+    {
+      return energy - energy_elastic;
+    }
   };
 
   /// What frames show of a cell.

@@ -57,6 +57,11 @@ namespace Exemplar
     /// UserError.
     Parameters(const std::filesystem::path &scene_file, const std::vector<std::string> &overrides);
 
+    /// The same from the text of a scene, as if `scene_file` contained it.
+    Parameters(const std::filesystem::path    &scene_file,
+               const std::string              &scene_text,
+               const std::vector<std::string> &overrides);
+
     Parameters(const Parameters &) = delete;
     Parameters &
     operator=(const Parameters &)

@@ -86,10 +86,10 @@ namespace Exemplar
     path() const;
   };
 
-  /// All assignments of a .prm file in order, checked for syntax only: `subsection`
+  /// All assignments in the text of a .prm file in order, checked for syntax only: `subsection`
   /// and `end` match, no key is set twice. Throws UserError with file and line.
   std::vector<Assignment>
-  read_assignments(const std::filesystem::path &prm_file);
+  read_assignments(const std::string &prm_text, const std::string &file);
 
   /// "Section/Subsection/Key=value" of the command line.
   Assignment

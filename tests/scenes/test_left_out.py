@@ -43,7 +43,9 @@ class LeftOut(SceneTest):
     def test_dynamic_scene_without_gravity(self):
         output = self.solve({**DYNAMIC, "Loads/Gravity": None, "Loads/Names": "tip",
                              "Loads/tip/Select": "boundary 2", "Loads/tip/Force": "0; 0; 1"})
-        self.check_parts(output, ["mass matrix", "loads"], ["gravity", "example poses"])
+        self.check_parts(output, ["mass matrix", "loads"],
+                         ["gravity", "example poses", "second-order time scheme", "mass damping",
+                          "stiffness damping"])
         self.check_columns(output, COLUMNS_OF_ALL, ["energy_kinetic", "min_det_F",
                                                     "inverted_cells"],
                            MOMENTA, ["work_handles", "work_loads"], REACTION, SECONDS)
@@ -51,10 +53,23 @@ class LeftOut(SceneTest):
     def test_free_weights_need_the_weight_block(self):
         output = self.solve(EXAMPLE)
         self.check_parts(output, ["example poses", "weight block", "Schur complement"],
-                         ["mass matrix"])
+                         ["mass matrix", "weights per region"])
         self.check_columns(output, COLUMNS_OF_ALL, ["energy_example"], WEIGHTS,
                            ["multiplier", "kkt_residual", "min_det_F", "inverted_cells", "guarded_cells",
                             "work_handles", "work_gravity"], REACTION, SECONDS)
+
+    def test_second_order_and_damping_are_there_when_asked_for(self):
+        output = self.solve({**DYNAMIC, "Time/Scheme": "bdf2", "Time/Mass damping": "1",
+                             "Time/Stiffness damping": "0.01"})
+        self.check_parts(output, ["second-order time scheme", "mass damping", "stiffness damping"],
+                         ["example poses"])
+
+    def test_weights_per_region_have_columns_of_their_own(self):
+        output = self.solve({**EXAMPLE, "Examples/Weights per region": "true"})
+        self.check_parts(output, ["weights per region", "weight block"], [])
+        self.check_columns(output, COLUMNS_OF_ALL, ["energy_example"], ["weight_1_0", "weight_1_1"],
+                           ["multiplier_1", "kkt_residual", "min_det_F", "inverted_cells",
+                            "guarded_cells", "work_handles", "work_gravity"], REACTION, SECONDS)
 
     def test_prescribed_weights_need_none(self):
         output = self.solve({**EXAMPLE, "Examples/Weights": "prescribed",

@@ -95,7 +95,7 @@ namespace Exemplar::Testing
 
       Evaluation at, above, below;
       assembler.evaluate(positions, weights, at);
-      const auto energy = [](const Evaluation &e) { return e.energy_elastic + e.energy_example; };
+      const auto energy     = [](const Evaluation &e) { return e.energy; };
       const auto difference = [&](double &variable)
       {
         const double h = 1e-3, value = variable;
@@ -197,9 +197,8 @@ namespace Exemplar::Testing
         assembler.evaluate(positions, weights, evaluation);
         return evaluation;
       };
-      const auto energy = [](const Evaluation &e)
-      { return e.energy_elastic + e.energy_example + e.energy_damping; };
-      const Evaluation    at = evaluate();
+      const auto          energy = [](const Evaluation &e) { return e.energy + e.energy_damping; };
+      const Evaluation    at     = evaluate();
       std::vector<double> matrix(assembler.matrix_pattern().row.size()), columns;
       assembler.assemble_tangent(Tangent::exact, positions, weights, matrix, columns);
       const double h = 1e-6, scale = at.gradient.linfty_norm();

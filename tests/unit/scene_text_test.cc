@@ -9,8 +9,6 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
 #include <sstream>
 
 namespace Exemplar::Testing
@@ -76,37 +74,19 @@ namespace Exemplar::Testing
       EXPECT_EQ(TimeAxis::of_increments(parameters).time(3), 0.3);
     }
 
-    class PrmFile : public ::testing::Test
+    std::vector<Assignment>
+    read(const std::string &text)
     {
-    protected:
-      PrmFile()
-          : file(std::filesystem::temp_directory_path()
-                 / ("exemplar_prm_test_" + std::to_string(getpid()) + ".prm"))
-      {
-      }
+      return read_assignments(text, "scene.prm");
+    }
 
-      ~PrmFile() override
-      {
-        std::filesystem::remove(file);
-      }
+    std::string
+    error_of(const std::string &text)
+    {
+      return message_of([&] { read(text); });
+    }
 
-      std::vector<Assignment>
-      read(const std::string &text) const
-      {
-        std::ofstream(file) << text;
-        return read_assignments(file);
-      }
-
-      std::string
-      error_of(const std::string &text) const
-      {
-        return message_of([&] { read(text); });
-      }
-
-      const std::filesystem::path file;
-    };
-
-    TEST_F(PrmFile, ReadsAssignmentsWithTheirPlaces)
+    TEST(PrmText, ReadsAssignmentsWithTheirPlaces)
     {
       const auto assignments
           = read("# comment\nset A key  =  1 # more\nsubsection S\n subsection T\n"
@@ -116,10 +96,10 @@ namespace Exemplar::Testing
       EXPECT_EQ(assignments[0].value, "1");
       EXPECT_EQ(assignments[1].path(), "S/T/B");
       EXPECT_EQ(assignments[1].value, "a;  b");
-      EXPECT_EQ(assignments[0].place, file.string() + ":2");
+      EXPECT_EQ(assignments[0].place, "scene.prm:2");
     }
 
-    TEST_F(PrmFile, NamesFileAndLineOfAMistake)
+    TEST(PrmText, NamesFileAndLineOfAMistake)
     {
       EXPECT_NE(error_of("set A = 1\nset A = 2\n").find(".prm:2: A is set twice"),
                 std::string::npos);
@@ -129,7 +109,7 @@ namespace Exemplar::Testing
       EXPECT_NE(error_of("sett A = 1\n").find("not understood"), std::string::npos);
     }
 
-    TEST_F(PrmFile, AppliesAndPrintsWhatItRead)
+    TEST(PrmText, AppliesAndPrintsWhatItRead)
     {
       dealii::ParameterHandler prm;
       double                   number = 1.;

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_verification_h
+#define exemplar_verification_h
+
+#include <functional>
+#include <string>
+#include <vector>
+
+// Reference cases: what the program computes against closed forms, published numbers,
+// finite differences and second methods. Tolerances are those that theory or the source
+// of the expected number allows, never what happens to come out.
+
+namespace Exemplar
+{
+  /// Run the cases of these names, or all, and print a line for each number: PASS or FAIL,
+  /// case (what), expected, got, tolerance. Returns the exit status: 1 if a number is off.
+  /// Throws UserError for an unknown name, before anything is run.
+  int
+  verify(const std::vector<std::string> &names);
+
+  /// Print the cases, a line each: name, and what it compares with which source.
+  void
+  list_verification_cases();
+
+  namespace Verification
+  {
+    enum class Comparison
+    {
+      absolute, ///< |got - expected| <= tolerance
+      relative, ///< |got - expected| <= tolerance |expected|
+      at_most,  ///< got <= expected
+      at_least  ///< got >= expected
+    };
+
+    /// A number that a case found, and what it should be.
+    struct Measurement
+    {
+      std::string what;
+      double      expected;
+      double      got;
+      Comparison  comparison;
+      double      tolerance = 0.; ///< of absolute and relative comparisons
+
+      bool
+      passes() const;
+    };
+
+    struct Case
+    {
+      std::string                               name;        ///< in kebab-case
+      std::string                               description; ///< with the source of the numbers
+      std::function<std::vector<Measurement>()> measure;     ///< may throw: the case has failed
+    };
+
+    // The cases by subject, each from a file of its own.
+    std::vector<Case>
+    kernel_cases();
+    std::vector<Case>
+    derivative_cases();
+    std::vector<Case>
+    static_cases();
+    std::vector<Case>
+    beam_cases();
+    std::vector<Case>
+    dynamic_cases();
+    std::vector<Case>
+    example_cases();
+  } // namespace Verification
+} // namespace Exemplar
+
+#endif
