@@ -3,6 +3,7 @@
 #include <exemplar/errors.h>
 #include <exemplar/weight_qp.h>
 
+#include <algorithm>
 #include <numeric>
 
 namespace Exemplar
@@ -33,6 +34,7 @@ namespace Exemplar
       void
       factorize(const WeightBlock &) override
       {
+        columns.clear();
         matrix->factorize();
       }
 
@@ -41,9 +43,17 @@ namespace Exemplar
       {
         const std::size_t n = vector.positions.size(), k = vector.weights.size();
 
-        columns = vector.positions;
-        columns.insert(columns.end(), block.coupling.begin(), block.coupling.end());
-        matrix->solve(columns); // z = A^-1 r_x, Z = A^-1 G
+        if (columns.empty()) // z = A^-1 r_x, Z = A^-1 G
+        {
+          columns = vector.positions;
+          columns.insert(columns.end(), block.coupling.begin(), block.coupling.end());
+          matrix->solve(columns);
+        }
+        else // Z is still that of this factor
+        {
+          matrix->solve(vector.positions);
+          std::copy(vector.positions.begin(), vector.positions.end(), columns.begin());
+        }
 
         if (k > 0)
           solve_weights(block, vector);
@@ -80,7 +90,7 @@ namespace Exemplar
       }
 
       const std::unique_ptr<SpdOperator> matrix;
-      std::vector<double>                columns;
+      std::vector<double>                columns; ///< z and Z; empty: none since factorize()
     };
   } // namespace
 

@@ -249,6 +249,12 @@ namespace Exemplar
     report.residual = relative(greatest, force_scale.linfty_norm(), rounding);
     if (!current.weight_gradient.empty())
       measure_weights(state, report);
+  }
+
+  void
+  Equilibrium::measure_iteration(State &state, SolveReport &report) const
+  {
+    measure(state, report);
     report.residual_history.push_back(report.residual);
     if (observe_iteration)
       observe_iteration(report);
@@ -316,7 +322,7 @@ namespace Exemplar
           parts.assembler.update_rotations(state.positions);
         }
         evaluate(state);
-        measure(state, report);
+        measure_iteration(state, report);
         if (parameters.method == Method::one_pass)
           report.status = SolveStatus::one_pass;
         else if (std::max(report.residual, report.kkt_residual) <= parameters.tolerance)

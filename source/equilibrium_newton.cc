@@ -80,6 +80,15 @@ namespace Exemplar
     return slope;
   }
 
+  double
+  Equilibrium::greatest_free_gradient() const
+  {
+    double greatest = 0.;
+    for (const unsigned int dof : parts.free_dofs.list())
+      greatest = std::max(greatest, std::abs(total_gradient[dof]));
+    return greatest;
+  }
+
   bool
   Equilibrium::find_newton_step(const State &state, SolveReport &report)
   {
@@ -107,34 +116,56 @@ namespace Exemplar
   bool
   Equilibrium::search_along_step(State &state, SolveReport &report)
   {
-    const State                  start        = state;
-    const std::vector<double>    step         = unknowns.positions;
-    const dealii::Vector<double> old_gradient = total_gradient;
-    const auto                  &free         = parts.free_dofs.list();
-    const double                 slope        = step_slope();
-    const double                 before       = current_objective;
-    const auto                   free_norm    = [&free](const dealii::Vector<double> &gradient)
-    {
-      double norm = 0.;
-      for (const unsigned int dof : free)
-        norm = std::max(norm, std::abs(gradient[dof]));
-      return norm;
-    };
-    double &length = report.step_length = 1.;
+    const State               start         = state;
+    const std::vector<double> step          = unknowns.positions;
+    const auto               &free          = parts.free_dofs.list();
+    const double              slope         = step_slope();
+    const double              before        = current_objective;
+    const double              gradient_norm = greatest_free_gradient();
+    double                   &length = report.step_length = 1.;
     for (unsigned int halving = 0; halving < most_halvings_of_step; ++halving, length *= 0.5)
     {
       state = start;
       for (unsigned int i = 0; i < free.size(); ++i)
         state.positions[free[i]] += length * step[i];
       evaluate_with_best_weights(state);
-      if (is_better(current_objective, before, length * slope, free_norm(total_gradient),
-                    free_norm(old_gradient)))
+      if (is_better(current_objective, before, length * slope, greatest_free_gradient(),
+                    gradient_norm))
         return true;
     }
     state = start;
     evaluate_with_best_weights(state);
     report.status = SolveStatus::stalled;
     return false;
+  }
+
+  void
+  Equilibrium::correct_with_same_factor(State &state, SolveReport &report)
+  {
+    measure(state, report);
+    if (std::max(report.residual, report.kkt_residual) <= parameters.tolerance)
+      return;
+    const State  start         = state;
+    const double before        = current_objective;
+    const double gradient_norm = greatest_free_gradient();
+    try
+    {
+      solve_for_step(state);
+    }
+    catch (const SolverFailure &)
+    {
+      return; // for other active weights the complement may be indefinite
+    }
+    const double slope = step_slope();
+    const auto  &free  = parts.free_dofs.list();
+    for (unsigned int i = 0; i < free.size(); ++i)
+      state.positions[free[i]] += unknowns.positions[i];
+    evaluate_with_best_weights(state);
+    if (slope < 0. && greatest_free_gradient() < 0.5 * gradient_norm
+        && is_better(current_objective, before, slope, greatest_free_gradient(), gradient_norm))
+      return;
+    state = start;
+    evaluate_with_best_weights(state);
   }
 
   void
@@ -218,7 +249,7 @@ namespace Exemplar
     for (unsigned int iteration = 0;; ++iteration)
     {
       check_interrupt();
-      measure(state, report);
+      measure_iteration(state, report);
       if (std::max(report.residual, report.kkt_residual) <= parameters.tolerance)
         report.status = SolveStatus::converged;
       else if (iteration == parameters.maximum_iterations)
@@ -238,6 +269,7 @@ namespace Exemplar
     std::vector<double>    weights   = state.weights;
     if (!find_newton_step(state, report) || !search_along_step(state, report))
       return;
+    correct_with_same_factor(state, report);
     // what the factor is of, if the next step may predict with it
     has_last_factor = !dynamic_terms && report.tangent == Tangent::exact;
     if (!has_last_factor)

@@ -150,6 +150,7 @@ namespace Exemplar
     if (turns_freely)
     {
       turn_to_support(mesh, *support, next.positions);
+      next.linearized_positions.reinit(0); // not turned with it
       equilibrium.start(next);
     }
     const SolveReport report

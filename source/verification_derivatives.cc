@@ -227,10 +227,10 @@ namespace Exemplar::Verification
 
     /// At F (X + perturbation), without and with examples.
     std::vector<Measurement>
-    derivatives_at(const Matrix3<double> &F, const double amplitude)
+    derivatives_at(const Matrix3<double> &F, const double amplitude, const std::string &model)
     {
       std::vector<Measurement> all;
-      Scene                    plain(bar), with(bar + examples);
+      Scene                    plain(bar + model), with(bar + examples + model);
       const auto               x
           = moved_rigidly(perturbed(plain.problem.fe_space.rest_positions(), amplitude), F, {});
       measure(Differences(plain.problem, x, Rotations::followed), "", all);
@@ -263,30 +263,43 @@ namespace Exemplar::Verification
     case_at(const std::string     &name,
             const std::string     &state,
             const Matrix3<double> &F,
-            const double           amplitude)
+            const double           amplitude,
+            const std::string     &model = "")
     {
       return { "derivatives-" + name,
-               "central differences, 4th order, " + state + "; doc/method.md, Eqs. (16) to (18)",
-               [=] { return derivatives_at(F, amplitude); } };
+               "central differences, 4th order, " + state + "; doc/method.md, Eqs. (16) to (20)",
+               [=] { return derivatives_at(F, amplitude, model); } };
     }
   } // namespace
 
   std::vector<Case>
   derivative_cases()
   {
-    const Matrix3<double> I = identity_matrix<double>();
-    const Matrix3<double> Q = rotation_about({ { 1., 2., -1. } }, 0.8);
-    return { case_at("rest", "at rest", I, 0.),
-             case_at("random", "at random", I, 0.1),
-             case_at("turned", "turned by 179.9 degrees",
-                     rotation_about({ { 3., 1., 1. } }, 179.9 * M_PI / 180.), 0.03),
-             case_at("flat", "flattened into a plane", Q * diagonal(1.3, 0.8, 0.), 0.03),
-             case_at("inverted", "mirrored", Q * diagonal(1.5, 1.2, -0.4), 0.02),
-             case_at("guarded", "mirrored where the guard acts", Q * diagonal(1.1, 0.7, -0.5),
-                     0.01),
-             case_at("compressed", "compressed", Q * diagonal(0.6, 0.55, 0.5), 0.02),
-             { "derivatives-frozen",
-               "central differences with kept rotations, at random; doc/method.md, Eqs. (6) to (9)",
-               frozen_derivatives } };
+    const Matrix3<double> I         = identity_matrix<double>();
+    const Matrix3<double> Q         = rotation_about({ { 1., 2., -1. } }, 0.8);
+    const Matrix3<double> half_turn = rotation_about({ { 3., 1., 1. } }, 179.9 * M_PI / 180.);
+    const Matrix3<double> flat      = Q * diagonal(1.3, 0.8, 0.),
+                          mirrored  = Q * diagonal(1.5, 1.2, -0.4);
+    const std::string green         = section("Model", set("Strain", "green"));
+    const std::string linear        = section("Model", set("Strain", "linear"));
+    return {
+      case_at("rest", "at rest", I, 0.),
+      case_at("random", "at random", I, 0.1),
+      case_at("turned", "turned by 179.9 degrees", half_turn, 0.03),
+      case_at("flat", "flattened into a plane", flat, 0.03),
+      case_at("inverted", "mirrored", mirrored, 0.02),
+      case_at("guarded", "mirrored where the guard acts", Q * diagonal(1.1, 0.7, -0.5), 0.01),
+      case_at("compressed", "compressed", Q * diagonal(0.6, 0.55, 0.5), 0.02),
+      case_at("green-rest", "green strain at rest", I, 0., green),
+      case_at("green-random", "green strain at random", I, 0.1, green),
+      case_at("green-turned", "green strain, turned by 179.9 degrees", half_turn, 0.03, green),
+      case_at("green-flat", "green strain, flattened into a plane", flat, 0.03, green),
+      case_at("green-inverted", "green strain, mirrored", mirrored, 0.02, green),
+      case_at("linear-random", "linear strain at random", I, 0.1, linear),
+      case_at("linear-inverted", "linear strain, mirrored", mirrored, 0.02, linear),
+      { "derivatives-frozen",
+        "central differences with kept rotations, at random; doc/method.md, Eqs. (6) to (9)",
+        frozen_derivatives }
+    };
   }
 } // namespace Exemplar::Verification

@@ -130,7 +130,7 @@ namespace Exemplar::Verification
 
     /// Order of the scheme from the changes between the steps h, h/2, h/4.
     std::vector<Measurement>
-    implicit_euler_order()
+    order_in_time(const std::string &scheme, const double expected)
     {
       std::array<dealii::Vector<double>, 3> ends;
       for (unsigned int halvings = 0; halvings < 3; ++halvings)
@@ -138,12 +138,24 @@ namespace Exemplar::Verification
             = Scene(bar + held_end
                     + section("Material", set("Young's modulus", 1e5) + set("Poisson's ratio", 0.3))
                     + section("Initial", set("Velocity", "0; 0.2*x*x; -0.1*x*x"))
-                    + time(0.002 / (1u << halvings), 0.1))
+                    + time(0.002 / (1u << halvings), 0.1) + section("Time", set("Scheme", scheme)))
                   .solve()
                   .positions;
       const double coarse = max_difference(ends[0], ends[1]),
                    fine   = max_difference(ends[1], ends[2]);
-      return { { "order", 1., std::log2(coarse / fine), Comparison::absolute, 0.1 } };
+      return { { "order", expected, std::log2(coarse / fine), Comparison::absolute, 0.1 } };
+    }
+
+    /// A free body in uniform motion.
+    std::vector<Measurement>
+    mass_damping()
+    {
+      const double h = 0.01, alpha = 5.;
+      Scene        scene(bar + section("Initial", set("Velocity", "1; 0; 0")) + time(h, 0.2)
+                         + section("Time", set("Mass damping", alpha)));
+      const State  state = scene.solve();
+      return { { "velocity", std::pow(1. + alpha * h, -20.), state.velocities[0],
+                 Comparison::relative, 1e-10 } };
     }
 
     dealii::Tensor<1, 3>
@@ -226,7 +238,11 @@ namespace Exemplar::Verification
       { "implicit-euler-oscillator",
         "amplitude (1+w^2 h^2)^(-1/2) and phase atan(w h) a step; doc/method.md, closed forms",
         implicit_euler_oscillator },
-      { "implicit-euler-order", "first order in the step; self-convergence", implicit_euler_order },
+      { "implicit-euler-order", "first order in the step; self-convergence",
+        [] { return order_in_time("implicit euler", 1.); } },
+      { "bdf2-order", "second order in the step; self-convergence",
+        [] { return order_in_time("bdf2", 2.); } },
+      { "mass-damping", "v_n = v_0 (1 + a h)^(-n) of a body in uniform motion", mass_damping },
       { "angular-momentum", "free body: L_(n+1) = L_n + h sum v_(n+1) x M v_n, Eqs. (12), (17)",
         angular_momentum },
       { "angular-momentum-frozen", "that the frozen force breaks this law",

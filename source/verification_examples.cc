@@ -79,6 +79,18 @@ namespace Exemplar::Verification
                  Comparison::absolute, 0. } };
     }
 
+    std::vector<Measurement>
+    one_region()
+    {
+      Scene global(dragged + examples(twisted, ""));
+      Scene local(dragged
+                  + examples(twisted, set("Weights per region", "true")
+                                          + set("Region blend length", "0.5")));
+      return { { "difference, bit for bit", 0.,
+                 max_difference(global.solve().positions, local.solve().positions),
+                 Comparison::absolute, 0. } };
+    }
+
     /// eta w of the stretched and dragged bar with free weights and no ridge.
     double
     scaled_weight(const double importance)
@@ -265,6 +277,7 @@ namespace Exemplar::Verification
         "a moved example is an equilibrium with w = e_i; doc/method.md, closed forms",
         example_recovery },
       { "importance-zero", "examples of importance 0 change no bit", importance_zero },
+      { "one-region", "weights of one region are the global ones", one_region },
       { "free-weights-undo-importance", "eta w does not depend on eta; doc/method.md, weights",
         free_weights_undo_importance },
       { "permutation", "permuted examples permute the weights; doc/method.md, closed forms",

@@ -53,8 +53,8 @@ namespace Exemplar
     factorize(const WeightBlock &block)
         = 0;
 
-    /// The right side is overwritten by the solution. Throws SolverFailure if the
-    /// system is singular.
+    /// The right side is overwritten by the solution. Until the next factorize() the
+    /// coupling must stay as it is. Throws SolverFailure if the system is singular.
     virtual void
     solve(const WeightBlock &block, BorderedVector &right_side)
         = 0;

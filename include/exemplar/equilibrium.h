@@ -216,7 +216,13 @@ namespace Exemplar
     search_along_step(State &state, SolveReport &report);
 
     void
+    correct_with_same_factor(State &state, SolveReport &report);
+
+    void
     evaluate_with_best_weights(State &state);
+
+    double
+    greatest_free_gradient() const;
 
     double
     step_slope() const;
@@ -226,6 +232,9 @@ namespace Exemplar
 
     void
     measure(State &state, SolveReport &report) const;
+
+    void
+    measure_iteration(State &state, SolveReport &report) const;
 
     void
     measure_weights(State &state, SolveReport &report) const;
