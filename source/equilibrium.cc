@@ -3,6 +3,7 @@
 #include <exemplar/errors.h>
 #include <exemplar/interrupt.h>
 #include <exemplar/prm_tools.h>
+#include <exemplar/supports.h>
 
 #include <cmath>
 #include <numeric>
@@ -225,12 +226,23 @@ namespace Exemplar
     parts.linear_solver.solve(block, unknowns);
   }
 
+  dealii::Vector<double>
+  Equilibrium::solved_step(const State &state) const
+  {
+    const auto            &free = parts.free_dofs.list();
+    dealii::Vector<double> step(state.positions.size());
+    for (unsigned int i = 0; i < free.size(); ++i)
+      step[free[i]] = unknowns.positions[i];
+    // the far ends of a body held at one cell would turn about it, along straight lines
+    if (parts.turns_freely)
+      remove_rigid_motion(state.positions, step);
+    return step;
+  }
+
   void
   Equilibrium::add_step(State &state) const
   {
-    const auto &free = parts.free_dofs.list();
-    for (unsigned int i = 0; i < free.size(); ++i)
-      state.positions[free[i]] += unknowns.positions[i];
+    state.positions += solved_step(state);
     for (unsigned int i = 0; i < unknowns.weights.size(); ++i)
       state.weights[i] += unknowns.weights[i];
     if (parts.examples != nullptr && parts.examples->weights_are_bounded())

@@ -17,6 +17,7 @@ namespace Exemplar
   {
     constexpr unsigned int most_halvings_of_increment = 6;
     constexpr unsigned int most_halvings_of_step      = 30;
+    constexpr double       greatest_length            = 64.;
 
     bool
     is_better(const double objective,
@@ -116,22 +117,38 @@ namespace Exemplar
   bool
   Equilibrium::search_along_step(State &state, SolveReport &report)
   {
-    const State               start         = state;
-    const std::vector<double> step          = unknowns.positions;
-    const auto               &free          = parts.free_dofs.list();
-    const double              slope         = step_slope();
-    const double              before        = current_objective;
-    const double              gradient_norm = greatest_free_gradient();
-    double                   &length = report.step_length = 1.;
-    for (unsigned int halving = 0; halving < most_halvings_of_step; ++halving, length *= 0.5)
+    const State                  start         = state;
+    const dealii::Vector<double> step          = solved_step(state);
+    const double                 slope         = step_slope();
+    const double                 before        = current_objective;
+    const double                 gradient_norm = greatest_free_gradient();
+    double                      &length        = report.step_length;
+    const auto                   try_length    = [&](const double new_length)
     {
-      state = start;
-      for (unsigned int i = 0; i < free.size(); ++i)
-        state.positions[free[i]] += length * step[i];
+      length = new_length;
+      state  = start;
+      state.positions.add(length, step);
       evaluate_with_best_weights(state);
-      if (is_better(current_objective, before, length * slope, greatest_free_gradient(),
-                    gradient_norm))
-        return true;
+    };
+    for (unsigned int halving = 0; halving < most_halvings_of_step; ++halving)
+    {
+      try_length(std::pow(0.5, halving));
+      if (!is_better(current_objective, before, length * slope, greatest_free_gradient(),
+                     gradient_norm))
+        continue;
+      // the convex tangent is too stiff near a saddle: go on as long as it goes down
+      double reached = current_objective;
+      while (report.tangent == Tangent::convex && length >= 1. && length < greatest_length)
+      {
+        try_length(2. * length);
+        if (current_objective >= reached)
+        {
+          try_length(0.5 * length);
+          break;
+        }
+        reached = current_objective;
+      }
+      return true;
     }
     state = start;
     evaluate_with_best_weights(state);
@@ -157,9 +174,7 @@ namespace Exemplar
       return; // for other active weights the complement may be indefinite
     }
     const double slope = step_slope();
-    const auto  &free  = parts.free_dofs.list();
-    for (unsigned int i = 0; i < free.size(); ++i)
-      state.positions[free[i]] += unknowns.positions[i];
+    state.positions += solved_step(state);
     evaluate_with_best_weights(state);
     if (slope < 0. && greatest_free_gradient() < 0.5 * gradient_norm
         && is_better(current_objective, before, slope, greatest_free_gradient(), gradient_norm))

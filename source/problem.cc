@@ -8,6 +8,10 @@ namespace Exemplar
 {
   namespace
   {
+    /// By which the cell of a support may have turned [rad]; the matrix gets singular at
+    /// 90 degrees. What frozen forces find depends on the support, so there it never may.
+    constexpr double largest_turn = 0.7;
+
     TimeAxis
     make_time_axis(const Parameters &parameters)
     {
@@ -86,7 +90,8 @@ namespace Exemplar
         linear_solver(make_linear_solver(parameters.solver, assembler.matrix_pattern())),
         equilibrium(parameters.solver,
                     { free_dofs, fe_space.rest_positions(), assembler, *linear_solver, clock,
-                      handles.get(), loads.get(), examples.get(), inertia.get() }),
+                      handles.get(), loads.get(), examples.get(), inertia.get(),
+                      support && turns_freely() && !parameters.model.is_frozen() }),
         diagnostics(handles.get(), loads.get(), examples.get(), inertia.get()),
         state(initial_state(parameters.initial,
                             mesh,
@@ -139,17 +144,23 @@ namespace Exemplar
     }
   }
 
+  bool
+  Problem::turns_freely() const
+  {
+    // infinitesimal rotations alone leave the linear strain as it is
+    return parameters.model.strain != StrainMeasure::linear;
+  }
+
   SolveReport
   Problem::advance()
   {
     State              next = state;
     const unsigned int step = state.step + 1;
     next.step               = step;
-    // infinitesimal rotations alone leave the linear strain as it is
-    const bool turns_freely = support && parameters.model.strain != StrainMeasure::linear;
-    if (turns_freely)
+    if (support && turns_freely()
+        && turn_to_support(mesh, *support, parameters.model.is_frozen() ? 0. : largest_turn,
+                           next.positions))
     {
-      turn_to_support(mesh, *support, next.positions);
       next.linearized_positions.reinit(0); // not turned with it
       equilibrium.start(next);
     }
@@ -159,7 +170,7 @@ namespace Exemplar
     {
       if (inertia != nullptr)
         inertia->end_step(state, next);
-      if (turns_freely)
+      if (support && turns_freely())
       {
         align(state.positions, next.positions);
         equilibrium.start(next);

@@ -126,9 +126,10 @@ namespace Exemplar
     return { nearest, { { a, b, c } }, held };
   }
 
-  void
+  bool
   turn_to_support(const Mesh                         &mesh,
                   const StaticallyDeterminateSupport &support,
+                  const double                        angle,
                   dealii::Vector<double>             &positions)
   {
     const std::vector<dealii::Point<3>> nodes = nodes_of(positions);
@@ -138,7 +139,34 @@ namespace Exemplar
       rest.push_back(mesh.get_nodes()[node]);
       current.push_back(nodes[node]);
     }
-    move_rigidly(best_rigid_motion(current, rest), positions);
+    const RigidMotion motion = best_rigid_motion(current, rest);
+    if (axis_and_angle(motion.rotation).angle < angle)
+      return false;
+    move_rigidly(motion, positions);
+    return true;
+  }
+
+  void
+  remove_rigid_motion(const dealii::Vector<double> &positions, dealii::Vector<double> &displacement)
+  {
+    const std::vector<dealii::Point<3>> x = nodes_of(positions), u = nodes_of(displacement);
+    const dealii::Point<3>              center = centroid(x), shift = centroid(u);
+    dealii::Tensor<2, 3>                inertia;
+    dealii::Tensor<1, 3>                moment;
+    for (unsigned int node = 0; node < x.size(); ++node)
+    {
+      const dealii::Tensor<1, 3> arm = x[node] - center;
+      moment += dealii::cross_product_3d(arm, u[node] - shift);
+      inertia += arm.norm_square() * dealii::unit_symmetric_tensor<3>() - outer_product(arm, arm);
+    }
+    const dealii::Tensor<1, 3> rotation = invert(inertia) * moment;
+    for (unsigned int node = 0; node < x.size(); ++node)
+    {
+      const dealii::Tensor<1, 3> rigid
+          = shift + dealii::cross_product_3d(rotation, x[node] - center);
+      for (unsigned int c = 0; c < 3; ++c)
+        displacement[3 * node + c] -= rigid[c];
+    }
   }
 
   void

@@ -126,7 +126,6 @@ namespace Exemplar::Verification
           set("Scene", "interpolation") + box({ { 4., 1., 1. } }, { { 16, 4, 4 } })
           + section("Examples", set("Pose functions", pose) + set("Prescribed weights", "1-t; t"))
           + section("Time", set("Increments", std::to_string(increments)))
-          + section("Material", set("Poisson's ratio", 0.3))
           + section("Solver", set("Tolerance", 1e-13)));
       Problem     &p               = scene.problem;
       unsigned int most_iterations = 0;
@@ -156,12 +155,12 @@ namespace Exemplar::Verification
       { "newton-quadratic", "what a step with the tangent (18) leaves of a small error",
         newton_quadratic },
       { "interpolation-twist-360",
-        "16x4x4 bar, nu = 0.3, 10 increments: reaches the pose's strains",
+        "16x4x4 bar, 10 increments: reaches the pose's strains",
         [] { return interpolation(twist(360., 4.), 10); } },
       { "interpolation-twist-720",
-        "16x4x4 bar, nu = 0.3, 20 increments: reaches the pose's strains",
+        "16x4x4 bar, 20 increments: reaches the pose's strains",
         [] { return interpolation(twist(720., 4.), 20); } },
-      { "interpolation-bend-180", "16x4x4 bar, nu = 0.3, 10 increments: reaches the pose's strains",
+      { "interpolation-bend-180", "16x4x4 bar, 10 increments: reaches the pose's strains",
         [] { return interpolation(bend(180., 4.), 10); } }
     };
   }

@@ -100,6 +100,7 @@ namespace Exemplar
       const Loads                  *loads;
       const ExamplePoses           *examples;
       Inertia                      *inertia;
+      bool turns_freely; ///< the held degrees of freedom only make A regular
     };
 
     Equilibrium(const SolverParameters &parameters, const Parts &parts);
@@ -175,6 +176,10 @@ namespace Exemplar
     /// Solve with the factor for the step that the gradients call for, into `unknowns`.
     void
     solve_for_step(const State &state);
+
+    /// The solved step, by degree of freedom.
+    dealii::Vector<double>
+    solved_step(const State &state) const;
 
     /// Add the solved step.
     void

@@ -77,6 +77,10 @@ namespace Exemplar
     void
     check_supports() const;
 
+    /// Whether a rotation leaves the energy as it is.
+    bool
+    turns_freely() const;
+
     void
     start_interpolation();
   };

@@ -29,12 +29,20 @@ namespace Exemplar
   StaticallyDeterminateSupport
   support_near_centroid(const Mesh &mesh);
 
-  /// Turn `positions` so that the supported cell stands as it does at rest. The
-  /// support was chosen for that orientation and is a poor one in others.
-  void
+  /// Turn `positions` so that the supported cell stands as it does at rest, unless it
+  /// deviates from that by less than `angle` [rad]. The support was chosen for that
+  /// orientation and is a poor one in others. Returns whether they were turned.
+  bool
   turn_to_support(const Mesh                         &mesh,
                   const StaticallyDeterminateSupport &support,
+                  double                              angle,
                   dealii::Vector<double>             &positions);
+
+  /// Take the best-fitting infinitesimal rigid motion (translation and rotation, least
+  /// squares over the nodes) out of a displacement [m] of `positions`.
+  void
+  remove_rigid_motion(const dealii::Vector<double> &positions,
+                      dealii::Vector<double>       &displacement);
 
   /// Move `positions` rigidly so that it comes nearest to `reference` in the
   /// least-squares sense over the nodes (Kabsch 1976), Eq. (15).
