@@ -93,8 +93,8 @@ namespace Exemplar
         line << ", weights' " << report.kkt_residual;
       if (report.step_length < 1.)
         line << ", step halved to " << report.step_length;
-      if (report.tangent == Tangent::convex)
-        line << ", convex tangent";
+      if (report.convexity > 0.)
+        line << ", tangent convex by " << report.convexity;
       std::cout << line.str() << std::endl;
     }
 

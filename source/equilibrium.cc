@@ -187,12 +187,26 @@ namespace Exemplar
   void
   Equilibrium::factorize(const dealii::Vector<double> &positions,
                          const std::vector<double>    &weights,
-                         const Tangent                 tangent)
+                         const double                  convexity)
   {
     {
-      StepClock::Scope scope(parts.clock, Part::assemble);
-      parts.assembler.assemble_tangent(tangent, positions, weights,
-                                       parts.linear_solver.matrix_values(), block.coupling);
+      StepClock::Scope     scope(parts.clock, Part::assemble);
+      std::vector<double> &values = parts.linear_solver.matrix_values();
+      parts.assembler.assemble_tangent(convexity < 1. ? Tangent::exact : Tangent::convex, positions,
+                                       weights, values, block.coupling);
+      if (convexity > 0. && convexity < 1.)
+      {
+        std::vector<double> convex_values(values.size()), convex_coupling;
+        parts.assembler.assemble_tangent(Tangent::convex, positions, weights, convex_values,
+                                         convex_coupling);
+        const auto mix = [&](std::vector<double> &exact, const std::vector<double> &convex)
+        {
+          for (std::size_t i = 0; i < convex.size(); ++i)
+            exact[i] += convexity * (convex[i] - exact[i]);
+        };
+        mix(values, convex_values);
+        mix(block.coupling, convex_coupling);
+      }
     }
     StepClock::Scope scope(parts.clock, Part::factorize);
     ++factorizations;
@@ -324,7 +338,7 @@ namespace Exemplar
       while (report.status == SolveStatus::initial)
       {
         check_interrupt();
-        factorize(linearized_at, state.weights, Tangent::convex);
+        factorize(linearized_at, state.weights, 1.);
         solve_for_step(state);
         add_step(state);
         linearized_at = state.positions;

@@ -93,12 +93,13 @@ namespace Exemplar
   bool
   Equilibrium::find_newton_step(const State &state, SolveReport &report)
   {
-    for (const Tangent tangent : { Tangent::exact, Tangent::convex })
+    // between the two the least convex part that does
+    for (const double convexity : { 0., 0.125, 0.5, 1. })
     {
-      report.tangent = tangent;
+      report.convexity = convexity;
       try
       {
-        factorize(state.positions, state.weights, tangent);
+        factorize(state.positions, state.weights, convexity);
         solve_for_step(state);
       }
       catch (const SolverFailure &failure)
@@ -138,7 +139,7 @@ namespace Exemplar
         continue;
       // the convex tangent is too stiff near a saddle: go on as long as it goes down
       double reached = current_objective;
-      while (report.tangent == Tangent::convex && length >= 1. && length < greatest_length)
+      while (report.convexity > 0. && length >= 1. && length < greatest_length)
       {
         try_length(2. * length);
         if (current_objective >= reached)
@@ -212,7 +213,7 @@ namespace Exemplar
     if (!has_last_factor)
     {
       parts.assembler.update_rotations(accepted.linearized_positions);
-      factorize(accepted.linearized_positions, accepted.linearized_weights, Tangent::exact);
+      factorize(accepted.linearized_positions, accepted.linearized_weights, 0.);
       solve_for_step(accepted); // as then: the same columns beside the same right side's
       has_last_factor = true;
     }
@@ -233,7 +234,7 @@ namespace Exemplar
                                                      accepted.weights, current);
       add_inertia_and_loads(accepted);
       if (!has_factor)
-        factorize(accepted.positions, accepted.weights, tangent);
+        factorize(accepted.positions, accepted.weights, tangent == Tangent::convex ? 1. : 0.);
       solve_for_step(accepted);
       return true;
     }
@@ -287,7 +288,7 @@ namespace Exemplar
       return;
     correct_with_same_factor(state, report);
     // what the factor is of, if the next step may predict with it
-    has_last_factor = !dynamic_terms && report.tangent == Tangent::exact;
+    has_last_factor = !dynamic_terms && report.convexity == 0.;
     if (!has_last_factor)
       positions.reinit(0);
     state.linearized_positions = std::move(positions);

@@ -79,8 +79,8 @@ namespace Exemplar
     double              kkt_residual = 0.; ///< of the weights, relative, Eq. (13)
     std::vector<double> residual_history;  ///< one entry an iteration
     double              step_length = 1.;  ///< of the last step, as the line search left it
-    Tangent             tangent     = Tangent::exact; ///< of the last factorisation
-    std::string         failure; ///< why, if the status is `failed` or `indefinite`
+    double              convexity   = 0.;  ///< of the last tangent: 0 exact, 1 convex
+    std::string         failure;           ///< why, if the status is `failed` or `indefinite`
   };
 
   /// Finds positions and example weights at the end of a step: statics,
@@ -171,7 +171,7 @@ namespace Exemplar
     void
     factorize(const dealii::Vector<double> &positions,
               const std::vector<double>    &weights,
-              Tangent                       tangent);
+              double                        convexity);
 
     /// Solve with the factor for the step that the gradients call for, into `unknowns`.
     void
