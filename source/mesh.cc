@@ -194,9 +194,11 @@ namespace Exemplar
                  "-Lz/2..Lz/2, in bricks of 6 tetrahedra each; nodes are numbered from 1, x "
                  "fastest; boundary ids are 1, 2, 3, 4, 5, 6 for x-, x+, y-, y+, z-, z+; the "
                  "material id is 1.");
-    prm.add_parameter("Box size", box_size,
-                      "Lengths Lx, Ly, Lz of the generated box [m before Scale], each > 0.",
-                      List(Double(0.), 3, 3));
+    prm.add_parameter(
+        "Box size", box_size,
+        "Lengths Lx, Ly, Lz of the generated box [m before Scale], each > 0. It goes from x = "
+        "0 to Lx and lies symmetric to y = 0 and z = 0.",
+        List(Double(0.), 3, 3));
     prm.add_parameter("Box cells", box_cells,
                       "Numbers of bricks of the generated box along x, y, z, each >= 1; every "
                       "brick has 6 tetrahedra.",

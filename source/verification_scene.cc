@@ -121,9 +121,7 @@ namespace Exemplar::Verification
     const double      curvature = degrees * M_PI / 180. / length;
     const std::string angle     = "(" + shortest_text(curvature) + "*x)",
                       radius    = shortest_text(1. / curvature);
-    const std::string arm
-        = "(" + radius + "-(z-0.5))"; // the middle of a height of 1 keeps its length
-    return arm + "*sin" + angle + "; y; " + radius + "-" + arm + "*cos" + angle;
+    return "(" + radius + "-z)*sin" + angle + "; y; " + radius + "-(" + radius + "-z)*cos" + angle;
   }
 
   Matrix3<double>

@@ -56,10 +56,10 @@ namespace Exemplar::Testing
       // the left half is stretched and the right one twisted: no global weights fit both
       const std::string handles
           = "subsection Handles\n set Names = left, middle, right\n" + held_left
-            + "subsection middle\n set Select = box 2 0 0 2 1 1\n set Motion = 0.4*t; -0.1*y*t; "
+            + "subsection middle\n set Select = box 2 -1 -1 2 1 1\n set Motion = 0.4*t; -0.1*y*t; "
               "0\nend\n"
               "subsection right\n set Select = boundary 2\n"
-              "set Motion = 0.4*t; -0.1*y*t+0.15*(0.5-z)*t*2; 0.15*(y-0.5)*t*2\nend\nend\n";
+              "set Motion = 0.4*t; -0.1*y*t-0.3*z*t; 0.3*y*t\nend\nend\n";
       const State state = Scene(scene(handles, "set Weights per region = true\n")).solve();
       ASSERT_EQ(state.weights.size(), 6u);
       for (const unsigned int region : { 0, 1 })
