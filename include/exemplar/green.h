@@ -2,7 +2,7 @@
 #ifndef exemplar_green_h
 #define exemplar_green_h
 
-#include <exemplar/corotational.h>
+#include <exemplar/quadratic_cell.h>
 
 // Green's strain e = 1/2 (F^T F - I) with the energy density 1/2 (e - D) : C : (e - D), the
 // material of example-based elasticity in Martin et al. 2011 and, with incompatible
@@ -28,27 +28,15 @@ namespace Exemplar
 
   /// A deformed cell; see CorotationalCell, of which the rotation is I.
   template <typename Number>
-  class GreenCell
+  class GreenCell : public QuadraticCell<Number>
   {
   public:
     GreenCell(const Lame<Number> &lame,
               const Matrix3<Number> & /*rotation*/,
               const Matrix3<Number> &deformation_gradient,
               const Number & /*p_0*/)
-        : lame(lame), F(deformation_gradient), e(green_strain(F)), T(e)
+        : QuadraticCell<Number>(lame, green_strain(deformation_gradient)), F(deformation_gradient)
     {
-    }
-
-    bool
-    is_guarded() const
-    {
-      return false;
-    }
-
-    const Matrix3<Number> &
-    strain() const
-    {
-      return e;
     }
 
     /// |F T| <= |F| |T|, of which |F|^2 = 3 at rest.
@@ -58,44 +46,25 @@ namespace Exemplar
       return std::sqrt(contract(F, F) / Number(3.));
     }
 
-    Number
-    energy(const Matrix3<Number> &D) const
-    {
-      const Matrix3<Number> deviation = combine(Number(1.), e, Number(-1.), D);
-      return Number(0.5) * contract(stress(lame, deviation), deviation);
-    }
-
-    Matrix3<Number>
-    weight_stress(const Matrix3<Number> &D) const
-    {
-      return stress(lame, combine(Number(1.), e, Number(-1.), D));
-    }
-
     Matrix3<Number>
     elastic_force() const
     {
-      return F * stress(lame, e);
+      return F * stress(this->lame, this->e);
     }
 
-    void
-    set_target(const Matrix3<Number> &D)
-    {
-      T = weight_stress(D);
-    }
-
-    /// P = F T with the second Piola-Kirchhoff stress T = C:(e - D).
+    /// P = F T with the second Piola-Kirchhoff stress T = C:(e - D), Eq. (19).
     Matrix3<Number>
     force() const
     {
-      return F * T;
+      return F * this->T;
     }
 
-    /// dP = dF T + F C:sym(F^T dF).
+    /// dP = dF T + F C:sym(F^T dF), Eq. (19).
     Matrix3<Number>
     response(const Matrix3<Number> &dF) const
     {
-      return combine(Number(1.), dF * T, Number(1.),
-                     F * stress(lame, symmetric_part(transpose_times(F, dF))));
+      return combine(Number(1.), dF * this->T, Number(1.),
+                     F * stress(this->lame, symmetric_part(transpose_times(F, dF))));
     }
 
     /// From now on response() keeps the positive part of T only: it is never negative, and
@@ -104,21 +73,18 @@ namespace Exemplar
     void
     make_convex()
     {
-      T = spectral_function(T, [](const Number &eigenvalue)
-                            { return eigenvalue > Number(0.) ? eigenvalue : Number(0.); });
+      this->T = spectral_function(this->T, [](const Number &eigenvalue)
+                                  { return eigenvalue > Number(0.) ? eigenvalue : Number(0.); });
     }
 
     Matrix3<Number>
     example_response(const Matrix3<Number> &E) const
     {
-      return F * stress(lame, E);
+      return F * stress(this->lame, E);
     }
 
   private:
-    Lame<Number>    lame;
     Matrix3<Number> F;
-    Matrix3<Number> e;
-    Matrix3<Number> T;
   };
 } // namespace Exemplar
 

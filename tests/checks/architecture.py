@@ -10,7 +10,7 @@ import sys
 from pathlib import Path
 
 TOP = Path(__file__).resolve().parents[2]
-KERNELS = ["matrix3", "lame", "polar_decomposition", "corotational", "corotational_consistent", "linear",
+KERNELS = ["matrix3", "lame", "polar_decomposition", "corotational", "corotational_consistent", "quadratic_cell", "linear",
            "green", "cell_model"]
 
 
