@@ -137,13 +137,18 @@ namespace Exemplar
   Assembler::set_damping(const double s, const std::vector<WeightedPositions> &history)
   {
     damping = s;
-    damping_strains.assign(s > 0. ? fe_space.n_cells() : 0, Matrix3<double>{});
-    for (unsigned int cell = 0; cell < damping_strains.size(); ++cell)
+    cell_damping.assign(s > 0. ? fe_space.n_cells() : 0, s);
+    damping_strains.assign(cell_damping.size(), Matrix3<double>{});
+    for (unsigned int cell = 0; cell < cell_damping.size(); ++cell)
       for (const WeightedPositions &past : history)
       {
         const Matrix3<double> F = fe_space.deformation_gradient(cell, *past.positions);
-        const Matrix3<double> e = model_strain(model.strain, model_rotation(model.strain, F), F);
+        const Matrix3<double> R = model_rotation(model.strain, F);
+        const Matrix3<double> e = model_strain(model.strain, R, F);
         damping_strains[cell]   = combine(1., damping_strains[cell], past.weight, e);
+        if (model.strain == StrainMeasure::corotational
+            && CorotationalCell<double>(material.lame(cell), R, F, guard_bound).is_guarded())
+          cell_damping[cell] = 0.;
       }
   }
 
@@ -160,15 +165,16 @@ namespace Exemplar
   Assembler::damped_lame(const unsigned int cell) const
   {
     const Lame<double> &lame = material.lame(cell);
-    return { (1. + damping) * lame.lambda, (1. + damping) * lame.mu };
+    return { (1. + damping_of(cell)) * lame.lambda, (1. + damping_of(cell)) * lame.mu };
   }
 
   Matrix3<double>
   Assembler::damped_target(const unsigned int cell, const Matrix3<double> &target) const
   {
-    if (damping == 0.)
+    const double s = damping_of(cell);
+    if (s == 0.)
       return target;
-    return combine(1. / (1. + damping), target, damping / (1. + damping), damping_strains[cell]);
+    return combine(1. / (1. + s), target, s / (1. + s), damping_strains[cell]);
   }
 
   template <typename Cell>
@@ -217,17 +223,17 @@ namespace Exemplar
       }
       else
         result.energy += elastic;
-      if (damping > 0.)
+      const double s = damping_of(cell);
+      if (s > 0.)
       {
-        result.energy_damping += damping * tet.volume * state.energy(damping_strains[cell]);
-        stress_scale
-            += damping * (norm(elastic_stress) + norm(stress(lame, damping_strains[cell])));
+        result.energy_damping += s * tet.volume * state.energy(damping_strains[cell]);
+        stress_scale += s * (norm(elastic_stress) + norm(stress(lame, damping_strains[cell])));
         target = damped_target(cell, target);
         state  = Cell(damped_lame(cell), rotations[cell], F, guard_bound);
       }
 
       Matrix3<double> P; // R^T P
-      if (examples == nullptr && damping == 0.)
+      if (examples == nullptr && s == 0.)
         P = state.elastic_force();
       else if (frozen)
         P = state.weight_stress(target);

@@ -181,7 +181,7 @@ namespace Exemplar
       if (!has_weights())
         continue;
       // the target moves by 1/(1+s) of what the examples' does
-      const double factor = examples->importance() / (1. + damping);
+      const double factor = examples->importance() / (1. + damping_of(cell));
       examples->for_each_weight(
           cell,
           [&](const unsigned int weight, const unsigned int i, const double share)
@@ -229,7 +229,7 @@ namespace Exemplar
       if (result.weight_gradient.empty())
         continue;
       const double factor
-          = examples->importance() / (1. + damping) * fe_space.tetrahedron(cell).volume;
+          = examples->importance() / (1. + damping_of(cell)) * fe_space.tetrahedron(cell).volume;
       examples->for_each_weight(
           cell,
           [&](const unsigned int weight, const unsigned int i, const double share)

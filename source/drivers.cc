@@ -184,11 +184,8 @@ namespace Exemplar
     results.finish(status_name(parameters.solver.method == Method::one_pass
                                    ? SolveStatus::one_pass
                                    : SolveStatus::converged));
-    if (const unsigned int inverted = problem->equilibrium.evaluation().inverted_cells)
-      std::cerr << "Warning: " << inverted
-                << " cells are inverted at the end. The state is an equilibrium, but there may be "
-                   "one of less energy: look at the frames, or take smaller steps."
-                << std::endl;
+    for (const std::string &warning : problem->warnings_at_end())
+      std::cerr << "Warning: " << warning << std::endl;
     if (!options.quiet)
       print_times(results.get_totals());
   }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/equilibrium.h>
 #include <exemplar/errors.h>
-#include <exemplar/interrupt.h>
 #include <exemplar/prm_tools.h>
 #include <exemplar/supports.h>
 
@@ -55,15 +54,17 @@ namespace Exemplar
         prm, "Method", method, methods,
         "one pass: the paper's, one linear solve with frozen rotations a step; fixed "
         "point: the same, repeated until the residual is below Tolerance; newton: descent on "
-        "the energy with its exact tangent.");
+        "the energy with its exact tangent, or as much of a convex one as it takes.");
     prm.add_parameter("Tolerance", tolerance,
                       "Relative residual at which a step has converged: the greatest free residual "
                       "force over the greatest nodal force scale. Not used by one pass.",
                       dealii::Patterns::Double(1e-16, 1.));
-    prm.add_parameter("Maximum iterations", maximum_iterations,
-                      "Iterations after which a step without convergence ends the run with status "
-                      "2. Not used by one pass.",
-                      dealii::Patterns::Integer(1));
+    prm.add_parameter(
+        "Maximum iterations", maximum_iterations,
+        "Iterations after which a step without convergence ends the run with status "
+        "2; newton first tries half the step, up to six times, with as many each. Not "
+        "used by one pass.",
+        dealii::Patterns::Integer(1));
     declare_enum(
         prm, "Linear solver", linear_solver, linear_solvers,
         "cholesky: CHOLMOD factorises the positions' block, the weights follow from a "
@@ -117,36 +118,6 @@ namespace Exemplar
     if (parts.inertia->stiffness_damping_factor() > 0.)
       parts.assembler.set_damping(parts.inertia->stiffness_damping_factor(),
                                   parts.inertia->history(state));
-  }
-
-  void
-  Equilibrium::begin_step(State &state, const double time)
-  {
-    StepClock::Scope scope(parts.clock, Part::evaluate);
-    state.time = time;
-    update_loads(time);
-    const bool prescribed = parts.examples != nullptr && parts.examples->weights_are_prescribed();
-    if (prescribed)
-      state.weights = parts.examples->prescribed_weights(time);
-    if (prescribed || (dynamic_terms && parts.inertia->stiffness_damping_factor() > 0.))
-      parts.assembler.evaluate(state.positions, state.weights, current);
-    move_handles(state);
-    add_inertia_and_loads(state);
-  }
-
-  void
-  Equilibrium::move_handles(State &state)
-  {
-    // Only the cells beside held nodes feel that the handles move, and as long as the
-    // rotations are frozen their forces are linear in the displacement.
-    if (parts.handles == nullptr)
-      return;
-    const dealii::Vector<double> before       = state.positions;
-    dealii::Vector<double>       displacement = before;
-    parts.handles->move(state.time, state.positions);
-    displacement.sadd(-1., 1., state.positions);
-    parts.assembler.add_response_beside_held_nodes(Tangent::convex, displacement, before,
-                                                   state.weights, current);
   }
 
   void
@@ -322,46 +293,5 @@ namespace Exemplar
   {
     return parameters.method == Method::newton ? solve_by_newton(state, time, step_size)
                                                : solve_by_passes(state, time, step_size);
-  }
-
-  SolveReport
-  Equilibrium::solve_by_passes(State &state, const double time, const double step_size)
-  {
-    SolveReport report;
-    try
-    {
-      // The rotations are still those of the last accepted positions, before the
-      // handles move: the paper's choice.
-      begin_dynamic_step(state, step_size);
-      dealii::Vector<double> linearized_at = state.positions;
-      begin_step(state, time);
-      while (report.status == SolveStatus::initial)
-      {
-        check_interrupt();
-        factorize(linearized_at, state.weights, 1.);
-        solve_for_step(state);
-        add_step(state);
-        linearized_at = state.positions;
-        ++report.iterations;
-        {
-          StepClock::Scope scope(parts.clock, Part::evaluate);
-          parts.assembler.update_rotations(state.positions);
-        }
-        evaluate(state);
-        measure_iteration(state, report);
-        if (parameters.method == Method::one_pass)
-          report.status = SolveStatus::one_pass;
-        else if (std::max(report.residual, report.kkt_residual) <= parameters.tolerance)
-          report.status = SolveStatus::converged;
-        else if (report.iterations == parameters.maximum_iterations)
-          report.status = SolveStatus::iteration_limit;
-      }
-    }
-    catch (const SolverFailure &failure)
-    {
-      report.status  = SolveStatus::failed;
-      report.failure = failure.what();
-    }
-    return report;
   }
 } // namespace Exemplar

@@ -142,7 +142,7 @@ namespace Exemplar
       while (report.convexity > 0. && length >= 1. && length < greatest_length)
       {
         try_length(2. * length);
-        if (current_objective >= reached)
+        if (!(current_objective < reached))
         {
           try_length(0.5 * length);
           break;
@@ -185,13 +185,13 @@ namespace Exemplar
   }
 
   void
-  Equilibrium::start_newton(const State &accepted, State &trial)
+  Equilibrium::start_newton(const State &accepted, const bool is_whole_step, State &trial)
   {
     StepClock::Scope scope(parts.clock, Part::evaluate);
     update_loads(trial.time);
     if (parts.examples != nullptr && parts.examples->weights_are_prescribed())
       trial.weights = parts.examples->prescribed_weights(trial.time);
-    if (dynamic_terms)
+    if (dynamic_terms && is_whole_step)
     {
       // inertia predicts better than any tangent: x + h v
       for (const unsigned int dof : parts.free_dofs.list())
@@ -214,7 +214,13 @@ namespace Exemplar
     {
       parts.assembler.update_rotations(accepted.linearized_positions);
       factorize(accepted.linearized_positions, accepted.linearized_weights, 0.);
-      solve_for_step(accepted); // as then: the same columns beside the same right side's
+      try
+      {
+        solve_for_step(accepted); // as then: the columns Z beside a right side
+      }
+      catch (const SolverFailure &)
+      {
+      } // Z is there, and for the weights of this right side nobody asked
       has_last_factor = true;
     }
     return true;
@@ -306,7 +312,7 @@ namespace Exemplar
     report.status = SolveStatus::initial;
     try
     {
-      start_newton(state, trial);
+      start_newton(state, halvings == 0, trial);
       iterate_newton(trial, report);
     }
     catch (const SolverFailure &failure)

@@ -91,10 +91,11 @@ namespace Exemplar
     prm.add_parameter("Weights per region", weights_per_region,
                       "Whether the cells of each material id have weights of their own "
                       "(statistics: weight_R_i for example i in region R).");
-    prm.add_parameter("Region blend length", region_blend_length,
-                      "Distance [m] over which the weights of neighbouring regions pass into each "
-                      "other; 0: at once, at the border.",
-                      dealii::Patterns::Double(0.));
+    prm.add_parameter(
+        "Region blend length", region_blend_length,
+        "Distance [m] over which the weights of neighbouring regions pass into each "
+        "other; 0: at once, at the border. Below the size of a cell: over about a cell.",
+        dealii::Patterns::Double(0.));
     prm.leave_subsection();
   }
 
@@ -129,7 +130,9 @@ namespace Exemplar
     {
       if (!parameters.weights_per_region)
         return {};
-      return RegionShares(fe_space, mesh.get_material_ids(), parameters.region_blend_length);
+      // beyond the body's size all regions have the same share everywhere
+      const double length = std::min(parameters.region_blend_length, 1e3 * mesh.diameter());
+      return RegionShares(fe_space, mesh.get_material_ids(), length);
     }
   } // namespace
 

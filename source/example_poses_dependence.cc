@@ -88,7 +88,7 @@ namespace Exemplar
                   : "";
     const std::string which
         = "Example " + std::to_string(example) + " (" + names[example] + ")" + where;
-    const bool decided = penalty(0, 0) > 0.;
+    const bool decided = penalty(second(least.row), second(least.row)) > 0.;
     if (least.ratio < 1e-12 && !decided)
       throw UserError(which
                       + " is an affine combination of the examples before it, so their weights "

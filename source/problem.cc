@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/errors.h>
+#include <exemplar/number_text.h>
 #include <exemplar/problem.h>
 
 #include <algorithm>
@@ -230,6 +231,37 @@ namespace Exemplar
       all.insert(all.end(), handles->get_warnings().begin(), handles->get_warnings().end());
     if (examples != nullptr)
       all.insert(all.end(), examples->get_warnings().begin(), examples->get_warnings().end());
+    return all;
+  }
+
+  bool
+  Problem::is_unloaded() const
+  {
+    if (parameters.scene != SceneKind::statics || loads != nullptr
+        || (examples != nullptr && examples->weights_are_prescribed()))
+      return false;
+    dealii::Vector<double> held = fe_space.rest_positions();
+    handles->move(state.time, held);
+    held -= fe_space.rest_positions();
+    return held.linfty_norm() < 1e-10 * mesh.diameter();
+  }
+
+  std::vector<std::string>
+  Problem::warnings_at_end() const
+  {
+    std::vector<std::string> all;
+    if (const unsigned int inverted = equilibrium.evaluation().inverted_cells)
+      all.push_back(
+          std::to_string(inverted)
+          + " cells are inverted at the end. The state is an equilibrium, but there may be "
+            "one of less energy: look at the frames, or take smaller steps.");
+    // strains of 1e-4 are no accident
+    if (is_unloaded() && equilibrium.evaluation().energy > 1e-8 * unit_energy(fe_space, material))
+      all.push_back(
+          "Nothing loads the body, but it has come to rest in a local minimum of its energy "
+          "at "
+          + shortest_text(equilibrium.evaluation().energy)
+          + " J, where the rest pose has less: Initial/Pose may be too far from it.");
     return all;
   }
 } // namespace Exemplar

@@ -90,6 +90,7 @@ namespace Exemplar
 
     for (unsigned int cell = 0; cell < shares.size(); ++cell)
     {
+      const unsigned int  own = shares[cell][0].region;
       std::vector<double> value(n_regions());
       double              sum = 0.;
       for (unsigned int region = 0; region < n_regions(); ++region)
@@ -97,7 +98,7 @@ namespace Exemplar
         for (const unsigned int node : fe_space.nodes(cell))
           value[region] += 0.25 * columns[region * n + node];
         // obtuse cells can push a share a little below zero; far regions do not matter
-        if (value[region] < negligible_share)
+        if (region != own && value[region] < negligible_share)
           value[region] = 0.;
         sum += value[region];
       }

@@ -159,7 +159,10 @@ namespace Exemplar
       moment += dealii::cross_product_3d(arm, u[node] - shift);
       inertia += arm.norm_square() * dealii::unit_symmetric_tensor<3>() - outer_product(arm, arm);
     }
-    const dealii::Tensor<1, 3> rotation = invert(inertia) * moment;
+    // points on a line have no inertia about it: then only the translation is taken out
+    const bool has_volume = determinant(inertia) > 1e-12 * std::pow(trace(inertia), 3);
+    const dealii::Tensor<1, 3> rotation
+        = has_volume ? invert(inertia) * moment : dealii::Tensor<1, 3>();
     for (unsigned int node = 0; node < x.size(); ++node)
     {
       const dealii::Tensor<1, 3> rigid

@@ -34,7 +34,7 @@ namespace Exemplar
     prm.add_parameter(
         "Stiffness damping", stiffness_damping,
         "Stress of C : (rate of the strain) times this [s] in a dynamic scene; leaves "
-        "rigid motion alone.",
+        "rigid motion alone unless Model/Strain is linear.",
         dealii::Patterns::Double(0.));
     prm.add_parameter("Increments", increments,
                       "Number of increments in which a static scene or an interpolation goes from "

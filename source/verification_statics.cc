@@ -150,18 +150,15 @@ namespace Exemplar::Verification
   std::vector<Case>
   static_cases()
   {
-    return {
-      { "patch", "affine boundary data give the affine field; doc/method.md, closed forms", patch },
-      { "newton-quadratic", "what a step with the tangent (18) leaves of a small error",
-        newton_quadratic },
-      { "interpolation-twist-360",
-        "16x4x4 bar, 10 increments: reaches the pose's strains",
-        [] { return interpolation(twist(360., 4.), 10); } },
-      { "interpolation-twist-720",
-        "16x4x4 bar, 20 increments: reaches the pose's strains",
-        [] { return interpolation(twist(720., 4.), 20); } },
-      { "interpolation-bend-180", "16x4x4 bar, 10 increments: reaches the pose's strains",
-        [] { return interpolation(bend(180., 4.), 10); } }
-    };
+    return { { "patch", "affine boundary data give the affine field; doc/method.md, closed forms",
+               patch },
+             { "newton-quadratic", "what a step with the tangent (18) leaves of a small error",
+               newton_quadratic },
+             { "interpolation-twist-360", "16x4x4 bar, 10 increments: reaches the pose's strains",
+               [] { return interpolation(twist(360., 4.), 10); } },
+             { "interpolation-twist-720", "16x4x4 bar, 20 increments: reaches the pose's strains",
+               [] { return interpolation(twist(720., 4.), 20); } },
+             { "interpolation-bend-180", "16x4x4 bar, 10 increments: reaches the pose's strains",
+               [] { return interpolation(bend(180., 4.), 10); } } };
   }
 } // namespace Exemplar::Verification

@@ -81,7 +81,8 @@ namespace Exemplar
     update_rotations(const dealii::Vector<double> &positions);
 
     /// From now on forces contain the stiffness damping s C:(e - sum_m c_m e(x_m)), with
-    /// s [-] the damping time over the time step. s = 0: none.
+    /// s [-] the damping time over the time step. s = 0: none. Cells that the guard of
+    /// Eq. (16) had to hold at one of the x_m are left out: their rotation is ambiguous.
     void
     set_damping(double s, const std::vector<WeightedPositions> &history);
 
@@ -118,7 +119,7 @@ namespace Exemplar
     double
     rounding_force() const
     {
-      return greatest_rounding_force;
+      return (1. + 2. * damping) * greatest_rounding_force;
     }
 
     /// The same for the derivative of the energy by a weight [J].
@@ -156,6 +157,13 @@ namespace Exemplar
     /// are quadratics around a strain, and so is their sum.
     Lame<double>
     damped_lame(unsigned int cell) const;
+
+    /// s of set_damping(), 0 where it is left out.
+    double
+    damping_of(const unsigned int cell) const
+    {
+      return cell_damping.empty() ? 0. : cell_damping[cell];
+    }
 
     Matrix3<double>
     damped_target(unsigned int cell, const Matrix3<double> &target) const;
@@ -277,6 +285,7 @@ namespace Exemplar
     std::vector<std::array<double, 4>> gradient_norms; ///< |g_a|
     std::vector<Matrix3<double>>       rotations;
     double                             damping = 0.; ///< s of set_damping()
+    std::vector<double>                cell_damping; ///< empty without damping
     std::vector<Matrix3<double>>       damping_strains;
     double                             greatest_rounding_force = 0.;
     double                             rounding_stress_norm    = 0.; ///< (sum V T^2)^(1/2)

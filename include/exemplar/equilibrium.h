@@ -195,7 +195,7 @@ namespace Exemplar
     advance_by_newton(State &state, double to, unsigned int halvings, SolveReport &report);
 
     void
-    start_newton(const State &accepted, State &trial);
+    start_newton(const State &accepted, bool is_whole_step, State &trial);
 
     void
     predict_along_tangent(const State &accepted, State &trial);

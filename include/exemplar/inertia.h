@@ -31,7 +31,7 @@ namespace Exemplar
     const dealii::Vector<double> *positions; ///< by degree of freedom [m]
   };
 
-  /// Mass, time stepping and mass damping of dynamic scenes, Eq. (12). Statics and
+  /// Mass, time stepping and mass damping of dynamic scenes, Eqs. (12), (21) and (22). Statics and
   /// interpolation have no such object. Rates at the end of a step are
   /// v = gamma (x - x_star), with x_star from earlier positions.
   class Inertia

@@ -51,6 +51,10 @@ namespace Exemplar
     std::vector<std::string>
     warnings() const;
 
+    /// What looks wrong in the state that the last step has led to.
+    std::vector<std::string>
+    warnings_at_end() const;
+
     const Parameters &parameters;
     StepClock         clock;
 
@@ -76,6 +80,10 @@ namespace Exemplar
 
     void
     check_supports() const;
+
+    /// Whether nothing acts on the body that the rest pose could not bear without strain.
+    bool
+    is_unloaded() const;
 
     /// Whether a rotation leaves the energy as it is.
     bool

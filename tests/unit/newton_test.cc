@@ -56,6 +56,19 @@ namespace Exemplar::Testing
       EXPECT_LT(max_difference(state.positions, scene.problem.examples->pose(1)), 1e-9);
     }
 
+    TEST(Newton, InterpolatesFromABodyCollapsedToALine)
+    {
+      for (const std::string start : { "x; 0; 0", "0; 0; 0" })
+      {
+        Scene scene(
+            "set Scene = interpolation\n" + bar
+            + examples("set Pose functions = 1.1*x; y; z\n set Prescribed weights = 1-t; t\n")
+            + "subsection Initial\n set Pose function = " + start
+            + "\nend\nsubsection Time\n set Increments = 1\nend\n");
+        EXPECT_EQ(scene.problem.advance().status, SolveStatus::converged) << start;
+      }
+    }
+
     TEST(Newton, SimplexWeightsAreNeverNegative)
     {
       Scene scene("set Scene = static\n" + bar + drag

@@ -49,6 +49,19 @@ namespace Exemplar::Testing
       }
     }
 
+    TEST(RegionShares, ASmallRegionKeepsAShareOfItself)
+    {
+      // a few cells of 24,000, and a length that spreads it over the whole bar
+      const Body         body(bar_of_two_regions(3.9997, box_mesh(4., 4000, 1)));
+      const RegionShares shares(body.fe_space, body.mesh.get_material_ids(), 1e3);
+      double             greatest = 0.;
+      for (unsigned int cell = 0; cell < body.fe_space.n_cells(); ++cell)
+        greatest = std::max(greatest, share_of(shares, 1, cell));
+      ASSERT_EQ(shares.n_regions(), 2u);
+      EXPECT_GT(greatest, 0.);
+      EXPECT_LT(greatest, 1e-3);
+    }
+
     TEST(RegionShares, OneRegionIsGlobal)
     {
       const Body         body;

@@ -157,6 +157,56 @@ namespace Exemplar::Testing
       }
     }
 
+    TEST(TimeScheme, ABodyThatDoesNotMoveIsNotDamped)
+    {
+      // also where cells are mirrored so that the guard acts
+      const Body     body;
+      const FreeDofs free_dofs(body.fe_space.n_dofs(), {});
+      Assembler      assembler(ModelParameters(), body.fe_space, body.material, nullptr, nullptr,
+                               free_dofs);
+      Vector         x = body.fe_space.rest_positions();
+      for (unsigned int node = 0; node < x.size() / 3; ++node)
+        x[3 * node] *= -0.9;
+      Evaluation damped, undamped;
+      assembler.update_rotations(x);
+      assembler.evaluate(x, {}, undamped);
+      EXPECT_EQ(undamped.inverted_cells, body.fe_space.n_cells());
+      assembler.set_damping(7., { { 1., &x } });
+      assembler.evaluate(x, {}, damped);
+      EXPECT_LT(max_difference(damped.gradient, undamped.gradient),
+                1e-12 * undamped.gradient.linfty_norm());
+    }
+
+    TEST(TimeScheme, AFreeBodyWithStrongDampingFliesOn)
+    {
+      for (const std::string velocity : { "1; 0.3; 0", "-y; x; 0" })
+      {
+        Scene       scene("set Scene = dynamic\n" + bar
+                          + "subsection Initial\n set Velocity = " + velocity
+                          + "\nend\nsubsection Time\n set Step = 0.001\n set End = 0.02\n"
+                                  "set Stiffness damping = 0.5\nend\n");
+        const auto  before = scene.problem.inertia->motion_sums(scene.problem.state);
+        const State state  = scene.solve();
+        const auto  after  = scene.problem.inertia->motion_sums(state);
+        EXPECT_LT((after.momentum - before.momentum).norm(), 1e-7 * (before.momentum.norm() + 1.));
+        EXPECT_NEAR(after.kinetic_energy, before.kinetic_energy, 2e-2 * before.kinetic_energy);
+      }
+    }
+
+    TEST(TimeScheme, AStepThatFailsGoesHalfTheWayFirst)
+    {
+      // too few iterations for the whole step, enough for its parts
+      const std::string text = "set Scene = dynamic\n" + bar
+                               + "subsection Handles\n set Names = left, right\n" + held_left
+                               + "subsection right\n set Select = boundary 2\n set Motion = 2*t; "
+                                 "3*t*y+2*t; 3*t*z\nend\nend\n"
+                                 "subsection Time\n set Step = 0.5\n set End = 0.5\nend\n";
+      Scene             whole(text), halved(text, { "Solver/Maximum iterations=4" });
+      const SolveReport report = whole.problem.advance();
+      ASSERT_GT(report.iterations, 4u);
+      EXPECT_LT(max_difference(halved.solve().positions, whole.problem.state.positions), 1e-7);
+    }
+
     TEST(TimeScheme, ImplicitEulerKeepsNoHistory)
     {
       Scene       scene(swing, { "Time/End=0.02" });

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/equilibrium.h>
+#include <exemplar/errors.h>
+#include <exemplar/interrupt.h>
+
+#include <algorithm>
+
+// The paper's method: linear solves with frozen rotations, one a step or until nothing
+// changes any more.
+
+namespace Exemplar
+{
+  void
+  Equilibrium::begin_step(State &state, const double time)
+  {
+    StepClock::Scope scope(parts.clock, Part::evaluate);
+    state.time = time;
+    update_loads(time);
+    const bool prescribed = parts.examples != nullptr && parts.examples->weights_are_prescribed();
+    if (prescribed)
+      state.weights = parts.examples->prescribed_weights(time);
+    if (prescribed || (dynamic_terms && parts.inertia->stiffness_damping_factor() > 0.))
+      parts.assembler.evaluate(state.positions, state.weights, current);
+    move_handles(state);
+    add_inertia_and_loads(state);
+  }
+
+  void
+  Equilibrium::move_handles(State &state)
+  {
+    // Only the cells beside held nodes feel that the handles move, and as long as the
+    // rotations are frozen their forces are linear in the displacement.
+    if (parts.handles == nullptr)
+      return;
+    const dealii::Vector<double> before       = state.positions;
+    dealii::Vector<double>       displacement = before;
+    parts.handles->move(state.time, state.positions);
+    displacement.sadd(-1., 1., state.positions);
+    parts.assembler.add_response_beside_held_nodes(Tangent::convex, displacement, before,
+                                                   state.weights, current);
+  }
+
+  SolveReport
+  Equilibrium::solve_by_passes(State &state, const double time, const double step_size)
+  {
+    SolveReport report;
+    try
+    {
+      // The rotations are still those of the last accepted positions, before the
+      // handles move: the paper's choice.
+      begin_dynamic_step(state, step_size);
+      dealii::Vector<double> linearized_at = state.positions;
+      begin_step(state, time);
+      while (report.status == SolveStatus::initial)
+      {
+        check_interrupt();
+        factorize(linearized_at, state.weights, 1.);
+        solve_for_step(state);
+        add_step(state);
+        linearized_at = state.positions;
+        ++report.iterations;
+        {
+          StepClock::Scope scope(parts.clock, Part::evaluate);
+          parts.assembler.update_rotations(state.positions);
+        }
+        evaluate(state);
+        measure_iteration(state, report);
+        if (parameters.method == Method::one_pass)
+          report.status = SolveStatus::one_pass;
+        else if (std::max(report.residual, report.kkt_residual) <= parameters.tolerance)
+          report.status = SolveStatus::converged;
+        else if (report.iterations == parameters.maximum_iterations)
+          report.status = SolveStatus::iteration_limit;
+      }
+    }
+    catch (const SolverFailure &failure)
+    {
+      report.status  = SolveStatus::failed;
+      report.failure = failure.what();
+    }
+    return report;
+  }
+} // namespace Exemplar
