@@ -205,6 +205,19 @@ class Physics(SceneTest):
         self.assertRegex(run.stderr, r"^Warning: Handles/end/Motion .* 157 degrees .*"
                                      r"Handles/end/Follow pose.*\n$")
 
+    def test_a_local_minimum_is_said_to_be_one(self):
+        # both ends at rest and a full turn between them
+        angle = "(2*pi*x/12)"
+        turned = f"x; y*cos{angle}-z*sin{angle}; y*sin{angle}+z*cos{angle}"
+        scene = {"Scene": "static", "Mesh/Generator": "box", "Mesh/Box size": "12, 1, 1",
+                 "Mesh/Box cells": "24, 2, 2", "Handles/Names": "left, right",
+                 "Handles/left/Select": "boundary 1", "Handles/right/Select": "boundary 2",
+                 "Time/Increments": "1"}
+        run = self.attempt({**scene, "Initial/Pose function": turned})
+        self.assertEqual(run.status, 0)
+        self.assertRegex(run.stderr, r"^Warning: .* local minimum .* J, .*\n$")
+        self.assertEqual(self.attempt(scene).stderr, "")
+
     def test_umfpack_and_cholesky_agree(self):
         scene = {**STRETCHED, "Examples/Pose functions": f"1.2*x; y; z | {BENT}",
                  "Loads/Gravity": "0, 0, -1", "Material/Poisson's ratio": "0.3",
