@@ -119,7 +119,8 @@ namespace Exemplar
     double
     rounding_force() const
     {
-      return (1. + 2. * damping) * greatest_rounding_force;
+      // both strains that damping compares have rounding of their own, the decomposition's, too
+      return (1. + 8. * damping) * greatest_rounding_force;
     }
 
     /// The same for the derivative of the energy by a weight [J].

@@ -181,10 +181,10 @@ namespace Exemplar::Testing
     {
       for (const std::string velocity : { "1; 0.3; 0", "-y; x; 0" })
       {
-        Scene       scene("set Scene = dynamic\n" + bar
-                          + "subsection Initial\n set Velocity = " + velocity
-                          + "\nend\nsubsection Time\n set Step = 0.001\n set End = 0.02\n"
-                                  "set Stiffness damping = 0.5\nend\n");
+        Scene scene(
+            "set Scene = dynamic\n" + bar + "subsection Initial\n set Velocity = " + velocity
+            + "\nend\nsubsection Time\n set Step = 0.001\n set End = 0.02\n"
+              "set Stiffness damping = 0.5\nend\nsubsection Solver\n set Tolerance = 1e-6\nend\n");
         const auto  before = scene.problem.inertia->motion_sums(scene.problem.state);
         const State state  = scene.solve();
         const auto  after  = scene.problem.inertia->motion_sums(state);
