@@ -105,14 +105,14 @@ namespace Exemplar
         : lame(lame), S(symmetric_part(transpose_times(rotation, deformation_gradient)))
     {
       e = S;
+      for (int i = 0; i < 3; ++i)
+        e[i][i] -= Number(1.);
+      if (p_0 == Number(no_guard))
+        return; // frozen forces, which need nothing of what follows
       B = combine(Number(-1.), S, Number(0.), S);
       for (int i = 0; i < 3; ++i)
-      {
-        e[i][i] -= Number(1.);
         B[i][i] += trace(S);
-      }
-      p                     = determinant(B);
-      const Guard<Number> g = guard(p, p_0);
+      const Guard<Number> g = guard(determinant(B), p_0);
       phi                   = g.phi;
       phi_derivative        = g.derivative;
     }
@@ -143,16 +143,20 @@ namespace Exemplar
     energy(const Matrix3<Number> &D) const
     {
       const Matrix3<Number> deviation = combine(Number(1.), e, Number(-1.), D);
-      return Number(0.5) * contract(stress(lame, deviation), deviation)
-             + Number(2.) * lame.mu * (Number(1.) - phi) * contract(S, deviator(D));
+      const Number          psi       = Number(0.5) * contract(stress(lame, deviation), deviation);
+      if (!is_guarded())
+        return psi;
+      return psi + Number(2.) * lame.mu * (Number(1.) - phi) * contract(S, deviator(D));
     }
 
     /// -d psi / dD: contracted with E_i, the derivative by a weight less the factor -eta.
     Matrix3<Number>
     weight_stress(const Matrix3<Number> &D) const
     {
-      return combine(Number(1.), stress(lame, combine(Number(1.), e, Number(-1.), D)),
-                     Number(-2.) * lame.mu * (Number(1.) - phi), deviator(S));
+      const Matrix3<Number> T_D = stress(lame, combine(Number(1.), e, Number(-1.), D));
+      if (!is_guarded())
+        return T_D;
+      return combine(Number(1.), T_D, Number(-2.) * lame.mu * (Number(1.) - phi), deviator(S));
     }
 
     /// R^T P without a target.
@@ -246,9 +250,8 @@ namespace Exemplar
     Matrix3<Number> S;
     Matrix3<Number> e; ///< S - I
     Matrix3<Number> B; ///< tr(S) I - S
-    Number          p;
-    Number          phi;
-    Number          phi_derivative;
+    Number          phi            = Number(1.);
+    Number          phi_derivative = Number(0.);
     Matrix3<Number> T;
     Matrix3<Number> W;
     Matrix3<Number> B_inverse;
