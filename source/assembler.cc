@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/assembler.h>
-#include <exemplar/hot_loop.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,10 +9,16 @@ namespace Exemplar
 {
   namespace
   {
-    double
-    norm(const Matrix3<double> &A)
+    /// Cells are summed in chunks of so many batches, whatever the number of threads.
+    constexpr std::size_t chunk_size = 64;
+
+    std::vector<double>
+    sum_of_lanes(const dealii::AlignedVector<double> &lanes)
     {
-      return std::sqrt(contract(A, A));
+      std::vector<double> sums(lanes.size() / batch_size, 0.);
+      for (std::size_t i = 0; i < lanes.size(); ++i)
+        sums[i / batch_size] += lanes[i];
+      return sums;
     }
   } // namespace
 
@@ -27,17 +32,13 @@ namespace Exemplar
         free_dofs(free_dofs), guard_bound(model.is_frozen()     ? no_guard
                                           : examples == nullptr ? default_guard_bound
                                                                 : examples->guard_bound()),
-        gradient_norms(fe_space.n_cells()), rotations(fe_space.n_cells(), identity_matrix<double>())
+        kernels(best_kernels()), batches(fe_space, material),
+        cell_forces(batched_size(fe_space.n_cells(), 16))
   {
-    for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
-      for (unsigned int a = 0; a < 4; ++a)
-      {
-        const Vector3<double> &g = fe_space.tetrahedron(cell).shape_gradient[a];
-        gradient_norms[cell][a]  = std::sqrt(dot(g, g));
-      }
     estimate_rounding();
     build_pattern();
-    build_scatter();
+    build_block_positions();
+    build_node_forces();
     if (inertia != nullptr)
       build_mass_values();
   }
@@ -51,14 +52,16 @@ namespace Exemplar
     dealii::Vector<double> force(fe_space.n_nodes());
     for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
     {
-      const Lame<double> &lame   = material.lame(cell);
-      const double        volume = fe_space.tetrahedron(cell).volume;
-      const double        strain
-          = rounding * *std::max_element(gradient_norms[cell].begin(), gradient_norms[cell].end());
-      const double stress = strain * (std::abs(lame.lambda) + 2. * lame.mu);
-      rounding_stress_norm += volume * stress * stress;
+      const Lame<double>        &lame     = material.lame(cell);
+      const Tetrahedron<double> &tet      = fe_space.tetrahedron(cell);
+      double                     norms[4] = {};
       for (unsigned int a = 0; a < 4; ++a)
-        force[fe_space.nodes(cell)[a]] += std::pow(volume * stress * gradient_norms[cell][a], 2);
+        norms[a] = std::sqrt(dot(tet.shape_gradient[a], tet.shape_gradient[a]));
+      const double strain = rounding * *std::max_element(norms, norms + 4);
+      const double stress = strain * (std::abs(lame.lambda) + 2. * lame.mu);
+      rounding_stress_norm += tet.volume * stress * stress;
+      for (unsigned int a = 0; a < 4; ++a)
+        force[fe_space.nodes(cell)[a]] += std::pow(tet.volume * stress * norms[a], 2);
     }
     greatest_rounding_force = std::sqrt(force.linfty_norm()); // cells round independently
     rounding_stress_norm    = std::sqrt(rounding_stress_norm);
@@ -89,24 +92,56 @@ namespace Exemplar
   }
 
   void
-  Assembler::build_scatter()
+  Assembler::build_block_positions()
   {
-    scatter.resize(fe_space.n_cells());
+    const auto n_held = [this](const unsigned int node)
+    {
+      int n = 0;
+      for (unsigned int c = 0; c < 3; ++c)
+        n += (free_dofs.free_index(3 * node + c) == FreeDofs::held);
+      return n;
+    };
+    block_positions.assign(n_block_columns * fe_space.n_cells(), FreeDofs::held);
     for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
     {
-      int dof[12];
-      for (unsigned int p = 0; p < 12; ++p)
-        dof[p] = free_dofs.free_index(3 * fe_space.nodes(cell)[p / 3] + p % 3);
-      if (std::find(dof, dof + 12, FreeDofs::held) != dof + 12)
+      int held[4];
+      for (unsigned int a = 0; a < 4; ++a)
+        held[a] = n_held(batches.node(cell, a));
+      if (std::any_of(held, held + 4, [](const int n) { return n > 0; }))
         cells_beside_held_nodes.push_back(cell);
-      unsigned int entry = 0;
-      for (unsigned int p = 0; p < 12; ++p)
-        for (unsigned int q = 0; q <= p; ++q, ++entry)
-          scatter[cell][entry]
-              = dof[p] == FreeDofs::held || dof[q] == FreeDofs::held
-                    ? FreeDofs::held
-                    : pattern.position(std::max(dof[p], dof[q]), std::min(dof[p], dof[q]));
+      if (std::any_of(held, held + 4, [](const int n) { return n == 1 || n == 2; }))
+      {
+        mixed_cells.push_back(cell);
+        continue;
+      }
+      int *position = &block_positions[n_block_columns * cell];
+      for (unsigned int a = 0; a < 4; ++a)
+        for (unsigned int b = 0; b <= a; ++b)
+          for (unsigned int j = 0; j < 3; ++j, ++position)
+            if (held[a] == 0 && held[b] == 0)
+            {
+              const int column = free_dofs.free_index(3 * batches.node(cell, b) + j);
+              *position        = a == b ? pattern.position(column, column) - static_cast<int>(j)
+                                        : pattern.position(free_dofs.free_index(3 * batches.node(cell, a)),
+                                                           column);
+            }
     }
+  }
+
+  void
+  Assembler::build_node_forces()
+  {
+    node_start.assign(fe_space.n_nodes() + 1, 0);
+    for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
+      for (unsigned int a = 0; a < 4; ++a)
+        ++node_start[batches.node(cell, a) + 1];
+    for (unsigned int node = 0; node < fe_space.n_nodes(); ++node)
+      node_start[node + 1] += node_start[node];
+    node_forces.resize(4 * static_cast<std::size_t>(fe_space.n_cells()));
+    std::vector<std::size_t> next(node_start.begin(), node_start.end() - 1);
+    for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
+      for (unsigned int a = 0; a < 4; ++a)
+        node_forces[next[batches.node(cell, a)]++] = 4 * cell + a;
   }
 
   void
@@ -124,28 +159,53 @@ namespace Exemplar
       }
   }
 
-  EXEMPLAR_HOT_LOOP void
+  CellTask
+  Assembler::task(const dealii::Vector<double> &positions,
+                  const std::vector<double>    &weights,
+                  const Rotations               rotations)
+  {
+    CellTask task;
+    task.cells = batches.arrays(model.strain, guard_bound);
+    if (examples != nullptr)
+      task.examples = examples->arrays();
+    if (damping > 0.)
+      task.damping = { cell_damping.data(), damping_strains.data() };
+    task.positions        = positions.begin();
+    task.weights          = weights.data();
+    task.update_rotations = rotations == Rotations::update;
+    task.weights_are_free = has_weights();
+    return task;
+  }
+
+  void
   Assembler::update_rotations(const dealii::Vector<double> &positions)
   {
-    if (model.strain != StrainMeasure::corotational)
-      return;
-    for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
-      rotations[cell] = closest_rotation(fe_space.deformation_gradient(cell, positions));
+    if (model.strain == StrainMeasure::corotational)
+    {
+      const CellTask cells = task(positions, {}, Rotations::update);
+      kernels.update_rotations(cells, 0, cells.cells.n_batches());
+    }
   }
 
   void
   Assembler::set_damping(const double s, const std::vector<WeightedPositions> &history)
   {
     damping = s;
-    cell_damping.assign(s > 0. ? fe_space.n_cells() : 0, s);
-    damping_strains.assign(cell_damping.size(), Matrix3<double>{});
-    for (unsigned int cell = 0; cell < cell_damping.size(); ++cell)
+    cell_damping.resize_fast(0);
+    damping_strains.resize_fast(0);
+    if (s == 0.)
+      return;
+    cell_damping.resize(batched_size(fe_space.n_cells(), 1), s);
+    damping_strains.resize(batched_size(fe_space.n_cells(), 6), 0.);
+    for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
       for (const WeightedPositions &past : history)
       {
-        const Matrix3<double> F = fe_space.deformation_gradient(cell, *past.positions);
-        const Matrix3<double> R = model_rotation(model.strain, F);
-        const Matrix3<double> e = model_strain(model.strain, R, F);
-        damping_strains[cell]   = combine(1., damping_strains[cell], past.weight, e);
+        const Matrix3<double> F       = fe_space.deformation_gradient(cell, *past.positions);
+        const Matrix3<double> R       = model_rotation(model.strain, F);
+        const Matrix3<double> e       = model_strain(model.strain, R, F);
+        const double          part[6] = { e[0][0], e[1][1], e[2][2], e[1][2], e[0][2], e[0][1] };
+        for (unsigned int k = 0; k < 6; ++k)
+          damping_strains[batch_index(cell, 6, k)] += past.weight * part[k];
         if (model.strain == StrainMeasure::corotational
             && CorotationalCell<double>(material.lame(cell), R, F, guard_bound).is_guarded())
           cell_damping[cell] = 0.;
@@ -174,81 +234,7 @@ namespace Exemplar
     const double s = damping_of(cell);
     if (s == 0.)
       return target;
-    return combine(1. / (1. + s), target, s / (1. + s), damping_strains[cell]);
-  }
-
-  template <typename Cell>
-  void
-  Assembler::evaluate_cells(const dealii::Vector<double> &positions,
-                            const std::vector<double>    &weights,
-                            Evaluation                   &result) const
-  {
-    const double eta           = examples != nullptr ? examples->importance() : 0.;
-    const bool   frozen        = model.is_frozen();
-    double       stress_square = 0.; // sum V (|C:e| + eta |C:E(w)|)^2
-
-    for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
-    {
-      const Tetrahedron<double> &tet   = fe_space.tetrahedron(cell);
-      const Lame<double>        &lame  = material.lame(cell);
-      const Matrix3<double>      F     = fe_space.deformation_gradient(cell, positions);
-      const double               det_F = determinant(F);
-      Cell                       state(lame, rotations[cell], F, guard_bound);
-      const Matrix3<double>      elastic_stress = stress(lame, state.strain());
-      const double elastic      = 0.5 * tet.volume * contract(elastic_stress, state.strain());
-      double       stress_scale = norm(elastic_stress);
-      result.min_det_F          = std::min(result.min_det_F, det_F);
-      result.inverted_cells += (det_F <= 0.);
-      result.energy_elastic += elastic;
-
-      Matrix3<double> target{}; // eta E(w)
-      if (examples != nullptr)
-      {
-        target = example_target(cell, weights);
-        stress_scale += norm(stress(lame, target));
-        stress_square += tet.volume * stress_scale * stress_scale;
-        result.energy += tet.volume * state.energy(target);
-        result.guarded_cells += state.is_guarded();
-        if (!result.weight_gradient.empty())
-        {
-          const Matrix3<double> T = state.weight_stress(target);
-          examples->for_each_weight(
-              cell,
-              [&](const unsigned int weight, const unsigned int i, const double share)
-              {
-                result.weight_gradient[weight]
-                    -= share * eta * tet.volume * contract(T, examples->strain(cell, i));
-              });
-        }
-      }
-      else
-        result.energy += elastic;
-      const double s = damping_of(cell);
-      if (s > 0.)
-      {
-        result.energy_damping += s * tet.volume * state.energy(damping_strains[cell]);
-        stress_scale += s * (norm(elastic_stress) + norm(stress(lame, damping_strains[cell])));
-        target = damped_target(cell, target);
-        state  = Cell(damped_lame(cell), rotations[cell], F, guard_bound);
-      }
-
-      Matrix3<double> P; // R^T P
-      if (examples == nullptr && s == 0.)
-        P = state.elastic_force();
-      else if (frozen)
-        P = state.weight_stress(target);
-      else
-      {
-        state.set_target(target);
-        P = state.force();
-      }
-      add_force(cell, P, result.gradient);
-      const double force_scale = tet.volume * state.force_factor() * stress_scale;
-      for (unsigned int a = 0; a < 4; ++a)
-        result.force_scale[fe_space.nodes(cell)[a]] += force_scale * gradient_norms[cell][a];
-    }
-    if (has_weights())
-      add_penalty(weights, std::sqrt(stress_square), result);
+    return combine(1. / (1. + s), target, s / (1. + s), damping_strain(cell));
   }
 
   void
@@ -269,47 +255,56 @@ namespace Exemplar
     }
   }
 
-  EXEMPLAR_HOT_LOOP void
-  Assembler::evaluate(const dealii::Vector<double> &positions,
-                      const std::vector<double>    &weights,
-                      Evaluation                   &result) const
+  void
+  Assembler::gather_forces(Evaluation &result) const
   {
-    result.gradient.reinit(fe_space.n_dofs());
-    result.force_scale.reinit(fe_space.n_nodes());
-    result.weight_gradient.assign(has_weights() ? weights.size() : 0, 0.);
-    result.weight_scale   = 0.;
-    result.energy_elastic = 0.;
-    result.energy         = 0.;
-    result.energy_damping = 0.;
-    result.min_det_F      = std::numeric_limits<double>::max();
-    result.inverted_cells = 0;
-    result.guarded_cells  = 0;
-    with_cell_model(
-        model.strain, [&](auto cell_model)
-        { evaluate_cells<typename decltype(cell_model)::type>(positions, weights, result); });
+    result.gradient.reinit(fe_space.n_dofs(), true);
+    result.force_scale.reinit(fe_space.n_nodes(), true);
+    for (unsigned int node = 0; node < fe_space.n_nodes(); ++node)
+    {
+      double sum[4] = {};
+      for (std::size_t entry = node_start[node]; entry < node_start[node + 1]; ++entry)
+        for (unsigned int c = 0; c < 4; ++c)
+          sum[c] += cell_forces[4 * static_cast<std::size_t>(node_forces[entry]) + c];
+      for (unsigned int c = 0; c < 3; ++c)
+        result.gradient[3 * node + c] = sum[c];
+      result.force_scale[node] = sum[3];
+    }
   }
 
-  EXEMPLAR_HOT_LOOP std::vector<double>
-                    Assembler::weight_target(const dealii::Vector<double> &positions) const
+  void
+  Assembler::evaluate(const dealii::Vector<double> &positions,
+                      const std::vector<double>    &weights,
+                      Evaluation                   &result,
+                      const Rotations               rotations)
   {
-    std::vector<double> c(examples->n_weights(), 0.);
-    with_cell_model(
-        model.strain,
-        [&](auto cell_model)
-        {
-          using Cell = typename decltype(cell_model)::type;
-          for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
-          {
-            const Cell            state(material.lame(cell), rotations[cell],
-                                        fe_space.deformation_gradient(cell, positions), guard_bound);
-            const Matrix3<double> T = state.weight_stress(Matrix3<double>{});
-            const double factor     = examples->importance() * fe_space.tetrahedron(cell).volume;
-            examples->for_each_weight(
-                cell, [&](const unsigned int weight, const unsigned int i, const double share)
-                { c[weight] += share * factor * contract(T, examples->strain(cell, i)); });
-          }
-        });
-    return c;
+    const CellTask                cells = task(positions, weights, rotations);
+    const std::size_t             n     = cells.cells.n_batches();
+    CellSums                      sums;
+    dealii::AlignedVector<double> weight_sums(has_weights() ? batch_size * weights.size() : 0);
+    for (std::size_t begin = 0; begin < n; begin += chunk_size)
+      kernels.evaluate(cells, begin, std::min(begin + chunk_size, n), cell_forces.data(),
+                       weight_sums.data(), sums);
+    gather_forces(result);
+    result.weight_gradient = sum_of_lanes(weight_sums);
+    result.weight_scale    = 0.;
+    result.energy_elastic  = sums.energy_elastic;
+    result.energy          = sums.energy;
+    result.energy_damping  = sums.energy_damping;
+    result.min_det_F       = sums.min_det_F;
+    result.inverted_cells  = sums.inverted_cells;
+    result.guarded_cells   = sums.guarded_cells;
+    if (has_weights())
+      add_penalty(weights, std::sqrt(sums.stress_square), result);
+  }
+
+  std::vector<double>
+  Assembler::weight_target(const dealii::Vector<double> &positions, const Rotations rotations)
+  {
+    const CellTask                cells = task(positions, {}, rotations);
+    dealii::AlignedVector<double> weight_sums(batch_size * examples->n_weights());
+    kernels.weight_target(cells, 0, cells.cells.n_batches(), weight_sums.data());
+    return sum_of_lanes(weight_sums);
   }
 
   CellResults
@@ -322,7 +317,7 @@ namespace Exemplar
     {
       const Lame<double>   &lame   = material.lame(cell);
       const Matrix3<double> F      = fe_space.deformation_gradient(cell, positions);
-      const Matrix3<double> strain = model_strain(model.strain, rotations[cell], F);
+      const Matrix3<double> strain = model_strain(model.strain, batches.rotation(cell), F);
       Matrix3<double>       T      = stress(lame, strain);
 
       results.strain_energy_density[cell] = 0.5 * contract(T, strain);

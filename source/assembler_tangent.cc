@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/assembler.h>
-#include <exemplar/hot_loop.h>
 
 #include <algorithm>
 #include <type_traits>
@@ -10,66 +9,6 @@
 
 namespace Exemplar
 {
-  namespace
-  {
-    /// R^T dP for the nine unit changes of R^T dF.
-    struct CellTangent
-    {
-      template <typename Cell>
-      explicit CellTangent(const Cell &cell)
-      {
-        for (int k = 0; k < 3; ++k)
-          for (int l = 0; l < 3; ++l)
-          {
-            Matrix3<double> unit{};
-            unit[k][l]   = 1.;
-            column[k][l] = cell.response(unit);
-          }
-      }
-
-      /// Block (a,b) of the cell's matrix in the frame of the rotation.
-      Matrix3<double>
-      block(const Vector3<double> &g_a, const Vector3<double> &g_b) const
-      {
-        Matrix3<double> result{};
-        for (int k = 0; k < 3; ++k)
-          for (int l = 0; l < 3; ++l)
-          {
-            const Vector3<double> force = column[k][l] * g_a;
-            for (int i = 0; i < 3; ++i)
-              result[i][k] += g_b[l] * force[i];
-          }
-        return result;
-      }
-
-      Matrix3<double> column[3][3];
-    };
-
-    /// V R B R^T.
-    Matrix3<double>
-    turned(const Matrix3<double> &R, const Matrix3<double> &B, const double volume)
-    {
-      const Matrix3<double> RB = R * B;
-      Matrix3<double>       result;
-      for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-          result[i][j] = volume * (RB[i][0] * R[j][0] + RB[i][1] * R[j][1] + RB[i][2] * R[j][2]);
-      return result;
-    }
-
-    template <typename CellMatrix>
-    void
-    set_block(const unsigned int     a,
-              const unsigned int     b,
-              const Matrix3<double> &block,
-              CellMatrix            &matrix)
-    {
-      for (unsigned int i = 0; i < 3; ++i)
-        for (unsigned int j = 0; j < 3; ++j)
-          matrix[3 * a + i][3 * b + j] = block[i][j];
-    }
-  } // namespace
-
   void
   Assembler::start_matrix(std::vector<double> &matrix_values) const
   {
@@ -80,38 +19,65 @@ namespace Exemplar
         matrix_values[i] = inertia->matrix_factor() * mass_values[i];
   }
 
-  EXEMPLAR_HOT_LOOP void
-  Assembler::assemble_rotated_stiffness(std::vector<double> &matrix_values) const
+  void
+  Assembler::add_mixed_cells(const CellTask &task, TangentTask tangent, const bool rotated)
   {
-    start_matrix(matrix_values);
-    for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
+    // rows of a block are not consecutive there: the kernel writes whole blocks apart
+    constexpr std::size_t n      = n_block_columns;
+    double *const         values = tangent.values;
+    for (const unsigned int cell : mixed_cells)
     {
-      const Tetrahedron<double> &tet  = fe_space.tetrahedron(cell);
-      const Lame<double>         lame = damped_lame(cell);
-      Vector3<double>            g[4];
-      rotate_gradients(tet, rotations[cell], g);
-      CellMatrix cell_matrix;
+      const std::size_t batch = cell / batch_size, lane = cell % batch_size;
+      std::vector<int>  apart(n * batch_size, FreeDofs::held);
+      double            blocks[3 * n + SymmetricPattern::padding] = {};
+      for (std::size_t column = 0; column < n; ++column)
+        apart[n * lane + column] = static_cast<int>(3 * column);
+      tangent.positions = apart.data();
+      tangent.values    = blocks;
+      (rotated ? kernels.add_rotated_stiffness : kernels.add_tangent)(task, tangent, batch,
+                                                                      batch + 1);
+      const double *entry = blocks;
       for (unsigned int a = 0; a < 4; ++a)
         for (unsigned int b = 0; b <= a; ++b)
-          set_block(a, b, stiffness_block(lame, tet.volume, g[a], g[b]), cell_matrix);
-      add_cell_matrix(cell, cell_matrix, matrix_values);
+          for (unsigned int j = 0; j < 3; ++j)
+            for (unsigned int i = 0; i < 3; ++i, ++entry)
+            {
+              const int row    = free_dofs.free_index(3 * batches.node(cell, a) + i);
+              const int column = free_dofs.free_index(3 * batches.node(cell, b) + j);
+              if (row != FreeDofs::held && column != FreeDofs::held && row >= column)
+                values[pattern.position(row, column)] += *entry;
+            }
     }
   }
 
-  EXEMPLAR_HOT_LOOP void
-  Assembler::assemble_rotated_coupling(std::vector<double> &columns) const
+  void
+  Assembler::assemble_coupling(const CellTask      &task,
+                               const TangentTask   &tangent,
+                               const bool           rotated,
+                               std::vector<double> &columns) const
   {
-    start_columns(columns);
+    const std::size_t n = free_dofs.size(), n_strained = task.examples.n;
+    columns.assign(n * examples->n_strained_weights(), 0.);
+    dealii::AlignedVector<double> forces(12 * batch_size * n_strained);
     for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
+    {
+      const std::size_t lane = cell % batch_size;
+      if (lane == 0)
+        kernels.coupling(task, tangent, rotated, cell / batch_size, forces.data());
+      int dof[12];
+      for (unsigned int p = 0; p < 12; ++p)
+        dof[p] = free_dofs.free_index(3 * batches.node(cell, p / 3) + p % 3);
       examples->for_each_weight(
           cell,
           [&](const unsigned int weight, const unsigned int i, const double share)
           {
-            const Matrix3<double> T = stress(material.lame(cell), examples->strain(cell, i));
-            Vector3<double>       force[4];
-            frozen_forces(fe_space.tetrahedron(cell), rotations[cell], T, force);
-            add_to_column(cell, force, weight, share * examples->importance(), columns);
+            double       *column = columns.data() + n * examples->strained_index(weight);
+            const double *force  = &forces[12 * batch_size * (i - task.examples.first) + lane];
+            for (unsigned int p = 0; p < 12; ++p)
+              if (dof[p] != FreeDofs::held)
+                column[dof[p]] += share * force[p * batch_size];
           });
+    }
   }
 
   void
@@ -121,7 +87,7 @@ namespace Exemplar
     for (const unsigned int cell : cells_beside_held_nodes)
     {
       const Matrix3<double> dF = fe_space.deformation_gradient(cell, displacement);
-      const Matrix3<double> de = symmetric_part(transpose_times(rotations[cell], dF));
+      const Matrix3<double> de = symmetric_part(transpose_times(batches.rotation(cell), dF));
       add_force(cell, stress(damped_lame(cell), de), result.gradient);
       if (!result.weight_gradient.empty())
       {
@@ -144,8 +110,8 @@ namespace Exemplar
                         const dealii::Vector<double> &positions,
                         const std::vector<double>    &weights) const
   {
-    Cell state(damped_lame(cell), rotations[cell], fe_space.deformation_gradient(cell, positions),
-               guard_bound);
+    Cell state(damped_lame(cell), batches.rotation(cell),
+               fe_space.deformation_gradient(cell, positions), guard_bound);
     state.set_target(damped_target(cell, example_target(cell, weights)));
     if constexpr (std::is_same_v<Cell, GreenCell<double>>) // the others' is R K R^T
       if (tangent == Tangent::convex)
@@ -153,63 +119,23 @@ namespace Exemplar
     return state;
   }
 
-  template <typename Cell>
-  void
-  Assembler::assemble_cells(const Tangent                 tangent,
-                            const dealii::Vector<double> &positions,
-                            const std::vector<double>    &weights,
-                            std::vector<double>          &matrix_values,
-                            std::vector<double>          &columns) const
-  {
-    start_matrix(matrix_values);
-    if (has_weights())
-      start_columns(columns);
-    for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
-    {
-      const Tetrahedron<double> &tet   = fe_space.tetrahedron(cell);
-      const Matrix3<double>     &R     = rotations[cell];
-      const Cell                 state = cell_state<Cell>(tangent, cell, positions, weights);
-      const CellTangent          response(state);
-      CellMatrix                 cell_matrix;
-      for (unsigned int a = 0; a < 4; ++a)
-        for (unsigned int b = 0; b <= a; ++b)
-          set_block(
-              a, b,
-              turned(R, response.block(tet.shape_gradient[a], tet.shape_gradient[b]), tet.volume),
-              cell_matrix);
-      add_cell_matrix(cell, cell_matrix, matrix_values);
-      if (!has_weights())
-        continue;
-      // the target moves by 1/(1+s) of what the examples' does
-      const double factor = examples->importance() / (1. + damping_of(cell));
-      examples->for_each_weight(
-          cell,
-          [&](const unsigned int weight, const unsigned int i, const double share)
-          {
-            Vector3<double> force[4];
-            frozen_forces(tet, R, state.example_response(examples->strain(cell, i)), force);
-            add_to_column(cell, force, weight, share * factor, columns);
-          });
-    }
-  }
-
   void
   Assembler::assemble_tangent(const Tangent                 tangent,
                               const dealii::Vector<double> &positions,
                               const std::vector<double>    &weights,
                               std::vector<double>          &matrix_values,
-                              std::vector<double>          &columns) const
+                              std::vector<double>          &columns)
   {
-    if (is_rotated_stiffness(tangent))
-    {
-      assemble_rotated_stiffness(matrix_values);
-      if (has_weights())
-        assemble_rotated_coupling(columns);
-    }
-    else if (model.strain == StrainMeasure::green)
-      assemble_cells<GreenCell<double>>(tangent, positions, weights, matrix_values, columns);
-    else
-      assemble_cells<CorotationalCell<double>>(tangent, positions, weights, matrix_values, columns);
+    start_matrix(matrix_values);
+    const bool        rotated = is_rotated_stiffness(tangent);
+    const CellTask    cells   = task(positions, weights, Rotations::keep);
+    const TangentTask to
+        = { tangent == Tangent::convex, block_positions.data(), matrix_values.data() };
+    (rotated ? kernels.add_rotated_stiffness : kernels.add_tangent)(cells, to, 0,
+                                                                    cells.cells.n_batches());
+    add_mixed_cells(cells, to, rotated);
+    if (has_weights())
+      assemble_coupling(cells, to, rotated, columns);
   }
 
   template <typename Cell>
@@ -223,8 +149,8 @@ namespace Exemplar
     for (const unsigned int cell : cells_beside_held_nodes)
     {
       const Cell            state = cell_state<Cell>(tangent, cell, positions, weights);
-      const Matrix3<double> M
-          = transpose_times(rotations[cell], fe_space.deformation_gradient(cell, displacement));
+      const Matrix3<double> M     = transpose_times(batches.rotation(cell),
+                                                    fe_space.deformation_gradient(cell, displacement));
       add_force(cell, state.response(M), result.gradient);
       if (result.weight_gradient.empty())
         continue;

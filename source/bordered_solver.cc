@@ -59,9 +59,12 @@ namespace Exemplar
           solve_weights(block, vector);
         for (std::size_t i = 0; i < n; ++i)
           vector.positions[i] = columns[i];
-        for (std::size_t j = 0; j < k; ++j)
+        for (std::size_t j = 0; j < block.coupled.size(); ++j)
+        {
+          const double *Z_j = columns.data() + (1 + j) * n;
           for (std::size_t i = 0; i < n; ++i)
-            vector.positions[i] += vector.weights[j] * columns[(1 + j) * n + i];
+            vector.positions[i] += vector.weights[block.coupled[j]] * Z_j[i];
+        }
       }
 
     private:
@@ -69,15 +72,16 @@ namespace Exemplar
       void
       solve_weights(const WeightBlock &block, BorderedVector &vector) const
       {
-        const std::size_t          n = vector.positions.size(), k = vector.weights.size();
+        const std::size_t          n     = vector.positions.size();
+        const auto                &index = block.coupled;
         dealii::FullMatrix<double> schur(block.H);
         std::vector<double>        right_side = vector.weights;
-        for (std::size_t i = 0; i < k; ++i)
+        for (std::size_t i = 0; i < index.size(); ++i)
         {
           const double *G_i = block.coupling.data() + i * n;
-          right_side[i] += dot(G_i, columns.data(), n);
-          for (std::size_t j = 0; j < k; ++j)
-            schur(i, j) -= dot(G_i, columns.data() + (1 + j) * n, n);
+          right_side[index[i]] += dot(G_i, columns.data(), n);
+          for (std::size_t j = 0; j < index.size(); ++j)
+            schur(index[i], index[j]) -= dot(G_i, columns.data() + (1 + j) * n, n);
         }
         const WeightQpSolution solution
             = minimize_over_weights(schur, right_side, vector.multipliers, block.lower);

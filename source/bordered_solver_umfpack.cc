@@ -17,7 +17,7 @@ namespace Exemplar
     {
     public:
       explicit UmfpackSolver(const SymmetricPattern &pattern)
-          : pattern(pattern), values(pattern.row.size())
+          : pattern(pattern), values(pattern.n_values())
       {
       }
 
@@ -77,10 +77,11 @@ namespace Exemplar
           for (int entry = pattern.column_start[column]; entry < pattern.column_start[column + 1];
                ++entry)
             add_twice(pattern.row[entry], column, values[entry]);
+        for (std::size_t j = 0; j < block.coupled.size(); ++j)
+          for (unsigned int i = 0; i < n; ++i)
+            add_twice(n + block.coupled[j], i, -block.coupling[j * n + i]);
         for (unsigned int j = 0; j < k; ++j)
         {
-          for (unsigned int i = 0; i < n; ++i)
-            add_twice(n + j, i, -block.coupling[static_cast<std::size_t>(j) * n + i]);
           for (unsigned int i = j; i < k; ++i)
             add_twice(n + i, n + j, block.H(i, j));
           for (unsigned int c = 0; c < block.N.m(); ++c)

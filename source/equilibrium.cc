@@ -91,6 +91,9 @@ namespace Exemplar
     if (parts.examples != nullptr && !parts.examples->weights_are_prescribed())
     {
       block.H = parts.examples->weight_matrix();
+      for (unsigned int weight = 0; weight < block.H.n(); ++weight)
+        if (parts.examples->is_strained(weight))
+          block.coupled.push_back(weight);
       block.N.reinit(parts.examples->n_regions(), block.H.n()); // the weights of each sum to one
       for (unsigned int weight = 0; weight < block.H.n(); ++weight)
         block.N(weight / parts.examples->size(), weight) = 1.;

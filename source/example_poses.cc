@@ -212,7 +212,7 @@ namespace Exemplar
   void
   ExamplePoses::compute_strains()
   {
-    strains.assign(6 * static_cast<std::size_t>(fe_space.n_cells()) * size(), 0.);
+    strains.resize(batched_size(fe_space.n_cells(), 6 * n_strained()), 0.);
     strain_norms.assign(n_weights(), 0.);
     std::vector<unsigned int> n_inverted(size(), 0);
     for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
@@ -223,8 +223,8 @@ namespace Exemplar
         const Matrix3<double>       E = model_strain(measure, model_rotation(measure, F), F);
         const std::array<double, 6> upper
             = { { E[0][0], E[1][1], E[2][2], E[1][2], E[0][2], E[0][1] } };
-        std::copy(upper.begin(), upper.end(),
-                  &strains[6 * (static_cast<std::size_t>(cell) * size() + i)]);
+        for (unsigned int k = 0; k < 6; ++k)
+          strains[batch_index(cell, 6 * n_strained(), 6 * (i - first_strained) + k)] = upper[k];
         n_inverted[i] += (determinant(F) <= 0.);
         if (measure == StrainMeasure::corotational)
           p_0 = std::min(p_0, 0.5 * guard_product(E));
@@ -278,9 +278,10 @@ namespace Exemplar
       // global ones do
       std::vector<double> fraction(n_regions(), regions ? 0. : 1.);
       for (unsigned int cell = 0; regions && cell < fe_space.n_cells(); ++cell)
-        for (const RegionShares::Share &share : regions->in_cell(cell))
-          fraction[share.region]
-              += share.value * fe_space.tetrahedron(cell).volume / fe_space.total_volume();
+        for (std::size_t s = regions->first(cell); s < regions->last(cell); ++s)
+          fraction[regions->list()[s].region] += regions->list()[s].value
+                                                 * fe_space.tetrahedron(cell).volume
+                                                 / fe_space.total_volume();
       if (n_regions() == 1)
         fraction[0] = 1.; // without the sum's rounding
       for (unsigned int weight = 0; weight < n_weights(); ++weight)

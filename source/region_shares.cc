@@ -59,15 +59,16 @@ namespace Exemplar
   RegionShares::RegionShares(const FESpace                   &fe_space,
                              const std::vector<unsigned int> &material_ids,
                              const double                     blend_length)
-      : shares(material_ids.size())
   {
     const std::set<unsigned int> sorted(material_ids.begin(), material_ids.end());
     ids.assign(sorted.begin(), sorted.end());
-    for (unsigned int cell = 0; cell < shares.size(); ++cell)
+    for (const unsigned int id : material_ids)
     {
-      const auto own = std::lower_bound(ids.begin(), ids.end(), material_ids[cell]);
-      shares[cell]   = { { static_cast<unsigned int>(own - ids.begin()), 1. } };
+      const auto own = std::lower_bound(ids.begin(), ids.end(), id);
+      start.push_back(shares.size());
+      shares.push_back({ static_cast<unsigned int>(own - ids.begin()), 1. });
     }
+    start.push_back(shares.size());
     if (blend_length > 0. && n_regions() > 1)
       blend(fe_space, blend_length);
   }
@@ -83,14 +84,17 @@ namespace Exemplar
 
     const std::size_t   n = fe_space.n_nodes();
     std::vector<double> columns(n * n_regions());
-    for (unsigned int cell = 0; cell < shares.size(); ++cell)
+    for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
       for (const unsigned int node : fe_space.nodes(cell))
-        columns[shares[cell][0].region * n + node] += 0.25 * fe_space.tetrahedron(cell).volume;
+        columns[shares[cell].region * n + node] += 0.25 * fe_space.tetrahedron(cell).volume;
     filter->solve(columns);
 
-    for (unsigned int cell = 0; cell < shares.size(); ++cell)
+    const std::vector<RegionShare> own_shares = std::move(shares);
+    shares.clear();
+    start.clear();
+    for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
     {
-      const unsigned int  own = shares[cell][0].region;
+      const unsigned int  own = own_shares[cell].region;
       std::vector<double> value(n_regions());
       double              sum = 0.;
       for (unsigned int region = 0; region < n_regions(); ++region)
@@ -102,10 +106,11 @@ namespace Exemplar
           value[region] = 0.;
         sum += value[region];
       }
-      shares[cell].clear();
+      start.push_back(shares.size());
       for (unsigned int region = 0; region < n_regions(); ++region)
         if (value[region] > 0.)
-          shares[cell].push_back({ region, value[region] / sum });
+          shares.push_back({ region, value[region] / sum });
     }
+    start.push_back(shares.size());
   }
 } // namespace Exemplar

@@ -38,7 +38,7 @@ namespace Exemplar
       reinit(const SymmetricPattern &new_pattern) override
       {
         pattern = new_pattern;
-        matrix_values.assign(pattern.row.size(), 0.);
+        matrix_values.assign(pattern.n_values(), 0.);
         matrix.nrow   = pattern.n();
         matrix.ncol   = pattern.n();
         matrix.nzmax  = pattern.row.size();

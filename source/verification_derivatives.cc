@@ -60,7 +60,7 @@ namespace Exemplar::Verification
         problem.assembler.update_rotations(x);
         at = evaluate(x, w);
         problem.assembler.update_rotations(x);
-        matrix.resize(problem.assembler.matrix_pattern().row.size());
+        matrix.resize(problem.assembler.matrix_pattern().n_values());
         problem.assembler.assemble_tangent(rotations == Rotations::followed ? Tangent::exact
                                                                             : Tangent::convex,
                                            x, w, matrix, columns);
@@ -132,7 +132,11 @@ namespace Exemplar::Verification
           {
             const double change
                 = derivative([&](const double h) { return weight_moved(h).gradient[free[i]]; });
-            greatest = std::max(greatest, std::abs(change + columns[k * free.size() + i]));
+            const double entry
+                = problem.examples->is_strained(k)
+                      ? columns[problem.examples->strained_index(k) * free.size() + i]
+                      : 0.;
+            greatest = std::max(greatest, std::abs(change + entry));
           }
         }
         return greatest / (1. + at.gradient.linfty_norm());

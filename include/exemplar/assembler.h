@@ -2,7 +2,7 @@
 #ifndef exemplar_assembler_h
 #define exemplar_assembler_h
 
-#include <exemplar/cell_model.h>
+#include <exemplar/cell_batches.h>
 #include <exemplar/example_poses.h>
 #include <exemplar/fe_space.h>
 #include <exemplar/free_dofs.h>
@@ -23,6 +23,14 @@ namespace Exemplar
   {
     exact, ///< the derivative of the gradient, Eq. (18)
     convex ///< never indefinite, together with the weights: R K R^T, Eq. (8), or its counterpart
+  };
+
+  /// Whether a loop over the cells takes their rotations as they are, or first finds those
+  /// of the positions that it sees.
+  enum class Rotations
+  {
+    keep,
+    update
   };
 
   /// Everything that a loop over the cells finds at given positions and weights.
@@ -86,21 +94,22 @@ namespace Exemplar
     void
     set_damping(double s, const std::vector<WeightedPositions> &history);
 
-    /// Energies and their derivatives with the rotations as they are.
+    /// Energies and their derivatives.
     void
     evaluate(const dealii::Vector<double> &positions,
              const std::vector<double>    &weights,
-             Evaluation                   &evaluation) const;
+             Evaluation                   &evaluation,
+             Rotations                     rotations = Rotations::keep);
 
     /// A, Eq. (8) or (18), into the values on matrix_pattern() [N/m] and, with weights to
-    /// find, the coupling G, Eq. (9): a column a weight on the free degrees of freedom, one
-    /// after the other [N]. An exact tangent needs the rotations of these positions.
+    /// find, the coupling G, Eq. (9): a column a strained weight on the free degrees of
+    /// freedom, one after the other [N]. An exact tangent needs the rotations of these positions.
     void
     assemble_tangent(Tangent                       tangent,
                      const dealii::Vector<double> &positions,
                      const std::vector<double>    &weights,
                      std::vector<double>          &matrix_values,
-                     std::vector<double>          &columns) const;
+                     std::vector<double>          &columns);
 
     /// What `displacement` [m] from `positions`, zero but on held degrees of freedom, adds
     /// to the forces and to the weight gradient by that tangent.
@@ -111,9 +120,9 @@ namespace Exemplar
                                    const std::vector<double>    &weights,
                                    Evaluation                   &evaluation) const;
 
-    /// c_i with dPsi/dw = H w - c at these positions [J]; the rotations are theirs.
+    /// c_i with dPsi/dw = H w - c at these positions [J].
     std::vector<double>
-    weight_target(const dealii::Vector<double> &positions) const;
+    weight_target(const dealii::Vector<double> &positions, Rotations rotations = Rotations::keep);
 
     /// A residual force [N] that is nothing but the rounding of the positions.
     double
@@ -131,11 +140,6 @@ namespace Exemplar
     cell_results(const dealii::Vector<double> &positions, const std::vector<double> &weights) const;
 
   private:
-    /// Entries of the lower triangle of a cell's 12x12 matrix, by rows.
-    static constexpr unsigned int n_cell_entries = 12 * 13 / 2;
-
-    using CellMatrix = double[12][12];
-
     bool
     has_weights() const
     {
@@ -169,11 +173,23 @@ namespace Exemplar
     Matrix3<double>
     damped_target(unsigned int cell, const Matrix3<double> &target) const;
 
-    template <typename Cell>
+    Matrix3<double>
+    damping_strain(const unsigned int cell) const
+    {
+      double E[6];
+      for (unsigned int k = 0; k < 6; ++k)
+        E[k] = damping_strains[batch_index(cell, 6, k)];
+      return { { { E[0], E[5], E[4] }, { E[5], E[1], E[3] }, { E[4], E[3], E[2] } } };
+    }
+
+    CellTask
+    task(const dealii::Vector<double> &positions,
+         const std::vector<double>    &weights,
+         Rotations                     rotations);
+
+    /// Sums of the cells' forces at the nodes.
     void
-    evaluate_cells(const dealii::Vector<double> &positions,
-                   const std::vector<double>    &weights,
-                   Evaluation                   &result) const;
+    gather_forces(Evaluation &result) const;
 
     void
     add_penalty(const std::vector<double> &weights, double stress_norm, Evaluation &result) const;
@@ -186,13 +202,14 @@ namespace Exemplar
                const dealii::Vector<double> &positions,
                const std::vector<double>    &weights) const;
 
-    template <typename Cell>
     void
-    assemble_cells(Tangent                       tangent,
-                   const dealii::Vector<double> &positions,
-                   const std::vector<double>    &weights,
-                   std::vector<double>          &matrix_values,
-                   std::vector<double>          &columns) const;
+    add_mixed_cells(const CellTask &task, TangentTask tangent, bool rotated);
+
+    void
+    assemble_coupling(const CellTask      &task,
+                      const TangentTask   &tangent,
+                      bool                 rotated,
+                      std::vector<double> &columns) const;
 
     template <typename Cell>
     void
@@ -203,12 +220,6 @@ namespace Exemplar
                        Evaluation                   &result) const;
 
     void
-    assemble_rotated_stiffness(std::vector<double> &matrix_values) const;
-
-    void
-    assemble_rotated_coupling(std::vector<double> &columns) const;
-
-    void
     add_rotated_responses(const dealii::Vector<double> &displacement, Evaluation &result) const;
 
     /// Into the gradient: nodal forces of a change of R^T P.
@@ -216,7 +227,7 @@ namespace Exemplar
     add_force(unsigned int cell, const Matrix3<double> &dP, dealii::Vector<double> &gradient) const
     {
       Vector3<double> force[4];
-      frozen_forces(fe_space.tetrahedron(cell), rotations[cell], dP, force);
+      frozen_forces(fe_space.tetrahedron(cell), batches.rotation(cell), dP, force);
       for (unsigned int a = 0; a < 4; ++a)
         for (unsigned int c = 0; c < 3; ++c)
           gradient[3 * fe_space.nodes(cell)[a] + c] += force[a][c];
@@ -226,43 +237,13 @@ namespace Exemplar
     start_matrix(std::vector<double> &matrix_values) const;
 
     void
-    start_columns(std::vector<double> &columns) const
-    {
-      columns.assign(static_cast<std::size_t>(free_dofs.size()) * examples->n_weights(), 0.);
-    }
-
-    void
-    add_cell_matrix(const unsigned int   cell,
-                    const CellMatrix    &cell_matrix,
-                    std::vector<double> &matrix_values) const
-    {
-      unsigned int entry = 0;
-      for (unsigned int p = 0; p < 12; ++p)
-        for (unsigned int q = 0; q <= p; ++q, ++entry)
-          if (const int position = scatter[cell][entry]; position != FreeDofs::held)
-            matrix_values[position] += cell_matrix[p][q];
-    }
-
-    void
-    add_to_column(const unsigned int cell,
-                  const Vector3<double> (&force)[4],
-                  const unsigned int   weight,
-                  const double         factor,
-                  std::vector<double> &columns) const
-    {
-      double *column = columns.data() + static_cast<std::size_t>(weight) * free_dofs.size();
-      for (unsigned int a = 0; a < 4; ++a)
-        for (unsigned int c = 0; c < 3; ++c)
-          if (const int dof = free_dofs.free_index(3 * fe_space.nodes(cell)[a] + c);
-              dof != FreeDofs::held)
-            column[dof] += factor * force[a][c];
-    }
-
-    void
     build_pattern();
 
     void
-    build_scatter();
+    build_block_positions();
+
+    void
+    build_node_forces();
 
     void
     build_mass_values();
@@ -278,18 +259,22 @@ namespace Exemplar
     const FreeDofs       &free_dofs;
     const double          guard_bound; ///< p_0 of Eq. (16)
 
-    SymmetricPattern pattern;
-    std::vector<std::array<int, n_cell_entries>>
-                                       scatter; ///< where each entry goes, or FreeDofs::held
-    std::vector<unsigned int>          cells_beside_held_nodes;
-    std::vector<double>                mass_values;    ///< M on the pattern; empty in statics
-    std::vector<std::array<double, 4>> gradient_norms; ///< |g_a|
-    std::vector<Matrix3<double>>       rotations;
-    double                             damping = 0.; ///< s of set_damping()
-    std::vector<double>                cell_damping; ///< empty without damping
-    std::vector<Matrix3<double>>       damping_strains;
-    double                             greatest_rounding_force = 0.;
-    double                             rounding_stress_norm    = 0.; ///< (sum V T^2)^(1/2)
+    const CellKernels &kernels;
+
+    CellBatches               batches;
+    SymmetricPattern          pattern;
+    std::vector<int>          block_positions; ///< of TangentTask
+    std::vector<unsigned>     mixed_cells; ///< with a node of which only some components are held
+    std::vector<unsigned>     cells_beside_held_nodes;
+    std::vector<std::size_t>  node_start;       ///< of each node's entries in node_forces
+    std::vector<unsigned int> node_forces;      ///< which of the cells' forces act on it
+    dealii::AlignedVector<double> cell_forces;  ///< four numbers a node, 16 a cell
+    std::vector<double>           mass_values;  ///< M on the pattern; empty in statics
+    double                        damping = 0.; ///< s of set_damping()
+    dealii::AlignedVector<double> cell_damping; ///< in batches; empty without damping
+    dealii::AlignedVector<double> damping_strains;
+    double                        greatest_rounding_force = 0.;
+    double                        rounding_stress_norm    = 0.; ///< (sum V T^2)^(1/2)
   };
 } // namespace Exemplar
 

@@ -23,7 +23,8 @@ namespace Exemplar
   /// find.
   struct WeightBlock
   {
-    std::vector<double>        coupling; ///< G, its k columns one after the other
+    std::vector<unsigned int>  coupled;  ///< the weights whose column of G is not zero, ascending
+    std::vector<double>        coupling; ///< their columns, one after the other
     dealii::FullMatrix<double> H;        ///< k x k
     dealii::FullMatrix<double> N;        ///< m x k
     std::vector<double>        lower;    ///< dw_i >= lower_i; empty: no bounds

@@ -26,18 +26,18 @@ namespace Exemplar
   };
 
   /// Call `function` with the CellModel of a strain measure.
-  template <typename Function>
+  template <typename Number, typename Function>
   auto
   with_cell_model(const StrainMeasure measure, const Function &function)
   {
     switch (measure)
     {
     case StrainMeasure::linear:
-      return function(CellModel<LinearCell<double>>());
+      return function(CellModel<LinearCell<Number>>());
     case StrainMeasure::green:
-      return function(CellModel<GreenCell<double>>());
+      return function(CellModel<GreenCell<Number>>());
     default:
-      return function(CellModel<CorotationalCell<double>>());
+      return function(CellModel<CorotationalCell<Number>>());
     }
   }
 

@@ -73,12 +73,10 @@ namespace Exemplar
   Guard<Number>
   guard(const Number &p, const Number &p_0)
   {
-    if (p >= p_0)
-      return { Number(1.), Number(0.) };
-    Number z = p / p_0;
-    if (!(z > Number(0.)))
-      z = Number(0.);
-    return { z * z * (Number(3.) - Number(2.) * z), Number(6.) * z * (Number(1.) - z) / p_0 };
+    const Number z         = max(p / p_0, Number(0.));
+    const auto   is_beyond = p >= p_0;
+    return { select(is_beyond, Number(1.), z * z * (Number(3.) - Number(2.) * z)),
+             select(is_beyond, Number(0.), Number(6.) * z * (Number(1.) - z) / p_0) };
   }
 
   /// Inverse of the symmetric positive semidefinite matrix B = tr(S) I - S with its
@@ -88,7 +86,7 @@ namespace Exemplar
   bounded_inverse(const Matrix3<Number> &B, const Number &least)
   {
     return spectral_function(B, [&least](const Number &eigenvalue)
-                             { return Number(1.) / (eigenvalue > least ? eigenvalue : least); });
+                             { return Number(1.) / max(eigenvalue, least); });
   }
 
   /// A deformed cell; what every model of cell_model.h offers. Forces and their changes are
@@ -101,23 +99,24 @@ namespace Exemplar
     CorotationalCell(const Lame<Number>    &lame,
                      const Matrix3<Number> &rotation,
                      const Matrix3<Number> &deformation_gradient,
-                     const Number          &p_0)
+                     const double           p_0)
         : lame(lame), S(symmetric_part(transpose_times(rotation, deformation_gradient)))
     {
       e = S;
       for (int i = 0; i < 3; ++i)
         e[i][i] -= Number(1.);
-      if (p_0 == Number(no_guard))
+      if (p_0 == no_guard)
         return; // frozen forces, which need nothing of what follows
       B = combine(Number(-1.), S, Number(0.), S);
       for (int i = 0; i < 3; ++i)
         B[i][i] += trace(S);
-      const Guard<Number> g = guard(determinant(B), p_0);
+      const Guard<Number> g = guard(determinant(B), Number(p_0));
       phi                   = g.phi;
       phi_derivative        = g.derivative;
     }
 
-    bool
+    /// Whether the guard acts, for each lane.
+    auto
     is_guarded() const
     {
       return phi < Number(1.);
@@ -144,7 +143,7 @@ namespace Exemplar
     {
       const Matrix3<Number> deviation = combine(Number(1.), e, Number(-1.), D);
       const Number          psi       = Number(0.5) * contract(stress(lame, deviation), deviation);
-      if (!is_guarded())
+      if (!any(is_guarded()))
         return psi;
       return psi + Number(2.) * lame.mu * (Number(1.) - phi) * contract(S, deviator(D));
     }
@@ -154,7 +153,7 @@ namespace Exemplar
     weight_stress(const Matrix3<Number> &D) const
     {
       const Matrix3<Number> T_D = stress(lame, combine(Number(1.), e, Number(-1.), D));
-      if (!is_guarded())
+      if (!any(is_guarded()))
         return T_D;
       return combine(Number(1.), T_D, Number(-2.) * lame.mu * (Number(1.) - phi), deviator(S));
     }
@@ -173,11 +172,11 @@ namespace Exemplar
       T = combine(Number(1.), stress(lame, combine(Number(1.), e, Number(-1.), D)),
                   Number(2.) * lame.mu * (Number(1.) - phi), deviator(D));
       // the force divides by s_i + s_j only what the guard makes vanish faster
-      B_inverse   = is_guarded() ? bounded_inverse(B, Number(1e-8)) : inverse(B);
+      bound_inverse(Number(1e-8));
       W           = skew_matrix(B_inverse * axial_vector(commutator(S, T)));
       guard_force = Number(-2.) * lame.mu * phi_derivative * contract(S, deviator(D));
-      if (is_guarded())
-        B_inverse = bounded_inverse(B, Number(1e-2));
+      if (any(is_guarded()))
+        bound_inverse(Number(1e-2));
     }
 
     /// R^T P = T + W + guard, Eq. (17), with P the derivative of psi by F.
@@ -185,7 +184,7 @@ namespace Exemplar
     force() const
     {
       Matrix3<Number> P = combine(Number(1.), T, Number(1.), W);
-      if (phi_derivative != Number(0.))
+      if (any(is_guarded()))
         P = combine(Number(1.), P, guard_force, p_derivative());
       return P;
     }
@@ -226,12 +225,17 @@ namespace Exemplar
     }
 
   private:
-    static Matrix3<Number>
-    inverse(const Matrix3<Number> &A)
+    /// B^-1; where the guard acts, with the eigenvalues of B held above `least`.
+    void
+    bound_inverse(const Number &least)
     {
-      const Matrix3<Number> C      = cofactors(A);
-      const Number          factor = Number(1.) / determinant(A);
-      return combine(factor, C, Number(0.), C); // symmetric, so cofactors need no transpose
+      B_inverse           = cofactors(B); // symmetric, so cofactors need no transpose
+      const Number factor = Number(1.) / determinant(B);
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+          B_inverse[i][j] *= factor;
+      if (any(is_guarded()))
+        B_inverse = select_matrix(is_guarded(), bounded_inverse(B, least), B_inverse);
     }
 
     /// dp/dS = I_2 I + I_1 (I_1 I - S) - cof S.

@@ -9,6 +9,7 @@
 #include <exemplar/region_shares.h>
 #include <exemplar/time_axis.h>
 
+#include <deal.II/base/aligned_vector.h>
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/lac/full_matrix.h>
 
@@ -133,8 +134,26 @@ namespace Exemplar
     Matrix3<double>
     strain(const unsigned int cell, const unsigned int i) const
     {
-      const double *E = entries(cell) + 6 * i;
+      if (i < first_strained)
+        return Matrix3<double>{};
+      double E[6];
+      for (unsigned int k = 0; k < 6; ++k)
+        E[k] = strains[batch_index(cell, 6 * n_strained(), 6 * (i - first_strained) + k)];
       return { { { E[0], E[5], E[4] }, { E[5], E[1], E[3] }, { E[4], E[3], E[2] } } };
+    }
+
+    /// What the kernels see of the examples.
+    ExampleArrays
+    arrays() const
+    {
+      return { n_strained(),
+               first_strained,
+               size(),
+               n_weights(),
+               eta,
+               strains.data(),
+               regions ? regions->starts().data() : nullptr,
+               regions ? regions->list().data() : nullptr };
     }
 
     /// Call function(weight, example, share) for the weights that matter in a cell. The
@@ -147,26 +166,39 @@ namespace Exemplar
         for (unsigned int i = first_strained; i < size(); ++i)
           function(i, i, 1.);
       else
-        for (const RegionShares::Share &share : regions->in_cell(cell))
+        for (std::size_t s = regions->first(cell); s < regions->last(cell); ++s)
           for (unsigned int i = first_strained; i < size(); ++i)
-            function(share.region * size() + i, i, share.value);
+            function(regions->list()[s].region * size() + i, i, regions->list()[s].value);
+    }
+
+    /// Whether a weight changes the strain anywhere: that of the rest pose does not.
+    bool
+    is_strained(const unsigned int weight) const
+    {
+      return weight % size() >= first_strained;
+    }
+
+    unsigned int
+    n_strained_weights() const
+    {
+      return n_regions() * n_strained();
+    }
+
+    /// The number of a strained weight among these.
+    unsigned int
+    strained_index(const unsigned int weight) const
+    {
+      return weight / size() * n_strained() + weight % size() - first_strained;
     }
 
     /// E(w) = sum_i w_i E_i in a cell.
     Matrix3<double>
     strain(const unsigned int cell, const std::vector<double> &weights) const
     {
-      double        sum[6] = { 0., 0., 0., 0., 0., 0. };
-      const double *E      = entries(cell);
-      for_each_weight(cell,
-                      [&](const unsigned int weight, const unsigned int i, const double share)
-                      {
-                        for (unsigned int entry = 0; entry < 6; ++entry)
-                          sum[entry] += share * weights[weight] * E[6 * i + entry];
-                      });
-      return {
-        { { sum[0], sum[5], sum[4] }, { sum[5], sum[1], sum[3] }, { sum[4], sum[3], sum[2] } }
-      };
+      Matrix3<double> sum{};
+      for_each_weight(cell, [&](const unsigned int weight, const unsigned int i, const double share)
+                      { sum = combine(1., sum, share * weights[weight], strain(cell, i)); });
+      return sum;
     }
 
     /// (sum V |dE/dw|^2)^(1/2) over the cells [m^(3/2)] for a weight.
@@ -212,11 +244,10 @@ namespace Exemplar
     }
 
   private:
-    /// xx, yy, zz, yz, xz, xy of all examples in a cell, one after the other.
-    const double *
-    entries(const unsigned int cell) const
+    unsigned int
+    n_strained() const
     {
-      return &strains[6 * static_cast<std::size_t>(cell) * size()];
+      return size() - first_strained;
     }
 
     void
@@ -250,7 +281,7 @@ namespace Exemplar
     std::vector<std::string>            names;
     std::vector<dealii::Vector<double>> positions;
     const unsigned int                  first_strained;
-    std::vector<double>                 strains;
+    dealii::AlignedVector<double>       strains; ///< as ExampleArrays has them
     std::vector<double>                 strain_norms;
     dealii::FullMatrix<double>          gram; ///< sum V E_i : C : E_j
     dealii::FullMatrix<double>          penalty;

@@ -34,7 +34,7 @@ namespace Exemplar
     GreenCell(const Lame<Number> &lame,
               const Matrix3<Number> & /*rotation*/,
               const Matrix3<Number> &deformation_gradient,
-              const Number & /*p_0*/)
+              double /*p_0*/)
         : QuadraticCell<Number>(lame, green_strain(deformation_gradient)), F(deformation_gradient)
     {
     }
@@ -43,7 +43,7 @@ namespace Exemplar
     Number
     force_factor() const
     {
-      return std::sqrt(contract(F, F) / Number(3.));
+      return sqrt(contract(F, F) / Number(3.));
     }
 
     Matrix3<Number>
@@ -74,7 +74,7 @@ namespace Exemplar
     make_convex()
     {
       this->T = spectral_function(this->T, [](const Number &eigenvalue)
-                                  { return eigenvalue > Number(0.) ? eigenvalue : Number(0.); });
+                                  { return max(eigenvalue, Number(0.)); });
     }
 
     Matrix3<Number>

@@ -18,7 +18,7 @@ namespace Exemplar
     LinearCell(const Lame<Number> &lame,
                const Matrix3<Number> & /*rotation*/,
                const Matrix3<Number> &deformation_gradient,
-               const Number & /*p_0*/)
+               double /*p_0*/)
         : QuadraticCell<Number>(lame,
                                 corotated_strain(identity_matrix<Number>(), deformation_gradient))
     {

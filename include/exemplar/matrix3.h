@@ -6,7 +6,7 @@
 // generic over the number type and include no deal.II header, because the
 // kernels are to be compiled for several instruction sets.
 
-#include <cmath>
+#include <exemplar/simd.h>
 
 namespace Exemplar
 {
@@ -83,6 +83,18 @@ namespace Exemplar
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
         C[i][j] = a * A[i][j] + b * B[i][j];
+    return C;
+  }
+
+  /// A where `condition` holds, else B.
+  template <typename Mask, typename Number>
+  Matrix3<Number>
+  select_matrix(const Mask &condition, const Matrix3<Number> &A, const Matrix3<Number> &B)
+  {
+    Matrix3<Number> C;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        C[i][j] = select(condition, A[i][j], B[i][j]);
     return C;
   }
 
@@ -163,6 +175,17 @@ namespace Exemplar
     return C;
   }
 
+  /// Tangent of the angle by which Jacobi's method turns [a b; b d] into a diagonal matrix.
+  template <typename Number>
+  Number
+  jacobi_tangent(const Number &a, const Number &b, const Number &d)
+  {
+    const auto   is_diagonal = b == Number(0.);
+    const Number theta       = (d - a) / select(is_diagonal, Number(1.), Number(2.) * b);
+    const Number sign        = select(theta >= Number(0.), Number(1.), Number(-1.));
+    return select(is_diagonal, Number(0.), sign / (abs(theta) + sqrt(theta * theta + Number(1.))));
+  }
+
   /// Eigenvalues of a symmetric matrix, in no order, and the eigenvectors in the columns
   /// of a rotation.
   template <typename Number>
@@ -182,13 +205,9 @@ namespace Exemplar
       for (int p = 0; p < 2; ++p)
         for (int q = p + 1; q < 3; ++q)
         {
-          if (A[p][q] == Number(0.))
-            continue;
-          const Number theta = (A[q][q] - A[p][p]) / (Number(2.) * A[p][q]);
-          const Number sign  = theta >= Number(0.) ? Number(1.) : Number(-1.);
-          const Number t     = sign / (std::abs(theta) + std::sqrt(theta * theta + Number(1.)));
-          const Number c     = Number(1.) / std::sqrt(t * t + Number(1.));
-          const Number s     = t * c;
+          const Number t = jacobi_tangent(A[p][p], A[p][q], A[q][q]);
+          const Number c = Number(1.) / sqrt(t * t + Number(1.));
+          const Number s = t * c;
           for (int k = 0; k < 3; ++k)
           {
             const Number a = A[k][p];

@@ -4,9 +4,6 @@
 
 #include <exemplar/matrix3.h>
 
-#include <cmath>
-#include <utility>
-
 namespace Exemplar
 {
   /// The rotation R that maximises tr(R^T F), that is the factor of F = R S with
@@ -16,10 +13,11 @@ namespace Exemplar
   /// gives the identity. The result depends on F alone, never on history.
   ///
   /// Horn (1987), Eq. (14): with R = R(q), tr(R^T F) = q^T K q for a symmetric traceless 4x4
-  /// matrix K, so q is the eigenvector of its greatest eigenvalue. That eigenvalue
-  /// is found by Newton's method on the characteristic polynomial, from above,
-  /// which is monotone. Where two eigenvalues nearly coincide the polynomial is
-  /// ill-conditioned, and Jacobi's method takes over.
+  /// matrix K, whose greatest eigenvalue is tr S. It is found by Newton's method on the
+  /// characteristic polynomial, from above, which is monotone. With it R is a polynomial of
+  /// F by Cayley and Hamilton, Eq. (14b), and one Newton step on the group of rotations takes
+  /// its rounding away. Where two eigenvalues nearly coincide both are ill-conditioned, and
+  /// Jacobi's method takes over.
   template <typename Number>
   Matrix3<Number>
   closest_rotation(const Matrix3<Number> &F);
@@ -63,76 +61,16 @@ namespace Exemplar
                    w * w - x * x - y * y + z * z } } };
     }
 
-    template <typename Number>
-    Number
-    rayleigh_quotient(const Matrix4<Number> &K, const Quaternion<Number> &q)
-    {
-      Number sum = Number(0.);
-      for (int i = 0; i < 4; ++i)
-        for (int j = 0; j < 4; ++j)
-          sum += q.value[i] * K.value[i][j] * q.value[j];
-      return sum;
-    }
-
-    /// Eigenvector of K to the simple eigenvalue lambda: the longest column of the
-    /// adjugate of K - lambda I, which is a multiple of q q^T.
-    template <typename Number>
-    Quaternion<Number>
-    eigenvector(const Matrix4<Number> &K, const Number &lambda)
-    {
-      Number M[4][4];
-      for (int i = 0; i < 4; ++i)
-        for (int j = 0; j < 4; ++j)
-          M[i][j] = (i == j ? K.value[i][j] - lambda : K.value[i][j]);
-
-      // 2x2 minors of rows 0,1 (upper) and of rows 2,3 (lower)
-      const auto minor = [&M](const int row, const int j, const int k)
-      { return M[row][j] * M[row + 1][k] - M[row][k] * M[row + 1][j]; };
-      const Number u01 = minor(0, 0, 1), u02 = minor(0, 0, 2), u03 = minor(0, 0, 3);
-      const Number u12 = minor(0, 1, 2), u13 = minor(0, 1, 3), u23 = minor(0, 2, 3);
-      const Number l01 = minor(2, 0, 1), l02 = minor(2, 0, 2), l03 = minor(2, 0, 3);
-      const Number l12 = minor(2, 1, 2), l13 = minor(2, 1, 3), l23 = minor(2, 2, 3);
-
-      const Number adjugate[4][4] = { { M[1][1] * l23 - M[1][2] * l13 + M[1][3] * l12,
-                                        -(M[0][1] * l23 - M[0][2] * l13 + M[0][3] * l12),
-                                        M[3][1] * u23 - M[3][2] * u13 + M[3][3] * u12,
-                                        -(M[2][1] * u23 - M[2][2] * u13 + M[2][3] * u12) },
-                                      { -(M[1][0] * l23 - M[1][2] * l03 + M[1][3] * l02),
-                                        M[0][0] * l23 - M[0][2] * l03 + M[0][3] * l02,
-                                        -(M[3][0] * u23 - M[3][2] * u03 + M[3][3] * u02),
-                                        M[2][0] * u23 - M[2][2] * u03 + M[2][3] * u02 },
-                                      { M[1][0] * l13 - M[1][1] * l03 + M[1][3] * l01,
-                                        -(M[0][0] * l13 - M[0][1] * l03 + M[0][3] * l01),
-                                        M[3][0] * u13 - M[3][1] * u03 + M[3][3] * u01,
-                                        -(M[2][0] * u13 - M[2][1] * u03 + M[2][3] * u01) },
-                                      { -(M[1][0] * l12 - M[1][1] * l02 + M[1][2] * l01),
-                                        M[0][0] * l12 - M[0][1] * l02 + M[0][2] * l01,
-                                        -(M[3][0] * u12 - M[3][1] * u02 + M[3][2] * u01),
-                                        M[2][0] * u12 - M[2][1] * u02 + M[2][2] * u01 } };
-
-      int longest = 0;
-      for (int i = 1; i < 4; ++i)
-        if (std::abs(adjugate[i][i]) > std::abs(adjugate[longest][longest]))
-          longest = i;
-
-      Number norm_square = Number(0.);
-      for (int i = 0; i < 4; ++i)
-        norm_square += adjugate[i][longest] * adjugate[i][longest];
-      const Number       scale = Number(1.) / std::sqrt(norm_square);
-      Quaternion<Number> q;
-      for (int i = 0; i < 4; ++i)
-        q.value[i] = scale * adjugate[i][longest];
-      return q;
-    }
-
     /// Eigenvector to the greatest eigenvalue by cyclic Jacobi rotations; never
     /// fails, also where eigenvalues coincide.
     template <typename Number>
     Quaternion<Number>
     eigenvector_by_jacobi(Matrix4<Number> K)
     {
-      Number V[4][4]
-          = { { 1., 0., 0., 0. }, { 0., 1., 0., 0. }, { 0., 0., 1., 0. }, { 0., 0., 0., 1. } };
+      Number V[4][4];
+      for (int i = 0; i < 4; ++i)
+        for (int j = 0; j < 4; ++j)
+          V[i][j] = Number(i == j ? 1. : 0.);
       const auto rotate = [](Number &a, Number &b, const Number &c, const Number &s)
       {
         const Number old_a = a;
@@ -144,14 +82,9 @@ namespace Exemplar
         for (int p = 0; p < 3; ++p)
           for (int q = p + 1; q < 4; ++q)
           {
-            const Number off_diagonal = K.value[p][q];
-            if (off_diagonal == Number(0.))
-              continue;
-            const Number theta = (K.value[q][q] - K.value[p][p]) / (Number(2.) * off_diagonal);
-            const Number sign  = theta >= Number(0.) ? Number(1.) : Number(-1.);
-            const Number t     = sign / (std::abs(theta) + std::sqrt(theta * theta + Number(1.)));
-            const Number c     = Number(1.) / std::sqrt(t * t + Number(1.));
-            const Number s     = t * c;
+            const Number t = jacobi_tangent(K.value[p][p], K.value[p][q], K.value[q][q]);
+            const Number c = Number(1.) / sqrt(t * t + Number(1.));
+            const Number s = t * c;
             for (int k = 0; k < 4; ++k)
               rotate(K.value[k][p], K.value[k][q], c, s);
             for (int k = 0; k < 4; ++k)
@@ -159,11 +92,64 @@ namespace Exemplar
             for (int k = 0; k < 4; ++k)
               rotate(V[k][p], V[k][q], c, s);
           }
-      int greatest = 0;
+      Number             greatest = K.value[0][0];
+      Quaternion<Number> q        = { { V[0][0], V[1][0], V[2][0], V[3][0] } };
       for (int i = 1; i < 4; ++i)
-        if (K.value[i][i] > K.value[greatest][greatest])
-          greatest = i;
-      return { { V[0][greatest], V[1][greatest], V[2][greatest], V[3][greatest] } };
+      {
+        const auto is_greater = K.value[i][i] > greatest;
+        greatest              = select(is_greater, K.value[i][i], greatest);
+        for (int k = 0; k < 4; ++k)
+          q.value[k] = select(is_greater, V[k][i], q.value[k]);
+      }
+      return q;
+    }
+
+    /// F over its greatest entry, I if F = 0.
+    template <typename Number>
+    Matrix3<Number>
+    scaled(Matrix3<Number> F)
+    {
+      Number greatest = Number(0.);
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+          greatest = max(greatest, abs(F[i][j]));
+      const auto is_zero = greatest == Number(0.);
+      greatest           = select(is_zero, Number(1.), greatest);
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+          F[i][j] = select(is_zero, Number(i == j ? 1. : 0.), F[i][j] / greatest);
+      return F;
+    }
+
+    /// The rotation of G next to a matrix that is one to first order. With the skew part of
+    /// R^T G = S + skew, the turn omega solves (tr(S) I - S) omega = axial(skew - skew^T);
+    /// R (3 I - R^T R) / 2 is orthogonal to second order.
+    template <typename Number>
+    Matrix3<Number>
+    polished(const Matrix3<Number> &R, const Matrix3<Number> &G)
+    {
+      const Matrix3<Number> M = transpose_times(R, G), C = transpose_times(R, R);
+      Matrix3<Number>       B = symmetric_part(M);
+      const Number          t = trace(B);
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+          B[i][j] = (i == j ? t : Number(0.)) - B[i][j];
+      const Vector3<Number> axial = { { M[2][1] - M[1][2], M[0][2] - M[2][0], M[1][0] - M[0][1] } };
+      Vector3<Number>       omega = cofactors(B) * axial;
+      const Number          factor = Number(1.) / determinant(B);
+      for (int i = 0; i < 3; ++i)
+        omega[i] *= factor;
+      Matrix3<Number> correction;
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+          correction[i][j] = Number(-0.5) * C[i][j] + (i == j ? Number(1.5) : Number(0.));
+      correction[2][1] += omega[0];
+      correction[1][2] -= omega[0];
+      correction[0][2] += omega[1];
+      correction[2][0] -= omega[1];
+      correction[1][0] += omega[2];
+      correction[0][1] -= omega[2];
+      return R * correction;
     }
   } // namespace Polar
 
@@ -171,53 +157,53 @@ namespace Exemplar
   Matrix3<Number>
   closest_rotation(const Matrix3<Number> &F)
   {
-    // Scale by the greatest entry first, so that squares neither over- nor underflow.
-    Number greatest = Number(0.);
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j)
-        if (std::abs(F[i][j]) > greatest)
-          greatest = std::abs(F[i][j]);
-    if (!(greatest > Number(0.)))
-      return identity_matrix<Number>();
-
-    Matrix3<Number> G;
-    Number          norm_square = Number(0.);
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j)
-      {
-        G[i][j] = F[i][j] / greatest;
-        norm_square += G[i][j] * G[i][j];
-      }
-    const Number scale = Number(1.) / std::sqrt(norm_square);
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j)
-        G[i][j] *= scale;
-
-    // p(l) = l^4 - 2 l^2 - 8 det(G) l + 1 - 4 |cof G|^2 for |G| = 1
-    const Number          det      = determinant(G);
-    const Matrix3<Number> cof      = cofactors(G);
-    const Number          constant = Number(1.) - Number(4.) * contract(cof, cof);
-    Number                lambda   = std::sqrt(Number(3.));
-    Number                slope    = Number(0.);
-    for (int iteration = 0; iteration < 30; ++iteration)
+    // fourth powers must neither over- nor underflow
+    Matrix3<Number> G = F;
+    Number          n = contract(F, F);
+    if (!all((n > Number(1e-60)) & (n < Number(1e60))))
     {
-      const Number square = lambda * lambda;
-      slope               = Number(4.) * lambda * (square - Number(1.)) - Number(8.) * det;
-      const Number value  = square * (square - Number(2.)) - Number(8.) * det * lambda + constant;
-      if (!(slope > Number(0.)) || std::abs(value) <= Number(1e-14) * slope)
-        break;
-      lambda -= value / slope;
+      G = Polar::scaled(F);
+      n = contract(G, G);
     }
 
-    // slope = product of the distances to the three other eigenvalues; it is 12.3
-    // at rest and 0 where the rotation is not unique.
-    const Polar::Matrix4<Number> K = Polar::horn_matrix(G);
-    if (!(slope > Number(1e-3)))
-      return Polar::rotation_matrix(Polar::eigenvector_by_jacobi(K));
-    Polar::Quaternion<Number> q = Polar::eigenvector(K, lambda);
-    if (!(slope > Number(1.))) // an eigenvalue less sharp: one Rayleigh step makes up for it
-      q = Polar::eigenvector(K, Polar::rayleigh_quotient(K, q));
-    return Polar::rotation_matrix(q);
+    // p(l) = l^4 - 2 n l^2 - 8 det(G) l + n^2 - 4 |cof G|^2 with n = |G|^2
+    const Matrix3<Number> cof = cofactors(G);
+    const Number          det = G[0][0] * cof[0][0] + G[0][1] * cof[0][1] + G[0][2] * cof[0][2];
+    const Number          constant = n * n - Number(4.) * contract(cof, cof);
+    const Number          greatest = sqrt(Number(3.) * n);
+    const Number          accuracy = Number(1e-10) * greatest;
+    Number                lambda   = greatest;
+    Number                slope;
+    for (int iteration = 0; iteration < 30; ++iteration)
+    {
+      const Number square    = lambda * lambda;
+      const Number eight_det = Number(8.) * det;
+      slope                  = Number(4.) * lambda * (square - n) - eight_det;
+      const Number value     = (square - (n + n)) * square - eight_det * lambda + constant;
+      const auto   is_found  = (slope <= Number(0.)) | (abs(value) <= accuracy * slope);
+      lambda -= select(is_found, Number(0.), value / slope);
+      if (all(is_found))
+        break;
+    }
+
+    // slope = product of the distances to the three other eigenvalues = 8 (s_1+s_2)(s_2+s_3)
+    // (s_3+s_1); it is 12.3 n^(3/2) at rest and 0 where the rotation is not unique
+    const Number          I_2      = Number(0.5) * (lambda * lambda - n);
+    const Number          factor_G = lambda * lambda - I_2;
+    const Number          scale    = Number(8.) / slope;
+    const Matrix3<Number> GC       = G * transpose_times(G, G);
+    Matrix3<Number>       R;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        R[i][j] = scale * (lambda * cof[i][j] + factor_G * G[i][j] - GC[i][j]);
+    R = Polar::polished(R, G);
+
+    const auto is_ambiguous = !(slope > Number(0.006) * greatest * n);
+    if (any(is_ambiguous))
+      R = select_matrix(is_ambiguous,
+                        Polar::rotation_matrix(Polar::eigenvector_by_jacobi(Polar::horn_matrix(G))),
+                        R);
+    return R;
   }
 } // namespace Exemplar
 

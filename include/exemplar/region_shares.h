@@ -2,6 +2,7 @@
 #ifndef exemplar_region_shares_h
 #define exemplar_region_shares_h
 
+#include <exemplar/cell_kernels.h>
 #include <exemplar/fe_space.h>
 
 #include <vector>
@@ -13,12 +14,6 @@ namespace Exemplar
   class RegionShares
   {
   public:
-    struct Share
-    {
-      unsigned int region; ///< its number, in ascending order of material ids
-      double       value;
-    };
-
     /// Without a blend length [m] a cell belongs to its own region alone. With one, the
     /// shares change smoothly over about this distance, measured inside the body: they
     /// solve s - l^2 Laplace s = indicator of the region, with natural boundary and
@@ -39,19 +34,40 @@ namespace Exemplar
       return ids[region];
     }
 
-    /// The regions that act in a cell.
-    const std::vector<Share> &
-    in_cell(const unsigned int cell) const
+    /// The regions that act in a cell, in the range first to last - 1 of list().
+    std::size_t
+    first(const unsigned int cell) const
     {
-      return shares[cell];
+      return start[cell];
+    }
+
+    std::size_t
+    last(const unsigned int cell) const
+    {
+      return start[cell + 1];
+    }
+
+    /// The shares of all cells, one cell after the other.
+    const std::vector<RegionShare> &
+    list() const
+    {
+      return shares;
+    }
+
+    /// Where each cell's shares begin in list(), and its end.
+    const std::vector<std::size_t> &
+    starts() const
+    {
+      return start;
     }
 
   private:
     void
     blend(const FESpace &fe_space, double length);
 
-    std::vector<unsigned int>       ids;
-    std::vector<std::vector<Share>> shares;
+    std::vector<unsigned int> ids;
+    std::vector<std::size_t>  start;
+    std::vector<RegionShare>  shares;
   };
 } // namespace Exemplar
 

@@ -21,6 +21,16 @@ namespace Exemplar
       return column_start.empty() ? 0 : column_start.size() - 1;
     }
 
+    /// Size of the array of values: kernels write whole registers, and what they write
+    /// behind the last value is zero.
+    std::size_t
+    n_values() const
+    {
+      return row.size() + padding;
+    }
+
+    static constexpr std::size_t padding = 4;
+
     /// Position of entry (i,j), i >= j, which must be there.
     int
     position(const int i, const int j) const
@@ -42,7 +52,7 @@ namespace Exemplar
     reinit(const SymmetricPattern &pattern)
         = 0;
 
-    /// Values on the pattern, to be overwritten.
+    /// Values on the pattern and the padding, to be overwritten.
     virtual std::vector<double> &
     values()
         = 0;

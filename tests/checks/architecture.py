@@ -11,7 +11,7 @@ from pathlib import Path
 
 TOP = Path(__file__).resolve().parents[2]
 KERNELS = ["matrix3", "lame", "polar_decomposition", "corotational", "corotational_consistent", "quadratic_cell", "linear",
-           "green", "cell_model"]
+           "green", "cell_model", "simd", "cell_kernels"]
 
 
 def floors():

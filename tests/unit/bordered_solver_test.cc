@@ -48,6 +48,8 @@ namespace Exemplar::Testing
       WeightBlock                            block;
       for (unsigned int i = 0; i < n * k; ++i)
         block.coupling.push_back(uniform(generator));
+      for (unsigned int i = 0; i < k; ++i)
+        block.coupled.push_back(i);
       block.H.reinit(k, k);
       block.N.reinit(1, k);
       for (unsigned int i = 0; i < k; ++i)

@@ -10,9 +10,9 @@ namespace Exemplar::Testing
     double
     share_of(const RegionShares &shares, const unsigned int region, const unsigned int cell)
     {
-      for (const RegionShares::Share &share : shares.in_cell(cell))
-        if (share.region == region)
-          return share.value;
+      for (std::size_t s = shares.first(cell); s < shares.last(cell); ++s)
+        if (shares.list()[s].region == region)
+          return shares.list()[s].value;
       return 0.;
     }
 

@@ -1,0 +1,681 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_cell_kernels_loops_h
+#define exemplar_cell_kernels_loops_h
+
+#include <exemplar/cell_kernels.h>
+
+#include <type_traits>
+
+// The loops of cell_kernels.h for a number type. Only the files that compile them for an
+// instruction set include this; nothing here may be instantiated for other types there,
+// or the linker might take that code for CPUs that cannot run it.
+
+namespace Exemplar
+{
+  template <typename Number>
+  struct CellLoops
+  {
+    static constexpr std::size_t width = Lanes<Number>::n;
+
+    /// Cells of a batch that are computed at once.
+    struct Place
+    {
+      std::size_t batch;
+      std::size_t lane; ///< the first
+
+      /// Where entry e of n of a quantity begins.
+      std::size_t
+      at(const std::size_t n, const std::size_t e) const
+      {
+        return (batch * n + e) * batch_size + lane;
+      }
+    };
+
+    static Number
+    load(const double *from, const Place &place, const std::size_t n, const std::size_t e)
+    {
+      return Lanes<Number>::load(from + place.at(n, e));
+    }
+
+    static Lame<Number>
+    load_lame(const CellArrays &cells, const Place &place)
+    {
+      return { load(cells.lame, place, 2, 0), load(cells.lame, place, 2, 1) };
+    }
+
+    static Matrix3<Number>
+    load_rotation(const CellArrays &cells, const Place &place)
+    {
+      Matrix3<Number> R;
+      for (int k = 0; k < 9; ++k)
+        R[k / 3][k % 3] = load(cells.rotations, place, 9, k);
+      return R;
+    }
+
+    /// A symmetric matrix that is entry `i` of n.
+    static Matrix3<Number>
+    load_strain(const double *strains, const Place &place, const std::size_t n, const std::size_t i)
+    {
+      Number E[6];
+      for (int k = 0; k < 6; ++k)
+        E[k] = load(strains, place, 6 * n, 6 * i + k);
+      return { { { E[0], E[5], E[4] }, { E[5], E[1], E[3] }, { E[4], E[3], E[2] } } };
+    }
+
+    static Tetrahedron<Number>
+    load_tetrahedron(const CellArrays &cells, const Place &place)
+    {
+      Tetrahedron<Number> tet;
+      for (int a = 0; a < 4; ++a)
+        for (int i = 0; i < 3; ++i)
+          tet.shape_gradient[a][i] = load(cells.gradients, place, 12, 3 * a + i);
+      tet.volume = load(cells.volumes, place, 1, 0);
+      return tet;
+    }
+
+    static Matrix3<Number>
+    deformation_gradient(const CellTask &task, const Place &place, const Tetrahedron<Number> &tet)
+    {
+      alignas(64) double x[4][3][width];
+      for (int a = 0; a < 4; ++a)
+        for (std::size_t lane = 0; lane < width; ++lane)
+        {
+          const double *node = task.positions + 3 * task.cells.nodes[place.at(4, a) + lane];
+          for (int i = 0; i < 3; ++i)
+            x[a][i][lane] = node[i];
+        }
+      Vector3<Number> position[4];
+      for (int a = 0; a < 4; ++a)
+        for (int i = 0; i < 3; ++i)
+          position[a][i] = Lanes<Number>::load(x[a][i]);
+      return Exemplar::deformation_gradient(tet, position);
+    }
+
+    /// R of a place, which is updated if the task says so.
+    static Matrix3<Number>
+    rotation(const CellTask &task, const Place &place, const Matrix3<Number> &F)
+    {
+      if (!task.update_rotations || task.cells.strain != StrainMeasure::corotational)
+        return load_rotation(task.cells, place);
+      const Matrix3<Number> R = closest_rotation(F);
+      for (int k = 0; k < 9; ++k)
+        Lanes<Number>::store(R[k / 3][k % 3], task.cells.rotations + place.at(9, k));
+      return R;
+    }
+
+    /// Call function(place) for all places of the batches.
+    template <typename Function>
+    static void
+    for_each_place(const std::size_t begin, const std::size_t end, const Function &function)
+    {
+      for (std::size_t batch = begin; batch < end; ++batch)
+        for (std::size_t lane = 0; lane < batch_size; lane += width)
+          function(Place{ batch, lane });
+    }
+
+    template <typename Function>
+    static void
+    with_model(const StrainMeasure measure, const Function &function)
+    {
+      with_cell_model<Number>(measure, function);
+    }
+
+    static void
+    update_rotations(const CellTask &task, const std::size_t begin, const std::size_t end)
+    {
+      CellTask updating         = task;
+      updating.update_rotations = true;
+      for_each_place(begin, end,
+                     [&](const Place &place)
+                     {
+                       rotation(
+                           updating, place,
+                           deformation_gradient(task, place, load_tetrahedron(task.cells, place)));
+                     });
+    }
+
+    /// The weight of example i in the cells of a place.
+    static Number
+    weight(const CellTask &task, const Place &place, const unsigned int i)
+    {
+      const ExampleArrays &examples = task.examples;
+      if (examples.share_start == nullptr)
+        return Number(task.weights[examples.first + i]);
+      alignas(64) double sum[width] = {};
+      for (std::size_t lane = 0; lane < width; ++lane)
+        if (const std::size_t cell = place.batch * batch_size + place.lane + lane;
+            cell < task.cells.n_cells)
+          for (std::size_t s = examples.share_start[cell]; s < examples.share_start[cell + 1]; ++s)
+            sum[lane]
+                += examples.shares[s].value
+                   * task.weights[examples.shares[s].region * examples.n_all + examples.first + i];
+      return Lanes<Number>::load(sum);
+    }
+
+    /// eta E(w), of the cells of a place.
+    static Matrix3<Number>
+    target(const CellTask &task, const Place &place)
+    {
+      const ExampleArrays &examples = task.examples;
+      Number               sum[6];
+      for (Number &entry : sum)
+        entry = Number(0.);
+      for (unsigned int i = 0; i < examples.n; ++i)
+      {
+        const Number w = weight(task, place, i) * Number(examples.importance);
+        for (int k = 0; k < 6; ++k)
+          sum[k] += w * load(examples.strains, place, 6 * examples.n, 6 * i + k);
+      }
+      return {
+        { { sum[0], sum[5], sum[4] }, { sum[5], sum[1], sum[3] }, { sum[4], sum[3], sum[2] } }
+      };
+    }
+
+    /// Add sign eta V T:E_i to the sums of the weights.
+    static void
+    add_weight_sums(const CellTask        &task,
+                    const Place           &place,
+                    const Number          &factor, ///< sign eta V
+                    const Matrix3<Number> &T,
+                    double                *weight_sums)
+    {
+      const ExampleArrays &examples = task.examples;
+      const Number         once[6]  = { factor * T[0][0],
+                                        factor * T[1][1],
+                                        factor * T[2][2],
+                                        factor * (T[1][2] + T[2][1]),
+                                        factor * (T[0][2] + T[2][0]),
+                                        factor * (T[0][1] + T[1][0]) };
+      for (unsigned int i = 0; i < examples.n; ++i)
+      {
+        Number sum = Number(0.);
+        for (int k = 0; k < 6; ++k)
+          sum += once[k] * load(examples.strains, place, 6 * examples.n, 6 * i + k);
+        if (examples.share_start == nullptr)
+        {
+          double *to = weight_sums + batch_size * (examples.first + i) + place.lane;
+          Lanes<Number>::store(Lanes<Number>::load(to) + sum, to);
+        }
+        else
+          share_out(task, place, i, sum, weight_sums);
+      }
+    }
+
+    static void
+    share_out(const CellTask    &task,
+              const Place       &place,
+              const unsigned int i,
+              const Number      &sum,
+              double            *weight_sums)
+    {
+      const ExampleArrays &examples = task.examples;
+      alignas(64) double   of_cell[width];
+      Lanes<Number>::store(sum, of_cell);
+      for (std::size_t lane = 0; lane < width; ++lane)
+        if (const std::size_t cell = place.batch * batch_size + place.lane + lane;
+            cell < task.cells.n_cells)
+          for (std::size_t s = examples.share_start[cell]; s < examples.share_start[cell + 1]; ++s)
+            weight_sums[batch_size
+                            * (examples.shares[s].region * examples.n_all + examples.first + i)
+                        + place.lane + lane]
+                += examples.shares[s].value * of_cell[lane];
+    }
+
+    static Number
+    norm(const Matrix3<Number> &A)
+    {
+      return sqrt(contract(A, A));
+    }
+
+    /// The elastic constants with the damping: both are quadratics around a strain, and so
+    /// is their sum.
+    static Lame<Number>
+    damped_lame(const Lame<Number> &lame, const Number &s)
+    {
+      const Number factor = Number(1.) + s;
+      return { factor * lame.lambda, factor * lame.mu };
+    }
+
+    static Matrix3<Number>
+    damped_target(const Matrix3<Number> &target, const Number &s, const Matrix3<Number> &past)
+    {
+      const Number factor = Number(1.) / (Number(1.) + s);
+      return combine(factor, target, factor * s, past);
+    }
+
+    /// Sums over the cells, by lane.
+    struct Sums
+    {
+      Number energy = Number(0.), elastic = Number(0.), damping = Number(0.);
+      Number stress_square = Number(0.);
+      Number min_det       = Number(std::numeric_limits<double>::max());
+      Number inverted = Number(0.), guarded = Number(0.);
+
+      void
+      add_to(CellSums &sums) const
+      {
+        sums.energy += total(energy);
+        sums.energy_elastic += total(elastic);
+        sums.energy_damping += total(damping);
+        sums.stress_square += total(stress_square);
+        sums.inverted_cells += static_cast<unsigned int>(total(inverted));
+        sums.guarded_cells += static_cast<unsigned int>(total(guarded));
+        alignas(64) double lane[width];
+        Lanes<Number>::store(min_det, lane);
+        for (const double det : lane)
+          sums.min_det_F = det >= sums.min_det_F ? sums.min_det_F : det; // NaN is the least
+      }
+
+      static double
+      total(const Number &number)
+      {
+        alignas(64) double lane[width];
+        Lanes<Number>::store(number, lane);
+        double sum = 0.;
+        for (const double value : lane)
+          sum += value;
+        return sum;
+      }
+    };
+
+    /// The forces of the nodes and their scales, four numbers a node, cell by cell.
+    static void
+    store_forces(const CellTask            &task,
+                 const Place               &place,
+                 const Tetrahedron<Number> &tet,
+                 const Matrix3<Number>     &RP, ///< V P
+                 const Number              &scale,
+                 double                    *forces)
+    {
+      alignas(64) double lanes[16][width];
+      for (int a = 0; a < 4; ++a)
+      {
+        const Vector3<Number> force = RP * tet.shape_gradient[a];
+        for (int i = 0; i < 3; ++i)
+          Lanes<Number>::store(force[i], lanes[4 * a + i]);
+        Lanes<Number>::store(scale * load(task.cells.gradient_norms, place, 4, a),
+                             lanes[4 * a + 3]);
+      }
+      for (std::size_t lane = 0; lane < width; ++lane)
+      {
+        double *to = forces + 16 * (place.batch * batch_size + place.lane + lane);
+        for (int entry = 0; entry < 16; ++entry)
+          to[entry] = lanes[entry][lane];
+      }
+    }
+
+    template <typename Cell>
+    static void
+    evaluate_place(
+        const CellTask &task, const Place &place, double *forces, double *weight_sums, Sums &sums)
+    {
+      const bool                frozen       = task.cells.guard_bound == no_guard;
+      const bool                has_examples = task.examples.n_weights > 0;
+      const Tetrahedron<Number> tet          = load_tetrahedron(task.cells, place);
+      const Lame<Number>        lame         = load_lame(task.cells, place);
+      const Matrix3<Number>     F            = deformation_gradient(task, place, tet);
+      const Matrix3<Number>     R            = rotation(task, place, F);
+      const auto                is_real      = tet.volume > Number(0.);
+      const auto one = [](const auto &mask) { return select(mask, Number(1.), Number(0.)); };
+
+      const Number          det = determinant(F);
+      Cell                  cell(lame, R, F, task.cells.guard_bound);
+      const Matrix3<Number> elastic_stress = stress(lame, cell.strain());
+      const Number elastic = Number(0.5) * tet.volume * contract(elastic_stress, cell.strain());
+      Number       scale   = norm(elastic_stress);
+      sums.min_det         = select(det >= sums.min_det, sums.min_det, det);
+      sums.inverted += one(is_real & (det <= Number(0.)));
+      sums.elastic += elastic;
+
+      // R^T P, of the elastic stress alone where nothing else is there
+      Matrix3<Number> P = has_examples ? elastic_stress : cell.elastic_force();
+      Matrix3<Number> D;
+      if (has_examples)
+      {
+        D = target(task, place); // eta E(w)
+        scale += norm(stress(lame, D));
+        sums.stress_square += tet.volume * scale * scale;
+        sums.energy += tet.volume * cell.energy(D);
+        sums.guarded += one(is_real & cell.is_guarded());
+        if (frozen || task.weights_are_free)
+        {
+          P = cell.weight_stress(D);
+          if (task.weights_are_free)
+            add_weight_sums(task, place, Number(-task.examples.importance) * tet.volume, P,
+                            weight_sums);
+        }
+      }
+      else
+        sums.energy += elastic;
+
+      if (task.damping.factors != nullptr)
+      {
+        const Number          s    = load(task.damping.factors, place, 1, 0);
+        const Matrix3<Number> past = load_strain(task.damping.strains, place, 1, 0);
+        sums.damping += s * tet.volume * cell.energy(past);
+        scale += s * (norm(elastic_stress) + norm(stress(lame, past)));
+        if (!has_examples)
+          D = Matrix3<Number>{};
+        D    = damped_target(D, s, past);
+        cell = Cell(damped_lame(lame, s), R, F, task.cells.guard_bound);
+        if (frozen)
+          P = cell.weight_stress(D);
+      }
+      if (!frozen && (has_examples || task.damping.factors != nullptr))
+      {
+        cell.set_target(D);
+        P = cell.force();
+      }
+      Matrix3<Number> RP = R * P;
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+          RP[i][j] *= tet.volume;
+      store_forces(task, place, tet, RP, tet.volume * cell.force_factor() * scale, forces);
+    }
+
+    static void
+    evaluate(const CellTask   &task,
+             const std::size_t begin,
+             const std::size_t end,
+             double           *forces,
+             double           *weight_sums,
+             CellSums         &result)
+    {
+      Sums sums;
+      with_model(task.cells.strain,
+                 [&](auto model)
+                 {
+                   using Cell = typename decltype(model)::type;
+                   for_each_place(begin, end,
+                                  [&](const Place &place) {
+                                    evaluate_place<Cell>(task, place, forces, weight_sums, sums);
+                                  });
+                 });
+      sums.add_to(result);
+    }
+
+    static void
+    weight_target(const CellTask   &task,
+                  const std::size_t begin,
+                  const std::size_t end,
+                  double           *weight_sums)
+    {
+      with_model(task.cells.strain,
+                 [&](auto model)
+                 {
+                   using Cell = typename decltype(model)::type;
+                   for_each_place(
+                       begin, end,
+                       [&](const Place &place)
+                       {
+                         const Tetrahedron<Number> tet = load_tetrahedron(task.cells, place);
+                         const Matrix3<Number>     F   = deformation_gradient(task, place, tet);
+                         const Cell cell(load_lame(task.cells, place), rotation(task, place, F), F,
+                                         task.cells.guard_bound);
+                         add_weight_sums(task, place, Number(task.examples.importance) * tet.volume,
+                                         cell.weight_stress(Matrix3<Number>{}), weight_sums);
+                       });
+                 });
+    }
+
+    /// A cell as it is driven, its target set.
+    template <typename Cell>
+    static Cell
+    driven_cell(const CellTask            &task,
+                const TangentTask         &tangent,
+                const Place               &place,
+                const Tetrahedron<Number> &tet,
+                const Matrix3<Number>     &R)
+    {
+      Lame<Number>    lame = load_lame(task.cells, place);
+      Matrix3<Number> D    = target(task, place);
+      if (task.damping.factors != nullptr)
+      {
+        const Number s = load(task.damping.factors, place, 1, 0);
+        lame           = damped_lame(lame, s);
+        D              = damped_target(D, s, load_strain(task.damping.strains, place, 1, 0));
+      }
+      Cell cell(lame, R, deformation_gradient(task, place, tet), task.cells.guard_bound);
+      cell.set_target(D);
+      if constexpr (std::is_same_v<Cell, GreenCell<Number>>) // the others' is R K R^T
+        if (tangent.convex)
+          cell.make_convex();
+      return cell;
+    }
+
+    /// Four numbers of one cell; the compiler maps them to what registers there are.
+    using Four = double [[gnu::vector_size(32)]];
+
+    static void
+    add_column(double *values, const int position, const double *column)
+    {
+      Four sum, term;
+      __builtin_memcpy(&sum, values + position, sizeof(Four));
+      __builtin_memcpy(&term, column, sizeof(Four));
+      sum += term;
+      __builtin_memcpy(values + position, &sum, sizeof(Four));
+    }
+
+    /// Add V (lambda g_a g_b^T + mu (g_b g_a^T + (g_a.g_b) I)) of one cell, Eq. (8), with the
+    /// rotated gradients g (the fourth entry of each is 0).
+    static void
+    add_stiffness(const double (&g)[4][4],
+                  const double lambda, ///< times the volume, as mu
+                  const double mu,
+                  const int   *position,
+                  double      *values)
+    {
+      const Four unit[3] = { { 1., 0., 0., 0. }, { 0., 1., 0., 0. }, { 0., 0., 1., 0. } };
+      const Four rows[3] = { { 1., 1., 1., 0. }, { 0., 1., 1., 0. }, { 0., 0., 1., 0. } };
+      Four       g_of[4];
+      __builtin_memcpy(g_of, g, sizeof(g));
+      for (int a = 0; a < 4; ++a)
+        for (int b = 0; b <= a; ++b)
+        {
+          const double diagonal = mu * (g[a][0] * g[b][0] + g[a][1] * g[b][1] + g[a][2] * g[b][2]);
+          for (int j = 0; j < 3; ++j, ++position)
+          {
+            if (*position < 0)
+              continue;
+            Four column
+                = g_of[a] * (lambda * g[b][j]) + g_of[b] * (mu * g[a][j]) + unit[j] * diagonal;
+            if (a == b)
+              column *= rows[j]; // the lower triangle
+            alignas(32) double entries[4];
+            __builtin_memcpy(entries, &column, sizeof(Four));
+            add_column(values, *position, entries);
+          }
+        }
+    }
+
+    static void
+    add_rotated_stiffness(const CellTask    &task,
+                          const TangentTask &tangent,
+                          const std::size_t  begin,
+                          const std::size_t  end)
+    {
+      for_each_place(begin, end,
+                     [&](const Place &place)
+                     {
+                       alignas(64) double g[4][3][width], lame[2][width];
+                       rotated_gradients(task, place, g, lame);
+                       for (std::size_t lane = 0; lane < width; ++lane)
+                       {
+                         const std::size_t cell = place.batch * batch_size + place.lane + lane;
+                         if (cell >= task.cells.n_cells)
+                           return;
+                         alignas(32) double of_cell[4][4];
+                         for (int a = 0; a < 4; ++a)
+                           for (int i = 0; i < 4; ++i)
+                             of_cell[a][i] = i < 3 ? g[a][i][lane] : 0.;
+                         add_stiffness(of_cell, lame[0][lane], lame[1][lane],
+                                       tangent.positions
+                                           + n_block_columns * (cell - begin * batch_size),
+                                       tangent.values);
+                       }
+                     });
+    }
+
+    /// R g_a and V lambda, V mu, by lane.
+    static void
+    rotated_gradients(const CellTask &task,
+                      const Place    &place,
+                      double (&g)[4][3][width],
+                      double (&lame)[2][width])
+    {
+      const Tetrahedron<Number> tet    = load_tetrahedron(task.cells, place);
+      const Matrix3<Number>     R      = load_rotation(task.cells, place);
+      Number                    factor = tet.volume;
+      if (task.damping.factors != nullptr)
+        factor *= Number(1.) + load(task.damping.factors, place, 1, 0);
+      for (int a = 0; a < 4; ++a)
+      {
+        const Vector3<Number> rotated = R * tet.shape_gradient[a];
+        for (int i = 0; i < 3; ++i)
+          Lanes<Number>::store(rotated[i], g[a][i]);
+      }
+      const Lame<Number> plain = load_lame(task.cells, place);
+      Lanes<Number>::store(factor * plain.lambda, lame[0]);
+      Lanes<Number>::store(factor * plain.mu, lame[1]);
+    }
+
+    /// Columns of a block of 10, by lane, as they are added.
+    using BlockColumns = double[n_block_columns][4][width];
+
+    /// d f_a / d x_b for the cells of a place.
+    template <typename Cell>
+    static void
+    cell_blocks(const Cell                &cell,
+                const Matrix3<Number>     &R,
+                const Tetrahedron<Number> &tet,
+                BlockColumns              &columns)
+    {
+      Matrix3<Number> VR = R;
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+          VR[i][j] *= tet.volume;
+      // node b moves by the unit vector of the rotated frame k, then by that of axis j
+      for (int b = 0; b < 4; ++b)
+      {
+        Matrix3<Number> response[3];
+        for (int k = 0; k < 3; ++k)
+        {
+          Matrix3<Number> M{};
+          for (int l = 0; l < 3; ++l)
+            M[k][l] = tet.shape_gradient[b][l];
+          response[k] = VR * cell.response(M);
+        }
+        for (int a = b; a < 4; ++a)
+        {
+          Vector3<Number> force[3];
+          for (int k = 0; k < 3; ++k)
+            force[k] = response[k] * tet.shape_gradient[a];
+          const int block = a * (a + 1) / 2 + b;
+          for (int j = 0; j < 3; ++j)
+            for (int i = 0; i < 3; ++i)
+              Lanes<Number>::store(a == b && i < j ? Number(0.)
+                                                   : force[0][i] * R[j][0] + force[1][i] * R[j][1]
+                                                         + force[2][i] * R[j][2],
+                                   columns[3 * block + j][i]);
+        }
+      }
+    }
+
+    static void
+    add_tangent(const CellTask    &task,
+                const TangentTask &tangent,
+                const std::size_t  begin,
+                const std::size_t  end)
+    {
+      alignas(64) BlockColumns columns = {};
+      const auto               add     = [&](const Place &place)
+      {
+        for (std::size_t lane = 0; lane < width; ++lane)
+        {
+          const std::size_t cell = place.batch * batch_size + place.lane + lane;
+          if (cell >= task.cells.n_cells)
+            return;
+          const int *position = tangent.positions + n_block_columns * (cell - begin * batch_size);
+          for (std::size_t column = 0; column < n_block_columns; ++column)
+            if (position[column] >= 0)
+              for (int i = 0; i < 3; ++i)
+                tangent.values[position[column] + i] += columns[column][i][lane];
+        }
+      };
+      with_model(task.cells.strain,
+                 [&](auto model)
+                 {
+                   using Cell = typename decltype(model)::type;
+                   if constexpr (!std::is_same_v<Cell, LinearCell<Number>>) // R K R^T with R = I
+                     for_each_place(begin, end,
+                                    [&](const Place &place)
+                                    {
+                                      const auto tet = load_tetrahedron(task.cells, place);
+                                      const auto R   = load_rotation(task.cells, place);
+                                      cell_blocks(driven_cell<Cell>(task, tangent, place, tet, R),
+                                                  R, tet, columns);
+                                      add(place);
+                                    });
+                 });
+    }
+
+    static void
+    coupling(const CellTask    &task,
+             const TangentTask &tangent,
+             const bool         rotated,
+             const std::size_t  batch,
+             double            *forces)
+    {
+      with_model(rotated ? StrainMeasure::linear : task.cells.strain,
+                 [&](auto model)
+                 {
+                   using Cell = typename decltype(model)::type;
+                   for_each_place(
+                       batch, batch + 1,
+                       [&](const Place &place)
+                       {
+                         const Tetrahedron<Number> tet  = load_tetrahedron(task.cells, place);
+                         const Matrix3<Number>     R    = load_rotation(task.cells, place);
+                         const Lame<Number>        lame = load_lame(task.cells, place);
+                         const auto add = [&](const unsigned int i, const Number &factor,
+                                              const Matrix3<Number> &dP)
+                         {
+                           Vector3<Number> force[4];
+                           frozen_forces(tet, R, dP, force);
+                           for (int a = 0; a < 4; ++a)
+                             for (int c = 0; c < 3; ++c)
+                               Lanes<Number>::store(factor * force[a][c],
+                                                    forces + (12 * i + 3 * a + c) * batch_size
+                                                        + place.lane);
+                         };
+                         Number factor = Number(task.examples.importance);
+                         if constexpr (std::is_same_v<Cell, LinearCell<Number>>)
+                           for (unsigned int i = 0; i < task.examples.n; ++i)
+                             add(i, factor,
+                                 stress(lame, load_strain(task.examples.strains, place,
+                                                          task.examples.n, i)));
+                         else
+                         {
+                           // the target moves by 1/(1+s) of what the examples' does
+                           if (task.damping.factors != nullptr)
+                             factor /= Number(1.) + load(task.damping.factors, place, 1, 0);
+                           const Cell cell = driven_cell<Cell>(task, tangent, place, tet, R);
+                           for (unsigned int i = 0; i < task.examples.n; ++i)
+                             add(i, factor,
+                                 cell.example_response(load_strain(task.examples.strains, place,
+                                                                   task.examples.n, i)));
+                         }
+                       });
+                 });
+    }
+
+    static CellKernels
+    kernels(const char *name)
+    {
+      return { name,        update_rotations, evaluate, weight_target, add_rotated_stiffness,
+               add_tangent, coupling };
+    }
+  };
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_simd_h
+#define exemplar_simd_h
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+// Kernels are written once for a number type: double, or a batch of doubles of xsimd. What
+// they need beyond arithmetic is found here for double and by its namespace for batches.
+// No deal.II header here: see matrix3.h.
+
+namespace Exemplar
+{
+  /// Cells are stored in batches of this many, each quantity of theirs side by side,
+  /// whatever the width of the CPU's registers.
+  constexpr std::size_t batch_size = 8;
+
+  /// Where entry e of n of a cell's quantity is.
+  inline std::size_t
+  batch_index(const std::size_t cell, const std::size_t n, const std::size_t e)
+  {
+    return (cell / batch_size * n + e) * batch_size + cell % batch_size;
+  }
+
+  /// How many numbers a quantity of n entries a cell takes: whole batches.
+  inline std::size_t
+  batched_size(const std::size_t n_cells, const std::size_t n)
+  {
+    return (n_cells + batch_size - 1) / batch_size * batch_size * n;
+  }
+
+  using std::abs;
+  using std::max;
+  using std::min;
+  using std::sqrt;
+
+  inline double
+  select(const bool condition, const double a, const double b)
+  {
+    return condition ? a : b;
+  }
+
+  inline bool
+  any(const bool condition)
+  {
+    return condition;
+  }
+
+  inline bool
+  all(const bool condition)
+  {
+    return condition;
+  }
+
+  /// How many cells a number stands for, and its way to and from memory.
+  template <typename Number>
+  struct Lanes
+  {
+    static constexpr std::size_t n = Number::size;
+
+    static Number
+    load(const double *from)
+    {
+      return Number::load_aligned(from);
+    }
+
+    static void
+    store(const Number &number, double *to)
+    {
+      number.store_aligned(to);
+    }
+  };
+
+  template <>
+  struct Lanes<double>
+  {
+    static constexpr std::size_t n = 1;
+
+    static double
+    load(const double *from)
+    {
+      return *from;
+    }
+
+    static void
+    store(const double number, double *to)
+    {
+      *to = number;
+    }
+  };
+} // namespace Exemplar
+
+#endif
