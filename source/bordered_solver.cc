@@ -20,22 +20,28 @@ namespace Exemplar
     {
     public:
       BlockSolver(std::unique_ptr<SpdOperator> new_matrix, const SymmetricPattern &pattern)
-          : matrix(std::move(new_matrix))
+          : A(std::move(new_matrix))
       {
-        matrix->reinit(pattern);
+        A->reinit(pattern);
+      }
+
+      SpdOperator *
+      matrix() override
+      {
+        return A.get();
       }
 
       std::vector<double> &
       matrix_values() override
       {
-        return matrix->values();
+        return A->values();
       }
 
       void
       factorize(const WeightBlock &) override
       {
         columns.clear();
-        matrix->factorize();
+        A->factorize();
       }
 
       void
@@ -47,11 +53,11 @@ namespace Exemplar
         {
           columns = vector.positions;
           columns.insert(columns.end(), block.coupling.begin(), block.coupling.end());
-          matrix->solve(columns);
+          A->solve(columns);
         }
         else // Z is still that of this factor
         {
-          matrix->solve(vector.positions);
+          A->solve(vector.positions);
           std::copy(vector.positions.begin(), vector.positions.end(), columns.begin());
         }
 
@@ -93,7 +99,7 @@ namespace Exemplar
         vector.multipliers = solution.multipliers;
       }
 
-      const std::unique_ptr<SpdOperator> matrix;
+      const std::unique_ptr<SpdOperator> A;
       std::vector<double>                columns; ///< z and Z; empty: none since factorize()
     };
   } // namespace

@@ -183,10 +183,11 @@ namespace Exemplar
   }
 
   void
-  Problem::resume_from(const State &earlier)
+  Problem::resume_from(const State &earlier, const QuasiNewtonMemory &memory)
   {
     state = earlier;
     equilibrium.forget_factor();
+    equilibrium.restore(memory);
     equilibrium.start(state);
   }
 

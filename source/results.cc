@@ -151,7 +151,7 @@ namespace Exemplar
                                && state.step % std::max(1, std::stoi(earlier_every->second)) != 0;
     if (was_only_last && !is_frame(state.step)) // the run now ends later
       fs::remove(directory.get_path() / RunDirectory::frame_name(state.step));
-    problem.resume_from(state);
+    problem.resume_from(state, checkpoint.memory);
     problem.diagnostics.set_work(checkpoint.work);
     accepted_bytes         = checkpoint.statistics_bytes;
     totals                 = checkpoint.totals;
@@ -290,7 +290,8 @@ namespace Exemplar
   {
     last_checkpoint = std::chrono::steady_clock::now();
     save_checkpoint({ values_of(problem.parameters), input_digests, problem.state,
-                      problem.diagnostics.get_work(), totals, accepted_bytes },
+                      problem.equilibrium.get_memory(), problem.diagnostics.get_work(), totals,
+                      accepted_bytes },
                     directory.checkpoint());
   }
 } // namespace Exemplar

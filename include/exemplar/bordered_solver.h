@@ -48,6 +48,11 @@ namespace Exemplar
     matrix_values()
         = 0;
 
+    /// A and its factor; null if they are none of their own.
+    virtual SpdOperator *
+    matrix()
+        = 0;
+
     /// Prepare for solve() with A as it is now. Throws SolverFailure if A is not
     /// positive definite.
     virtual void

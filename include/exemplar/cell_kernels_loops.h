@@ -66,29 +66,81 @@ namespace Exemplar
     load_tetrahedron(const CellArrays &cells, const Place &place)
     {
       Tetrahedron<Number> tet;
-      for (int a = 0; a < 4; ++a)
-        for (int i = 0; i < 3; ++i)
-          tet.shape_gradient[a][i] = load(cells.gradients, place, 12, 3 * a + i);
+      for (int i = 0; i < 3; ++i)
+      {
+        for (int a = 1; a < 4; ++a)
+          tet.shape_gradient[a][i] = load(cells.gradients, place, 9, 3 * (a - 1) + i);
+        tet.shape_gradient[0][i] = -tet.shape_gradient[1][i] - tet.shape_gradient[2][i]
+                                   - tet.shape_gradient[3][i]; // shape functions sum to one
+      }
       tet.volume = load(cells.volumes, place, 1, 0);
       return tet;
+    }
+
+    /// Four numbers of one cell; the compiler maps them to what registers there are.
+    using Four = double [[gnu::vector_size(32)]];
+    using Mask = long [[gnu::vector_size(32)]];
+
+    static Four
+    load_four(const double *from)
+    {
+      Four four;
+      __builtin_memcpy(&four, from, sizeof(Four));
+      return four;
+    }
+
+    static void
+    store_four(const Four &four, double *to)
+    {
+      __builtin_memcpy(to, &four, sizeof(Four));
+    }
+
+    static void
+    transpose(Four (&rows)[4])
+    {
+      const Four low_01  = __builtin_shuffle(rows[0], rows[1], Mask{ 0, 4, 2, 6 });
+      const Four high_01 = __builtin_shuffle(rows[0], rows[1], Mask{ 1, 5, 3, 7 });
+      const Four low_23  = __builtin_shuffle(rows[2], rows[3], Mask{ 0, 4, 2, 6 });
+      const Four high_23 = __builtin_shuffle(rows[2], rows[3], Mask{ 1, 5, 3, 7 });
+
+      rows[0] = __builtin_shuffle(low_01, low_23, Mask{ 0, 1, 4, 5 });
+      rows[1] = __builtin_shuffle(high_01, high_23, Mask{ 0, 1, 4, 5 });
+      rows[2] = __builtin_shuffle(low_01, low_23, Mask{ 2, 3, 6, 7 });
+      rows[3] = __builtin_shuffle(high_01, high_23, Mask{ 2, 3, 6, 7 });
     }
 
     static Matrix3<Number>
     deformation_gradient(const CellTask &task, const Place &place, const Tetrahedron<Number> &tet)
     {
-      alignas(64) double x[4][3][width];
+      alignas(64) double x[4][4][width];
       for (int a = 0; a < 4; ++a)
-        for (std::size_t lane = 0; lane < width; ++lane)
-        {
-          const double *node = task.positions + 3 * task.cells.nodes[place.at(4, a) + lane];
-          for (int i = 0; i < 3; ++i)
-            x[a][i][lane] = node[i];
-        }
-      Vector3<Number> position[4];
-      for (int a = 0; a < 4; ++a)
+      {
+        const int *nodes = task.cells.nodes + place.at(4, a);
+        if constexpr (width >= 4)
+          for (std::size_t lane = 0; lane < width; lane += 4)
+          {
+            Four rows[4];
+            for (std::size_t l = 0; l < 4; ++l)
+              rows[l] = load_four(task.positions + 4 * nodes[lane + l]);
+            transpose(rows);
+            for (int i = 0; i < 3; ++i)
+              store_four(rows[i], x[a][i] + lane);
+          }
+        else
+          for (std::size_t lane = 0; lane < width; ++lane)
+            for (int i = 0; i < 3; ++i)
+              x[a][i][lane] = task.positions[4 * nodes[lane] + i];
+      }
+      Vector3<Number> edge[4]; // from node 0
+      for (int a = 1; a < 4; ++a)
         for (int i = 0; i < 3; ++i)
-          position[a][i] = Lanes<Number>::load(x[a][i]);
-      return Exemplar::deformation_gradient(tet, position);
+          edge[a][i] = Lanes<Number>::load(x[a][i]) - Lanes<Number>::load(x[0][i]);
+      Matrix3<Number> F; // Eq. (1)
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+          F[i][j] = edge[1][i] * tet.shape_gradient[1][j] + edge[2][i] * tet.shape_gradient[2][j]
+                    + edge[3][i] * tet.shape_gradient[3][j];
+      return F;
     }
 
     /// R of a place, which is updated if the task says so.
@@ -132,6 +184,54 @@ namespace Exemplar
                            updating, place,
                            deformation_gradient(task, place, load_tetrahedron(task.cells, place)));
                      });
+    }
+
+    static void
+    add_rotations(const CellTask   &task,
+                  const std::size_t begin,
+                  const std::size_t end,
+                  double           *nodal_sums)
+    {
+      for_each_place(begin, end,
+                     [&](const Place &place)
+                     {
+                       alignas(64) double lanes[12][width] = {};
+                       for (int k = 0; k < 9; ++k)
+                         Lanes<Number>::store(load(task.cells.rotations, place, 9, k), lanes[k]);
+                       for (std::size_t lane = 0; lane < width; ++lane)
+                       {
+                         alignas(32) double R[12];
+                         for (int k = 0; k < 12; ++k)
+                           R[k] = lanes[k][lane];
+                         for (int a = 0; a < 4; ++a)
+                         {
+                           double *sum = nodal_sums + 12 * task.cells.nodes[place.at(4, a) + lane];
+                           for (int k = 0; k < 12; k += 4)
+                             store_four(load_four(sum + k) + load_four(R + k), sum + k);
+                         }
+                       }
+                     });
+    }
+
+    static void
+    closest_rotations(const std::size_t n, const double *sums, float *rotations)
+    {
+      for (std::size_t first = 0; first < n; first += width)
+      {
+        alignas(64) double lanes[9][width];
+        for (int k = 0; k < 9; ++k)
+          for (std::size_t lane = 0; lane < width; ++lane)
+            lanes[k][lane] = sums[12 * std::min(first + lane, n - 1) + k];
+        Matrix3<Number> F;
+        for (int k = 0; k < 9; ++k)
+          F[k / 3][k % 3] = Lanes<Number>::load(lanes[k]);
+        const Matrix3<Number> R = closest_rotation(F);
+        for (int k = 0; k < 9; ++k)
+          Lanes<Number>::store(R[k / 3][k % 3], lanes[k]);
+        for (std::size_t lane = 0; lane < width && first + lane < n; ++lane)
+          for (int k = 0; k < 9; ++k)
+            rotations[9 * (first + lane) + k] = static_cast<float>(lanes[k][lane]);
+      }
     }
 
     /// The weight of example i in the cells of a place.
@@ -278,36 +378,57 @@ namespace Exemplar
       }
     };
 
-    /// The forces of the nodes and their scales, four numbers a node, cell by cell.
+    /// Add the forces of the cells' nodes and their scales to the sums of the nodes.
     static void
-    store_forces(const CellTask            &task,
-                 const Place               &place,
-                 const Tetrahedron<Number> &tet,
-                 const Matrix3<Number>     &RP, ///< V P
-                 const Number              &scale,
-                 double                    *forces)
+    add_forces(const CellTask            &task,
+               const Place               &place,
+               const Tetrahedron<Number> &tet,
+               const Matrix3<Number>     &VP, ///< V P
+               const Number              &scale,
+               double                    *nodal_sums)
     {
-      alignas(64) double lanes[16][width];
+      alignas(64) double lanes[4][4][width];
+      Vector3<Number>    last; // the forces sum to zero
+      for (int a = 3; a >= 0; --a)
+      {
+        const Vector3<Number> force = a > 0 ? VP * tet.shape_gradient[a] : last;
+        for (int i = 0; i < 3; ++i)
+        {
+          last[i] = a == 3 ? -force[i] : last[i] - force[i];
+          Lanes<Number>::store(force[i], lanes[a][i]);
+        }
+        Lanes<Number>::store(scale * load(task.cells.gradient_norms, place, 4, a), lanes[a][3]);
+      }
       for (int a = 0; a < 4; ++a)
       {
-        const Vector3<Number> force = RP * tet.shape_gradient[a];
-        for (int i = 0; i < 3; ++i)
-          Lanes<Number>::store(force[i], lanes[4 * a + i]);
-        Lanes<Number>::store(scale * load(task.cells.gradient_norms, place, 4, a),
-                             lanes[4 * a + 3]);
-      }
-      for (std::size_t lane = 0; lane < width; ++lane)
-      {
-        double *to = forces + 16 * (place.batch * batch_size + place.lane + lane);
-        for (int entry = 0; entry < 16; ++entry)
-          to[entry] = lanes[entry][lane];
+        const int *nodes = task.cells.nodes + place.at(4, a);
+        if constexpr (width >= 4)
+          for (std::size_t lane = 0; lane < width; lane += 4)
+          {
+            Four rows[4];
+            for (int k = 0; k < 4; ++k)
+              rows[k] = load_four(lanes[a][k] + lane);
+            transpose(rows);
+            for (std::size_t l = 0; l < 4; ++l)
+            {
+              double *sum = nodal_sums + 4 * nodes[lane + l];
+              store_four(load_four(sum) + rows[l], sum);
+            }
+          }
+        else
+          for (std::size_t lane = 0; lane < width; ++lane)
+            for (int k = 0; k < 4; ++k)
+              nodal_sums[4 * nodes[lane] + k] += lanes[a][k][lane];
       }
     }
 
     template <typename Cell>
     static void
-    evaluate_place(
-        const CellTask &task, const Place &place, double *forces, double *weight_sums, Sums &sums)
+    evaluate_place(const CellTask &task,
+                   const Place    &place,
+                   double         *nodal_sums,
+                   double         *weight_sums,
+                   Sums           &sums)
     {
       const bool                frozen       = task.cells.guard_bound == no_guard;
       const bool                has_examples = task.examples.n_weights > 0;
@@ -370,14 +491,14 @@ namespace Exemplar
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
           RP[i][j] *= tet.volume;
-      store_forces(task, place, tet, RP, tet.volume * cell.force_factor() * scale, forces);
+      add_forces(task, place, tet, RP, tet.volume * cell.force_factor() * scale, nodal_sums);
     }
 
     static void
     evaluate(const CellTask   &task,
              const std::size_t begin,
              const std::size_t end,
-             double           *forces,
+             double           *nodal_sums,
              double           *weight_sums,
              CellSums         &result)
     {
@@ -386,10 +507,10 @@ namespace Exemplar
                  [&](auto model)
                  {
                    using Cell = typename decltype(model)::type;
-                   for_each_place(begin, end,
-                                  [&](const Place &place) {
-                                    evaluate_place<Cell>(task, place, forces, weight_sums, sums);
-                                  });
+                   for_each_place(
+                       begin, end,
+                       [&](const Place &place)
+                       { evaluate_place<Cell>(task, place, nodal_sums, weight_sums, sums); });
                  });
       sums.add_to(result);
     }
@@ -443,24 +564,11 @@ namespace Exemplar
       return cell;
     }
 
-    /// Four numbers of one cell; the compiler maps them to what registers there are.
-    using Four = double [[gnu::vector_size(32)]];
-
-    static void
-    add_column(double *values, const int position, const double *column)
-    {
-      Four sum, term;
-      __builtin_memcpy(&sum, values + position, sizeof(Four));
-      __builtin_memcpy(&term, column, sizeof(Four));
-      sum += term;
-      __builtin_memcpy(values + position, &sum, sizeof(Four));
-    }
-
     /// Add V (lambda g_a g_b^T + mu (g_b g_a^T + (g_a.g_b) I)) of one cell, Eq. (8), with the
-    /// rotated gradients g (the fourth entry of each is 0).
+    /// rotated gradients g (the fourth entry of each is 0) and the constants times the volume.
     static void
     add_stiffness(const double (&g)[4][4],
-                  const double lambda, ///< times the volume, as mu
+                  const double lambda,
                   const double mu,
                   const int   *position,
                   double      *values)
@@ -468,22 +576,26 @@ namespace Exemplar
       const Four unit[3] = { { 1., 0., 0., 0. }, { 0., 1., 0., 0. }, { 0., 0., 1., 0. } };
       const Four rows[3] = { { 1., 1., 1., 0. }, { 0., 1., 1., 0. }, { 0., 0., 1., 0. } };
       Four       g_of[4];
-      __builtin_memcpy(g_of, g, sizeof(g));
       for (int a = 0; a < 4; ++a)
+        g_of[a] = load_four(g[a]);
+#pragma GCC unroll 4
+      for (int a = 0; a < 4; ++a)
+#pragma GCC unroll 4
         for (int b = 0; b <= a; ++b)
         {
+          const int   *column   = position + 3 * (a * (a + 1) / 2 + b);
           const double diagonal = mu * (g[a][0] * g[b][0] + g[a][1] * g[b][1] + g[a][2] * g[b][2]);
-          for (int j = 0; j < 3; ++j, ++position)
+          if (column[0] < 0) // as the others
+            continue;
+#pragma GCC unroll 3
+          for (int j = 0; j < 3; ++j)
           {
-            if (*position < 0)
-              continue;
-            Four column
+            Four entries
                 = g_of[a] * (lambda * g[b][j]) + g_of[b] * (mu * g[a][j]) + unit[j] * diagonal;
             if (a == b)
-              column *= rows[j]; // the lower triangle
-            alignas(32) double entries[4];
-            __builtin_memcpy(entries, &column, sizeof(Four));
-            add_column(values, *position, entries);
+              entries *= rows[j]; // the lower triangle
+            double *to = values + column[j];
+            store_four(load_four(to) + entries, to);
           }
         }
     }
@@ -672,8 +784,8 @@ namespace Exemplar
     static CellKernels
     kernels(const char *name)
     {
-      return { name,        update_rotations, evaluate, weight_target, add_rotated_stiffness,
-               add_tangent, coupling };
+      return { name,          update_rotations,      add_rotations, closest_rotations, evaluate,
+               weight_target, add_rotated_stiffness, add_tangent,   coupling };
     }
   };
 } // namespace Exemplar

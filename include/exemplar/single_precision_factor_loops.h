@@ -10,7 +10,7 @@ namespace Exemplar
   template <typename Batch>
   struct TriangularLoops
   {
-    static constexpr std::size_t width = Batch::size;
+    static constexpr std::size_t width     = Batch::size;
     static constexpr int         n_columns = 4; ///< that are treated at once
 
     /// target -= sum_k y_k column_k over the rows begin to end - 1.

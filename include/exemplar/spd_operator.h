@@ -2,6 +2,8 @@
 #ifndef exemplar_spd_operator_h
 #define exemplar_spd_operator_h
 
+#include <exemplar/single_precision_factor.h>
+
 #include <algorithm>
 #include <memory>
 #include <vector>
@@ -66,6 +68,10 @@ namespace Exemplar
     virtual void
     solve(std::vector<double> &columns)
         = 0;
+
+    /// A copy of the factor in single precision. Throws SolverFailure if there is none.
+    virtual FactorPanels
+    panels() const = 0;
   };
 
   /// CHOLMOD's sparse Cholesky factorisation.

@@ -96,7 +96,7 @@ namespace Exemplar
     public:
       /// At the problem's state; changes nothing there.
       void
-      measure(const Problem &problem)
+      measure(Problem &problem)
       {
         if (!matrix)
         {
@@ -125,7 +125,7 @@ namespace Exemplar
       };
 
       Sample
-      measure_once(const Problem &problem)
+      measure_once(Problem &problem)
       {
         const State &state = problem.state;
         Sample       sample;
