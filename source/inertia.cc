@@ -144,10 +144,12 @@ namespace Exemplar
     state.velocities = state.positions;
     state.velocities -= base;
     state.velocities *= gamma;
-    state.previous_velocities = old.velocities;
-    state.previous_step       = step_size;
     if (scheme == TimeScheme::bdf2)
-      state.previous_positions = old.positions;
+    {
+      state.previous_positions  = old.positions;
+      state.previous_velocities = old.velocities;
+      state.previous_step       = step_size;
+    }
   }
 
   MotionSums

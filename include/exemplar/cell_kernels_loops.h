@@ -81,7 +81,7 @@ namespace Exemplar
     using Four = double [[gnu::vector_size(32)]];
     using Mask = long [[gnu::vector_size(32)]];
 
-    static Four
+    [[gnu::always_inline]] static inline Four
     load_four(const double *from)
     {
       Four four;
@@ -89,13 +89,13 @@ namespace Exemplar
       return four;
     }
 
-    static void
+    [[gnu::always_inline]] static inline void
     store_four(const Four &four, double *to)
     {
       __builtin_memcpy(to, &four, sizeof(Four));
     }
 
-    static void
+    [[gnu::always_inline]] static inline void
     transpose(Four (&rows)[4])
     {
       const Four low_01  = __builtin_shuffle(rows[0], rows[1], Mask{ 0, 4, 2, 6 });
@@ -109,32 +109,57 @@ namespace Exemplar
       rows[3] = __builtin_shuffle(high_01, high_23, Mask{ 2, 3, 6, 7 });
     }
 
+    /// The numbers of as many cells as a register holds; by way of memory the processor would
+    /// wait for the narrower stores.
+    static Number
+    join(const Four (&four)[2])
+    {
+      if constexpr (width == 8)
+        return Number(__builtin_shufflevector(four[0], four[1], 0, 1, 2, 3, 4, 5, 6, 7));
+      else
+        return Number(four[0]);
+    }
+
+    /// Positions of one node of each cell.
+    static void
+    load_nodes(const double *positions, const int *nodes, Vector3<Number> &x)
+    {
+      if constexpr (width >= 4)
+      {
+        Four parts[3][2];
+        for (std::size_t lane = 0; lane < width; lane += 4)
+        {
+          Four rows[4];
+          for (std::size_t l = 0; l < 4; ++l)
+            rows[l] = load_four(positions + 4 * nodes[lane + l]);
+          transpose(rows);
+          for (int i = 0; i < 3; ++i)
+            parts[i][lane / 4] = rows[i];
+        }
+        for (int i = 0; i < 3; ++i)
+          x[i] = join(parts[i]);
+      }
+      else
+      {
+        alignas(64) double parts[3][width];
+        for (std::size_t lane = 0; lane < width; ++lane)
+          for (int i = 0; i < 3; ++i)
+            parts[i][lane] = positions[4 * nodes[lane] + i];
+        for (int i = 0; i < 3; ++i)
+          x[i] = Lanes<Number>::load(parts[i]);
+      }
+    }
+
     static Matrix3<Number>
     deformation_gradient(const CellTask &task, const Place &place, const Tetrahedron<Number> &tet)
     {
-      alignas(64) double x[4][4][width];
+      Vector3<Number> x[4];
       for (int a = 0; a < 4; ++a)
-      {
-        const int *nodes = task.cells.nodes + place.at(4, a);
-        if constexpr (width >= 4)
-          for (std::size_t lane = 0; lane < width; lane += 4)
-          {
-            Four rows[4];
-            for (std::size_t l = 0; l < 4; ++l)
-              rows[l] = load_four(task.positions + 4 * nodes[lane + l]);
-            transpose(rows);
-            for (int i = 0; i < 3; ++i)
-              store_four(rows[i], x[a][i] + lane);
-          }
-        else
-          for (std::size_t lane = 0; lane < width; ++lane)
-            for (int i = 0; i < 3; ++i)
-              x[a][i][lane] = task.positions[4 * nodes[lane] + i];
-      }
+        load_nodes(task.positions, task.cells.nodes + place.at(4, a), x[a]);
       Vector3<Number> edge[4]; // from node 0
       for (int a = 1; a < 4; ++a)
         for (int i = 0; i < 3; ++i)
-          edge[a][i] = Lanes<Number>::load(x[a][i]) - Lanes<Number>::load(x[0][i]);
+          edge[a][i] = x[a][i] - x[0][i];
       Matrix3<Number> F; // Eq. (1)
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
@@ -564,34 +589,64 @@ namespace Exemplar
       return cell;
     }
 
-    /// Add V (lambda g_a g_b^T + mu (g_b g_a^T + (g_a.g_b) I)) of one cell, Eq. (8), with the
-    /// rotated gradients g (the fourth entry of each is 0) and the constants times the volume.
+    /// What makes R K R^T of the cells of a place, Eq. (8), by lane.
+    struct RotatedStiffness
+    {
+      alignas(64) double g[4][3][width];        ///< R g_a
+      alignas(64) double lambda_g[4][3][width]; ///< times V lambda
+      alignas(64) double mu_g[4][3][width];     ///< times V mu
+      alignas(64) double diagonal[4][4][width]; ///< V mu g_a.g_b, a >= b
+    };
+
     static void
-    add_stiffness(const double (&g)[4][4],
-                  const double lambda,
-                  const double mu,
-                  const int   *position,
-                  double      *values)
+    find_rotated_stiffness(const CellTask &task, const Place &place, RotatedStiffness &K)
+    {
+      const Tetrahedron<Number> tet    = load_tetrahedron(task.cells, place);
+      const Matrix3<Number>     R      = load_rotation(task.cells, place);
+      const Lame<Number>        lame   = load_lame(task.cells, place);
+      Number                    factor = tet.volume;
+      if (task.damping.factors != nullptr)
+        factor *= Number(1.) + load(task.damping.factors, place, 1, 0);
+      const Number    lambda = factor * lame.lambda, mu = factor * lame.mu;
+      Vector3<Number> g[4];
+      rotate_gradients(tet, R, g);
+      for (int a = 0; a < 4; ++a)
+      {
+        for (int i = 0; i < 3; ++i)
+        {
+          Lanes<Number>::store(g[a][i], K.g[a][i]);
+          Lanes<Number>::store(lambda * g[a][i], K.lambda_g[a][i]);
+          Lanes<Number>::store(mu * g[a][i], K.mu_g[a][i]);
+        }
+        for (int b = 0; b <= a; ++b)
+          Lanes<Number>::store(mu * dot(g[a], g[b]), K.diagonal[a][b]);
+      }
+    }
+
+    /// Add V (lambda g_a g_b^T + mu (g_b g_a^T + (g_a.g_b) I)) of one cell, with g its rotated
+    /// gradients, of which the fourth entry is 0.
+    [[gnu::always_inline]] static inline void
+    add_stiffness(const RotatedStiffness &K,
+                  const std::size_t       lane,
+                  const Four (&g)[4],
+                  const int *position,
+                  double    *values)
     {
       const Four unit[3] = { { 1., 0., 0., 0. }, { 0., 1., 0., 0. }, { 0., 0., 1., 0. } };
       const Four rows[3] = { { 1., 1., 1., 0. }, { 0., 1., 1., 0. }, { 0., 0., 1., 0. } };
-      Four       g_of[4];
-      for (int a = 0; a < 4; ++a)
-        g_of[a] = load_four(g[a]);
 #pragma GCC unroll 4
       for (int a = 0; a < 4; ++a)
 #pragma GCC unroll 4
         for (int b = 0; b <= a; ++b)
         {
-          const int   *column   = position + 3 * (a * (a + 1) / 2 + b);
-          const double diagonal = mu * (g[a][0] * g[b][0] + g[a][1] * g[b][1] + g[a][2] * g[b][2]);
+          const int *column = position + 3 * (a * (a + 1) / 2 + b);
           if (column[0] < 0) // as the others
             continue;
 #pragma GCC unroll 3
           for (int j = 0; j < 3; ++j)
           {
-            Four entries
-                = g_of[a] * (lambda * g[b][j]) + g_of[b] * (mu * g[a][j]) + unit[j] * diagonal;
+            Four entries = g[a] * K.lambda_g[b][j][lane] + g[b] * K.mu_g[a][j][lane]
+                           + unit[j] * K.diagonal[a][b][lane];
             if (a == b)
               entries *= rows[j]; // the lower triangle
             double *to = values + column[j];
@@ -606,49 +661,46 @@ namespace Exemplar
                           const std::size_t  begin,
                           const std::size_t  end)
     {
-      for_each_place(begin, end,
-                     [&](const Place &place)
-                     {
-                       alignas(64) double g[4][3][width], lame[2][width];
-                       rotated_gradients(task, place, g, lame);
-                       for (std::size_t lane = 0; lane < width; ++lane)
-                       {
-                         const std::size_t cell = place.batch * batch_size + place.lane + lane;
-                         if (cell >= task.cells.n_cells)
-                           return;
-                         alignas(32) double of_cell[4][4];
-                         for (int a = 0; a < 4; ++a)
-                           for (int i = 0; i < 4; ++i)
-                             of_cell[a][i] = i < 3 ? g[a][i][lane] : 0.;
-                         add_stiffness(of_cell, lame[0][lane], lame[1][lane],
-                                       tangent.positions
-                                           + n_block_columns * (cell - begin * batch_size),
-                                       tangent.values);
-                       }
-                     });
+      RotatedStiffness K;
+      for_each_place(
+          begin, end,
+          [&](const Place &place)
+          {
+            find_rotated_stiffness(task, place, K);
+            constexpr std::size_t group = std::min<std::size_t>(4, width);
+            for (std::size_t first = 0; first < width; first += group)
+            {
+              Four g[4][4]; // of node a, by cell
+              for (int a = 0; a < 4; ++a)
+                gradients_by_cell(K, first, a, g[a]);
+              for (std::size_t l = 0; l < group; ++l)
+              {
+                const std::size_t cell = place.batch * batch_size + place.lane + first + l;
+                if (cell >= task.cells.n_cells)
+                  return;
+                const Four g_of_cell[4] = { g[0][l], g[1][l], g[2][l], g[3][l] };
+                add_stiffness(K, first + l, g_of_cell,
+                              tangent.positions + n_block_columns * (cell - begin * batch_size),
+                              tangent.values);
+              }
+            }
+          });
     }
 
-    /// R g_a and V lambda, V mu, by lane.
-    static void
-    rotated_gradients(const CellTask &task,
-                      const Place    &place,
-                      double (&g)[4][3][width],
-                      double (&lame)[2][width])
+    /// The rotated gradient a of some cells, a 0 behind each.
+    [[gnu::always_inline]] static inline void
+    gradients_by_cell(const RotatedStiffness &K, const std::size_t first, const int a, Four (&g)[4])
     {
-      const Tetrahedron<Number> tet    = load_tetrahedron(task.cells, place);
-      const Matrix3<Number>     R      = load_rotation(task.cells, place);
-      Number                    factor = tet.volume;
-      if (task.damping.factors != nullptr)
-        factor *= Number(1.) + load(task.damping.factors, place, 1, 0);
-      for (int a = 0; a < 4; ++a)
+      if constexpr (width >= 4)
       {
-        const Vector3<Number> rotated = R * tet.shape_gradient[a];
         for (int i = 0; i < 3; ++i)
-          Lanes<Number>::store(rotated[i], g[a][i]);
+          g[i] = load_four(K.g[a][i] + first);
+        g[3] = Four{};
+        transpose(g);
       }
-      const Lame<Number> plain = load_lame(task.cells, place);
-      Lanes<Number>::store(factor * plain.lambda, lame[0]);
-      Lanes<Number>::store(factor * plain.mu, lame[1]);
+      else
+        for (std::size_t l = 0; l < width; ++l)
+          g[l] = Four{ K.g[a][0][l], K.g[a][1][l], K.g[a][2][l], 0. };
     }
 
     /// Columns of a block of 10, by lane, as they are added.

@@ -114,7 +114,7 @@ class Outputs(SceneTest):
             self.assertGreaterEqual(min(parts), 0.)
             self.assertAlmostEqual(sum(parts), row["seconds_step"],
                                    delta=0.02 * row["seconds_step"])
-            self.assertLessEqual(row["residual"], 1e-8)
+            self.assertLessEqual(row["residual"], 1e-3)  # quasi newton stops by Step tolerance
             self.assertAlmostEqual(row["weight_0"] + row["weight_1"], 1., delta=1e-12)
 
     def check_summary(self, output):
