@@ -119,9 +119,10 @@ class Outputs(SceneTest):
 
     def check_summary(self, output):
         summary = read_summary(output)
-        names = ("program version git deal_ii blas blas_core threads scene mesh mesh_sha256 cells "
-                 "nodes dofs constrained_dofs examples steps iterations factorizations status "
-                 "worst_residual seconds peak_memory_mib used left_out").split()
+        names = ("program version git deal_ii blas blas_core blas_threads threads scene mesh "
+                 "mesh_sha256 cells nodes dofs constrained_dofs examples steps iterations "
+                 "factorizations status worst_residual seconds peak_memory_mib used "
+                 "left_out").split()
         self.assertEqual([name for name in names if name not in summary], [])
         self.assertEqual({name: summary[name] for name in ("program", "cells", "nodes", "dofs",
                                                            "constrained_dofs", "examples", "steps",
@@ -133,6 +134,7 @@ class Outputs(SceneTest):
         self.assertEqual(summary["iterations"], sum(row["iterations"] for row in rows))
         self.assertEqual(summary["worst_residual"], max(row["residual"] for row in rows))
         seconds = summary["seconds"]
+        self.assertEqual(summary["blas_threads"], 1)
         self.assertEqual(list(seconds), ["total", "read", "evaluate", "assemble", "factorize",
                                          "solve", "output"])
         self.assertAlmostEqual(2. * seconds["total"], sum(seconds.values()), delta=1e-9)
@@ -239,7 +241,7 @@ class Outputs(SceneTest):
     def test_help_and_version(self):
         run = self.call("--help")
         self.assertEqual((run.status, run.stderr), (0, ""))
-        for option in ("--set", "--output", "--resume", "--quiet", "--validate",
+        for option in ("--set", "--output", "--resume", "--threads", "--quiet", "--validate",
                        "--print-parameters", "--version"):
             self.assertIn(option, run.stdout)
         run = self.call("--version")
