@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/assembler.h>
+#include <exemplar/environment.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +10,20 @@ namespace Exemplar
 {
   namespace
   {
-    /// Cells are summed in so many stripes, whatever the number of threads.
-    constexpr std::size_t n_stripes = 4;
+    /// Cells are summed in stripes, each by one thread. How many there are depends on the mesh
+    /// alone, so that the sums do not depend on the number of threads.
+    std::size_t
+    choose_n_stripes(const std::size_t n_cells)
+    {
+      return std::clamp<std::size_t>(n_cells / 50000, 2, 16);
+    }
+
+    /// What the cells of a stripe sum up.
+    struct StripeSums
+    {
+      CellSums                      cells;
+      dealii::AlignedVector<double> weights; ///< lanes of each weight
+    };
 
     std::vector<double>
     sum_of_lanes(const dealii::AlignedVector<double> &lanes)
@@ -33,7 +46,8 @@ namespace Exemplar
                                           : examples == nullptr ? default_guard_bound
                                                                 : examples->guard_bound()),
         kernels(best_kernels()), batches(fe_space, material),
-        node_positions(4 * fe_space.n_nodes()), nodal_sums(4 * n_stripes * fe_space.n_nodes())
+        n_stripes(choose_n_stripes(fe_space.n_cells())), node_positions(4 * fe_space.n_nodes()),
+        nodal_sums(4 * n_stripes * fe_space.n_nodes())
   {
     estimate_rounding();
     build_pattern();
@@ -277,14 +291,29 @@ namespace Exemplar
                       Evaluation                   &result,
                       const Rotations               rotations)
   {
-    const CellTask                cells = task(positions, weights, rotations);
-    CellSums                      sums;
-    dealii::AlignedVector<double> weight_sums(has_weights() ? batch_size * weights.size() : 0);
+    const CellTask          cells = task(positions, weights, rotations);
+    std::vector<StripeSums> stripes(n_stripes);
     nodal_sums.fill(0.);
+    const ParallelRegion region;
+    // to start a thread costs as much as a thousand cells
+    const int n_at_once = fe_space.n_cells() < 4000 ? 1 : static_cast<int>(n_threads());
+#pragma omp parallel for num_threads(n_at_once)
     for (std::size_t stripe = 0; stripe < n_stripes; ++stripe)
+    {
+      stripes[stripe].weights.resize(has_weights() ? batch_size * weights.size() : 0);
       kernels.evaluate(cells, stripe * cells.cells.n_batches() / n_stripes,
                        (stripe + 1) * cells.cells.n_batches() / n_stripes,
-                       &nodal_sums[4 * stripe * fe_space.n_nodes()], weight_sums.data(), sums);
+                       &nodal_sums[4 * stripe * fe_space.n_nodes()], stripes[stripe].weights.data(),
+                       stripes[stripe].cells);
+    }
+    CellSums                      sums;
+    dealii::AlignedVector<double> weight_sums(has_weights() ? batch_size * weights.size() : 0);
+    for (const StripeSums &stripe : stripes)
+    {
+      sums += stripe.cells;
+      for (std::size_t i = 0; i < weight_sums.size(); ++i)
+        weight_sums[i] += stripe.weights[i];
+    }
     gather_forces(result);
     result.weight_gradient = sum_of_lanes(weight_sums);
     result.weight_scale    = 0.;

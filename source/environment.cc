@@ -98,6 +98,16 @@ namespace Exemplar
     thread_count() = std::max(1u, n);
   }
 
+  ParallelRegion::ParallelRegion()
+  {
+    omp_set_max_active_levels(1);
+  }
+
+  ParallelRegion::~ParallelRegion()
+  {
+    omp_set_max_active_levels(0);
+  }
+
   void
   use_one_blas_thread()
   {

@@ -263,6 +263,7 @@ namespace Exemplar
     const CellKernels &kernels;
 
     CellBatches           batches;
+    const std::size_t     n_stripes;
     SymmetricPattern      pattern;
     std::vector<int>      block_positions; ///< of TangentTask
     std::vector<unsigned> mixed_cells;     ///< with a node of which only some components are held

@@ -86,6 +86,19 @@ namespace Exemplar
     double       min_det_F      = std::numeric_limits<double>::max();
     unsigned int inverted_cells = 0;
     unsigned int guarded_cells  = 0;
+
+    CellSums &
+    operator+=(const CellSums &other)
+    {
+      energy += other.energy;
+      energy_elastic += other.energy_elastic;
+      energy_damping += other.energy_damping;
+      stress_square += other.stress_square;
+      min_det_F = other.min_det_F >= min_det_F ? min_det_F : other.min_det_F; // NaN is the least
+      inverted_cells += other.inverted_cells;
+      guarded_cells += other.guarded_cells;
+      return *this;
+    }
   };
 
   /// Columns of the 10 blocks (a,b), b <= a, of a cell's matrix: three each.

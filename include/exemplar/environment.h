@@ -31,6 +31,20 @@ namespace Exemplar
   void
   set_n_threads(unsigned int n);
 
+  /// While it lives, OpenMP's parallel regions of this program may have n_threads() threads;
+  /// otherwise none has more than one, so that CHOLMOD's have not.
+  class ParallelRegion
+  {
+  public:
+    ParallelRegion();
+    ~ParallelRegion();
+
+    ParallelRegion(const ParallelRegion &) = delete;
+    ParallelRegion &
+    operator=(const ParallelRegion &)
+        = delete;
+  };
+
   /// BLAS and CHOLMOD on one thread: results must not depend on how many there are,
   /// and CHOLMOD's own threads cost more than they bring.
   void
