@@ -269,7 +269,10 @@ namespace Exemplar
     evaluate_with_best_weights(state);
     for (unsigned int iteration = 0;; ++iteration)
     {
-      check_interrupt();
+      // a quasi-Newton step has changed its memory by now, and the checkpoint of an interrupted
+      // run must be that of whole steps
+      if (parameters.method == Method::newton)
+        check_interrupt();
       measure_iteration(state, report);
       if (has_met_tolerance(report))
         report.status = SolveStatus::converged;

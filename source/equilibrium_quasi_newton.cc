@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/equilibrium.h>
 #include <exemplar/errors.h>
-#include <exemplar/interrupt.h>
 #include <exemplar/linear_prediction.h>
 #include <exemplar/long_vectors.h>
 
@@ -188,7 +187,6 @@ namespace Exemplar
     gather_free(total_gradient, gradient);
     while (!has_met_tolerance(report))
     {
-      check_interrupt();
       const double slope      = find_quasi_newton_step(trial, gradient, step);
       const bool   is_descent = n_with_factor < most_iterations && slope < 0.
                               && take_quasi_newton_step(trial, step, slope, report);
