@@ -22,15 +22,6 @@ namespace Exemplar
     constexpr unsigned int most_halvings_of_step   = 5;
     constexpr double       slowest_contraction     = 0.9;
     constexpr double       least_error_over_length = 1.;
-
-    double
-    greatest_entry(const std::vector<double> &vector)
-    {
-      double greatest = 0.;
-      for (const double entry : vector)
-        greatest = std::max(greatest, std::abs(entry));
-      return greatest;
-    }
   } // namespace
 
   void
@@ -156,7 +147,10 @@ namespace Exemplar
                     gradient_norm))
         return true;
       if (halving == most_halvings_of_step)
+      {
+        add_to_free(-length, step.direct, trial.positions);
         return false;
+      }
       length *= 0.5;
       add_to_free(-length, step.direct, trial.positions);
     }
@@ -194,7 +188,7 @@ namespace Exemplar
       {
         if (++n_factors > most_factors)
           return;
-        if (n_with_factor < most_iterations) // where the line search gave up
+        if (n_with_factor < most_iterations) // the line search gave up, and went back
           evaluate_with_best_weights(trial);
         gather_free(total_gradient, gradient);
         renew_turned_factor(trial);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/long_vectors.h>
 #include <exemplar/turned_factor.h>
 #include <exemplar/weight_qp.h>
 
@@ -10,15 +11,6 @@ namespace Exemplar
 {
   namespace
   {
-    double
-    greatest(const std::vector<double> &vector)
-    {
-      double value = 0.;
-      for (const double entry : vector)
-        value = std::max(value, std::abs(entry));
-      return value;
-    }
-
     // Nanoseconds on the machine of doc/results.md; only their ratio matters.
 
     double
@@ -111,7 +103,7 @@ namespace Exemplar
   TurnedFactor::solve(std::vector<double> &vector, const std::vector<double> &lower)
   {
     // of forces that shrink by ten orders single precision would lose the last
-    const double scale = greatest(vector);
+    const double scale = greatest_entry(vector);
     if (scale == 0.)
       return;
     const std::size_t n = vector.size();

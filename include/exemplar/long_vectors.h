@@ -2,6 +2,8 @@
 #ifndef exemplar_long_vectors_h
 #define exemplar_long_vectors_h
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -20,6 +22,16 @@ namespace Exemplar
     for (; i < a.size(); ++i)
       sum[0] += a[i] * b[i];
     return ((sum[0] + sum[1]) + (sum[2] + sum[3])) + ((sum[4] + sum[5]) + (sum[6] + sum[7]));
+  }
+
+  /// max |a_i|.
+  inline double
+  greatest_entry(const std::vector<double> &a)
+  {
+    double greatest = 0.;
+    for (const double entry : a)
+      greatest = std::max(greatest, std::abs(entry));
+    return greatest;
   }
 
   /// a += factor b.
