@@ -19,16 +19,26 @@ namespace Exemplar
     class BlockSolver : public BorderedSolver
     {
     public:
-      BlockSolver(std::unique_ptr<SpdOperator> new_matrix, const SymmetricPattern &pattern)
-          : matrix(std::move(new_matrix))
+      explicit BlockSolver(std::unique_ptr<SpdOperator> new_matrix) : matrix(std::move(new_matrix))
       {
-        matrix->reinit(pattern);
+      }
+
+      std::string
+      name() const override
+      {
+        return matrix->name();
       }
 
       std::vector<double> &
       matrix_values() override
       {
         return matrix->values();
+      }
+
+      void
+      place_nodes(const dealii::Vector<double> &positions) override
+      {
+        matrix->place_nodes(positions);
       }
 
       void
@@ -101,6 +111,13 @@ namespace Exemplar
   std::unique_ptr<BorderedSolver>
   make_block_solver(std::unique_ptr<SpdOperator> matrix, const SymmetricPattern &pattern)
   {
-    return std::make_unique<BlockSolver>(std::move(matrix), pattern);
+    matrix->reinit(pattern);
+    return make_block_solver(std::move(matrix));
+  }
+
+  std::unique_ptr<BorderedSolver>
+  make_block_solver(std::unique_ptr<SpdOperator> matrix)
+  {
+    return std::make_unique<BlockSolver>(std::move(matrix));
   }
 } // namespace Exemplar

@@ -50,8 +50,8 @@ namespace Exemplar
       else
         std::cout << "none\n";
       std::cout << "Solver    " << method_name(problem.parameters.solver.method) << ", "
-                << problem.time_axis.n_steps() << " steps; BLAS " << blas.library << ' '
-                << blas.core << '\n';
+                << problem.linear_solver->name() << ", " << problem.time_axis.n_steps()
+                << " steps; BLAS " << blas.library << ' ' << blas.core << '\n';
       if (blas.core.empty())
         std::cout << "          (Debian's libopenblas0-pthread is several times faster)\n";
       std::cout << "Output    " << problem.parameters.output.directory << std::endl;

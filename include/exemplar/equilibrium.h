@@ -29,6 +29,7 @@ namespace Exemplar
   {
     automatic,
     cholesky,
+    iterative,
     umfpack
   };
 
