@@ -18,7 +18,7 @@ N_RUNS = 5
 def run(program, scene):
     """Mean milliseconds of the linear solve and of the whole step, and the summary."""
     with tempfile.TemporaryDirectory() as folder:
-        done = run_scene(program, paper_scene(scene), folder + "/out")
+        done = run_scene(program, paper_scene(scene), folder + "/out", arguments=["--threads", "1"])
     mean = lambda name: 1e3 * statistics.mean(float(row["seconds_" + name]) for row in done.rows[1:])
     return mean("factorize") + mean("solve"), mean("step"), done.summary
 

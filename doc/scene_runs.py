@@ -44,11 +44,11 @@ def write_scene(file, keys):
     return Path(file)
 
 
-def run_scene(program, scene, output, settings=None, check=True):
+def run_scene(program, scene, output, settings=None, check=True, arguments=()):
     """Run a scene file with {"Section/Key": value} set, without frames unless asked for; what it left."""
     settings = {"Output/Every": "0", **(settings or {})}
     words = [word for key, value in settings.items() for word in ("--set", f"{key}={value}")]
-    done = subprocess.run([str(program), str(scene), "--quiet", "--output", str(output), *words],
+    done = subprocess.run([str(program), str(scene), "--quiet", "--output", str(output), *words, *arguments],
                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     if check and done.returncode:
         sys.exit(f"{scene}: {done.stderr}")

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/assembler.h>
+#include <exemplar/environment.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +10,20 @@ namespace Exemplar
 {
   namespace
   {
-    /// Cells are summed in chunks of so many batches, whatever the number of threads.
-    constexpr std::size_t chunk_size = 64;
+    /// Cells are summed in stripes, each by one thread. How many there are depends on the mesh
+    /// alone, so that the sums do not depend on the number of threads.
+    std::size_t
+    choose_n_stripes(const std::size_t n_cells)
+    {
+      return std::clamp<std::size_t>(n_cells / 50000, 2, 16);
+    }
+
+    /// What the cells of a stripe sum up.
+    struct StripeSums
+    {
+      CellSums                      cells;
+      dealii::AlignedVector<double> weights; ///< lanes of each weight
+    };
 
     std::vector<double>
     sum_of_lanes(const dealii::AlignedVector<double> &lanes)
@@ -33,12 +46,12 @@ namespace Exemplar
                                           : examples == nullptr ? default_guard_bound
                                                                 : examples->guard_bound()),
         kernels(best_kernels()), batches(fe_space, material),
-        cell_forces(batched_size(fe_space.n_cells(), 16))
+        n_stripes(choose_n_stripes(fe_space.n_cells())), node_positions(4 * fe_space.n_nodes()),
+        nodal_sums(4 * n_stripes * fe_space.n_nodes())
   {
     estimate_rounding();
     build_pattern();
     build_block_positions();
-    build_node_forces();
     if (inertia != nullptr)
       build_mass_values();
   }
@@ -129,22 +142,6 @@ namespace Exemplar
   }
 
   void
-  Assembler::build_node_forces()
-  {
-    node_start.assign(fe_space.n_nodes() + 1, 0);
-    for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
-      for (unsigned int a = 0; a < 4; ++a)
-        ++node_start[batches.node(cell, a) + 1];
-    for (unsigned int node = 0; node < fe_space.n_nodes(); ++node)
-      node_start[node + 1] += node_start[node];
-    node_forces.resize(4 * static_cast<std::size_t>(fe_space.n_cells()));
-    std::vector<std::size_t> next(node_start.begin(), node_start.end() - 1);
-    for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
-      for (unsigned int a = 0; a < 4; ++a)
-        node_forces[next[batches.node(cell, a)]++] = 4 * cell + a;
-  }
-
-  void
   Assembler::build_mass_values()
   {
     mass_values.assign(pattern.row.size(), 0.);
@@ -170,7 +167,10 @@ namespace Exemplar
       task.examples = examples->arrays();
     if (damping > 0.)
       task.damping = { cell_damping.data(), damping_strains.data() };
-    task.positions        = positions.begin();
+    for (unsigned int node = 0; node < fe_space.n_nodes(); ++node)
+      for (unsigned int c = 0; c < 3; ++c)
+        node_positions[4 * node + c] = positions[3 * node + c];
+    task.positions        = node_positions.data();
     task.weights          = weights.data();
     task.update_rotations = rotations == Rotations::update;
     task.weights_are_free = has_weights();
@@ -185,6 +185,19 @@ namespace Exemplar
       const CellTask cells = task(positions, {}, Rotations::update);
       kernels.update_rotations(cells, 0, cells.cells.n_batches());
     }
+  }
+
+  void
+  Assembler::node_rotations(std::vector<float> &rotations)
+  {
+    const CellArrays cells = batches.arrays(model.strain, guard_bound);
+    CellTask         task;
+    task.cells = cells;
+    rotation_sums.resize(12 * fe_space.n_nodes());
+    rotation_sums.fill(0.);
+    rotations.resize(9 * fe_space.n_nodes());
+    kernels.add_rotations(task, 0, cells.n_batches(), rotation_sums.data());
+    kernels.closest_rotations(fe_space.n_nodes(), rotation_sums.data(), rotations.data());
   }
 
   void
@@ -263,9 +276,9 @@ namespace Exemplar
     for (unsigned int node = 0; node < fe_space.n_nodes(); ++node)
     {
       double sum[4] = {};
-      for (std::size_t entry = node_start[node]; entry < node_start[node + 1]; ++entry)
+      for (std::size_t stripe = 0; stripe < n_stripes; ++stripe)
         for (unsigned int c = 0; c < 4; ++c)
-          sum[c] += cell_forces[4 * static_cast<std::size_t>(node_forces[entry]) + c];
+          sum[c] += nodal_sums[4 * (stripe * fe_space.n_nodes() + node) + c];
       for (unsigned int c = 0; c < 3; ++c)
         result.gradient[3 * node + c] = sum[c];
       result.force_scale[node] = sum[3];
@@ -278,13 +291,29 @@ namespace Exemplar
                       Evaluation                   &result,
                       const Rotations               rotations)
   {
-    const CellTask                cells = task(positions, weights, rotations);
-    const std::size_t             n     = cells.cells.n_batches();
+    const CellTask          cells = task(positions, weights, rotations);
+    std::vector<StripeSums> stripes(n_stripes);
+    nodal_sums.fill(0.);
+    const ParallelRegion region;
+    // to start a thread costs as much as a thousand cells
+    const int n_at_once = fe_space.n_cells() < 4000 ? 1 : static_cast<int>(n_threads());
+#pragma omp parallel for num_threads(n_at_once)
+    for (std::size_t stripe = 0; stripe < n_stripes; ++stripe)
+    {
+      stripes[stripe].weights.resize(has_weights() ? batch_size * weights.size() : 0);
+      kernels.evaluate(cells, stripe * cells.cells.n_batches() / n_stripes,
+                       (stripe + 1) * cells.cells.n_batches() / n_stripes,
+                       &nodal_sums[4 * stripe * fe_space.n_nodes()], stripes[stripe].weights.data(),
+                       stripes[stripe].cells);
+    }
     CellSums                      sums;
     dealii::AlignedVector<double> weight_sums(has_weights() ? batch_size * weights.size() : 0);
-    for (std::size_t begin = 0; begin < n; begin += chunk_size)
-      kernels.evaluate(cells, begin, std::min(begin + chunk_size, n), cell_forces.data(),
-                       weight_sums.data(), sums);
+    for (const StripeSums &stripe : stripes)
+    {
+      sums += stripe.cells;
+      for (std::size_t i = 0; i < weight_sums.size(); ++i)
+        weight_sums[i] += stripe.weights[i];
+    }
     gather_forces(result);
     result.weight_gradient = sum_of_lanes(weight_sums);
     result.weight_scale    = 0.;

@@ -127,8 +127,16 @@ namespace Exemplar
                               std::vector<double>          &columns)
   {
     start_matrix(matrix_values);
-    const bool        rotated = is_rotated_stiffness(tangent);
-    const CellTask    cells   = task(positions, weights, Rotations::keep);
+    const bool rotated = is_rotated_stiffness(tangent);
+    CellTask   cells   = task(positions, weights, Rotations::keep);
+    // what is convex anyway need not know which cells the damping leaves out, and a resumed run
+    // does not know which these were when the factor was made
+    dealii::AlignedVector<double> whole_damping;
+    if (tangent == Tangent::convex && damping > 0.)
+    {
+      whole_damping.resize(cell_damping.size(), damping);
+      cells.damping.factors = whole_damping.data();
+    }
     const TangentTask to
         = { tangent == Tangent::convex, block_positions.data(), matrix_values.data() };
     (rotated ? kernels.add_rotated_stiffness : kernels.add_tangent)(cells, to, 0,

@@ -52,9 +52,9 @@ namespace Exemplar
     }
 
     void
-    sync_and_close()
+    close(const bool to_disk)
     {
-      if (write_pending() && ::fsync(descriptor) != 0)
+      if (write_pending() && to_disk && ::fsync(descriptor) != 0)
         reason = errno;
       if (::close(descriptor) != 0 && reason == 0)
         reason = errno;
@@ -122,7 +122,19 @@ namespace Exemplar
   void
   AtomicFile::commit()
   {
-    buffer->sync_and_close();
+    finish(true);
+  }
+
+  void
+  AtomicFile::commit_without_sync()
+  {
+    finish(false);
+  }
+
+  void
+  AtomicFile::finish(const bool to_disk)
+  {
+    buffer->close(to_disk);
     if (buffer->get_reason() != 0)
       throw_io_error(temporary, "write", buffer->get_reason());
     if (!out)

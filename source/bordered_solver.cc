@@ -19,33 +19,37 @@ namespace Exemplar
     class BlockSolver : public BorderedSolver
     {
     public:
-      explicit BlockSolver(std::unique_ptr<SpdOperator> new_matrix) : matrix(std::move(new_matrix))
-      {
-      }
+      explicit BlockSolver(std::unique_ptr<SpdOperator> matrix) : A(std::move(matrix)) {}
 
       std::string
       name() const override
       {
-        return matrix->name();
+        return A->name();
+      }
+
+      SpdOperator *
+      matrix() override
+      {
+        return A.get();
       }
 
       std::vector<double> &
       matrix_values() override
       {
-        return matrix->values();
+        return A->values();
       }
 
       void
       place_nodes(const dealii::Vector<double> &positions) override
       {
-        matrix->place_nodes(positions);
+        A->place_nodes(positions);
       }
 
       void
       factorize(const WeightBlock &) override
       {
         columns.clear();
-        matrix->factorize();
+        A->factorize();
       }
 
       void
@@ -57,11 +61,11 @@ namespace Exemplar
         {
           columns = vector.positions;
           columns.insert(columns.end(), block.coupling.begin(), block.coupling.end());
-          matrix->solve(columns);
+          A->solve(columns);
         }
         else // Z is still that of this factor
         {
-          matrix->solve(vector.positions);
+          A->solve(vector.positions);
           std::copy(vector.positions.begin(), vector.positions.end(), columns.begin());
         }
 
@@ -103,7 +107,7 @@ namespace Exemplar
         vector.multipliers = solution.multipliers;
       }
 
-      const std::unique_ptr<SpdOperator> matrix;
+      const std::unique_ptr<SpdOperator> A;
       std::vector<double>                columns; ///< z and Z; empty: none since factorize()
     };
   } // namespace

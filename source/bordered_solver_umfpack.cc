@@ -33,6 +33,12 @@ namespace Exemplar
         return values;
       }
 
+      SpdOperator *
+      matrix() override
+      {
+        return nullptr;
+      }
+
       void
       factorize(const WeightBlock &block) override
       {

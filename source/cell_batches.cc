@@ -9,7 +9,7 @@ namespace Exemplar
 {
   CellBatches::CellBatches(const FESpace &fe_space, const Material &material)
       : n_cells(fe_space.n_cells()), nodes(batched_size(n_cells, 4)),
-        gradients(batched_size(n_cells, 12)), gradient_norms(batched_size(n_cells, 4)),
+        gradients(batched_size(n_cells, 9)), gradient_norms(batched_size(n_cells, 4)),
         volumes(batched_size(n_cells, 1)), lame(batched_size(n_cells, 2)),
         rotations(batched_size(n_cells, 9))
   {
@@ -26,8 +26,8 @@ namespace Exemplar
         const Vector3<double> &g = tet.shape_gradient[order[a]];
 
         nodes[batch_index(place, 4, a)] = static_cast<int>(fe_space.nodes(cell)[order[a]]);
-        for (unsigned int i = 0; i < 3; ++i)
-          gradients[batch_index(place, 12, 3 * a + i)] = g[i];
+        for (unsigned int i = 0; i < 3 && a > 0; ++i)
+          gradients[batch_index(place, 9, 3 * (a - 1) + i)] = g[i];
         gradient_norms[batch_index(place, 4, a)] = std::sqrt(dot(g, g));
       }
       volumes[place]                 = place < n_cells ? tet.volume : 0.;

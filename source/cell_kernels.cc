@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/cell_kernels_loops.h>
+#include <exemplar/instruction_set.h>
 
 namespace Exemplar
 {
-#ifdef __x86_64__
-  CellKernels
-  cell_kernels_avx512();
-  CellKernels
-  cell_kernels_avx2();
-#endif
   CellKernels
   cell_kernels_baseline();
+#ifdef __x86_64__
+  CellKernels
+  cell_kernels_avx2();
+  CellKernels
+  cell_kernels_avx512();
+#endif
 
   std::vector<const CellKernels *>
   all_kernels()
@@ -19,19 +20,11 @@ namespace Exemplar
     static const CellKernels         baseline = cell_kernels_baseline();
     std::vector<const CellKernels *> all      = { &scalar, &baseline };
 #ifdef __x86_64__
-    // the levels x86-64-v3 and v4
-    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")
-        && __builtin_cpu_supports("bmi2"))
-    {
-      static const CellKernels avx2 = cell_kernels_avx2();
+    static const CellKernels avx2 = cell_kernels_avx2(), avx512 = cell_kernels_avx512();
+    if (best_instruction_set() >= InstructionSet::avx2)
       all.push_back(&avx2);
-    }
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq")
-        && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl"))
-    {
-      static const CellKernels avx512 = cell_kernels_avx512();
+    if (best_instruction_set() >= InstructionSet::avx512)
       all.push_back(&avx512);
-    }
 #endif
     return all;
   }

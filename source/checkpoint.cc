@@ -6,6 +6,7 @@
 #include <boost/archive/binary_iarchive.hpp>
 #include <boost/archive/binary_oarchive.hpp>
 #include <boost/serialization/array.hpp>
+#include <boost/serialization/deque.hpp>
 #include <boost/serialization/map.hpp>
 #include <boost/serialization/string.hpp>
 #include <boost/serialization/vector.hpp>
@@ -18,7 +19,7 @@ namespace Exemplar
 {
   namespace
   {
-    const std::string format = "exemplar checkpoint 2";
+    const std::string format = "exemplar checkpoint 3";
 
     template <typename Archive>
     void
@@ -35,7 +36,7 @@ namespace Exemplar
       archive &totals.iterations &totals.factorizations &totals.worst_residual;
       for (double &seconds : totals.seconds)
         archive &seconds;
-      archive &checkpoint.statistics_bytes;
+      archive &checkpoint.memory &checkpoint.statistics_bytes;
     }
   } // namespace
 

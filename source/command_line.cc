@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/command_line.h>
 #include <exemplar/drivers.h>
+#include <exemplar/environment.h>
 #include <exemplar/errors.h>
 #include <exemplar/verification.h>
 #include <exemplar/version.h>
@@ -12,9 +13,10 @@ namespace Exemplar
   int
   run_command_line(const int argc, char *argv[])
   {
-    RunOptions  options;
-    std::string output;
-    bool        validate = false, print = false;
+    RunOptions   options;
+    std::string  output;
+    bool         validate = false, print = false;
+    unsigned int threads = n_threads();
 
     CLI::App app("exemplar: elastic solids that deform the way their examples say");
     app.set_version_flag("--version", "exemplar " EXEMPLAR_VERSION " (" EXEMPLAR_GIT_REVISION ")");
@@ -24,6 +26,9 @@ namespace Exemplar
         ->allow_extra_args(false);
     app.add_option("--output", output, "directory of the results instead of Output/Directory");
     app.add_flag("--resume", options.resume, "go on from the checkpoint in the output directory");
+    app.add_option("--threads", threads,
+                   "threads instead of one a core; results do not depend on it")
+        ->check(CLI::Range(1, 1024));
     app.add_flag("--quiet", options.quiet, "print warnings and errors only");
     app.add_flag("--verbose", options.verbose, "print a line an iteration");
     app.add_flag("--validate", validate, "check the scene and its files, compute nothing");
@@ -52,6 +57,7 @@ namespace Exemplar
     {
       throw UserError(std::string(error.what()) + ". exemplar --help lists what is allowed.");
     }
+    set_n_threads(threads);
     if (!output.empty())
       options.overrides.push_back("Output/Directory=" + output);
 

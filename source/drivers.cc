@@ -17,6 +17,12 @@ namespace Exemplar
 {
   namespace
   {
+    void
+    warn(const std::string &warning)
+    {
+      std::cerr << "Warning: " << warning << std::endl;
+    }
+
     /// Whatever fails while the parts are built, the input is to blame: nothing has
     /// been solved yet.
     std::unique_ptr<Problem>
@@ -26,7 +32,7 @@ namespace Exemplar
       {
         auto problem = std::make_unique<Problem>(parameters);
         for (const std::string &warning : problem->warnings())
-          std::cerr << "Warning: " << warning << std::endl;
+          warn(warning);
         return problem;
       }
       catch (const SolverFailure &failure)
@@ -51,9 +57,8 @@ namespace Exemplar
         std::cout << "none\n";
       std::cout << "Solver    " << method_name(problem.parameters.solver.method) << ", "
                 << problem.linear_solver->name() << ", " << problem.time_axis.n_steps()
-                << " steps; BLAS " << blas.library << ' ' << blas.core << '\n';
-      if (blas.core.empty())
-        std::cout << "          (Debian's libopenblas0-pthread is several times faster)\n";
+                << " steps; " << n_threads() << (n_threads() == 1 ? " thread" : " threads")
+                << "; BLAS " << blas.library << ' ' << blas.core << '\n';
       std::cout << "Output    " << problem.parameters.output.directory << std::endl;
     }
 
@@ -158,6 +163,8 @@ namespace Exemplar
                       + ". Give another one by --output or Output/Directory.");
     }
     note_interrupts();
+    if (const std::string warning = blas_warning(); !warning.empty())
+      warn(warning);
     if (!options.quiet)
     {
       StepClock::Scope scope(problem->clock, Part::output);
@@ -185,7 +192,7 @@ namespace Exemplar
                                    ? SolveStatus::one_pass
                                    : SolveStatus::converged));
     for (const std::string &warning : problem->warnings_at_end())
-      std::cerr << "Warning: " << warning << std::endl;
+      warn(warning);
     if (!options.quiet)
       print_times(results.get_totals());
   }

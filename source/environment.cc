@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/environment.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <dlfcn.h>
 #include <omp.h>
@@ -43,12 +44,19 @@ namespace Exemplar
           return true;
       return false;
     }
+
+    unsigned int &
+    thread_count()
+    {
+      static unsigned int n = std::max(1, omp_get_num_procs());
+      return n;
+    }
   } // namespace
 
   BlasInfo
   blas_info()
   {
-    BlasInfo info{ "unknown", "" };
+    BlasInfo info{ "unknown", "", "an unknown library", 1 };
     if (const auto config = find_function<char *()>("openblas_get_config"))
     {
       std::istringstream words(config());
@@ -58,7 +66,46 @@ namespace Exemplar
     }
     if (const auto core = find_function<char *()>("openblas_get_corename"))
       info.core = core();
+    if (const auto threads = find_function<int()>("openblas_get_num_threads"))
+      info.threads = threads();
+    Dl_info where;
+    if (dladdr(dlsym(RTLD_DEFAULT, "dgemm_"), &where) != 0)
+      info.file = where.dli_fname;
     return info;
+  }
+
+  std::string
+  blas_warning()
+  {
+    const BlasInfo info = blas_info();
+    if (info.library != "unknown")
+      return "";
+    return "BLAS is not OpenBLAS but " + info.file
+           + ". If that is the reference BLAS, factorisations take four to five times as long as "
+             "they need. Install OpenBLAS; on Debian: apt-get install libopenblas0-pthread, or if "
+             "it is there choose it by update-alternatives.";
+  }
+
+  unsigned int
+  n_threads()
+  {
+    return thread_count();
+  }
+
+  void
+  set_n_threads(const unsigned int n)
+  {
+    thread_count() = std::max(1u, n);
+  }
+
+  ParallelRegion::ParallelRegion()
+  {
+    omp_set_max_active_levels(1);
+  }
+
+  ParallelRegion::~ParallelRegion()
+  {
+    omp_set_max_active_levels(0);
   }
 
   void

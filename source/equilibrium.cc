@@ -11,9 +11,11 @@ namespace Exemplar
 {
   namespace
   {
-    const EnumTable<Method> methods = { { Method::one_pass, "one pass" },
+    const EnumTable<Method> methods = { { Method::automatic, "auto" },
+                                        { Method::one_pass, "one pass" },
                                         { Method::fixed_point, "fixed point" },
-                                        { Method::newton, "newton" } };
+                                        { Method::newton, "newton" },
+                                        { Method::quasi_newton, "quasi newton" } };
 
     const EnumTable<LinearSolver> linear_solvers = { { LinearSolver::automatic, "auto" },
                                                      { LinearSolver::cholesky, "cholesky" },
@@ -55,11 +57,19 @@ namespace Exemplar
         prm, "Method", method, methods,
         "one pass: the paper's, one linear solve with frozen rotations a step; fixed "
         "point: the same, repeated until the residual is below Tolerance; newton: descent on "
-        "the energy with its exact tangent, or as much of a convex one as it takes.");
+        "the energy with its exact tangent, or as much of a convex one as it takes; quasi newton: "
+        "descent with the factor of an earlier step, for dynamic scenes, to Step tolerance; auto: "
+        "quasi newton where it is possible (not with Linear solver = iterative), newton in other "
+        "scenes, fixed point with frozen "
+        "forces, for which nothing else converges.");
     prm.add_parameter("Tolerance", tolerance,
                       "Relative residual at which a step has converged: the greatest free residual "
                       "force over the greatest nodal force scale. Not used by one pass.",
                       dealii::Patterns::Double(1e-16, 1.));
+    prm.add_parameter("Step tolerance", step_tolerance,
+                      "Error of the positions at which a step of quasi newton has converged, "
+                      "over the greatest displacement in this step. Not used by other methods.",
+                      dealii::Patterns::Double(0., 1.));
     prm.add_parameter(
         "Maximum iterations", maximum_iterations,
         "Iterations after which a step without convergence ends the run with status "
@@ -71,8 +81,9 @@ namespace Exemplar
         "cholesky: CHOLMOD factorises the positions' block, the weights follow from a "
         "dense Schur complement; iterative: the same with conjugate gradients and algebraic "
         "multigrid in place of the factor, for large meshes; umfpack: the whole bordered matrix "
-        "at once, for checking; auto: cholesky, or iterative where it is faster by CHOLMOD's "
-        "count of operations, in compact bodies from about 40,000 degrees of freedom.");
+        "at once, for checking; auto: cholesky, also for quasi newton, which needs a factor, or "
+        "iterative where that is faster by CHOLMOD's count of operations, in compact bodies from "
+        "about 40,000 degrees of freedom.");
     prm.leave_subsection();
   }
 
@@ -89,7 +100,7 @@ namespace Exemplar
   }
 
   Equilibrium::Equilibrium(const SolverParameters &parameters, const Parts &parts)
-      : parameters(parameters), parts(parts)
+      : parameters(parameters), parts(parts), turned_factor(parts.free_dofs)
   {
     if (parts.examples != nullptr && !parts.examples->weights_are_prescribed())
     {
@@ -110,8 +121,7 @@ namespace Exemplar
     dynamic_terms = false;
     update_loads(state.time);
     parts.assembler.set_damping(0., {});
-    parts.assembler.update_rotations(state.positions);
-    evaluate(state);
+    evaluate(state, Rotations::update);
   }
 
   void
@@ -139,10 +149,10 @@ namespace Exemplar
   }
 
   void
-  Equilibrium::evaluate(const State &state)
+  Equilibrium::evaluate(const State &state, const Rotations rotations)
   {
     StepClock::Scope scope(parts.clock, Part::evaluate);
-    parts.assembler.evaluate(state.positions, state.weights, current);
+    parts.assembler.evaluate(state.positions, state.weights, current, rotations);
     add_inertia_and_loads(state);
   }
 
@@ -152,7 +162,7 @@ namespace Exemplar
     total_gradient = current.gradient;
     force_scale    = current.force_scale;
     if (dynamic_terms)
-      parts.inertia->add_gradient(state.positions, total_gradient, force_scale);
+      inertia_energy = parts.inertia->add_gradient(state.positions, total_gradient, force_scale);
     if (parts.loads == nullptr)
       return;
     total_gradient -= external_force;
@@ -298,7 +308,14 @@ namespace Exemplar
   SolveReport
   Equilibrium::solve(State &state, const double time, const double step_size)
   {
-    return parameters.method == Method::newton ? solve_by_newton(state, time, step_size)
-                                               : solve_by_passes(state, time, step_size);
+    switch (parameters.method)
+    {
+    case Method::newton:
+      return solve_by_newton(state, time, step_size);
+    case Method::quasi_newton:
+      return solve_by_quasi_newton(state, time, step_size);
+    default:
+      return solve_by_passes(state, time, step_size);
+    }
   }
 } // namespace Exemplar

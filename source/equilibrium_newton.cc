@@ -18,28 +18,27 @@ namespace Exemplar
     constexpr unsigned int most_halvings_of_increment = 6;
     constexpr unsigned int most_halvings_of_step      = 30;
     constexpr double       greatest_length            = 64.;
-
-    bool
-    is_better(const double objective,
-              const double before,
-              const double change_expected, // < 0
-              const double gradient_norm,
-              const double gradient_norm_before)
-    {
-      // near rounding the objective cannot tell any more, but the gradient can
-      if (std::abs(change_expected) < 1e-9 * std::abs(before))
-        return objective <= before + 1e-12 * std::abs(before)
-               && gradient_norm < gradient_norm_before;
-      return objective <= before + 1e-4 * change_expected; // Armijo
-    }
   } // namespace
+
+  bool
+  Equilibrium::is_better(const double objective,
+                         const double before,
+                         const double change_expected, // < 0
+                         const double gradient_norm,
+                         const double gradient_norm_before)
+  {
+    // near rounding the objective cannot tell any more, but the gradient can
+    if (std::abs(change_expected) < 1e-9 * std::abs(before))
+      return objective <= before + 1e-12 * std::abs(before) && gradient_norm < gradient_norm_before;
+    return objective <= before + 1e-4 * change_expected; // Armijo
+  }
 
   double
   Equilibrium::objective(const State &state) const
   {
     double value = current.energy + current.energy_damping;
     if (dynamic_terms)
-      value += parts.inertia->step_energy(state.positions);
+      value += inertia_energy;
     if (parts.loads != nullptr)
     {
       // of displacements: from positions the work would come with rounding of its own
@@ -54,20 +53,19 @@ namespace Exemplar
   Equilibrium::evaluate_with_best_weights(State &state)
   {
     StepClock::Scope scope(parts.clock, Part::evaluate);
-    parts.assembler.update_rotations(state.positions);
     if (block.H.m() > 0)
     {
       const std::vector<double> lower(
           parts.examples->weights_are_bounded() ? state.weights.size() : 0, 0.);
       const std::vector<double> sums(parts.examples->n_regions(), 1.);
       const WeightQpSolution    best = minimize_over_weights(
-             block.H, parts.assembler.weight_target(state.positions), sums, lower);
+             block.H, parts.assembler.weight_target(state.positions, Rotations::update), sums, lower);
       if (!best.found)
         throw SolverFailure("The example weights are not determined. Set Examples/Weight penalty "
                             "to auto.");
       state.weights = best.weights;
     }
-    evaluate(state);
+    evaluate(state, block.H.m() > 0 ? Rotations::keep : Rotations::update);
     current_objective = objective(state);
   }
 
@@ -161,7 +159,7 @@ namespace Exemplar
   Equilibrium::correct_with_same_factor(State &state, SolveReport &report)
   {
     measure(state, report);
-    if (std::max(report.residual, report.kkt_residual) <= parameters.tolerance)
+    if (has_met_tolerance(report))
       return;
     const State  start         = state;
     const double before        = current_objective;
@@ -271,9 +269,12 @@ namespace Exemplar
     evaluate_with_best_weights(state);
     for (unsigned int iteration = 0;; ++iteration)
     {
-      check_interrupt();
+      // a quasi-Newton step has changed its memory by now, and the checkpoint of an interrupted
+      // run must be that of whole steps
+      if (parameters.method == Method::newton)
+        check_interrupt();
       measure_iteration(state, report);
-      if (std::max(report.residual, report.kkt_residual) <= parameters.tolerance)
+      if (has_met_tolerance(report))
         report.status = SolveStatus::converged;
       else if (iteration == parameters.maximum_iterations)
         report.status = SolveStatus::iteration_limit;

@@ -59,15 +59,11 @@ namespace Exemplar
         add_step(state);
         linearized_at = state.positions;
         ++report.iterations;
-        {
-          StepClock::Scope scope(parts.clock, Part::evaluate);
-          parts.assembler.update_rotations(state.positions);
-        }
-        evaluate(state);
+        evaluate(state, Rotations::update);
         measure_iteration(state, report);
         if (parameters.method == Method::one_pass)
           report.status = SolveStatus::one_pass;
-        else if (std::max(report.residual, report.kkt_residual) <= parameters.tolerance)
+        else if (has_met_tolerance(report))
           report.status = SolveStatus::converged;
         else if (report.iterations == parameters.maximum_iterations)
           report.status = SolveStatus::iteration_limit;

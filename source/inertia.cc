@@ -37,6 +37,23 @@ namespace Exemplar
     greatest_mass = mass.linfty_norm(); // the greatest sum of a row
     if (kind == MassMatrix::lumped)
       lump(mass);
+    copy_rows();
+  }
+
+  void
+  Inertia::copy_rows()
+  {
+    row_start.push_back(0);
+    for (unsigned int row = 0; row < mass.m(); ++row)
+    {
+      for (auto entry = mass.begin(row); entry != mass.end(row); ++entry)
+        if (entry->value() != 0.)
+        {
+          columns.push_back(entry->column());
+          values.push_back(entry->value());
+        }
+      row_start.push_back(columns.size());
+    }
   }
 
   void
@@ -81,38 +98,44 @@ namespace Exemplar
   Inertia::mass_times(const dealii::Vector<double> &field) const
   {
     dealii::Vector<double> product(field.size());
-    for (unsigned int row = 0; row < mass.m(); ++row)
+    for (unsigned int row = 0; row + 1 < row_start.size(); ++row)
     {
       double sum[3] = { 0., 0., 0. };
-      for (auto entry = mass.begin(row); entry != mass.end(row); ++entry)
+      for (std::size_t entry = row_start[row]; entry < row_start[row + 1]; ++entry)
+      {
+        const double *node = field.begin() + 3 * columns[entry];
         for (unsigned int c = 0; c < 3; ++c)
-          sum[c] += entry->value() * field[3 * entry->column() + c];
+          sum[c] += values[entry] * node[c];
+      }
       for (unsigned int c = 0; c < 3; ++c)
         product[3 * row + c] = sum[c];
     }
     return product;
   }
 
-  void
+  double
   Inertia::add_gradient(const dealii::Vector<double> &positions,
                         dealii::Vector<double>       &gradient,
                         dealii::Vector<double>       &force_scale) const
   {
     dealii::Vector<double> difference = positions;
     difference -= predicted;
-    dealii::Vector<double> force = mass_times(difference);
-    force *= matrix_factor();
-    gradient += force;
+    const dealii::Vector<double> product = mass_times(difference);
+    const double                 factor  = matrix_factor();
+    double                       energy  = 0.;
     for (unsigned int node = 0; node < force_scale.size(); ++node)
-      force_scale[node] += std::hypot(force[3 * node], force[3 * node + 1], force[3 * node + 2]);
-  }
-
-  double
-  Inertia::step_energy(const dealii::Vector<double> &positions) const
-  {
-    dealii::Vector<double> difference = positions;
-    difference -= predicted;
-    return 0.5 * matrix_factor() * (difference * mass_times(difference));
+    {
+      double square = 0.;
+      for (unsigned int dof = 3 * node; dof < 3 * node + 3; ++dof)
+      {
+        const double force = factor * product[dof];
+        gradient[dof] += force;
+        square += force * force;
+        energy += 0.5 * force * difference[dof];
+      }
+      force_scale[node] += std::sqrt(square);
+    }
+    return energy;
   }
 
   void

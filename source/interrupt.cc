@@ -2,18 +2,21 @@
 #include <exemplar/errors.h>
 #include <exemplar/interrupt.h>
 
+#include <atomic>
 #include <csignal>
 
 namespace Exemplar
 {
   namespace
   {
-    volatile std::sig_atomic_t interrupted = 0;
+    // the signal may come to any thread
+    std::atomic<bool> interrupted{ false };
+    static_assert(std::atomic<bool>::is_always_lock_free, "as signal handlers need it");
 
     void
     note(const int signal)
     {
-      interrupted = 1;
+      interrupted = true;
       std::signal(signal, SIG_DFL); // a second one ends the program at once
     }
   } // namespace
@@ -28,7 +31,7 @@ namespace Exemplar
   void
   check_interrupt()
   {
-    if (interrupted != 0)
+    if (interrupted)
       throw Interrupted("Interrupted.");
   }
 } // namespace Exemplar

@@ -157,6 +157,7 @@ namespace Exemplar
       complete_interpolation(assignments);
     if (output.directory.empty())
       set({ "Output" }, "Directory", "output/" + scene_file.stem().string());
+    choose_method();
     check();
   }
 
@@ -260,17 +261,38 @@ namespace Exemplar
   }
 
   void
+  Parameters::choose_method()
+  {
+    // in the file it stays auto, so that parameters.prm says what the scene said
+    if (solver.method != Method::automatic)
+      return;
+    if (model.is_frozen())
+      solver.method = Method::fixed_point;
+    else
+      solver.method = scene == SceneKind::dynamic && solver.linear_solver != LinearSolver::iterative
+                          ? Method::quasi_newton
+                          : Method::newton;
+  }
+
+  void
   Parameters::check() const
   {
     material.check();
     examples.check();
-    if (solver.method == Method::newton && model.is_frozen())
-      throw UserError("Solver/Method = newton needs a force that is the gradient of an energy, but "
-                      "Model/Gradient = frozen is not. Set Model/Gradient = consistent, or "
-                      "Solver/Method = fixed point.");
+    const bool descends = solver.method == Method::newton || solver.method == Method::quasi_newton;
+    if (descends && model.is_frozen())
+      throw UserError("Solver/Method = " + method_name(solver.method)
+                      + " needs a force that is the gradient of an energy, but "
+                        "Model/Gradient = frozen is not. Set Model/Gradient = consistent, or "
+                        "Solver/Method = fixed point.");
+    if (solver.method == Method::quasi_newton && scene != SceneKind::dynamic)
+      throw UserError("Solver/Method = quasi newton goes from step to step of a dynamic scene; "
+                      "this one has none. Set Solver/Method = newton, or Scene = dynamic.");
+    if (solver.method == Method::quasi_newton && solver.linear_solver == LinearSolver::iterative)
+      throw UserError("Solver/Method = quasi newton keeps a factor, but Solver/Linear solver = "
+                      "iterative makes none. Set it to cholesky, or Solver/Method = newton.");
     const bool bounded = examples.in_use() && examples.weights == ExampleWeights::simplex;
-    if (solver.linear_solver == LinearSolver::umfpack
-        && (bounded || solver.method == Method::newton))
+    if (solver.linear_solver == LinearSolver::umfpack && (bounded || descends))
       throw UserError("Solver/Linear solver = umfpack solves linear systems without bounds and "
                       "cannot tell an indefinite one. Set Solver/Method = fixed point and "
                       "Examples/Weights = free, or Solver/Linear solver = cholesky.");

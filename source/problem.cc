@@ -92,12 +92,14 @@ namespace Exemplar
 
     /// CHOLMOD for a pattern, unless it is to be chosen and is not worth it.
     std::unique_ptr<SpdOperator>
-    find_cholmod_operator(const LinearSolver      wanted,
+    find_cholmod_operator(const SolverParameters &solver,
                           const unsigned int      n_columns,
                           const SymmetricPattern &pattern)
     {
-      if (wanted == LinearSolver::iterative)
+      if (solver.linear_solver == LinearSolver::iterative)
         return nullptr;
+      const bool may_choose = solver.linear_solver == LinearSolver::automatic
+                              && solver.method != Method::quasi_newton;
       auto matrix = make_cholmod_operator();
       try
       {
@@ -105,12 +107,11 @@ namespace Exemplar
       }
       catch (const SolverFailure &)
       {
-        if (wanted == LinearSolver::cholesky)
+        if (!may_choose)
           throw;
         return nullptr; // too large for CHOLMOD
       }
-      if (wanted == LinearSolver::automatic
-          && matrix->n_operations() > operations_at_crossover * n_columns * pattern.n())
+      if (may_choose && matrix->n_operations() > operations_at_crossover * n_columns * pattern.n())
         return nullptr;
       return matrix;
     }
@@ -125,7 +126,7 @@ namespace Exemplar
       if (solver.linear_solver == LinearSolver::umfpack)
         return make_umfpack_solver(pattern);
       const unsigned int n_examples = n_coupled(examples);
-      auto matrix = find_cholmod_operator(solver.linear_solver, 1 + n_examples, pattern);
+      auto               matrix     = find_cholmod_operator(solver, 1 + n_examples, pattern);
       if (matrix == nullptr)
       {
         const bool is_last_word = solver.method == Method::one_pass || n_examples > 0;
@@ -243,10 +244,11 @@ namespace Exemplar
   }
 
   void
-  Problem::resume_from(const State &earlier)
+  Problem::resume_from(const State &earlier, const QuasiNewtonMemory &memory)
   {
     state = earlier;
     equilibrium.forget_factor();
+    equilibrium.restore(memory);
     equilibrium.start(state);
   }
 

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/atomic_file.h>
 #include <exemplar/digest.h>
+#include <exemplar/environment.h>
 #include <exemplar/errors.h>
 #include <exemplar/number_text.h>
 #include <exemplar/results.h>
 #include <exemplar/summary.h>
-#include <exemplar/vtu_writer.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace Exemplar
 {
@@ -83,6 +84,29 @@ namespace Exemplar
           value.clear();
     }
 
+    /// What a frame shows, independent of the problem that goes on.
+    struct Frame
+    {
+      fs::path               file;
+      dealii::Vector<double> positions;
+      dealii::Vector<double> displacement;
+      dealii::Vector<double> velocities; ///< empty unless dynamic
+      CellResults            cells;
+    };
+
+    void
+    write(const Frame &frame, const VtuWriter &writer)
+    {
+      VtuFields fields;
+      fields.point_vectors.emplace_back("displacement", &frame.displacement);
+      if (frame.velocities.size() > 0)
+        fields.point_vectors.emplace_back("velocity", &frame.velocities);
+      fields.cell_scalars = { { "strain_energy_density", &frame.cells.strain_energy_density },
+                              { "det_F", &frame.cells.det_F },
+                              { "von_mises_stress", &frame.cells.von_mises_stress } };
+      writer.write(frame.file, frame.positions, fields);
+    }
+
     void
     write_parameters(const Parameters &parameters, const fs::path &file)
     {
@@ -96,7 +120,11 @@ namespace Exemplar
   Results::Results(Problem &problem)
       : problem(problem), directory(problem.parameters.output.directory),
         input_digests(digests_of(problem.parameters)),
-        last_checkpoint(std::chrono::steady_clock::now())
+        last_checkpoint(std::chrono::steady_clock::now()),
+        vtu_writer(problem.parameters.output.every > 0
+                       ? std::make_unique<const VtuWriter>(problem.mesh)
+                       : nullptr),
+        background(n_threads() > 1)
   {
   }
 
@@ -121,8 +149,8 @@ namespace Exemplar
       Diagnostics::append_seconds(row, {});
       statistics->write(row);
       accepted_bytes = statistics->n_bytes();
+      save(); // so that a crash before the first interval can be resumed, too
     }
-    save(); // so that a crash before the first interval can be resumed, too
     end_reading();
     lap();
   }
@@ -151,7 +179,7 @@ namespace Exemplar
                                && state.step % std::max(1, std::stoi(earlier_every->second)) != 0;
     if (was_only_last && !is_frame(state.step)) // the run now ends later
       fs::remove(directory.get_path() / RunDirectory::frame_name(state.step));
-    problem.resume_from(state);
+    problem.resume_from(state, checkpoint.memory);
     problem.diagnostics.set_work(checkpoint.work);
     accepted_bytes         = checkpoint.statistics_bytes;
     totals                 = checkpoint.totals;
@@ -226,6 +254,7 @@ namespace Exemplar
   {
     {
       StepClock::Scope scope(problem.clock, Part::output);
+      background.drain();
       write_final_pose();
       if (problem.parameters.output.every > 0)
         write_animation();
@@ -246,22 +275,14 @@ namespace Exemplar
   }
 
   void
-  Results::write_frame() const
+  Results::write_frame()
   {
-    const State           &state        = problem.state;
-    dealii::Vector<double> displacement = state.positions;
-    displacement -= problem.fe_space.rest_positions();
-    const CellResults cells = problem.assembler.cell_results(state.positions, state.weights);
-
-    VtuFields fields;
-    fields.point_vectors.emplace_back("displacement", &displacement);
-    if (problem.inertia != nullptr)
-      fields.point_vectors.emplace_back("velocity", &state.velocities);
-    fields.cell_scalars = { { "strain_energy_density", &cells.strain_energy_density },
-                            { "det_F", &cells.det_F },
-                            { "von_mises_stress", &cells.von_mises_stress } };
-    write_vtu(directory.get_path() / RunDirectory::frame_name(state.step), problem.mesh,
-              state.positions, fields);
+    const State &state = problem.state;
+    Frame frame = { directory.get_path() / RunDirectory::frame_name(state.step), state.positions,
+                    state.positions, state.velocities,
+                    problem.assembler.cell_results(state.positions, state.weights) };
+    frame.displacement -= problem.fe_space.rest_positions();
+    background.submit([frame = std::move(frame), &writer = *vtu_writer] { write(frame, writer); });
   }
 
   void
@@ -288,9 +309,11 @@ namespace Exemplar
   void
   Results::save()
   {
+    background.drain(); // a resumed run writes no frame anew
     last_checkpoint = std::chrono::steady_clock::now();
     save_checkpoint({ values_of(problem.parameters), input_digests, problem.state,
-                      problem.diagnostics.get_work(), totals, accepted_bytes },
+                      problem.equilibrium.get_memory(), problem.diagnostics.get_work(), totals,
+                      accepted_bytes },
                     directory.checkpoint());
   }
 } // namespace Exemplar

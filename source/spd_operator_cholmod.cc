@@ -16,8 +16,8 @@ namespace Exemplar
       {
         cholmod_start(&common);
         common.print      = 0; // it would print about indefinite matrices; we throw
-        common.supernodal = CHOLMOD_AUTO;
-        common.final_ll   = 1; // L D L^T, its choice for small matrices, lets indefinite ones pass
+        common.supernodal = CHOLMOD_SUPERNODAL; // L D L^T, its choice for small matrices, lets
+                                                // indefinite ones pass
       }
 
       CholmodOperator(const CholmodOperator &) = delete;
@@ -102,6 +102,36 @@ namespace Exemplar
         check("solve");
         const double *x = static_cast<const double *>(solution->x);
         std::copy(x, x + columns.size(), columns.begin());
+      }
+
+      FactorPanels
+      panels() const override
+      {
+        const auto *super   = static_cast<const int *>(factor->super);
+        const auto *row     = static_cast<const int *>(factor->pi);
+        const auto *value   = static_cast<const int *>(factor->px);
+        const auto *rows    = static_cast<const int *>(factor->s);
+        const auto *values  = static_cast<const double *>(factor->x);
+        const auto *order   = static_cast<const int *>(factor->Perm);
+        const auto  n_super = static_cast<std::ptrdiff_t>(factor->nsuper);
+
+        FactorPanels panels;
+        panels.permutation.assign(order, order + factor->n);
+        panels.first_column.assign(super, super + n_super + 1);
+        panels.first_row.assign(row, row + n_super + 1);
+        panels.first_value.assign(value, value + n_super + 1);
+        panels.rows.assign(rows, rows + row[n_super]);
+        panels.values.resize(value[n_super]);
+        for (std::ptrdiff_t i = 0; i < value[n_super]; ++i)
+          panels.values[i] = static_cast<float>(values[i]);
+        for (std::ptrdiff_t s = 0; s < n_super; ++s)
+          for (int k = 0; k < super[s + 1] - super[s]; ++k)
+          {
+            const std::ptrdiff_t diagonal
+                = value[s] + static_cast<std::ptrdiff_t>(k) * (row[s + 1] - row[s]) + k;
+            panels.values[diagonal] = static_cast<float>(1. / values[diagonal]);
+          }
+        return panels;
       }
 
     private:

@@ -196,6 +196,12 @@ namespace Exemplar
         }
       }
 
+      FactorPanels
+      panels() const override
+      {
+        throw SolverFailure("Solver/Linear solver = iterative makes no factor.");
+      }
+
     private:
       unsigned int
       n_rows() const

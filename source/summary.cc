@@ -54,7 +54,8 @@ namespace Exemplar
     json["deal_ii"]          = DEAL_II_PACKAGE_VERSION;
     json["blas"]             = blas.library;
     json["blas_core"]        = blas.core;
-    json["threads"]          = 1;
+    json["blas_threads"]     = blas.threads;
+    json["threads"]          = n_threads();
     json["scene"]            = parameters.scene_file.string();
     json["mesh"]             = problem.mesh.get_name();
     json["mesh_sha256"]      = mesh_sha256;

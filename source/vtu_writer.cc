@@ -8,6 +8,7 @@
 #include <cstring>
 #include <iomanip>
 #include <ostream>
+#include <sstream>
 #include <stdexcept>
 #include <zlib.h>
 
@@ -49,8 +50,20 @@ namespace Exemplar
           << "</DataArray>\n";
     }
 
-    void
-    write_cells(std::ostream &out, const Mesh &mesh)
+    std::string
+    head_of(const Mesh &mesh)
+    {
+      std::ostringstream out;
+      out << "<?xml version=\"1.0\"?>\n"
+          << "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
+             "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n"
+          << "<UnstructuredGrid>\n<Piece NumberOfPoints=\"" << mesh.n_nodes()
+          << "\" NumberOfCells=\"" << mesh.n_cells() << "\">\n";
+      return out.str();
+    }
+
+    std::string
+    cells_of(const Mesh &mesh)
     {
       std::vector<std::int32_t> connectivity, offsets;
       connectivity.reserve(4 * mesh.n_cells());
@@ -61,42 +74,48 @@ namespace Exemplar
         offsets.push_back(static_cast<std::int32_t>(connectivity.size()));
       }
       const std::vector<std::uint8_t> types(mesh.n_cells(), 10); // VTK_TETRA
+      std::ostringstream              out;
       out << "<Cells>\n";
       write_array(out, "Int32", "connectivity", 1, connectivity.data(), connectivity.size());
       write_array(out, "Int32", "offsets", 1, offsets.data(), offsets.size());
       write_array(out, "UInt8", "types", 1, types.data(), types.size());
       out << "</Cells>\n";
+      return out.str();
+    }
+
+    std::string
+    regions_of(const Mesh &mesh)
+    {
+      const std::vector<std::int32_t> region(mesh.get_material_ids().begin(),
+                                             mesh.get_material_ids().end());
+      std::ostringstream              out;
+      write_array(out, "Int32", "region", 1, region.data(), region.size());
+      return out.str();
     }
   } // namespace
 
+  VtuWriter::VtuWriter(const Mesh &mesh)
+      : head(head_of(mesh)), cells(cells_of(mesh)), regions(regions_of(mesh))
+  {
+  }
+
   void
-  write_vtu(const std::filesystem::path  &file,
-            const Mesh                   &mesh,
-            const dealii::Vector<double> &positions,
-            const VtuFields              &fields)
+  VtuWriter::write(const std::filesystem::path  &file,
+                   const dealii::Vector<double> &positions,
+                   const VtuFields              &fields) const
   {
     AtomicFile    atomic_file(file);
     std::ostream &out = atomic_file.stream();
-    out << "<?xml version=\"1.0\"?>\n"
-        << "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
-           "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n"
-        << "<UnstructuredGrid>\n<Piece NumberOfPoints=\"" << mesh.n_nodes() << "\" NumberOfCells=\""
-        << mesh.n_cells() << "\">\n<Points>\n";
+    out << head << "<Points>\n";
     write_array(out, "Float64", "Points", 3, positions.begin(), positions.size());
-    out << "</Points>\n";
-    write_cells(out, mesh);
-
-    out << "<PointData>\n";
+    out << "</Points>\n" << cells << "<PointData>\n";
     for (const auto &[name, values] : fields.point_vectors)
       write_array(out, "Float64", name, 3, values->begin(), values->size());
     out << "</PointData>\n<CellData>\n";
     for (const auto &[name, values] : fields.cell_scalars)
       write_array(out, "Float64", name, 1, values->data(), values->size());
-    const std::vector<std::int32_t> region(mesh.get_material_ids().begin(),
-                                           mesh.get_material_ids().end());
-    write_array(out, "Int32", "region", 1, region.data(), region.size());
-    out << "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
-    atomic_file.commit();
+    out << regions << "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+    atomic_file.commit_without_sync();
   }
 
   void

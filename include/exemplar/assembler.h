@@ -88,6 +88,10 @@ namespace Exemplar
     void
     update_rotations(const dealii::Vector<double> &positions);
 
+    /// About the rotation of each node, the mean of its cells': nine numbers a node, by rows.
+    void
+    node_rotations(std::vector<float> &rotations);
+
     /// From now on forces contain the stiffness damping s C:(e - sum_m c_m e(x_m)), with
     /// s [-] the damping time over the time step. s = 0: none. Cells that the guard of
     /// Eq. (16) had to hold at one of the x_m are left out: their rotation is ambiguous.
@@ -243,9 +247,6 @@ namespace Exemplar
     build_block_positions();
 
     void
-    build_node_forces();
-
-    void
     build_mass_values();
 
     void
@@ -261,17 +262,18 @@ namespace Exemplar
 
     const CellKernels &kernels;
 
-    CellBatches               batches;
-    SymmetricPattern          pattern;
-    std::vector<int>          block_positions; ///< of TangentTask
-    std::vector<unsigned>     mixed_cells; ///< with a node of which only some components are held
-    std::vector<unsigned>     cells_beside_held_nodes;
-    std::vector<std::size_t>  node_start;       ///< of each node's entries in node_forces
-    std::vector<unsigned int> node_forces;      ///< which of the cells' forces act on it
-    dealii::AlignedVector<double> cell_forces;  ///< four numbers a node, 16 a cell
-    std::vector<double>           mass_values;  ///< M on the pattern; empty in statics
-    double                        damping = 0.; ///< s of set_damping()
-    dealii::AlignedVector<double> cell_damping; ///< in batches; empty without damping
+    CellBatches           batches;
+    const std::size_t     n_stripes;
+    SymmetricPattern      pattern;
+    std::vector<int>      block_positions; ///< of TangentTask
+    std::vector<unsigned> mixed_cells;     ///< with a node of which only some components are held
+    std::vector<unsigned> cells_beside_held_nodes;
+    dealii::AlignedVector<double> rotation_sums;
+    dealii::AlignedVector<double> node_positions; ///< as the kernels want them
+    dealii::AlignedVector<double> nodal_sums;     ///< of forces and scales, stripe by stripe
+    std::vector<double>           mass_values;    ///< M on the pattern; empty in statics
+    double                        damping = 0.;   ///< s of set_damping()
+    dealii::AlignedVector<double> cell_damping;   ///< in batches; empty without damping
     dealii::AlignedVector<double> damping_strains;
     double                        greatest_rounding_force = 0.;
     double                        rounding_stress_norm    = 0.; ///< (sum V T^2)^(1/2)

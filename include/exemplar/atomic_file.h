@@ -29,12 +29,20 @@ namespace Exemplar
     std::ostream &
     stream();
 
-    /// Everything to the disk, then rename. Call it once.
+    /// Everything to the disk, then rename. Call this or the next once.
     void
     commit();
 
+    /// Rename, and let the system choose when the bytes go to the disk: the file
+    /// outlives a crash of the program, but perhaps not one of the machine.
+    void
+    commit_without_sync();
+
   private:
     class Buffer;
+
+    void
+    finish(bool to_disk);
 
     std::filesystem::path   path;
     std::filesystem::path   temporary;

@@ -52,6 +52,11 @@ namespace Exemplar
     matrix_values()
         = 0;
 
+    /// A and its factor; null if they are none of their own.
+    virtual SpdOperator *
+    matrix()
+        = 0;
+
     /// Where the nodes are in the state of which A is the tangent; see SpdOperator.
     virtual void
     place_nodes(const dealii::Vector<double> & /*positions*/)

@@ -22,7 +22,7 @@ namespace Exemplar
   {
     std::size_t   n_cells;
     const int    *nodes;          ///< 4; ascending in each cell
-    const double *gradients;      ///< 12: g_a of those nodes, one after the other [1/m]
+    const double *gradients;      ///< 9: g_a of the last three of those nodes [1/m]
     const double *gradient_norms; ///< 4: |g_a|
     const double *volumes;        ///< 1 [m^3]
     const double *lame;           ///< 2: lambda and mu [Pa]
@@ -70,7 +70,7 @@ namespace Exemplar
     CellArrays    cells;
     ExampleArrays examples; ///< n_weights = 0: none
     DampingArrays damping;
-    const double *positions        = nullptr; ///< by degree of freedom [m]
+    const double *positions        = nullptr; ///< four numbers a node, the fourth unused [m]
     const double *weights          = nullptr;
     bool          update_rotations = false; ///< or take them as they are
     bool          weights_are_free = false; ///< whether derivatives by them are wanted
@@ -86,6 +86,19 @@ namespace Exemplar
     double       min_det_F      = std::numeric_limits<double>::max();
     unsigned int inverted_cells = 0;
     unsigned int guarded_cells  = 0;
+
+    CellSums &
+    operator+=(const CellSums &other)
+    {
+      energy += other.energy;
+      energy_elastic += other.energy_elastic;
+      energy_damping += other.energy_damping;
+      stress_square += other.stress_square;
+      min_det_F = other.min_det_F >= min_det_F ? min_det_F : other.min_det_F; // NaN is the least
+      inverted_cells += other.inverted_cells;
+      guarded_cells += other.guarded_cells;
+      return *this;
+    }
   };
 
   /// Columns of the 10 blocks (a,b), b <= a, of a cell's matrix: three each.
@@ -107,12 +120,19 @@ namespace Exemplar
 
     void (*update_rotations)(const CellTask &, std::size_t begin, std::size_t end);
 
-    /// Energies; nodal forces [N] and force scales [N] into `forces`, four numbers a node of a
-    /// cell, 16 a cell; -dPsi/dw_i into the batch of lanes `weight_sums` + 8 i.
+    /// Add the rotations of the cells to the sums of their nodes, twelve numbers a node of
+    /// which nine count.
+    void (*add_rotations)(const CellTask &, std::size_t begin, std::size_t end, double *nodal_sums);
+
+    /// The rotations closest to n such sums, nine numbers each.
+    void (*closest_rotations)(std::size_t n, const double *sums, float *rotations);
+
+    /// Energies; the forces and force scales [N] are added to `nodal_sums`, four numbers a node
+    /// of the mesh, and -dPsi/dw_i to the batch of lanes `weight_sums` + 8 i.
     void (*evaluate)(const CellTask &,
                      std::size_t begin,
                      std::size_t end,
-                     double     *forces,
+                     double     *nodal_sums,
                      double     *weight_sums,
                      CellSums &);
 

@@ -66,29 +66,106 @@ namespace Exemplar
     load_tetrahedron(const CellArrays &cells, const Place &place)
     {
       Tetrahedron<Number> tet;
-      for (int a = 0; a < 4; ++a)
-        for (int i = 0; i < 3; ++i)
-          tet.shape_gradient[a][i] = load(cells.gradients, place, 12, 3 * a + i);
+      for (int i = 0; i < 3; ++i)
+      {
+        for (int a = 1; a < 4; ++a)
+          tet.shape_gradient[a][i] = load(cells.gradients, place, 9, 3 * (a - 1) + i);
+        tet.shape_gradient[0][i] = -tet.shape_gradient[1][i] - tet.shape_gradient[2][i]
+                                   - tet.shape_gradient[3][i]; // shape functions sum to one
+      }
       tet.volume = load(cells.volumes, place, 1, 0);
       return tet;
+    }
+
+    /// Four numbers of one cell; the compiler maps them to what registers there are.
+    using Four = double [[gnu::vector_size(32)]];
+    using Mask = long [[gnu::vector_size(32)]];
+
+    [[gnu::always_inline]] static inline Four
+    load_four(const double *from)
+    {
+      Four four;
+      __builtin_memcpy(&four, from, sizeof(Four));
+      return four;
+    }
+
+    [[gnu::always_inline]] static inline void
+    store_four(const Four &four, double *to)
+    {
+      __builtin_memcpy(to, &four, sizeof(Four));
+    }
+
+    [[gnu::always_inline]] static inline void
+    transpose(Four (&rows)[4])
+    {
+      const Four low_01  = __builtin_shuffle(rows[0], rows[1], Mask{ 0, 4, 2, 6 });
+      const Four high_01 = __builtin_shuffle(rows[0], rows[1], Mask{ 1, 5, 3, 7 });
+      const Four low_23  = __builtin_shuffle(rows[2], rows[3], Mask{ 0, 4, 2, 6 });
+      const Four high_23 = __builtin_shuffle(rows[2], rows[3], Mask{ 1, 5, 3, 7 });
+
+      rows[0] = __builtin_shuffle(low_01, low_23, Mask{ 0, 1, 4, 5 });
+      rows[1] = __builtin_shuffle(high_01, high_23, Mask{ 0, 1, 4, 5 });
+      rows[2] = __builtin_shuffle(low_01, low_23, Mask{ 2, 3, 6, 7 });
+      rows[3] = __builtin_shuffle(high_01, high_23, Mask{ 2, 3, 6, 7 });
+    }
+
+    /// The numbers of as many cells as a register holds; by way of memory the processor would
+    /// wait for the narrower stores.
+    static Number
+    join(const Four (&four)[2])
+    {
+      if constexpr (width == 8)
+        return Number(__builtin_shufflevector(four[0], four[1], 0, 1, 2, 3, 4, 5, 6, 7));
+      else
+        return Number(four[0]);
+    }
+
+    /// Positions of one node of each cell.
+    static void
+    load_nodes(const double *positions, const int *nodes, Vector3<Number> &x)
+    {
+      if constexpr (width >= 4)
+      {
+        Four parts[3][2];
+        for (std::size_t lane = 0; lane < width; lane += 4)
+        {
+          Four rows[4];
+          for (std::size_t l = 0; l < 4; ++l)
+            rows[l] = load_four(positions + 4 * nodes[lane + l]);
+          transpose(rows);
+          for (int i = 0; i < 3; ++i)
+            parts[i][lane / 4] = rows[i];
+        }
+        for (int i = 0; i < 3; ++i)
+          x[i] = join(parts[i]);
+      }
+      else
+      {
+        alignas(64) double parts[3][width];
+        for (std::size_t lane = 0; lane < width; ++lane)
+          for (int i = 0; i < 3; ++i)
+            parts[i][lane] = positions[4 * nodes[lane] + i];
+        for (int i = 0; i < 3; ++i)
+          x[i] = Lanes<Number>::load(parts[i]);
+      }
     }
 
     static Matrix3<Number>
     deformation_gradient(const CellTask &task, const Place &place, const Tetrahedron<Number> &tet)
     {
-      alignas(64) double x[4][3][width];
+      Vector3<Number> x[4];
       for (int a = 0; a < 4; ++a)
-        for (std::size_t lane = 0; lane < width; ++lane)
-        {
-          const double *node = task.positions + 3 * task.cells.nodes[place.at(4, a) + lane];
-          for (int i = 0; i < 3; ++i)
-            x[a][i][lane] = node[i];
-        }
-      Vector3<Number> position[4];
-      for (int a = 0; a < 4; ++a)
+        load_nodes(task.positions, task.cells.nodes + place.at(4, a), x[a]);
+      Vector3<Number> edge[4]; // from node 0
+      for (int a = 1; a < 4; ++a)
         for (int i = 0; i < 3; ++i)
-          position[a][i] = Lanes<Number>::load(x[a][i]);
-      return Exemplar::deformation_gradient(tet, position);
+          edge[a][i] = x[a][i] - x[0][i];
+      Matrix3<Number> F; // Eq. (1)
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+          F[i][j] = edge[1][i] * tet.shape_gradient[1][j] + edge[2][i] * tet.shape_gradient[2][j]
+                    + edge[3][i] * tet.shape_gradient[3][j];
+      return F;
     }
 
     /// R of a place, which is updated if the task says so.
@@ -132,6 +209,54 @@ namespace Exemplar
                            updating, place,
                            deformation_gradient(task, place, load_tetrahedron(task.cells, place)));
                      });
+    }
+
+    static void
+    add_rotations(const CellTask   &task,
+                  const std::size_t begin,
+                  const std::size_t end,
+                  double           *nodal_sums)
+    {
+      for_each_place(begin, end,
+                     [&](const Place &place)
+                     {
+                       alignas(64) double lanes[12][width] = {};
+                       for (int k = 0; k < 9; ++k)
+                         Lanes<Number>::store(load(task.cells.rotations, place, 9, k), lanes[k]);
+                       for (std::size_t lane = 0; lane < width; ++lane)
+                       {
+                         alignas(32) double R[12];
+                         for (int k = 0; k < 12; ++k)
+                           R[k] = lanes[k][lane];
+                         for (int a = 0; a < 4; ++a)
+                         {
+                           double *sum = nodal_sums + 12 * task.cells.nodes[place.at(4, a) + lane];
+                           for (int k = 0; k < 12; k += 4)
+                             store_four(load_four(sum + k) + load_four(R + k), sum + k);
+                         }
+                       }
+                     });
+    }
+
+    static void
+    closest_rotations(const std::size_t n, const double *sums, float *rotations)
+    {
+      for (std::size_t first = 0; first < n; first += width)
+      {
+        alignas(64) double lanes[9][width];
+        for (int k = 0; k < 9; ++k)
+          for (std::size_t lane = 0; lane < width; ++lane)
+            lanes[k][lane] = sums[12 * std::min(first + lane, n - 1) + k];
+        Matrix3<Number> F;
+        for (int k = 0; k < 9; ++k)
+          F[k / 3][k % 3] = Lanes<Number>::load(lanes[k]);
+        const Matrix3<Number> R = closest_rotation(F);
+        for (int k = 0; k < 9; ++k)
+          Lanes<Number>::store(R[k / 3][k % 3], lanes[k]);
+        for (std::size_t lane = 0; lane < width && first + lane < n; ++lane)
+          for (int k = 0; k < 9; ++k)
+            rotations[9 * (first + lane) + k] = static_cast<float>(lanes[k][lane]);
+      }
     }
 
     /// The weight of example i in the cells of a place.
@@ -278,36 +403,57 @@ namespace Exemplar
       }
     };
 
-    /// The forces of the nodes and their scales, four numbers a node, cell by cell.
+    /// Add the forces of the cells' nodes and their scales to the sums of the nodes.
     static void
-    store_forces(const CellTask            &task,
-                 const Place               &place,
-                 const Tetrahedron<Number> &tet,
-                 const Matrix3<Number>     &RP, ///< V P
-                 const Number              &scale,
-                 double                    *forces)
+    add_forces(const CellTask            &task,
+               const Place               &place,
+               const Tetrahedron<Number> &tet,
+               const Matrix3<Number>     &VP, ///< V P
+               const Number              &scale,
+               double                    *nodal_sums)
     {
-      alignas(64) double lanes[16][width];
+      alignas(64) double lanes[4][4][width];
+      Vector3<Number>    last; // the forces sum to zero
+      for (int a = 3; a >= 0; --a)
+      {
+        const Vector3<Number> force = a > 0 ? VP * tet.shape_gradient[a] : last;
+        for (int i = 0; i < 3; ++i)
+        {
+          last[i] = a == 3 ? -force[i] : last[i] - force[i];
+          Lanes<Number>::store(force[i], lanes[a][i]);
+        }
+        Lanes<Number>::store(scale * load(task.cells.gradient_norms, place, 4, a), lanes[a][3]);
+      }
       for (int a = 0; a < 4; ++a)
       {
-        const Vector3<Number> force = RP * tet.shape_gradient[a];
-        for (int i = 0; i < 3; ++i)
-          Lanes<Number>::store(force[i], lanes[4 * a + i]);
-        Lanes<Number>::store(scale * load(task.cells.gradient_norms, place, 4, a),
-                             lanes[4 * a + 3]);
-      }
-      for (std::size_t lane = 0; lane < width; ++lane)
-      {
-        double *to = forces + 16 * (place.batch * batch_size + place.lane + lane);
-        for (int entry = 0; entry < 16; ++entry)
-          to[entry] = lanes[entry][lane];
+        const int *nodes = task.cells.nodes + place.at(4, a);
+        if constexpr (width >= 4)
+          for (std::size_t lane = 0; lane < width; lane += 4)
+          {
+            Four rows[4];
+            for (int k = 0; k < 4; ++k)
+              rows[k] = load_four(lanes[a][k] + lane);
+            transpose(rows);
+            for (std::size_t l = 0; l < 4; ++l)
+            {
+              double *sum = nodal_sums + 4 * nodes[lane + l];
+              store_four(load_four(sum) + rows[l], sum);
+            }
+          }
+        else
+          for (std::size_t lane = 0; lane < width; ++lane)
+            for (int k = 0; k < 4; ++k)
+              nodal_sums[4 * nodes[lane] + k] += lanes[a][k][lane];
       }
     }
 
     template <typename Cell>
     static void
-    evaluate_place(
-        const CellTask &task, const Place &place, double *forces, double *weight_sums, Sums &sums)
+    evaluate_place(const CellTask &task,
+                   const Place    &place,
+                   double         *nodal_sums,
+                   double         *weight_sums,
+                   Sums           &sums)
     {
       const bool                frozen       = task.cells.guard_bound == no_guard;
       const bool                has_examples = task.examples.n_weights > 0;
@@ -370,14 +516,14 @@ namespace Exemplar
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
           RP[i][j] *= tet.volume;
-      store_forces(task, place, tet, RP, tet.volume * cell.force_factor() * scale, forces);
+      add_forces(task, place, tet, RP, tet.volume * cell.force_factor() * scale, nodal_sums);
     }
 
     static void
     evaluate(const CellTask   &task,
              const std::size_t begin,
              const std::size_t end,
-             double           *forces,
+             double           *nodal_sums,
              double           *weight_sums,
              CellSums         &result)
     {
@@ -386,10 +532,10 @@ namespace Exemplar
                  [&](auto model)
                  {
                    using Cell = typename decltype(model)::type;
-                   for_each_place(begin, end,
-                                  [&](const Place &place) {
-                                    evaluate_place<Cell>(task, place, forces, weight_sums, sums);
-                                  });
+                   for_each_place(
+                       begin, end,
+                       [&](const Place &place)
+                       { evaluate_place<Cell>(task, place, nodal_sums, weight_sums, sums); });
                  });
       sums.add_to(result);
     }
@@ -443,47 +589,68 @@ namespace Exemplar
       return cell;
     }
 
-    /// Four numbers of one cell; the compiler maps them to what registers there are.
-    using Four = double [[gnu::vector_size(32)]];
+    /// What makes R K R^T of the cells of a place, Eq. (8), by lane.
+    struct RotatedStiffness
+    {
+      alignas(64) double g[4][3][width];        ///< R g_a
+      alignas(64) double lambda_g[4][3][width]; ///< times V lambda
+      alignas(64) double mu_g[4][3][width];     ///< times V mu
+      alignas(64) double diagonal[4][4][width]; ///< V mu g_a.g_b, a >= b
+    };
 
     static void
-    add_column(double *values, const int position, const double *column)
+    find_rotated_stiffness(const CellTask &task, const Place &place, RotatedStiffness &K)
     {
-      Four sum, term;
-      __builtin_memcpy(&sum, values + position, sizeof(Four));
-      __builtin_memcpy(&term, column, sizeof(Four));
-      sum += term;
-      __builtin_memcpy(values + position, &sum, sizeof(Four));
+      const Tetrahedron<Number> tet    = load_tetrahedron(task.cells, place);
+      const Matrix3<Number>     R      = load_rotation(task.cells, place);
+      const Lame<Number>        lame   = load_lame(task.cells, place);
+      Number                    factor = tet.volume;
+      if (task.damping.factors != nullptr)
+        factor *= Number(1.) + load(task.damping.factors, place, 1, 0);
+      const Number    lambda = factor * lame.lambda, mu = factor * lame.mu;
+      Vector3<Number> g[4];
+      rotate_gradients(tet, R, g);
+      for (int a = 0; a < 4; ++a)
+      {
+        for (int i = 0; i < 3; ++i)
+        {
+          Lanes<Number>::store(g[a][i], K.g[a][i]);
+          Lanes<Number>::store(lambda * g[a][i], K.lambda_g[a][i]);
+          Lanes<Number>::store(mu * g[a][i], K.mu_g[a][i]);
+        }
+        for (int b = 0; b <= a; ++b)
+          Lanes<Number>::store(mu * dot(g[a], g[b]), K.diagonal[a][b]);
+      }
     }
 
-    /// Add V (lambda g_a g_b^T + mu (g_b g_a^T + (g_a.g_b) I)) of one cell, Eq. (8), with the
-    /// rotated gradients g (the fourth entry of each is 0).
-    static void
-    add_stiffness(const double (&g)[4][4],
-                  const double lambda, ///< times the volume, as mu
-                  const double mu,
-                  const int   *position,
-                  double      *values)
+    /// Add V (lambda g_a g_b^T + mu (g_b g_a^T + (g_a.g_b) I)) of one cell, with g its rotated
+    /// gradients, of which the fourth entry is 0.
+    [[gnu::always_inline]] static inline void
+    add_stiffness(const RotatedStiffness &K,
+                  const std::size_t       lane,
+                  const Four (&g)[4],
+                  const int *position,
+                  double    *values)
     {
       const Four unit[3] = { { 1., 0., 0., 0. }, { 0., 1., 0., 0. }, { 0., 0., 1., 0. } };
       const Four rows[3] = { { 1., 1., 1., 0. }, { 0., 1., 1., 0. }, { 0., 0., 1., 0. } };
-      Four       g_of[4];
-      __builtin_memcpy(g_of, g, sizeof(g));
+#pragma GCC unroll 4
       for (int a = 0; a < 4; ++a)
+#pragma GCC unroll 4
         for (int b = 0; b <= a; ++b)
         {
-          const double diagonal = mu * (g[a][0] * g[b][0] + g[a][1] * g[b][1] + g[a][2] * g[b][2]);
-          for (int j = 0; j < 3; ++j, ++position)
+          const int *column = position + 3 * (a * (a + 1) / 2 + b);
+          if (column[0] < 0) // as the others
+            continue;
+#pragma GCC unroll 3
+          for (int j = 0; j < 3; ++j)
           {
-            if (*position < 0)
-              continue;
-            Four column
-                = g_of[a] * (lambda * g[b][j]) + g_of[b] * (mu * g[a][j]) + unit[j] * diagonal;
+            Four entries = g[a] * K.lambda_g[b][j][lane] + g[b] * K.mu_g[a][j][lane]
+                           + unit[j] * K.diagonal[a][b][lane];
             if (a == b)
-              column *= rows[j]; // the lower triangle
-            alignas(32) double entries[4];
-            __builtin_memcpy(entries, &column, sizeof(Four));
-            add_column(values, *position, entries);
+              entries *= rows[j]; // the lower triangle
+            double *to = values + column[j];
+            store_four(load_four(to) + entries, to);
           }
         }
     }
@@ -494,49 +661,46 @@ namespace Exemplar
                           const std::size_t  begin,
                           const std::size_t  end)
     {
-      for_each_place(begin, end,
-                     [&](const Place &place)
-                     {
-                       alignas(64) double g[4][3][width], lame[2][width];
-                       rotated_gradients(task, place, g, lame);
-                       for (std::size_t lane = 0; lane < width; ++lane)
-                       {
-                         const std::size_t cell = place.batch * batch_size + place.lane + lane;
-                         if (cell >= task.cells.n_cells)
-                           return;
-                         alignas(32) double of_cell[4][4];
-                         for (int a = 0; a < 4; ++a)
-                           for (int i = 0; i < 4; ++i)
-                             of_cell[a][i] = i < 3 ? g[a][i][lane] : 0.;
-                         add_stiffness(of_cell, lame[0][lane], lame[1][lane],
-                                       tangent.positions
-                                           + n_block_columns * (cell - begin * batch_size),
-                                       tangent.values);
-                       }
-                     });
+      RotatedStiffness K;
+      for_each_place(
+          begin, end,
+          [&](const Place &place)
+          {
+            find_rotated_stiffness(task, place, K);
+            constexpr std::size_t group = std::min<std::size_t>(4, width);
+            for (std::size_t first = 0; first < width; first += group)
+            {
+              Four g[4][4]; // of node a, by cell
+              for (int a = 0; a < 4; ++a)
+                gradients_by_cell(K, first, a, g[a]);
+              for (std::size_t l = 0; l < group; ++l)
+              {
+                const std::size_t cell = place.batch * batch_size + place.lane + first + l;
+                if (cell >= task.cells.n_cells)
+                  return;
+                const Four g_of_cell[4] = { g[0][l], g[1][l], g[2][l], g[3][l] };
+                add_stiffness(K, first + l, g_of_cell,
+                              tangent.positions + n_block_columns * (cell - begin * batch_size),
+                              tangent.values);
+              }
+            }
+          });
     }
 
-    /// R g_a and V lambda, V mu, by lane.
-    static void
-    rotated_gradients(const CellTask &task,
-                      const Place    &place,
-                      double (&g)[4][3][width],
-                      double (&lame)[2][width])
+    /// The rotated gradient a of some cells, a 0 behind each.
+    [[gnu::always_inline]] static inline void
+    gradients_by_cell(const RotatedStiffness &K, const std::size_t first, const int a, Four (&g)[4])
     {
-      const Tetrahedron<Number> tet    = load_tetrahedron(task.cells, place);
-      const Matrix3<Number>     R      = load_rotation(task.cells, place);
-      Number                    factor = tet.volume;
-      if (task.damping.factors != nullptr)
-        factor *= Number(1.) + load(task.damping.factors, place, 1, 0);
-      for (int a = 0; a < 4; ++a)
+      if constexpr (width >= 4)
       {
-        const Vector3<Number> rotated = R * tet.shape_gradient[a];
         for (int i = 0; i < 3; ++i)
-          Lanes<Number>::store(rotated[i], g[a][i]);
+          g[i] = load_four(K.g[a][i] + first);
+        g[3] = Four{};
+        transpose(g);
       }
-      const Lame<Number> plain = load_lame(task.cells, place);
-      Lanes<Number>::store(factor * plain.lambda, lame[0]);
-      Lanes<Number>::store(factor * plain.mu, lame[1]);
+      else
+        for (std::size_t l = 0; l < width; ++l)
+          g[l] = Four{ K.g[a][0][l], K.g[a][1][l], K.g[a][2][l], 0. };
     }
 
     /// Columns of a block of 10, by lane, as they are added.
@@ -672,8 +836,8 @@ namespace Exemplar
     static CellKernels
     kernels(const char *name)
     {
-      return { name,        update_rotations, evaluate, weight_target, add_rotated_stiffness,
-               add_tangent, coupling };
+      return { name,          update_rotations,      add_rotations, closest_rotations, evaluate,
+               weight_target, add_rotated_stiffness, add_tangent,   coupling };
     }
   };
 } // namespace Exemplar

@@ -3,6 +3,7 @@
 #define exemplar_checkpoint_h
 
 #include <exemplar/diagnostics.h>
+#include <exemplar/quasi_newton_memory.h>
 #include <exemplar/state.h>
 
 #include <cstdint>
@@ -28,6 +29,7 @@ namespace Exemplar
     std::map<std::string, std::string> parameters;    ///< key path -> value
     std::map<std::string, std::string> input_digests; ///< input file -> SHA-256
     State                              state;
+    QuasiNewtonMemory                  memory;
     Work                               work;
     RunTotals                          totals;
     std::uintmax_t                     statistics_bytes = 0; ///< of statistics.csv at this state

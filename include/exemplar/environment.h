@@ -11,10 +11,39 @@ namespace Exemplar
   {
     std::string library; ///< "OpenBLAS 0.3.21", or "unknown" (the reference BLAS, say)
     std::string core;    ///< OpenBLAS's core type; empty for others
+    std::string file;    ///< the library's file
+    int         threads; ///< as far as it tells
   };
 
   BlasInfo
   blas_info();
+
+  /// What to do if this is not OpenBLAS; empty if it is.
+  std::string
+  blas_warning();
+
+  /// The threads of this program, those of BLAS aside: as many as cores are available
+  /// to the process, or what set_n_threads() says. Results do not depend on it.
+  unsigned int
+  n_threads();
+
+  /// To be called before any thread starts; at least 1.
+  void
+  set_n_threads(unsigned int n);
+
+  /// While it lives, OpenMP's parallel regions of this program may have n_threads() threads;
+  /// otherwise none has more than one, so that CHOLMOD's have not.
+  class ParallelRegion
+  {
+  public:
+    ParallelRegion();
+    ~ParallelRegion();
+
+    ParallelRegion(const ParallelRegion &) = delete;
+    ParallelRegion &
+    operator=(const ParallelRegion &)
+        = delete;
+  };
 
   /// BLAS and CHOLMOD on one thread: results must not depend on how many there are,
   /// and CHOLMOD's own threads cost more than they bring.

@@ -7,8 +7,10 @@
 #include <exemplar/handles.h>
 #include <exemplar/inertia.h>
 #include <exemplar/loads.h>
+#include <exemplar/quasi_newton_memory.h>
 #include <exemplar/state.h>
 #include <exemplar/step_clock.h>
+#include <exemplar/turned_factor.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -20,9 +22,11 @@ namespace Exemplar
 {
   enum class Method
   {
+    automatic,
     one_pass,
     fixed_point,
-    newton
+    newton,
+    quasi_newton
   };
 
   enum class LinearSolver
@@ -36,8 +40,9 @@ namespace Exemplar
   /// Subsection Solver.
   struct SolverParameters
   {
-    Method       method             = Method::newton;
+    Method       method             = Method::automatic;
     double       tolerance          = 1e-8;
+    double       step_tolerance     = 1e-3;
     unsigned int maximum_iterations = 50;
     LinearSolver linear_solver      = LinearSolver::automatic;
 
@@ -142,6 +147,16 @@ namespace Exemplar
       has_last_factor = false;
     }
 
+    /// What a resumed run needs beside the state.
+    const QuasiNewtonMemory &
+    get_memory() const
+    {
+      return memory;
+    }
+
+    void
+    restore(const QuasiNewtonMemory &earlier);
+
     /// Factorisations so far.
     unsigned int
     n_factorizations() const
@@ -163,7 +178,7 @@ namespace Exemplar
     update_loads(double time);
 
     void
-    evaluate(const State &state);
+    evaluate(const State &state, Rotations rotations);
 
     void
     add_inertia_and_loads(const State &state);
@@ -227,6 +242,65 @@ namespace Exemplar
     void
     evaluate_with_best_weights(State &state);
 
+    /// A step by degree of freedom, and in the frame of the factor.
+    struct QuasiNewtonStep
+    {
+      std::vector<double> direct, turned;
+    };
+
+    SolveReport
+    solve_by_quasi_newton(State &state, double time, double step_size);
+
+    void
+    predict_positions(const State &accepted, double step_size, State &trial);
+
+    void
+    make_turned_factor(const State &state);
+
+    void
+    renew_turned_factor(const State &state);
+
+    void
+    find_turned_factor(const State &trial);
+
+    void
+    rebuild_turned_factor(const State &trial);
+
+    double
+    find_quasi_newton_step(const State               &trial,
+                           const std::vector<double> &gradient,
+                           QuasiNewtonStep           &step);
+
+    bool
+    take_quasi_newton_step(State                 &trial,
+                           const QuasiNewtonStep &step,
+                           double                 slope,
+                           SolveReport           &report);
+
+    void
+    iterate_quasi_newton(const State &accepted, State &trial, SolveReport &report);
+
+    void
+    gather_free(const dealii::Vector<double> &field, std::vector<double> &free) const;
+
+    void
+    add_to_free(double                     factor,
+                const std::vector<double> &free,
+                dealii::Vector<double>    &field) const;
+
+    double
+    greatest_displacement(const State &from, const State &to) const;
+
+    bool
+    has_met_tolerance(const SolveReport &report) const;
+
+    static bool
+    is_better(double objective,
+              double before,
+              double change_expected,
+              double gradient_norm,
+              double gradient_norm_before);
+
     double
     greatest_free_gradient() const;
 
@@ -253,10 +327,14 @@ namespace Exemplar
     dealii::Vector<double> total_gradient;
     dealii::Vector<double> force_scale; ///< a node, of the total gradient [N]
     dealii::Vector<double> external_force;
+    double                 inertia_energy    = 0.;    ///< of the step [J]
     double                 current_objective = 0.;    ///< of Newton's method [J]
     bool                   dynamic_terms     = false; ///< within a step of a dynamic scene
     unsigned int           factorizations    = 0;
     bool                   has_last_factor   = false; ///< that of State::linearized_positions
+    TurnedFactor           turned_factor;
+    std::vector<float>     node_rotations;
+    QuasiNewtonMemory      memory;
   };
 } // namespace Exemplar
 

@@ -48,15 +48,11 @@ namespace Exemplar
 
     /// Add [M (gamma^2 + a gamma)] (x - x_hat) [N], inertia and mass damping a, to
     /// `gradient`, and the length of this nodal vector to the entry of `force_scale` of
-    /// each node.
-    void
+    /// each node. Returns half the square of x - x_hat in that matrix [J].
+    double
     add_gradient(const dealii::Vector<double> &positions,
                  dealii::Vector<double>       &gradient,
                  dealii::Vector<double>       &force_scale) const;
-
-    /// Half the square of x - x_hat in that matrix [J].
-    double
-    step_energy(const dealii::Vector<double> &positions) const;
 
     /// A nodal force [N] that is nothing but the rounding of x - x_hat.
     double
@@ -108,8 +104,14 @@ namespace Exemplar
     dealii::Vector<double>
     mass_times(const dealii::Vector<double> &field) const;
 
+    void
+    copy_rows();
+
     dealii::SparsityPattern      pattern;
     dealii::SparseMatrix<double> mass;
+    std::vector<std::size_t>     row_start; ///< the matrix once more: its entries are visited in
+    std::vector<unsigned int>    columns;   ///< every iteration, and deal.II's iterators are slow
+    std::vector<double>          values;
     const TimeScheme             scheme;
     const double                 mass_damping;       ///< [1/s]
     const double                 stiffness_damping;  ///< [s]

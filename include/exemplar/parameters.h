@@ -109,6 +109,9 @@ namespace Exemplar
     complete_interpolation(const std::vector<Assignment> &assignments);
 
     void
+    choose_method();
+
+    void
     check() const;
 
     dealii::ParameterHandler prm;

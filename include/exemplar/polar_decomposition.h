@@ -169,22 +169,23 @@ namespace Exemplar
     // p(l) = l^4 - 2 n l^2 - 8 det(G) l + n^2 - 4 |cof G|^2 with n = |G|^2
     const Matrix3<Number> cof = cofactors(G);
     const Number          det = G[0][0] * cof[0][0] + G[0][1] * cof[0][1] + G[0][2] * cof[0][2];
-    const Number          constant = n * n - Number(4.) * contract(cof, cof);
-    const Number          greatest = sqrt(Number(3.) * n);
-    const Number          accuracy = Number(1e-10) * greatest;
-    Number                lambda   = greatest;
-    Number                slope;
+    const Number          constant  = n * n - Number(4.) * contract(cof, cof);
+    const Number          greatest  = sqrt(Number(3.) * n);
+    const Number          accuracy  = Number(1e-8) * greatest;
+    const Number          eight_det = Number(8.) * det;
+    Number                lambda    = greatest;
+    Number                slope     = Number(0.);
     for (int iteration = 0; iteration < 30; ++iteration)
     {
-      const Number square    = lambda * lambda;
-      const Number eight_det = Number(8.) * det;
-      slope                  = Number(4.) * lambda * (square - n) - eight_det;
-      const Number value     = (square - (n + n)) * square - eight_det * lambda + constant;
-      const auto   is_found  = (slope <= Number(0.)) | (abs(value) <= accuracy * slope);
-      lambda -= select(is_found, Number(0.), value / slope);
-      if (all(is_found))
+      const Number square = lambda * lambda;
+      const Number value  = (square - (n + n)) * square - eight_det * lambda + constant;
+      slope               = Number(4.) * lambda * (square - n) - eight_det;
+      const Number step   = select(slope > Number(0.), value / slope, Number(0.));
+      lambda -= step;
+      if (all(abs(step) <= accuracy)) // the next one would be its square
         break;
     }
+    slope = Number(4.) * lambda * (lambda * lambda - n) - eight_det;
 
     // slope = product of the distances to the three other eigenvalues = 8 (s_1+s_2)(s_2+s_3)
     // (s_3+s_1); it is 12.3 n^(3/2) at rest and 0 where the rotation is not unique
@@ -196,9 +197,11 @@ namespace Exemplar
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
         R[i][j] = scale * (lambda * cof[i][j] + factor_G * G[i][j] - GC[i][j]);
-    R = Polar::polished(R, G);
-
-    const auto is_ambiguous = !(slope > Number(0.006) * greatest * n);
+    // far from rest errors grow as 1 / slope^2
+    const Number size = greatest * n;
+    if (any(slope < size)) // of 7.1 size at rest
+      R = select_matrix(slope < size, Polar::polished(R, G), R);
+    const auto is_ambiguous = !(slope > Number(0.006) * size);
     if (any(is_ambiguous))
       R = select_matrix(is_ambiguous,
                         Polar::rotation_matrix(Polar::eigenvector_by_jacobi(Polar::horn_matrix(G))),

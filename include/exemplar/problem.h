@@ -41,7 +41,7 @@ namespace Exemplar
 
     /// Go on from a state of an earlier run.
     void
-    resume_from(const State &earlier);
+    resume_from(const State &earlier, const QuasiNewtonMemory &memory = {});
 
     /// Names of the parts that are there, or of those that are not.
     std::vector<std::string>

@@ -2,19 +2,25 @@
 #ifndef exemplar_results_h
 #define exemplar_results_h
 
+#include <exemplar/background_writer.h>
 #include <exemplar/checkpoint.h>
 #include <exemplar/problem.h>
 #include <exemplar/run_directory.h>
 #include <exemplar/statistics_file.h>
+#include <exemplar/vtu_writer.h>
 
 #include <chrono>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 
 namespace Exemplar
 {
-  /// Everything that a run of a problem leaves on disk.
+  /// Everything that a run of a problem leaves on disk. With more than one thread, frames
+  /// are written while the next step is computed; what begin(), add_step() and finish()
+  /// throw may then be the error of an earlier frame. Checkpoints and what finish()
+  /// writes wait for all frames before them.
   class Results
   {
   public:
@@ -53,8 +59,9 @@ namespace Exemplar
     void
     write_original() const;
 
+    /// Take what the next step changes and have it written.
     void
-    write_frame() const;
+    write_frame();
 
     void
     write_final_pose() const;
@@ -81,7 +88,9 @@ namespace Exemplar
     std::uintmax_t accepted_bytes         = 0; ///< of statistics.csv, less a failed row
     unsigned int   earlier_factorizations = 0; ///< before a resume
     PartSeconds    last_lap{};
-    std::chrono::steady_clock::time_point last_checkpoint;
+    std::chrono::steady_clock::time_point  last_checkpoint;
+    const std::unique_ptr<const VtuWriter> vtu_writer; ///< null without frames
+    BackgroundWriter                       background; ///< last, as its jobs use the others
   };
 } // namespace Exemplar
 

@@ -4,6 +4,7 @@
 
 #include <exemplar/errors.h>
 #include <exemplar/free_dofs.h>
+#include <exemplar/single_precision_factor.h>
 
 #include <deal.II/lac/vector.h>
 
@@ -99,6 +100,10 @@ namespace Exemplar
     virtual void
     solve(std::vector<double> &columns)
         = 0;
+
+    /// A copy of the factor in single precision. Throws SolverFailure if there is none.
+    virtual FactorPanels
+    panels() const = 0;
   };
 
   /// CHOLMOD's sparse Cholesky factorisation.

@@ -20,14 +20,24 @@ namespace Exemplar
     std::vector<std::pair<std::string, const std::vector<double> *>>    cell_scalars;
   };
 
-  /// Write a VTU file with the mesh's nodes at `positions`: each node once and in
-  /// file order, and true cell data (deal.II's DataOut repeats nodes cell by cell and
-  /// has no cell data). Arrays are binary, compressed by zlib.
-  void
-  write_vtu(const std::filesystem::path  &file,
-            const Mesh                   &mesh,
-            const dealii::Vector<double> &positions,
-            const VtuFields              &fields);
+  /// Writes VTU files of a mesh: each node once and in file order, and true cell data
+  /// (deal.II's DataOut repeats nodes cell by cell and has no cell data). Arrays are
+  /// binary, compressed by zlib.
+  class VtuWriter
+  {
+  public:
+    explicit VtuWriter(const Mesh &mesh);
+
+    /// The mesh with its nodes at `positions`. Not synced to the disk.
+    void
+    write(const std::filesystem::path  &file,
+          const dealii::Vector<double> &positions,
+          const VtuFields              &fields) const;
+
+  private:
+    const std::string head;           ///< to the points
+    const std::string cells, regions; ///< encoded once, as no frame changes them
+  };
 
   /// A ParaView collection of frames (time, file name).
   void

@@ -285,6 +285,8 @@ COMMANDS = [
      ["--set", "'Time/Increment'", "Did you mean 'Time/Increments'"]),
     ("--set of a bad value", ["scene.prm", "--set", "Time/Increments=x"],
      ["--set", "Time/Increments = 'x'", "Allowed: an integer"]),
+    ("no threads", ["scene.prm", "--threads", "0"], ["--threads", "0", "1 to 1024", "--help"]),
+    ("threads in words", ["scene.prm", "--threads", "all"], ["--threads", "all", "1 to 1024"]),
     ("--resume without checkpoint", ["scene.prm", "--output", "out", "--resume"],
      ["out/checkpoint.bin", "no checkpoint", "without --resume"]),
     ("--resume from a broken checkpoint", ["scene.prm", "--output", "broken", "--resume"],

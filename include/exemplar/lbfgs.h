@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_lbfgs_h
+#define exemplar_lbfgs_h
+
+#include <cstddef>
+#include <deque>
+#include <vector>
+
+namespace Exemplar
+{
+  /// The memory of a quasi-Newton method: pairs of steps s and the changes y of the gradient
+  /// that they made correct an approximate inverse of the Hessian (Nocedal and Wright,
+  /// Algorithm 7.4).
+  class Lbfgs
+  {
+  public:
+    static constexpr std::size_t most_pairs = 5;
+
+    void
+    clear()
+    {
+      pairs.clear();
+    }
+
+    /// Remember a pair, if the energy curves upwards along it.
+    void
+    add_pair(const std::vector<double> &s, const std::vector<double> &y);
+
+    /// For checkpoints: all that it knows.
+    template <typename Archive>
+    void
+    serialize(Archive &archive, unsigned int /*version*/)
+    {
+      archive &pairs;
+    }
+
+    /// First half of the product with the inverse, on the vector before the approximate
+    /// inverse is applied to it.
+    void
+    before(std::vector<double> &vector);
+
+    /// Second half, on what the approximate inverse has made of it.
+    void
+    after(std::vector<double> &vector) const;
+
+  private:
+    struct Pair
+    {
+      std::vector<double> s, y;
+      double              rho;        ///< 1 / s.y
+      double              alpha = 0.; ///< rho s.vector, of before()
+
+      template <typename Archive>
+      void
+      serialize(Archive &archive, unsigned int /*version*/)
+      {
+        archive &s &y &rho;
+      }
+    };
+
+    std::deque<Pair> pairs; ///< the oldest first
+  };
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_turned_factor_h
+#define exemplar_turned_factor_h
+
+#include <exemplar/bordered_solver.h>
+#include <exemplar/free_dofs.h>
+#include <exemplar/single_precision_factor.h>
+
+#include <vector>
+
+namespace Exemplar
+{
+  /// The factor of an earlier tangent as an approximate inverse of the present one: in single
+  /// precision, and turned with the nodes, W P^-1 W^T with W the rotation of each node since
+  /// then. With weights to find it is that of the bordered system, Eq. (23).
+  class TurnedFactor
+  {
+  public:
+    explicit TurnedFactor(const FreeDofs &free_dofs);
+
+    /// Take over the factor of a matrix that was just factorised. `coupling` is overwritten.
+    /// `rotations` are those of the nodes then, nine numbers a node by rows.
+    void
+    reinit(SpdOperator &matrix, const WeightBlock &block, const std::vector<float> &rotations);
+
+    /// From now on the nodes are turned by these rotations.
+    void
+    turn(const std::vector<float> &rotations);
+
+    /// Into the frame of the factor, W^T; by free degree of freedom.
+    void
+    turn_back(std::vector<double> &vector) const
+    {
+      multiply_by_turns(vector, 1, 3);
+    }
+
+    /// Out of it, W.
+    void
+    turn_forth(std::vector<double> &vector) const
+    {
+      multiply_by_turns(vector, 3, 1);
+    }
+
+    /// Overwrite forces by the displacement that they cause, both in the frame of the factor.
+    /// The weights follow, their changes not below `lower` (empty: no bounds).
+    void
+    solve(std::vector<double> &vector, const std::vector<double> &lower);
+
+    /// What a factorisation costs over an iteration with solve(): from counts of operations
+    /// and the rates of doc/results.md, never from a clock.
+    double
+    cost_over_solve() const
+    {
+      return relative_cost;
+    }
+
+    void
+    clear()
+    {
+      factor = SinglePrecisionFactor();
+    }
+
+    bool
+    empty() const
+    {
+      return factor.empty();
+    }
+
+  private:
+    /// With W stored by rows, `row` and `column` are the strides of its indices.
+    void
+    multiply_by_turns(std::vector<double> &vector, int row, int column) const;
+
+    const FreeDofs            &free_dofs;
+    std::vector<unsigned int>  turned_nodes; ///< of which all components are free
+    SinglePrecisionFactor      factor;
+    std::vector<float>         rotations_then;
+    std::vector<float>         turns; ///< nine numbers a turned node
+    std::vector<unsigned int>  coupled;
+    std::vector<float>         Z;     ///< A^-1 G, as the block's columns
+    dealii::FullMatrix<double> schur; ///< H - G^T Z
+    dealii::FullMatrix<double> sums;  ///< N
+    std::vector<float>         right_side;
+    double                     relative_cost = 0.;
+  };
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/long_vectors.h>
+#include <exemplar/turned_factor.h>
+#include <exemplar/weight_qp.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace Exemplar
+{
+  namespace
+  {
+    // Nanoseconds on the machine of doc/results.md; only their ratio matters.
+
+    double
+    factorization_cost(const FactorPanels &panels)
+    {
+      double operations = 0.;
+      for (std::size_t s = 0; s + 1 < panels.first_column.size(); ++s)
+      {
+        const auto n_rows = static_cast<double>(panels.first_row[s + 1] - panels.first_row[s]);
+        for (int k = 0; k < panels.first_column[s + 1] - panels.first_column[s]; ++k)
+          operations += (n_rows - k) * (n_rows - k);
+      }
+      return 0.022 * operations + 7. * static_cast<double>(panels.values.size());
+    }
+
+    double
+    iteration_cost(const FactorPanels &panels)
+    {
+      return 60. * static_cast<double>(panels.permutation.size())
+             + 0.25 * static_cast<double>(panels.values.size());
+    }
+  } // namespace
+
+  TurnedFactor::TurnedFactor(const FreeDofs &free_dofs) : free_dofs(free_dofs)
+  {
+    for (unsigned int node = 0; 3 * node < free_dofs.n_dofs(); ++node)
+      if (free_dofs.free_index(3 * node) != FreeDofs::held
+          && free_dofs.free_index(3 * node + 1) != FreeDofs::held
+          && free_dofs.free_index(3 * node + 2) != FreeDofs::held)
+        turned_nodes.push_back(node);
+    turns.resize(9 * turned_nodes.size());
+    right_side.resize(free_dofs.size());
+  }
+
+  void
+  TurnedFactor::reinit(SpdOperator              &matrix,
+                       const WeightBlock        &block,
+                       const std::vector<float> &rotations)
+  {
+    rotations_then      = rotations;
+    FactorPanels panels = matrix.panels();
+    relative_cost       = factorization_cost(panels) / iteration_cost(panels);
+    factor              = SinglePrecisionFactor(std::move(panels));
+    coupled             = block.coupled;
+    sums                = block.N;
+    schur               = block.H;
+    if (coupled.empty())
+      return;
+    std::vector<double> columns = block.coupling;
+    matrix.solve(columns);
+    const std::size_t n = free_dofs.size();
+    for (std::size_t i = 0; i < coupled.size(); ++i)
+      for (std::size_t j = 0; j < coupled.size(); ++j)
+        schur(coupled[i], coupled[j]) -= std::inner_product(block.coupling.begin() + i * n,
+                                                            block.coupling.begin() + (i + 1) * n,
+                                                            columns.begin() + j * n, 0.);
+    Z.assign(columns.begin(), columns.end());
+  }
+
+  void
+  TurnedFactor::turn(const std::vector<float> &rotations)
+  {
+    for (std::size_t k = 0; k < turned_nodes.size(); ++k)
+    {
+      const float *now  = &rotations[9 * turned_nodes[k]],
+                  *then = &rotations_then[9 * turned_nodes[k]];
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+          turns[9 * k + 3 * i + j] = now[3 * i] * then[3 * j] + now[3 * i + 1] * then[3 * j + 1]
+                                     + now[3 * i + 2] * then[3 * j + 2];
+    }
+  }
+
+  void
+  TurnedFactor::multiply_by_turns(std::vector<double> &vector,
+                                  const int            row,
+                                  const int            column) const
+  {
+    for (std::size_t k = 0; k < turned_nodes.size(); ++k)
+    {
+      const float *W = &turns[9 * k];
+      double      *v = &vector[free_dofs.free_index(3 * turned_nodes[k])];
+      const double x = v[0], y = v[1], z = v[2];
+      for (int i = 0; i < 3; ++i)
+        v[i] = W[row * i] * x + W[row * i + column] * y + W[row * i + 2 * column] * z;
+    }
+  }
+
+  void
+  TurnedFactor::solve(std::vector<double> &vector, const std::vector<double> &lower)
+  {
+    // of forces that shrink by ten orders single precision would lose the last
+    const double scale = greatest_entry(vector);
+    if (scale == 0.)
+      return;
+    const std::size_t n = vector.size();
+    for (std::size_t i = 0; i < n; ++i)
+      right_side[i] = static_cast<float>(vector[i] / scale);
+    std::vector<double> c(schur.m(), 0.);
+    for (std::size_t j = 0; j < coupled.size(); ++j)
+    {
+      const float *Z_j     = &Z[j * n];
+      float        sum[16] = {};
+      for (std::size_t i = 0; i < n; ++i)
+        sum[i % 16] += right_side[i] * Z_j[i];
+      c[coupled[j]] = scale * std::accumulate(sum, sum + 16, 0.);
+    }
+    factor.solve(right_side);
+    if (!coupled.empty())
+    {
+      const WeightQpSolution change
+          = minimize_over_weights(schur, c, std::vector<double>(sums.m(), 0.), lower);
+      for (std::size_t j = 0; change.found && j < coupled.size(); ++j)
+        if (change.weights[coupled[j]] != 0.)
+        {
+          const auto   dw  = static_cast<float>(change.weights[coupled[j]] / scale);
+          const float *Z_j = &Z[j * n];
+          for (std::size_t i = 0; i < n; ++i)
+            right_side[i] += dw * Z_j[i];
+        }
+    }
+    for (std::size_t i = 0; i < n; ++i)
+      vector[i] = scale * right_side[i];
+  }
+} // namespace Exemplar

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/environment.h>
+#include <exemplar/problem.h>
+
+#include <deal.II/base/multithread_info.h>
+
+#include <benchmark/benchmark.h>
+
+// The kernels of a step on the cat, a little deformed, one core; "ns" of a cell kernel are
+// those of all cells, and items a second are cells.
+// Usage: benchmark_kernels [SCENE.prm] [options of Google Benchmark]
+
+namespace Exemplar
+{
+  namespace
+  {
+    struct Scene
+    {
+      explicit Scene(const std::string &file)
+          : parameters(file, {}), problem(parameters), batches(problem.fe_space, problem.material),
+            positions(problem.fe_space.rest_positions()), node_positions(4 * positions.size() / 3)
+      {
+        // strains and turns of some tenths, different in every cell
+        for (unsigned int dof = 0; dof < positions.size(); ++dof)
+          positions[dof] += 0.02 * std::sin(40. * positions[dof - dof % 3 + (dof + 1) % 3]);
+        problem.assembler.update_rotations(positions);
+        task.cells = batches.arrays(StrainMeasure::corotational, default_guard_bound);
+        for (unsigned int dof = 0; dof < positions.size(); ++dof)
+          node_positions[dof / 3 * 4 + dof % 3] = positions[dof];
+        task.positions = node_positions.data();
+        forces.resize(node_positions.size());
+      }
+
+      const Parameters              parameters;
+      Problem                       problem;
+      CellBatches                   batches;
+      dealii::Vector<double>        positions;
+      dealii::AlignedVector<double> node_positions;
+      CellTask                      task;
+      dealii::AlignedVector<double> forces;
+    };
+
+    Scene *scene = nullptr;
+
+    void
+    report_cells(benchmark::State &state)
+    {
+      const double n = static_cast<double>(scene->task.cells.n_cells);
+      state.counters["ns/cell"]
+          = benchmark::Counter(1e-9 * n * static_cast<double>(state.iterations()),
+                               benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+    }
+
+    void
+    rotations(benchmark::State &state, const CellKernels *kernels)
+    {
+      for (auto _ : state)
+        kernels->update_rotations(scene->task, 0, scene->task.cells.n_batches());
+      report_cells(state);
+    }
+
+    void
+    forces(benchmark::State &state, const CellKernels *kernels, const bool with_rotations)
+    {
+      CellTask task         = scene->task;
+      task.update_rotations = with_rotations;
+      for (auto _ : state)
+      {
+        CellSums sums;
+        kernels->evaluate(task, 0, task.cells.n_batches(), scene->forces.data(), nullptr, sums);
+        benchmark::DoNotOptimize(sums);
+      }
+      report_cells(state);
+    }
+
+    void
+    evaluation(benchmark::State &state)
+    {
+      Evaluation evaluation;
+      for (auto _ : state)
+        scene->problem.assembler.evaluate(scene->positions, {}, evaluation, Rotations::update);
+      report_cells(state);
+    }
+
+    void
+    assembly(benchmark::State &state, const Tangent tangent)
+    {
+      std::vector<double> values(scene->problem.assembler.matrix_pattern().n_values()), columns;
+      for (auto _ : state)
+        scene->problem.assembler.assemble_tangent(tangent, scene->positions, {}, values, columns);
+      report_cells(state);
+    }
+
+    void
+    node_rotations(benchmark::State &state)
+    {
+      std::vector<float> rotations;
+      for (auto _ : state)
+        scene->problem.assembler.node_rotations(rotations);
+      report_cells(state);
+    }
+
+    void
+    inertia(benchmark::State &state)
+    {
+      dealii::Vector<double> gradient(scene->positions.size()), scale(scene->positions.size() / 3);
+      scene->problem.inertia->begin_step(scene->problem.state, 0.01);
+      for (auto _ : state)
+        scene->problem.inertia->add_gradient(scene->positions, gradient, scale);
+    }
+
+    std::unique_ptr<SpdOperator>
+    make_matrix()
+    {
+      auto                matrix = make_cholmod_operator();
+      std::vector<double> columns;
+      matrix->reinit(scene->problem.assembler.matrix_pattern());
+      scene->problem.assembler.assemble_tangent(Tangent::convex, scene->positions, {},
+                                                matrix->values(), columns);
+      return matrix;
+    }
+
+    void
+    factorisation(benchmark::State &state)
+    {
+      const auto matrix = make_matrix();
+      for (auto _ : state)
+        matrix->factorize();
+    }
+
+    void
+    solve(benchmark::State &state)
+    {
+      const auto matrix = make_matrix();
+      matrix->factorize();
+      std::vector<double> column(scene->problem.free_dofs.size() * state.range(0), 1.);
+      for (auto _ : state)
+        matrix->solve(column);
+    }
+
+    void
+    solve_in_single_precision(benchmark::State &state)
+    {
+      const auto matrix = make_matrix();
+      matrix->factorize();
+      SinglePrecisionFactor factor(matrix->panels());
+      std::vector<float>    column(scene->problem.free_dofs.size(), 1.f);
+      for (auto _ : state)
+        factor.solve(column);
+    }
+
+    void
+    copy_to_single_precision(benchmark::State &state)
+    {
+      const auto matrix = make_matrix();
+      matrix->factorize();
+      for (auto _ : state)
+        SinglePrecisionFactor factor(matrix->panels());
+    }
+  } // namespace
+} // namespace Exemplar
+
+int
+main(int argc, char *argv[])
+{
+  using namespace Exemplar;
+  restart_with_right_core_type(argv);
+  use_one_blas_thread();
+  set_n_threads(1); // on one core
+  dealii::MultithreadInfo::set_thread_limit(1);
+  benchmark::Initialize(&argc, argv);
+  Scene the_scene(argc > 1 ? argv[1] : EXEMPLAR_SOURCE_DIR "/tests/benchmark/scenes/cat_grav.prm");
+  scene = &the_scene;
+  for (const CellKernels *kernels : all_kernels())
+  {
+    const std::string name = std::string("/") + kernels->name;
+    benchmark::RegisterBenchmark(("rotations" + name).c_str(), rotations, kernels);
+    benchmark::RegisterBenchmark(("forces" + name).c_str(), forces, kernels, false);
+    benchmark::RegisterBenchmark(("rotations_and_forces" + name).c_str(), forces, kernels, true);
+  }
+  benchmark::RegisterBenchmark("evaluation", evaluation);
+  benchmark::RegisterBenchmark("assembly/convex", assembly, Tangent::convex);
+  benchmark::RegisterBenchmark("assembly/exact", assembly, Tangent::exact);
+  benchmark::RegisterBenchmark("node_rotations", node_rotations);
+  benchmark::RegisterBenchmark("inertia", inertia);
+  benchmark::RegisterBenchmark("factorisation", factorisation);
+  benchmark::RegisterBenchmark("solve", solve)->Arg(1)->Arg(4);
+  benchmark::RegisterBenchmark("solve_in_single_precision", solve_in_single_precision);
+  benchmark::RegisterBenchmark("copy_to_single_precision", copy_to_single_precision);
+  benchmark::RunSpecifiedBenchmarks();
+}

@@ -1,0 +1,348 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Measure the steps of the benchmark scenes, print a table, draw how costs grow, compare with the baseline.
+
+Usage: python3 tests/benchmark/run_benchmarks.py [--large] [--steps N] [--repeats N] [--set 'Section/Key=value']...
+                                                 [--program FILE] [--output DIRECTORY] [--write-baseline] [SCENE]...
+on a quiet machine, after `ninja -C build/release benchmark_steps`. SCENE is a name in scenes/, or growth-cells or
+growth-examples; by default all but those of a million cells, which --large adds. --steps measures so many steps of
+each scene only. --set applies to all scenes, --large-set to those of a million cells.
+
+A number is the median of three runs. The unit is one CHOLMOD factorisation and one solve of the scene's own matrix, so
+ratios to it can be compared between machines. Errors are those of each step against the step solved to 1e-11 from the
+same state, relative to its greatest displacement, and come from a run of their own. The whole results, results.json,
+and the plots go to DIRECTORY (output/benchmarks). baseline.json, beside this file, holds ratios only. The exit status
+is 1 if a run failed, otherwise 0, whatever got slower.
+"""
+import argparse
+import json
+import shutil
+import statistics
+import subprocess
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+TOP = HERE.parents[1]
+BASELINE = HERE / "baseline.json"
+SCENES = ["cat_grav", "cat_mid60", "cat_mid30", "cat_mid60_examples", "cat_invert", "cat_one_pass", "horse_grav",
+          "horse_mid60", "bar100k"]
+LARGE_SCENE = "bar1M"
+GROWTHS = ["growth-cells", "growth-examples"]
+# frozen forces with examples are no gradient, so there is nothing to compare their steps with
+WITHOUT_REFERENCE = ["cat_one_pass", LARGE_SCENE]
+REFERENCE_STEPS = {"bar100k": 10}
+BAR_BRICKS = [4, 8, 16]  # of the bar 4:1:1 along its short sides, with 24 n^3 tetrahedra
+LARGE_BAR_BRICKS = 35
+LARGE_STEPS = 5
+EXAMPLE_COUNTS = [0, 1, 4, 16, 64]
+PARTS = ["evaluate", "assemble", "factorize", "solve", "output"]
+WORSE = 1.15
+# below these a ratio is rounding, or nobody's concern
+LEAST = {"units": 0, "worst_error": 1e-6, "share": 0.05, "ratio": 0}
+
+
+class Failures:
+    """What failed, told as it happens."""
+
+    def __init__(self):
+        self.seen = []
+
+    def add(self, what):
+        self.seen.append(what)
+        print(f"FAILED: {what}", file=sys.stderr)
+
+
+def run_once(options, scene, settings, flags, failures):
+    """The JSON object of one run of benchmark_steps, None if there is none."""
+    words = [word for key, value in settings.items() for word in ("--set", f"{key}={value}")]
+    words += [word for setting in options.set for word in ("--set", setting)]
+    done = subprocess.run([str(options.program), str(HERE / f"scenes/{scene}.prm"), *words, *flags],
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    if done.returncode:
+        failures.add(f"{scene} {' '.join(words + flags)}: {done.stderr.strip()}")
+    return json.loads(done.stdout) if done.stdout else None
+
+
+def median_of(runs):
+    """Of objects of the same kind, number by number; what is no number comes from the first."""
+    first = runs[0]
+    if isinstance(first, dict):
+        return {key: median_of([run[key] for run in runs]) for key in first if all(key in run for run in runs)}
+    if isinstance(first, (int, float)):
+        return statistics.median(runs)
+    return first
+
+
+def steps_flags(*limits):
+    """--steps with the least of the limits that there are."""
+    limits = [limit for limit in limits if limit]
+    return ["--steps", str(min(limits))] if limits else []
+
+
+def measure(options, scene, failures, settings=None, flags=()):
+    """Medians over the runs, None if none was of any use."""
+    steps = [] if "--steps" in flags else steps_flags(options.steps)
+    runs = [run_once(options, scene, settings or {}, [*steps, *flags], failures) for _ in range(options.repeats)]
+    runs = [run for run in runs if run is not None]
+    return median_of(runs) if runs else None
+
+
+def large_settings(options):
+    return dict(setting.split("=", 1) for setting in options.large_set)
+
+
+def measure_scene(options, scene, failures):
+    """Times of a scene, and its errors if it has a reference."""
+    print(f"{scene} ...", file=sys.stderr, flush=True)
+    if scene == LARGE_SCENE:
+        return measure(options, scene, failures, large_settings(options), ["--no-unit"])
+    result = measure(options, scene, failures)
+    if result is None or scene in WITHOUT_REFERENCE:
+        return result
+    reference = run_once(options, scene, {}, ["--reference", "--no-unit",
+                                              *steps_flags(options.steps, REFERENCE_STEPS.get(scene))], failures)
+    for key in ("worst_error", "mean_error", "steps_above_1e-3", "steps_without_reference"):
+        if reference is not None:
+            result[key] = reference[key]
+    return result
+
+
+def measure_growth_with_cells(options, results, failures):
+    """Bars of growing numbers of cells: {cells: result}."""
+    sizes = {}
+    for n in BAR_BRICKS + ([LARGE_BAR_BRICKS] if options.large else []):
+        large = n == LARGE_BAR_BRICKS
+        print(f"bar of {24 * n**3} cells ...", file=sys.stderr, flush=True)
+        if n == 16 and results.get("bar100k"):
+            result = results["bar100k"]
+        else:
+            flags = ["--no-unit", *steps_flags(options.steps, LARGE_STEPS)] if large else []
+            result = measure(options, "bar100k", failures, {
+                "Mesh/Box cells": f"{4 * n}, {n}, {n}", **(large_settings(options) if large else {})}, flags)
+        if result is not None:
+            sizes[result["cells"]] = result
+    return sizes
+
+
+def pose_functions(count):
+    """Poses of which none is a combination of others: waves of each component along each other axis."""
+    poses = []
+    for i in range(count):
+        component, frequency = i % 3, 1 + i // 6
+        along = "xyz"[(component + 1 + i // 3 % 2) % 3]
+        pose = ["x", "y", "z"]
+        pose[component] += f" + {0.1 / frequency:.6g}*sin({3 * frequency}*{along})"
+        poses.append("; ".join(pose))
+    return " | ".join(poses)
+
+
+def measure_growth_with_examples(options, failures):
+    """The cat with so many examples beside the rest pose: {count: result}."""
+    results = {}
+    for count in EXAMPLE_COUNTS:
+        print(f"cat with {count} examples ...", file=sys.stderr, flush=True)
+        settings = {"Examples/Pose functions": pose_functions(count), "Examples/Include rest pose": "true",
+                    "Examples/Importance": 0.8, "Examples/Weights": "simplex"} if count else {}
+        result = measure(options, "cat_mid60", failures, settings)
+        if result is not None:
+            results[count] = result
+    return results
+
+
+def share(result):
+    """Of the step's time that is not the linear solves."""
+    parts = result["parts_ms"]
+    total = sum(parts.values())
+    return (total - parts["factorize"] - parts["solve"]) / total if total else 0
+
+
+def number(value, digits=3):
+    """For a table; a dash for what there is not."""
+    if value is None:
+        return "–"
+    return f"{value:,.0f}" if abs(value) >= 1000 else f"{value:.{digits}g}"
+
+
+def of_best(result, value, best):
+    """A rate and its share of the machine's."""
+    if value not in result:
+        return "–"
+    return f"{number(result[value])} ({result[value] / result[best]:.0%})"
+
+
+def row(name, result):
+    steps = max(result["steps"], 1)
+    error = number(result.get("worst_error"), 2)
+    if result.get("steps_without_reference"):
+        error += f" ({number(result['steps_without_reference'])} not compared)"
+    return [name + (" (failed)" if "failed_step" in result else ""), number(result["cells"]), number(result["steps"]),
+            number(result["mean_step_ms"]), *(number(result["parts_ms"][part]) for part in PARTS),
+            number(result.get("unit_ms")), number(result.get("units")), error, number(result["cells_per_second"]),
+            number(result["bytes_per_cell"]), number(result["iterations"] / steps),
+            number(result["factorizations"] / steps), of_best(result, "factor_gflop_s", "dgemm_gflops"),
+            of_best(result, "solve_gb_s", "triad_gb_s")]
+
+
+def print_table(rows):
+    """A markdown table, aligned."""
+    widths = [max(len(cells[column]) for cells in rows) for column in range(len(rows[0]))]
+    for index, cells in enumerate(rows):
+        print("| " + " | ".join(cell.ljust(width) for cell, width in zip(cells, widths)) + " |")
+        if index == 0:
+            print("|" + "|".join("-" * (width + 2) for width in widths) + "|")
+    print()
+
+
+def print_results(results, cells, examples):
+    named = {**results, **{f"bar, {count:,} cells": result for count, result in cells.items()},
+             **{f"cat_mid60, {count} examples": result for count, result in examples.items()}}
+    if not named:
+        return
+    head = ["scene", "cells", "steps", "ms a step", *PARTS, "unit, ms", "units a step", "worst error", "cells/s",
+            "bytes a cell", "iterations", "factorisations", "factor GFLOP/s (of dgemm)", "solve GB/s (of triad)"]
+    print_table([head, *(row(name, result) for name, result in named.items())])
+    first = next(iter(named.values()))
+    print(f"Mean over all steps, by part in ms; {first['blas']}, core type {first['blas_core']}, one thread", end="")
+    machine = [result for result in named.values() if "dgemm_gflops" in result]
+    if machine:
+        print(f"; dgemm {number(statistics.median(result['dgemm_gflops'] for result in machine))} GFLOP/s, "
+              f"triad {number(statistics.median(result['triad_gb_s'] for result in machine))} GB/s", end="")
+    print(".\n")
+
+
+def plot(file, points, title, xlabel, ylabel, commands):
+    """Draw (x, y) as SVG."""
+    data = "\n".join(f"{x} {y}" for x, y in points)
+    script = f"""set terminal svg size 640,400 background "white" font "sans,13"
+set output "{file}"
+set title "{title}"
+set xlabel "{xlabel}"
+set ylabel "{ylabel}"
+set grid
+set yrange [0:*]
+set offsets 0, 0, graph 0.12, 0
+{commands}
+$data << end
+{data}
+end
+plot $data using 1:2 with linespoints linewidth 2 pointtype 7 notitle, \\
+     $data using 1:2:(sprintf("%.3g", $2)) with labels offset 0,1 notitle
+"""
+    subprocess.run(["gnuplot"], input=script, text=True, check=True)
+    print(f"wrote {file}")
+
+
+def draw(directory, cells, examples):
+    if not (cells or examples):
+        return
+    if shutil.which("gnuplot") is None:
+        print("No plots: gnuplot is missing. On Debian: apt install gnuplot-nox")
+        return
+    cells = {count: result for count, result in cells.items() if "failed_step" not in result}
+    if cells:
+        plot(directory / "growth_cells.svg",
+             [(count, 1e3 * result["mean_step_ms"] / count) for count, result in cells.items()],
+             "A bar that falls under its weight", "cells", "microseconds a cell and step",
+             "set logscale x\nset xrange [1e3:2e6]")
+    ratios = example_ratios(examples)
+    if ratios:
+        # k + 1 on the axis, so that none has a place on it
+        ticks = ", ".join(f'"{count}" {int(count) + 1}' for count in ratios)
+        plot(directory / "growth_examples.svg", [(int(count) + 1, ratio) for count, ratio in ratios.items()],
+             "The cat with examples", "examples beside the rest pose", "time of a step, without examples 1",
+             f"set logscale x\nset xrange [0.8:100]\nset xtics ({ticks})")
+
+
+def example_ratios(examples):
+    """Time of a step with so many examples to that without, each in its own units: {count: ratio}."""
+    complete = {count: result for count, result in examples.items() if "failed_step" not in result}
+    if 0 not in complete:
+        return {}
+    return {str(count): result["units"] / complete[0]["units"] for count, result in complete.items()}
+
+
+def ratios_of(results, cells, examples):
+    """What a baseline holds: {name: {what: ratio}}; no times, which depend on the machine."""
+    ratios = {}
+    for name, result in {**results, **{f"bar {count}": result for count, result in cells.items()}}.items():
+        if "failed_step" in result:
+            continue
+        entry = {"steps": result["steps"], "share": share(result)}
+        entry.update({key: result[key] for key in ("units", "worst_error") if result.get(key) is not None})
+        ratios[name] = entry
+    for count, ratio in example_ratios(examples).items():
+        ratios[f"examples {count}"] = {"steps": examples[int(count)]["steps"], "ratio": ratio}
+    return ratios
+
+
+def compare(ratios, baseline):
+    """Lines on what got worse, and on what cannot be compared."""
+    for name, now in ratios.items():
+        before = baseline.get(name)
+        if before is None:
+            yield f"{name}: not in the baseline"
+        elif before["steps"] != now["steps"]:
+            yield f"{name}: {now['steps']} steps, in the baseline {before['steps']}: not compared"
+        else:
+            for what in sorted(before.keys() & now.keys() & LEAST.keys()):
+                if now[what] > WORSE * max(before[what], LEAST[what]):
+                    yield f"{name}: WORSE: {what} is {now[what]:.3g}, was {before[what]:.3g}"
+
+
+def report_baseline(options, ratios):
+    if options.write_baseline:
+        rounded = {name: {what: float(f"{value:.3g}") if isinstance(value, float) else value
+                          for what, value in entry.items()} for name, entry in ratios.items()}
+        BASELINE.write_text(json.dumps(rounded, indent=1) + "\n")
+        print(f"wrote {BASELINE}")
+    elif not BASELINE.exists():
+        print("There is no baseline to compare with; --write-baseline makes one.")
+    else:
+        lines = list(compare(ratios, json.loads(BASELINE.read_text())))
+        print("\n".join(lines) or f"Nothing is worse than the baseline by more than {WORSE - 1:.0%}.")
+
+
+def parse_arguments():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("names", metavar="SCENE", nargs="*", help="what to measure instead of everything")
+    parser.add_argument("--large", action="store_true", help="measure a million cells, too")
+    parser.add_argument("--large-set", action="append", default=[], help="setting of scenes of a million cells")
+    parser.add_argument("--steps", type=int, help="measure so many steps of each scene only")
+    parser.add_argument("--repeats", type=int, default=3, help="runs of which the median is taken")
+    parser.add_argument("--set", action="append", default=[], help="setting of all scenes")
+    parser.add_argument("--program", type=Path, default=TOP / "build/release/tests/benchmark/benchmark_steps")
+    parser.add_argument("--output", type=Path, default=TOP / "output/benchmarks", help="directory of the results")
+    parser.add_argument("--write-baseline", action="store_true", help="what is measured becomes the baseline")
+    options = parser.parse_args()
+    known = [*SCENES, LARGE_SCENE, *GROWTHS]
+    unknown = [name for name in options.names if name not in known]
+    if unknown:
+        parser.error(f"no scene {', '.join(unknown)}; there are {', '.join(known)}")
+    if options.steps is not None and options.steps < 1 or options.repeats < 1:
+        parser.error("--steps and --repeats are at least 1")
+    if not options.program.exists():
+        parser.error(f"{options.program} is missing: ninja -C build/release benchmark_steps")
+    if options.write_baseline and (options.names or options.set or options.steps):
+        parser.error("a baseline is of all scenes as they are")
+    options.names = options.names or SCENES + ([LARGE_SCENE] if options.large else []) + GROWTHS
+    return options
+
+
+def main():
+    options, failures = parse_arguments(), Failures()
+    results = {name: measure_scene(options, name, failures) for name in options.names if name not in GROWTHS}
+    results = {name: result for name, result in results.items() if result is not None}
+    cells = measure_growth_with_cells(options, results, failures) if "growth-cells" in options.names else {}
+    examples = measure_growth_with_examples(options, failures) if "growth-examples" in options.names else {}
+
+    options.output.mkdir(parents=True, exist_ok=True)
+    everything = {"scenes": results, "cells": cells, "examples": examples}
+    (options.output / "results.json").write_text(json.dumps(everything, indent=1) + "\n")
+    print_results(results, cells, examples)
+    draw(options.output, cells, examples)
+    report_baseline(options, ratios_of(results, cells, examples))
+    sys.exit(bool(failures.seen))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "body.h"
+#include "matrices.h"
+#include "scene.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace Exemplar::Testing
+{
+  namespace
+  {
+    /// A bar of which one end is turned to and fro, from rest.
+    std::string
+    turned_bar(const std::string &more, const std::string &step)
+    {
+      return "set Scene = dynamic\n" + bar
+             + "subsection Handles\n set Names = end\n subsection end\n set Select = box -1 -1 -1 "
+               "0 2 "
+               "2\n set Motion = 0; (y-0.5)*(cos(0.6*sin(3*t))-1)-(z-0.5)*sin(0.6*sin(3*t)); "
+               "(y-0.5)*sin(0.6*sin(3*t))+(z-0.5)*(cos(0.6*sin(3*t))-1)\n end\nend\n"
+               "subsection Time\n set Step = "
+             + step + "\n set End = 1\nend\n" + more;
+    }
+
+    /// Greatest error of a step over its greatest displacement, against Newton's method.
+    double
+    greatest_error(const std::string &text, const std::vector<std::string> &overrides = {})
+    {
+      Scene                    scene(text, overrides);
+      std::vector<std::string> exactly = overrides;
+      exactly.insert(exactly.end(), { "Solver/Method=newton", "Solver/Tolerance=1e-11" });
+      Scene  reference(text, exactly);
+      double greatest = 0.;
+      while (scene.problem.state.step < scene.problem.time_axis.n_steps())
+      {
+        const State before = scene.problem.state;
+        reference.problem.resume_from(before);
+        EXPECT_EQ(scene.problem.advance().status, SolveStatus::converged);
+        EXPECT_EQ(reference.problem.advance().status, SolveStatus::converged);
+        const State &exact = reference.problem.state;
+        greatest = std::max(greatest, max_difference(scene.problem.state.positions, exact.positions)
+                                          / max_difference(exact.positions, before.positions));
+      }
+      return greatest;
+    }
+
+    TEST(QuasiNewton, KeepsToItsStepTolerance)
+    {
+      const std::string plain = turned_bar("", "0.02");
+      EXPECT_LT(greatest_error(plain), 1e-3); // the default
+      EXPECT_LT(greatest_error(plain, { "Solver/Step tolerance=1e-5" }), 1e-5);
+      EXPECT_LT(greatest_error(plain, { "Time/Scheme=bdf2" }), 1e-3);
+      EXPECT_LT(greatest_error(plain, { "Time/Stiffness damping=0.01", "Time/Mass damping=0.5" }),
+                1e-3);
+    }
+
+    TEST(QuasiNewton, FindsTheWeights)
+    {
+      const std::string poses = "set Pose functions = " + twist(60.) + " | 1.2*x; 0.9*y; z\n";
+      for (const std::string weights : { "simplex", "free" })
+        EXPECT_LT(
+            greatest_error(turned_bar(examples(poses + "set Weights = " + weights + "\n"), "0.02")),
+            1e-3);
+    }
+
+    TEST(QuasiNewton, ConvergesToTheResidualWhereNoStepToleranceIsGiven)
+    {
+      Scene scene(turned_bar("", "0.05"),
+                  { "Solver/Step tolerance=0", "Solver/Tolerance=1e-9", "Time/End=0.3" });
+      while (scene.problem.state.step < scene.problem.time_axis.n_steps())
+      {
+        const SolveReport report = scene.problem.advance();
+        ASSERT_EQ(report.status, SolveStatus::converged);
+        EXPECT_LE(report.residual, 1e-9);
+      }
+    }
+
+    TEST(QuasiNewton, LeavesHardStepsToNewton)
+    {
+      // soft, and turned by half a radian a step: cells invert
+      Scene scene(turned_bar("", "0.1"), { "Material/Young's modulus=1e4", "Time/End=0.5" });
+      EXPECT_NO_THROW(scene.solve());
+      EXPECT_LT(greatest_error(
+                    turned_bar("subsection Material\n set Young's modulus = 1e4\nend\n", "0.1")),
+                1e-3);
+    }
+  } // namespace
+} // namespace Exemplar::Testing
