@@ -19,10 +19,12 @@ namespace Exemplar
     class BlockSolver : public BorderedSolver
     {
     public:
-      BlockSolver(std::unique_ptr<SpdOperator> new_matrix, const SymmetricPattern &pattern)
-          : A(std::move(new_matrix))
+      explicit BlockSolver(std::unique_ptr<SpdOperator> matrix) : A(std::move(matrix)) {}
+
+      std::string
+      name() const override
       {
-        A->reinit(pattern);
+        return A->name();
       }
 
       SpdOperator *
@@ -35,6 +37,12 @@ namespace Exemplar
       matrix_values() override
       {
         return A->values();
+      }
+
+      void
+      place_nodes(const dealii::Vector<double> &positions) override
+      {
+        A->place_nodes(positions);
       }
 
       void
@@ -107,6 +115,13 @@ namespace Exemplar
   std::unique_ptr<BorderedSolver>
   make_block_solver(std::unique_ptr<SpdOperator> matrix, const SymmetricPattern &pattern)
   {
-    return std::make_unique<BlockSolver>(std::move(matrix), pattern);
+    matrix->reinit(pattern);
+    return make_block_solver(std::move(matrix));
+  }
+
+  std::unique_ptr<BorderedSolver>
+  make_block_solver(std::unique_ptr<SpdOperator> matrix)
+  {
+    return std::make_unique<BlockSolver>(std::move(matrix));
   }
 } // namespace Exemplar

@@ -21,6 +21,12 @@ namespace Exemplar
       {
       }
 
+      std::string
+      name() const override
+      {
+        return "umfpack";
+      }
+
       std::vector<double> &
       matrix_values() override
       {

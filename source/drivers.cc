@@ -56,9 +56,9 @@ namespace Exemplar
       else
         std::cout << "none\n";
       std::cout << "Solver    " << method_name(problem.parameters.solver.method) << ", "
-                << problem.time_axis.n_steps() << " steps; " << n_threads()
-                << (n_threads() == 1 ? " thread" : " threads") << "; BLAS " << blas.library << ' '
-                << blas.core << '\n';
+                << problem.linear_solver->name() << ", " << problem.time_axis.n_steps()
+                << " steps; " << n_threads() << (n_threads() == 1 ? " thread" : " threads")
+                << "; BLAS " << blas.library << ' ' << blas.core << '\n';
       std::cout << "Output    " << problem.parameters.output.directory << std::endl;
     }
 

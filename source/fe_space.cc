@@ -10,26 +10,12 @@ namespace Exemplar
 {
   FESpace::FESpace(const Mesh &mesh)
       : mesh(mesh), fe(dealii::FE_SimplexP<3>(1), 3), mapping(dealii::FE_SimplexP<3>(1)),
-        dof_handler(mesh.get_triangulation()), rest(3 * mesh.n_nodes())
+        rest(3 * mesh.n_nodes())
   {
-    dof_handler.distribute_dofs(fe);
-    number_dofs_by_node();
     compute_tetrahedra();
     for (unsigned int node = 0; node < mesh.n_nodes(); ++node)
       for (unsigned int c = 0; c < 3; ++c)
         rest[3 * node + c] = mesh.get_nodes()[node][c];
-  }
-
-  void
-  FESpace::number_dofs_by_node()
-  {
-    // deal.II enumerates by cell; results are to come back in the file's order
-    std::vector<dealii::types::global_dof_index> new_numbers(dof_handler.n_dofs());
-    for (const auto &cell : dof_handler.active_cell_iterators())
-      for (const unsigned int v : cell->vertex_indices())
-        for (unsigned int c = 0; c < 3; ++c)
-          new_numbers[cell->vertex_dof_index(v, c)] = 3 * cell->vertex_index(v) + c;
-    dof_handler.renumber_dofs(new_numbers);
   }
 
   void
@@ -39,7 +25,7 @@ namespace Exemplar
     dealii::FEValues<3>            fe_values(mapping, fe, quadrature,
                                              dealii::update_gradients | dealii::update_JxW_values);
     tetrahedra.resize(mesh.n_cells());
-    for (const auto &cell : dof_handler.active_cell_iterators())
+    for (const auto &cell : mesh.get_triangulation().active_cell_iterators())
     {
       fe_values.reinit(cell);
       const unsigned int   index = cell->active_cell_index();
@@ -86,7 +72,7 @@ namespace Exemplar
     dealii::FEValues<3>            fe_values(mapping, fe, quadrature,
                                              dealii::update_values | dealii::update_JxW_values);
     mass = 0.;
-    for (const auto &cell : dof_handler.active_cell_iterators())
+    for (const auto &cell : mesh.get_triangulation().active_cell_iterators())
     {
       fe_values.reinit(cell);
       const unsigned int index = cell->active_cell_index();

@@ -165,6 +165,8 @@ namespace Exemplar
   {
     check_element_kinds(contents, name);
     Tetrahedra tetrahedra;
+    tetrahedra.nodes.reserve(contents.elements.size());
+    tetrahedra.material_ids.reserve(contents.elements.size());
     for (const MshElement &element : contents.elements)
       if (element.type == MshElementType::tetrahedron)
       {

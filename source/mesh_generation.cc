@@ -290,8 +290,10 @@ namespace Exemplar
   generate_box(const std::array<double, 3> &size, const Triple &n_cells)
   {
     check_box(size, n_cells);
-    MshFile        box;
-    const BoxNodes nodes(n_cells);
+    MshFile           box;
+    const BoxNodes    nodes(n_cells);
+    const std::size_t x = n_cells[0], y = n_cells[1], z = n_cells[2];
+    box.elements.reserve(6 * x * y * z + 4 * (x * y + y * z + z * x));
     BoxNodes::for_each({ { n_cells[0] + 1, n_cells[1] + 1, n_cells[2] + 1 } },
                        [&](const Triple &at)
                        {

@@ -70,12 +70,72 @@ namespace Exemplar
                                        parameters.time);
     }
 
-    std::unique_ptr<BorderedSolver>
-    make_linear_solver(const SolverParameters &solver, const SymmetricPattern &pattern)
+    /// Operations of CHOLMOD's factorisation, for each degree of freedom and solve with it,
+    /// from which conjugate gradients are faster: measured, doc/results.md.
+    constexpr double operations_at_crossover = 4e5;
+
+    /// Residual of a linear solve over its right side. Newton's method and the fixed point
+    /// correct the rest in their next iteration; one pass has none, and Schur complements
+    /// are small differences of what these solves give.
+    constexpr double tolerance_of_iterations = 1e-4, tolerance_of_last_word = 1e-8;
+
+    /// Columns of G that are not zero.
+    unsigned int
+    n_coupled(const ExamplePoses *examples)
     {
-      return solver.linear_solver == LinearSolver::umfpack
-                 ? make_umfpack_solver(pattern)
-                 : make_block_solver(make_cholmod_operator(), pattern);
+      unsigned int n = 0;
+      if (examples != nullptr && !examples->weights_are_prescribed())
+        for (unsigned int weight = 0; weight < examples->n_weights(); ++weight)
+          n += examples->is_strained(weight);
+      return n;
+    }
+
+    /// CHOLMOD for a pattern, unless it is to be chosen and is not worth it.
+    std::unique_ptr<SpdOperator>
+    find_cholmod_operator(const SolverParameters &solver,
+                          const unsigned int      n_columns,
+                          const SymmetricPattern &pattern)
+    {
+      if (solver.linear_solver == LinearSolver::iterative)
+        return nullptr;
+      const bool may_choose = solver.linear_solver == LinearSolver::automatic
+                              && solver.method != Method::quasi_newton;
+      auto matrix = make_cholmod_operator();
+      try
+      {
+        matrix->reinit(pattern);
+      }
+      catch (const SolverFailure &)
+      {
+        if (!may_choose)
+          throw;
+        return nullptr; // too large for CHOLMOD
+      }
+      if (may_choose && matrix->n_operations() > operations_at_crossover * n_columns * pattern.n())
+        return nullptr;
+      return matrix;
+    }
+
+    std::unique_ptr<BorderedSolver>
+    make_linear_solver(const SolverParameters &solver,
+                       const FESpace          &fe_space,
+                       const FreeDofs         &free_dofs,
+                       const ExamplePoses     *examples,
+                       const SymmetricPattern &pattern)
+    {
+      if (solver.linear_solver == LinearSolver::umfpack)
+        return make_umfpack_solver(pattern);
+      const unsigned int n_examples = n_coupled(examples);
+      auto               matrix     = find_cholmod_operator(solver, 1 + n_examples, pattern);
+      if (matrix == nullptr)
+      {
+        const bool is_last_word = solver.method == Method::one_pass || n_examples > 0;
+        matrix                  = make_iterative_operator(free_dofs, fe_space.rest_positions(),
+                                         is_last_word ? tolerance_of_last_word
+                                                                       : tolerance_of_iterations);
+        matrix->reinit(pattern);
+      }
+      return make_block_solver(std::move(matrix));
     }
   } // namespace
 
@@ -88,7 +148,8 @@ namespace Exemplar
         examples(make_examples(parameters, mesh, fe_space, material, time_axis)),
         inertia(make_inertia(parameters, fe_space, material)),
         assembler(parameters.model, fe_space, material, examples.get(), inertia.get(), free_dofs),
-        linear_solver(make_linear_solver(parameters.solver, assembler.matrix_pattern())),
+        linear_solver(make_linear_solver(
+            parameters.solver, fe_space, free_dofs, examples.get(), assembler.matrix_pattern())),
         equilibrium(parameters.solver,
                     { free_dofs, fe_space.rest_positions(), assembler, *linear_solver, clock,
                       handles.get(), loads.get(), examples.get(), inertia.get(),
@@ -194,8 +255,8 @@ namespace Exemplar
   std::vector<std::string>
   Problem::parts(const bool present) const
   {
-    const bool has_weights = examples != nullptr && !examples->weights_are_prescribed();
-    const bool umfpack     = parameters.solver.linear_solver == LinearSolver::umfpack;
+    const bool        has_weights = examples != nullptr && !examples->weights_are_prescribed();
+    const std::string solver      = linear_solver->name();
     const std::vector<std::pair<std::string, bool>> all
         = { { "mass matrix", inertia != nullptr },
             { "second-order time scheme",
@@ -209,9 +270,10 @@ namespace Exemplar
             { "example poses", examples != nullptr },
             { "weight block", has_weights },
             { "weights per region", examples != nullptr && parameters.examples.weights_per_region },
-            { "Schur complement", has_weights && !umfpack },
-            { "CHOLMOD", !umfpack },
-            { "UMFPACK", umfpack },
+            { "Schur complement", has_weights && solver != "umfpack" },
+            { "CHOLMOD", solver == "cholesky" },
+            { "algebraic multigrid", solver == "iterative" },
+            { "UMFPACK", solver == "umfpack" },
             { "frame writer", parameters.output.every > 0 } };
     std::vector<std::string> names;
     for (const auto &[name, is_there] : all)

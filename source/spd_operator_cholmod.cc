@@ -34,6 +34,18 @@ namespace Exemplar
         cholmod_finish(&common);
       }
 
+      std::string
+      name() const override
+      {
+        return "cholesky";
+      }
+
+      double
+      n_operations() const override
+      {
+        return common.fl;
+      }
+
       void
       reinit(const SymmetricPattern &new_pattern) override
       {
@@ -127,12 +139,11 @@ namespace Exemplar
       check(const std::string &what)
       {
         if (common.status == CHOLMOD_NOT_POSDEF)
-          throw SolverFailure("The matrix of the step is not positive definite. A body may be "
-                              "without support, or cells may be inverted.");
+          throw indefinite_matrix();
         if (common.status == CHOLMOD_TOO_LARGE || common.status == CHOLMOD_OUT_OF_MEMORY)
           throw SolverFailure("CHOLMOD's " + what
-                              + " needs more memory than there is. Use a "
-                                "coarser mesh.");
+                              + " needs more memory than there is. Set Solver/Linear solver to "
+                                "iterative, or use a coarser mesh.");
         if (common.status < CHOLMOD_OK)
           throw SolverFailure("CHOLMOD's " + what + " failed with status "
                               + std::to_string(common.status) + ".");

@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <numeric>
 
 namespace Exemplar
@@ -64,6 +65,7 @@ namespace Exemplar
     json["constrained_dofs"] = problem.fe_space.n_dofs() - problem.free_dofs.size();
     if (problem.support)
       json["support_nodes"] = support_nodes(problem);
+    json["linear_solver"]   = problem.linear_solver->name();
     json["examples"]        = problem.examples != nullptr ? problem.examples->size() : 0;
     json["steps"]           = problem.state.step;
     json["iterations"]      = totals.iterations;
@@ -72,6 +74,7 @@ namespace Exemplar
     json["worst_residual"]  = totals.worst_residual;
     json["seconds"]         = seconds_of(totals.seconds);
     json["peak_memory_mib"] = peak_memory_mib();
+    json["bytes_per_cell"]  = std::round(1048576. * peak_memory_mib() / problem.mesh.n_cells());
     json["used"]            = problem.parts(true);
     json["left_out"]        = problem.parts(false);
 

@@ -43,6 +43,10 @@ namespace Exemplar
   public:
     virtual ~BorderedSolver() = default;
 
+    /// As Solver/Linear solver names it.
+    virtual std::string
+    name() const = 0;
+
     /// The values of A on the pattern, to be overwritten.
     virtual std::vector<double> &
     matrix_values()
@@ -52,6 +56,12 @@ namespace Exemplar
     virtual SpdOperator *
     matrix()
         = 0;
+
+    /// Where the nodes are in the state of which A is the tangent; see SpdOperator.
+    virtual void
+    place_nodes(const dealii::Vector<double> & /*positions*/)
+    {
+    }
 
     /// Prepare for solve() with A as it is now. Throws SolverFailure if A is not
     /// positive definite.
@@ -70,6 +80,10 @@ namespace Exemplar
   /// H - G^T A^-1 G bordered by N.
   std::unique_ptr<BorderedSolver>
   make_block_solver(std::unique_ptr<SpdOperator> matrix, const SymmetricPattern &pattern);
+
+  /// The same with a matrix that has its pattern.
+  std::unique_ptr<BorderedSolver>
+  make_block_solver(std::unique_ptr<SpdOperator> matrix);
 
   /// The whole bordered matrix at once by UMFPACK; for checking.
   std::unique_ptr<BorderedSolver>

@@ -33,6 +33,7 @@ namespace Exemplar
   {
     automatic,
     cholesky,
+    iterative,
     umfpack
   };
 

@@ -6,7 +6,6 @@
 #include <exemplar/mesh.h>
 
 #include <deal.II/base/tensor.h>
-#include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe_system.h>
 #include <deal.II/fe/mapping_fe.h>
 #include <deal.II/lac/sparse_matrix.h>
@@ -20,7 +19,8 @@ namespace Exemplar
   /// The finite element space FE_SimplexP(1)^3 on a mesh. Degree of freedom
   /// 3 i + c is component c of node i of the mesh file. Shape gradients and volumes
   /// are taken from deal.II's FEValues once and kept, because on linear tetrahedra
-  /// they never change and the hot loops need nothing else.
+  /// they never change and the hot loops need nothing else. Nor does anything need deal.II's
+  /// numbering by cells, so there is no DoFHandler, which would take 100 bytes a cell.
   class FESpace
   {
   public:
@@ -89,15 +89,11 @@ namespace Exemplar
 
   private:
     void
-    number_dofs_by_node();
-
-    void
     compute_tetrahedra();
 
     const Mesh                      &mesh;
     const dealii::FESystem<3>        fe;
     const dealii::MappingFE<3>       mapping;
-    dealii::DoFHandler<3>            dof_handler;
     std::vector<Tetrahedron<double>> tetrahedra;
     dealii::Vector<double>           rest;
   };

@@ -2,10 +2,15 @@
 #ifndef exemplar_spd_operator_h
 #define exemplar_spd_operator_h
 
+#include <exemplar/errors.h>
+#include <exemplar/free_dofs.h>
 #include <exemplar/single_precision_factor.h>
+
+#include <deal.II/lac/vector.h>
 
 #include <algorithm>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace Exemplar
@@ -42,12 +47,24 @@ namespace Exemplar
     }
   };
 
-  /// A sparse symmetric positive definite matrix and its factor. The pattern is
-  /// analysed once; values are then written in place and factorised anew.
+  /// What operators throw if their matrix is not positive definite.
+  inline SolverFailure
+  indefinite_matrix()
+  {
+    return SolverFailure("The matrix of the step is not positive definite. A body may be "
+                         "without support, or cells may be inverted.");
+  }
+
+  /// A sparse symmetric positive definite matrix and its factor, or what stands for one.
+  /// The pattern is analysed once; values are then written in place and factorised anew.
   class SpdOperator
   {
   public:
     virtual ~SpdOperator() = default;
+
+    /// As Solver/Linear solver names it.
+    virtual std::string
+    name() const = 0;
 
     /// Throws SolverFailure if the pattern is too large for the library.
     virtual void
@@ -59,12 +76,27 @@ namespace Exemplar
     values()
         = 0;
 
+    /// Floating point operations of factorize() for this pattern; 0 if nothing is known.
+    virtual double
+    n_operations() const
+    {
+      return 0.;
+    }
+
+    /// Where the nodes are in the state of which the next matrix is the tangent. Operators
+    /// that ask nothing of it ignore it.
+    virtual void
+    place_nodes(const dealii::Vector<double> & /*positions*/)
+    {
+    }
+
     /// Throws SolverFailure if the matrix is not positive definite.
     virtual void
     factorize()
         = 0;
 
     /// Overwrite the columns (n entries each, one after the other) by A^-1 times them.
+    /// Throws SolverFailure if the matrix turns out not to be positive definite only here.
     virtual void
     solve(std::vector<double> &columns)
         = 0;
@@ -77,6 +109,14 @@ namespace Exemplar
   /// CHOLMOD's sparse Cholesky factorisation.
   std::unique_ptr<SpdOperator>
   make_cholmod_operator();
+
+  /// Conjugate gradients to a residual of `tolerance` times the right side, preconditioned
+  /// with ML's smoothed aggregation, whose coarse spaces hold the six rigid motions of the
+  /// nodes. Results depend on the matrix, the place of the nodes and the right side alone.
+  std::unique_ptr<SpdOperator>
+  make_iterative_operator(const FreeDofs               &free_dofs,
+                          const dealii::Vector<double> &rest_positions,
+                          double                        tolerance);
 } // namespace Exemplar
 
 #endif

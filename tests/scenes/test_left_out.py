@@ -35,7 +35,8 @@ class LeftOut(SceneTest):
         output = self.solve(BAR)
         self.check_parts(output, ["handles", "gravity", "CHOLMOD", "frame writer"],
                          ["mass matrix", "own support of interpolation", "loads", "example poses",
-                          "weight block", "Schur complement", "UMFPACK"])
+                          "weight block", "Schur complement", "algebraic multigrid",
+                          "UMFPACK"])
         self.check_columns(output, COLUMNS_OF_ALL, ["min_det_F", "inverted_cells", "work_handles",
                                                     "work_gravity"], REACTION, SECONDS)
         self.assertEqual(read_summary(output)["examples"], 0)
@@ -95,6 +96,11 @@ class LeftOut(SceneTest):
     def test_umfpack_leaves_out_cholmod(self):
         self.check_parts(self.solve({**EXAMPLE, **PAPER, "Solver/Linear solver": "umfpack"}),
                          ["UMFPACK", "weight block"], ["CHOLMOD", "Schur complement"])
+
+    def test_iterative_leaves_out_both(self):
+        self.check_parts(self.solve({**EXAMPLE, "Solver/Linear solver": "iterative"}),
+                         ["algebraic multigrid", "weight block", "Schur complement"],
+                         ["CHOLMOD", "UMFPACK"])
 
     def test_importance_0_opens_no_pose(self):
         for scene in (BAR, DYNAMIC):

@@ -120,8 +120,9 @@ class Outputs(SceneTest):
     def check_summary(self, output):
         summary = read_summary(output)
         names = ("program version git deal_ii blas blas_core blas_threads threads scene mesh "
-                 "mesh_sha256 cells nodes dofs constrained_dofs examples steps iterations "
-                 "factorizations status worst_residual seconds peak_memory_mib used "
+                 "mesh_sha256 cells nodes dofs constrained_dofs linear_solver examples steps "
+                 "iterations factorizations status worst_residual seconds peak_memory_mib "
+                 "bytes_per_cell used "
                  "left_out").split()
         self.assertEqual([name for name in names if name not in summary], [])
         self.assertEqual({name: summary[name] for name in ("program", "cells", "nodes", "dofs",

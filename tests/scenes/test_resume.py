@@ -31,6 +31,7 @@ HANDLES = {
     "Loads/Gravity": "0, 0, -9.81",
 }
 DYNAMIC = {**BOX, **HANDLES, "Scene": "dynamic", "Time/Step": "0.01", "Time/End": "0.7"}
+ITERATIVE = {"Solver/Linear solver": "iterative"}
 STATIC = {**BOX, **HANDLES, "Scene": "static", "Time/Increments": "70"}
 INTERPOLATION = {**BOX, "Scene": "interpolation", "Time/Increments": "70",
                  "Examples/Prescribed weights": "1-t; t; 0"}
@@ -92,6 +93,13 @@ class Resume(SceneTest):
 
     def test_killed_static_scene(self):
         self.check_kills(STATIC, [(20, 0.)])
+
+    def test_killed_dynamic_scene_with_iterative_solver(self):
+        # multigrid hierarchies know nothing of those before
+        self.check_kills({**DYNAMIC, **ITERATIVE}, [(11, 0.003), (36, 0.001)])
+
+    def test_killed_static_scene_with_iterative_solver(self):
+        self.check_kills({**STATIC, **ITERATIVE}, [(20, 0.)])
 
     def test_killed_interpolation(self):
         self.check_kills(INTERPOLATION, [(20, 0.)])
