@@ -161,6 +161,9 @@ namespace Exemplar
                   const std::vector<double>    &weights,
                   const Rotations               rotations)
   {
+    if (rotations == Rotations::keep)
+      refresh_rotations();
+    rotations_are_forgotten = rotations == Rotations::find_and_forget;
     CellTask task;
     task.cells = batches.arrays(model.strain, guard_bound);
     if (examples != nullptr)
@@ -172,7 +175,7 @@ namespace Exemplar
         node_positions[4 * node + c] = positions[3 * node + c];
     task.positions        = node_positions.data();
     task.weights          = weights.data();
-    task.update_rotations = rotations == Rotations::update;
+    task.use_of_rotations = rotations;
     task.weights_are_free = has_weights();
     return task;
   }
@@ -188,8 +191,21 @@ namespace Exemplar
   }
 
   void
+  Assembler::refresh_rotations()
+  {
+    if (!rotations_are_forgotten)
+      return;
+    CellTask last;
+    last.cells     = batches.arrays(model.strain, guard_bound);
+    last.positions = node_positions.data();
+    kernels.update_rotations(last, 0, last.cells.n_batches());
+    rotations_are_forgotten = false;
+  }
+
+  void
   Assembler::node_rotations(std::vector<float> &rotations)
   {
+    refresh_rotations();
     const CellArrays cells = batches.arrays(model.strain, guard_bound);
     CellTask         task;
     task.cells = cells;
@@ -289,9 +305,11 @@ namespace Exemplar
   Assembler::evaluate(const dealii::Vector<double> &positions,
                       const std::vector<double>    &weights,
                       Evaluation                   &result,
-                      const Rotations               rotations)
+                      const Rotations               rotations,
+                      const std::vector<double>    *weight_target)
   {
-    const CellTask          cells = task(positions, weights, rotations);
+    CellTask cells = task(positions, weights, rotations);
+    cells.weights_are_free &= weight_target == nullptr;
     std::vector<StripeSums> stripes(n_stripes);
     nodal_sums.fill(0.);
     const ParallelRegion region;
@@ -323,8 +341,16 @@ namespace Exemplar
     result.min_det_F       = sums.min_det_F;
     result.inverted_cells  = sums.inverted_cells;
     result.guarded_cells   = sums.guarded_cells;
-    if (has_weights())
-      add_penalty(weights, std::sqrt(sums.stress_square), result);
+    if (!has_weights())
+      return;
+    add_penalty(weights, std::sqrt(sums.stress_square), result);
+    if (weight_target != nullptr)
+      for (unsigned int v = 0; v < weights.size(); ++v)
+      {
+        result.weight_gradient[v] = -(*weight_target)[v];
+        for (unsigned int w = 0; w < weights.size(); ++w)
+          result.weight_gradient[v] += examples->weight_matrix()(v, w) * weights[w];
+      }
   }
 
   std::vector<double>
@@ -338,8 +364,9 @@ namespace Exemplar
 
   CellResults
   Assembler::cell_results(const dealii::Vector<double> &positions,
-                          const std::vector<double>    &weights) const
+                          const std::vector<double>    &weights)
   {
+    refresh_rotations();
     const unsigned int n = fe_space.n_cells();
     CellResults results{ std::vector<double>(n), std::vector<double>(n), std::vector<double>(n) };
     for (unsigned int cell = 0; cell < n; ++cell)

@@ -179,8 +179,9 @@ namespace Exemplar
                                             const dealii::Vector<double> &displacement,
                                             const dealii::Vector<double> &positions,
                                             const std::vector<double>    &weights,
-                                            Evaluation                   &result) const
+                                            Evaluation                   &result)
   {
+    refresh_rotations();
     if (is_rotated_stiffness(tangent))
       add_rotated_responses(displacement, result);
     else if (model.strain == StrainMeasure::green)

@@ -9,9 +9,8 @@ namespace Exemplar
 {
   CellBatches::CellBatches(const FESpace &fe_space, const Material &material)
       : n_cells(fe_space.n_cells()), nodes(batched_size(n_cells, 4)),
-        gradients(batched_size(n_cells, 9)), gradient_norms(batched_size(n_cells, 4)),
-        volumes(batched_size(n_cells, 1)), lame(batched_size(n_cells, 2)),
-        rotations(batched_size(n_cells, 9))
+        gradients(batched_size(n_cells, 9)), volumes(batched_size(n_cells, 1)),
+        lame(batched_size(n_cells, 2)), rotations(batched_size(n_cells, 9))
   {
     for (std::size_t place = 0; place < volumes.size(); ++place)
     {
@@ -28,7 +27,6 @@ namespace Exemplar
         nodes[batch_index(place, 4, a)] = static_cast<int>(fe_space.nodes(cell)[order[a]]);
         for (unsigned int i = 0; i < 3 && a > 0; ++i)
           gradients[batch_index(place, 9, 3 * (a - 1) + i)] = g[i];
-        gradient_norms[batch_index(place, 4, a)] = std::sqrt(dot(g, g));
       }
       volumes[place]                 = place < n_cells ? tet.volume : 0.;
       lame[batch_index(place, 2, 0)] = material.lame(cell).lambda;
@@ -41,8 +39,7 @@ namespace Exemplar
   CellArrays
   CellBatches::arrays(const StrainMeasure strain, const double guard_bound)
   {
-    return { n_cells,        nodes.data(), gradients.data(), gradient_norms.data(),
-             volumes.data(), lame.data(),  rotations.data(), strain,
-             guard_bound };
+    return { n_cells,     nodes.data(),     gradients.data(), volumes.data(),
+             lame.data(), rotations.data(), strain,           guard_bound };
   }
 } // namespace Exemplar

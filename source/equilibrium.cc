@@ -146,13 +146,19 @@ namespace Exemplar
       parts.loads->named_loads(time, external_force);
     if (parts.loads->has_gravity())
       external_force += parts.loads->gravity();
+    external_force_norms.reinit(external_force.size() / 3);
+    for (unsigned int node = 0; node < external_force_norms.size(); ++node)
+      external_force_norms[node] = std::hypot(
+          external_force[3 * node], external_force[3 * node + 1], external_force[3 * node + 2]);
   }
 
   void
-  Equilibrium::evaluate(const State &state, const Rotations rotations)
+  Equilibrium::evaluate(const State               &state,
+                        const Rotations            rotations,
+                        const std::vector<double> *weight_target)
   {
     StepClock::Scope scope(parts.clock, Part::evaluate);
-    parts.assembler.evaluate(state.positions, state.weights, current, rotations);
+    parts.assembler.evaluate(state.positions, state.weights, current, rotations, weight_target);
     add_inertia_and_loads(state);
   }
 
@@ -166,9 +172,7 @@ namespace Exemplar
     if (parts.loads == nullptr)
       return;
     total_gradient -= external_force;
-    for (unsigned int node = 0; node < force_scale.size(); ++node)
-      force_scale[node] += std::hypot(external_force[3 * node], external_force[3 * node + 1],
-                                      external_force[3 * node + 2]);
+    force_scale += external_force_norms;
   }
 
   void

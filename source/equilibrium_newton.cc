@@ -50,22 +50,26 @@ namespace Exemplar
   }
 
   void
-  Equilibrium::evaluate_with_best_weights(State &state)
+  Equilibrium::evaluate_with_best_weights(State &state, const Rotations rotations)
   {
     StepClock::Scope scope(parts.clock, Part::evaluate);
     if (block.H.m() > 0)
     {
+      const std::vector<double> target
+          = parts.assembler.weight_target(state.positions, Rotations::update);
       const std::vector<double> lower(
           parts.examples->weights_are_bounded() ? state.weights.size() : 0, 0.);
       const std::vector<double> sums(parts.examples->n_regions(), 1.);
-      const WeightQpSolution    best = minimize_over_weights(
-             block.H, parts.assembler.weight_target(state.positions, Rotations::update), sums, lower);
+      const WeightQpSolution    best
+          = minimize_over_weights(block.H, target, sums, lower, state.weights);
       if (!best.found)
         throw SolverFailure("The example weights are not determined. Set Examples/Weight penalty "
                             "to auto.");
       state.weights = best.weights;
+      evaluate(state, Rotations::keep, &target);
     }
-    evaluate(state, block.H.m() > 0 ? Rotations::keep : Rotations::update);
+    else
+      evaluate(state, rotations);
     current_objective = objective(state);
   }
 

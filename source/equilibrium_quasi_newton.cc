@@ -112,17 +112,23 @@ namespace Exemplar
                                       const std::vector<double> &gradient,
                                       QuasiNewtonStep           &step)
   {
-    StepClock::Scope    scope(parts.clock, Part::solve);
-    std::vector<double> lower;
-    if (block.H.m() > 0 && parts.examples->weights_are_bounded())
-      for (const double weight : trial.weights)
-        lower.push_back(-weight);
+    StepClock::Scope scope(parts.clock, Part::solve);
     step.turned = gradient;
     for (double &entry : step.turned)
       entry = -entry;
     turned_factor.turn_back(step.turned);
+    if (block.H.m() > 0)
+    {
+      std::vector<double> lower;
+      if (parts.examples->weights_are_bounded())
+        for (const double weight : trial.weights)
+          lower.push_back(-weight);
+      turned_factor.add_example_forces(
+          turned_factor.find_weight_changes(step.turned, current.weight_gradient, lower),
+          step.turned);
+    }
     memory.lbfgs.before(step.turned);
-    turned_factor.solve(step.turned, lower);
+    turned_factor.solve(step.turned);
     memory.lbfgs.after(step.turned);
     step.direct = step.turned;
     turned_factor.turn_forth(step.direct);
@@ -142,7 +148,7 @@ namespace Exemplar
     add_to_free(1., step.direct, trial.positions);
     for (unsigned int halving = 0;; ++halving)
     {
-      evaluate_with_best_weights(trial);
+      evaluate_with_best_weights(trial, Rotations::find_and_forget);
       if (is_better(current_objective, before, length * slope, greatest_free_gradient(),
                     gradient_norm))
         return true;
@@ -174,13 +180,14 @@ namespace Exemplar
   void
   Equilibrium::iterate_quasi_newton(const State &accepted, State &trial, SolveReport &report)
   {
-    std::vector<double> gradient, change;
+    std::vector<double> gradient, change, weight_change;
     QuasiNewtonStep     step;
     double              last_length = 0.;
     unsigned int        n_factors = 0, n_with_factor = 0;
     gather_free(total_gradient, gradient);
     while (!has_met_tolerance(report))
     {
+      weight_change           = trial.weights;
       const double slope      = find_quasi_newton_step(trial, gradient, step);
       const bool   is_descent = n_with_factor < most_iterations && slope < 0.
                               && take_quasi_newton_step(trial, step, slope, report);
@@ -209,6 +216,12 @@ namespace Exemplar
           step.turned[i] *= report.step_length;
         }
         turned_factor.turn_back(change);
+        if (block.H.m() > 0)
+        {
+          for (std::size_t i = 0; i < weight_change.size(); ++i)
+            weight_change[i] = trial.weights[i] - weight_change[i];
+          turned_factor.add_example_forces(weight_change, change);
+        }
         memory.lbfgs.add_pair(step.turned, change);
       }
       measure_iteration(trial, report);

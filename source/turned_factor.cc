@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 
 namespace Exemplar
@@ -67,6 +68,7 @@ namespace Exemplar
         schur(coupled[i], coupled[j]) -= std::inner_product(block.coupling.begin() + i * n,
                                                             block.coupling.begin() + (i + 1) * n,
                                                             columns.begin() + j * n, 0.);
+    G.assign(block.coupling.begin(), block.coupling.end());
     Z.assign(columns.begin(), columns.end());
   }
 
@@ -99,40 +101,44 @@ namespace Exemplar
     }
   }
 
+  std::vector<double>
+  TurnedFactor::find_weight_changes(const std::vector<double> &forces,
+                                    const std::vector<double> &weight_gradient,
+                                    const std::vector<double> &lower) const
+  {
+    const std::size_t n = forces.size();
+    // what holds weights at their bounds is part of the model
+    std::vector<double> c(weight_gradient.size());
+    std::transform(weight_gradient.begin(), weight_gradient.end(), c.begin(), std::negate<>());
+    for (std::size_t j = 0; j < coupled.size(); ++j)
+      c[coupled[j]] += dot(forces, &Z[j * n]);
+    const WeightQpSolution change
+        = minimize_over_weights(schur, c, std::vector<double>(sums.m(), 0.), lower,
+                                std::vector<double>(c.size(), 0.));
+    return change.found ? change.weights : std::vector<double>(c.size(), 0.);
+  }
+
   void
-  TurnedFactor::solve(std::vector<double> &vector, const std::vector<double> &lower)
+  TurnedFactor::add_example_forces(const std::vector<double> &weights,
+                                   std::vector<double>       &forces) const
+  {
+    const std::size_t n = forces.size();
+    for (std::size_t j = 0; j < coupled.size(); ++j)
+      if (const double weight = weights[coupled[j]]; weight != 0.)
+        add(forces, weight, &G[j * n]);
+  }
+
+  void
+  TurnedFactor::solve(std::vector<double> &vector)
   {
     // of forces that shrink by ten orders single precision would lose the last
     const double scale = greatest_entry(vector);
     if (scale == 0.)
       return;
-    const std::size_t n = vector.size();
-    for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t i = 0; i < vector.size(); ++i)
       right_side[i] = static_cast<float>(vector[i] / scale);
-    std::vector<double> c(schur.m(), 0.);
-    for (std::size_t j = 0; j < coupled.size(); ++j)
-    {
-      const float *Z_j     = &Z[j * n];
-      float        sum[16] = {};
-      for (std::size_t i = 0; i < n; ++i)
-        sum[i % 16] += right_side[i] * Z_j[i];
-      c[coupled[j]] = scale * std::accumulate(sum, sum + 16, 0.);
-    }
     factor.solve(right_side);
-    if (!coupled.empty())
-    {
-      const WeightQpSolution change
-          = minimize_over_weights(schur, c, std::vector<double>(sums.m(), 0.), lower);
-      for (std::size_t j = 0; change.found && j < coupled.size(); ++j)
-        if (change.weights[coupled[j]] != 0.)
-        {
-          const auto   dw  = static_cast<float>(change.weights[coupled[j]] / scale);
-          const float *Z_j = &Z[j * n];
-          for (std::size_t i = 0; i < n; ++i)
-            right_side[i] += dw * Z_j[i];
-        }
-    }
-    for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t i = 0; i < vector.size(); ++i)
       vector[i] = scale * right_side[i];
   }
 } // namespace Exemplar

@@ -17,24 +17,25 @@ namespace Exemplar
       ActiveSet(const dealii::FullMatrix<double> &H,
                 const std::vector<double>        &c,
                 const std::vector<double>        &sums,
-                const std::vector<double>        &lower)
-          : H(H), c(c), lower(lower), group_size(c.size() / sums.size()), weights(lower),
-            at_bound(c.size(), !lower.empty())
+                const std::vector<double>        &lower,
+                const std::vector<double>        &start)
+          : H(H), c(c), lower(lower), group_size(c.size() / sums.size()),
+            weights(start.empty() ? lower : start), at_bound(c.size(), !lower.empty())
       {
-        // of each group a corner of the simplex, or, unbounded, any point on the plane
         weights.resize(c.size());
         for (unsigned int group = 0; group < sums.size(); ++group)
         {
-          const std::size_t begin = first_of(group), end = begin + group_size;
-          if (lower.empty())
-            std::fill(weights.begin() + begin, weights.begin() + end,
-                      sums[group] / static_cast<double>(group_size));
+          const auto begin = weights.begin() + first_of(group), end = begin + group_size;
+          if (lower.empty()) // any point on the plane
+            std::fill(begin, end, sums[group] / static_cast<double>(group_size));
           else
           {
-            const auto   best = std::max_element(c.begin() + begin, c.begin() + end) - c.begin();
-            const double used = std::accumulate(lower.begin() + begin, lower.begin() + end, 0.);
-            weights[best] += sums[group] - used;
-            at_bound[best] = false;
+            // of the simplex the start, or a corner
+            const auto   best = start.empty() ? best_of(group) : farthest_from_bound(group);
+            const double rest = sums[group] - std::accumulate(begin, end, 0.);
+            weights[best] += rest;
+            for (std::size_t i = first_of(group); i < first_of(group + 1); ++i)
+              at_bound[i] = i != best && !(weights[i] > lower[i]);
           }
         }
       }
@@ -69,6 +70,23 @@ namespace Exemplar
       first_of(const unsigned int group) const
       {
         return group * group_size;
+      }
+
+      std::size_t
+      best_of(const unsigned int group) const
+      {
+        return std::max_element(c.begin() + first_of(group), c.begin() + first_of(group + 1))
+               - c.begin();
+      }
+
+      std::size_t
+      farthest_from_bound(const unsigned int group) const
+      {
+        std::size_t farthest = first_of(group);
+        for (std::size_t i = first_of(group); i < first_of(group + 1); ++i)
+          if (weights[i] - lower[i] > weights[farthest] - lower[farthest])
+            farthest = i;
+        return farthest;
       }
 
       std::vector<double>
@@ -199,8 +217,9 @@ namespace Exemplar
   minimize_over_weights(const dealii::FullMatrix<double> &H,
                         const std::vector<double>        &c,
                         const std::vector<double>        &sums,
-                        const std::vector<double>        &lower)
+                        const std::vector<double>        &lower,
+                        const std::vector<double>        &start)
   {
-    return ActiveSet(H, c, sums, lower).solve();
+    return ActiveSet(H, c, sums, lower, start).solve();
   }
 } // namespace Exemplar

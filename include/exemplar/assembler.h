@@ -25,14 +25,6 @@ namespace Exemplar
     convex ///< never indefinite, together with the weights: R K R^T, Eq. (8), or its counterpart
   };
 
-  /// Whether a loop over the cells takes their rotations as they are, or first finds those
-  /// of the positions that it sees.
-  enum class Rotations
-  {
-    keep,
-    update
-  };
-
   /// Everything that a loop over the cells finds at given positions and weights.
   struct Evaluation
   {
@@ -98,12 +90,14 @@ namespace Exemplar
     void
     set_damping(double s, const std::vector<WeightedPositions> &history);
 
-    /// Energies and their derivatives.
+    /// Energies and their derivatives. Who has the weight_target() of these positions spares
+    /// the loop those by the weights.
     void
     evaluate(const dealii::Vector<double> &positions,
              const std::vector<double>    &weights,
              Evaluation                   &evaluation,
-             Rotations                     rotations = Rotations::keep);
+             Rotations                     rotations = Rotations::keep,
+             const std::vector<double>    *weight_target = nullptr);
 
     /// A, Eq. (8) or (18), into the values on matrix_pattern() [N/m] and, with weights to
     /// find, the coupling G, Eq. (9): a column a strained weight on the free degrees of
@@ -122,7 +116,7 @@ namespace Exemplar
                                    const dealii::Vector<double> &displacement,
                                    const dealii::Vector<double> &positions,
                                    const std::vector<double>    &weights,
-                                   Evaluation                   &evaluation) const;
+                                   Evaluation                   &evaluation);
 
     /// c_i with dPsi/dw = H w - c at these positions [J].
     std::vector<double>
@@ -141,7 +135,7 @@ namespace Exemplar
     rounding_weight_gradient(unsigned int weight) const;
 
     CellResults
-    cell_results(const dealii::Vector<double> &positions, const std::vector<double> &weights) const;
+    cell_results(const dealii::Vector<double> &positions, const std::vector<double> &weights);
 
   private:
     bool
@@ -192,6 +186,10 @@ namespace Exemplar
          Rotations                     rotations);
 
     /// Sums of the cells' forces at the nodes.
+    /// Find the rotations that the last loop has forgotten.
+    void
+    refresh_rotations();
+
     void
     gather_forces(Evaluation &result) const;
 
@@ -269,7 +267,8 @@ namespace Exemplar
     std::vector<unsigned> mixed_cells;     ///< with a node of which only some components are held
     std::vector<unsigned> cells_beside_held_nodes;
     dealii::AlignedVector<double> rotation_sums;
-    dealii::AlignedVector<double> node_positions; ///< as the kernels want them
+    dealii::AlignedVector<double> node_positions; ///< of the last loop, as the kernels want them
+    bool                          rotations_are_forgotten = false; ///< those of node_positions
     dealii::AlignedVector<double> nodal_sums;     ///< of forces and scales, stripe by stripe
     std::vector<double>           mass_values;    ///< M on the pattern; empty in statics
     double                        damping = 0.;   ///< s of set_damping()

@@ -41,7 +41,6 @@ namespace Exemplar
     const std::size_t             n_cells;
     std::vector<int>              nodes;
     dealii::AlignedVector<double> gradients;
-    dealii::AlignedVector<double> gradient_norms;
     dealii::AlignedVector<double> volumes;
     dealii::AlignedVector<double> lame;
     dealii::AlignedVector<double> rotations;

@@ -21,12 +21,11 @@ namespace Exemplar
   struct CellArrays
   {
     std::size_t   n_cells;
-    const int    *nodes;          ///< 4; ascending in each cell
-    const double *gradients;      ///< 9: g_a of the last three of those nodes [1/m]
-    const double *gradient_norms; ///< 4: |g_a|
-    const double *volumes;        ///< 1 [m^3]
-    const double *lame;           ///< 2: lambda and mu [Pa]
-    double       *rotations;      ///< 9: R by rows
+    const int    *nodes;     ///< 4; ascending in each cell
+    const double *gradients; ///< 9: g_a of the last three of those nodes [1/m]
+    const double *volumes;   ///< 1 [m^3]
+    const double *lame;      ///< 2: lambda and mu [Pa]
+    double       *rotations; ///< 9: R by rows
     StrainMeasure strain;
     double        guard_bound; ///< p_0 of Eq. (16)
 
@@ -64,6 +63,15 @@ namespace Exemplar
     const double *strains = nullptr; ///< 6: e_past
   };
 
+  /// Whether a loop over the cells takes their rotations as they are, or finds those of the
+  /// positions that it sees; to store them takes as much memory traffic as all the rest.
+  enum class Rotations
+  {
+    keep,
+    update,
+    find_and_forget
+  };
+
   /// A loop's input.
   struct CellTask
   {
@@ -72,7 +80,7 @@ namespace Exemplar
     DampingArrays damping;
     const double *positions        = nullptr; ///< four numbers a node, the fourth unused [m]
     const double *weights          = nullptr;
-    bool          update_rotations = false; ///< or take them as they are
+    Rotations     use_of_rotations = Rotations::keep;
     bool          weights_are_free = false; ///< whether derivatives by them are wanted
   };
 

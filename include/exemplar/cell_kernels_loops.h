@@ -168,15 +168,17 @@ namespace Exemplar
       return F;
     }
 
-    /// R of a place, which is updated if the task says so.
+    /// R of a place, found or loaded as the task says.
     static Matrix3<Number>
     rotation(const CellTask &task, const Place &place, const Matrix3<Number> &F)
     {
-      if (!task.update_rotations || task.cells.strain != StrainMeasure::corotational)
+      if (task.use_of_rotations == Rotations::keep
+          || task.cells.strain != StrainMeasure::corotational)
         return load_rotation(task.cells, place);
       const Matrix3<Number> R = closest_rotation(F);
-      for (int k = 0; k < 9; ++k)
-        Lanes<Number>::store(R[k / 3][k % 3], task.cells.rotations + place.at(9, k));
+      if (task.use_of_rotations == Rotations::update)
+        for (int k = 0; k < 9; ++k)
+          Lanes<Number>::store(R[k / 3][k % 3], task.cells.rotations + place.at(9, k));
       return R;
     }
 
@@ -201,7 +203,7 @@ namespace Exemplar
     update_rotations(const CellTask &task, const std::size_t begin, const std::size_t end)
     {
       CellTask updating         = task;
-      updating.update_rotations = true;
+      updating.use_of_rotations = Rotations::update;
       for_each_place(begin, end,
                      [&](const Place &place)
                      {
@@ -287,6 +289,8 @@ namespace Exemplar
         entry = Number(0.);
       for (unsigned int i = 0; i < examples.n; ++i)
       {
+        if (examples.share_start == nullptr && task.weights[examples.first + i] == 0.)
+          continue; // most are, of many examples on the simplex
         const Number w = weight(task, place, i) * Number(examples.importance);
         for (int k = 0; k < 6; ++k)
           sum[k] += w * load(examples.strains, place, 6 * examples.n, 6 * i + k);
@@ -422,7 +426,8 @@ namespace Exemplar
           last[i] = a == 3 ? -force[i] : last[i] - force[i];
           Lanes<Number>::store(force[i], lanes[a][i]);
         }
-        Lanes<Number>::store(scale * load(task.cells.gradient_norms, place, 4, a), lanes[a][3]);
+        const Vector3<Number> &g = tet.shape_gradient[a];
+        Lanes<Number>::store(scale * sqrt(dot(g, g)), lanes[a][3]);
       }
       for (int a = 0; a < 4; ++a)
       {

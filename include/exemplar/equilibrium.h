@@ -178,7 +178,9 @@ namespace Exemplar
     update_loads(double time);
 
     void
-    evaluate(const State &state, Rotations rotations);
+    evaluate(const State               &state,
+             Rotations                  rotations,
+             const std::vector<double> *weight_target = nullptr);
 
     void
     add_inertia_and_loads(const State &state);
@@ -240,7 +242,7 @@ namespace Exemplar
     correct_with_same_factor(State &state, SolveReport &report);
 
     void
-    evaluate_with_best_weights(State &state);
+    evaluate_with_best_weights(State &state, Rotations rotations = Rotations::update);
 
     /// A step by degree of freedom, and in the frame of the factor.
     struct QuasiNewtonStep
@@ -327,6 +329,7 @@ namespace Exemplar
     dealii::Vector<double> total_gradient;
     dealii::Vector<double> force_scale; ///< a node, of the total gradient [N]
     dealii::Vector<double> external_force;
+    dealii::Vector<double> external_force_norms; ///< of each node
     double                 inertia_energy    = 0.;    ///< of the step [J]
     double                 current_objective = 0.;    ///< of Newton's method [J]
     bool                   dynamic_terms     = false; ///< within a step of a dynamic scene

@@ -9,8 +9,10 @@
 
 namespace Exemplar
 {
-  inline double
-  dot(const std::vector<double> &a, const std::vector<double> &b)
+  /// With as many entries of b as a has.
+  template <typename Number>
+  double
+  dot(const std::vector<double> &a, const Number *b)
   {
     // several sums, or the additions would wait for each other
     constexpr std::size_t n_sums      = 8;
@@ -24,6 +26,12 @@ namespace Exemplar
     return ((sum[0] + sum[1]) + (sum[2] + sum[3])) + ((sum[4] + sum[5]) + (sum[6] + sum[7]));
   }
 
+  inline double
+  dot(const std::vector<double> &a, const std::vector<double> &b)
+  {
+    return dot(a, b.data());
+  }
+
   /// max |a_i|.
   inline double
   greatest_entry(const std::vector<double> &a)
@@ -35,11 +43,18 @@ namespace Exemplar
   }
 
   /// a += factor b.
-  inline void
-  add(std::vector<double> &a, const double factor, const std::vector<double> &b)
+  template <typename Number>
+  void
+  add(std::vector<double> &a, const double factor, const Number *b)
   {
     for (std::size_t i = 0; i < a.size(); ++i)
       a[i] += factor * b[i];
+  }
+
+  inline void
+  add(std::vector<double> &a, const double factor, const std::vector<double> &b)
+  {
+    add(a, factor, b.data());
   }
 } // namespace Exemplar
 

@@ -41,10 +41,22 @@ namespace Exemplar
       multiply_by_turns(vector, 3, 1);
     }
 
-    /// Overwrite forces by the displacement that they cause, both in the frame of the factor.
-    /// The weights follow, their changes not below `lower` (empty: no bounds).
+    /// What the weights will do if the forces, in the frame of the factor, act on the body:
+    /// from where the energy has `weight_gradient`, with changes not below `lower` (empty: no
+    /// bounds).
+    std::vector<double>
+    find_weight_changes(const std::vector<double> &forces,
+                        const std::vector<double> &weight_gradient,
+                        const std::vector<double> &lower) const;
+
+    /// Add the forces G w that go with changes of the weights.
     void
-    solve(std::vector<double> &vector, const std::vector<double> &lower);
+    add_example_forces(const std::vector<double> &weights, std::vector<double> &forces) const;
+
+    /// Overwrite forces by the displacement that they cause at fixed weights, both in the
+    /// frame of the factor.
+    void
+    solve(std::vector<double> &vector);
 
     /// What a factorisation costs over an iteration with solve(): from counts of operations
     /// and the rates of doc/results.md, never from a clock.
@@ -77,7 +89,7 @@ namespace Exemplar
     std::vector<float>         rotations_then;
     std::vector<float>         turns; ///< nine numbers a turned node
     std::vector<unsigned int>  coupled;
-    std::vector<float>         Z;     ///< A^-1 G, as the block's columns
+    std::vector<float>         G, Z;  ///< Z = A^-1 G, as the block's columns
     dealii::FullMatrix<double> schur; ///< H - G^T Z
     dealii::FullMatrix<double> sums;  ///< N
     std::vector<float>         right_side;

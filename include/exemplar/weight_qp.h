@@ -20,12 +20,14 @@ namespace Exemplar
   /// Algorithm 16.3). The weights are groups of equal size, one after the other, of which
   /// each has its sum in `sums`; unless `lower` is empty, w_i >= lower_i. H need be positive
   /// definite only on differences of weights of a group. Requires that the bounds allow
-  /// the sums.
+  /// the sums. From a `start` that is within the bounds and near the minimiser it takes fewer
+  /// operations; its sums need be right only up to rounding.
   WeightQpSolution
   minimize_over_weights(const dealii::FullMatrix<double> &H,
                         const std::vector<double>        &c,
                         const std::vector<double>        &sums,
-                        const std::vector<double>        &lower);
+                        const std::vector<double>        &lower,
+                        const std::vector<double>        &start = {});
 } // namespace Exemplar
 
 #endif

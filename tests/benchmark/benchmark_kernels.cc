@@ -60,10 +60,10 @@ namespace Exemplar
     }
 
     void
-    forces(benchmark::State &state, const CellKernels *kernels, const bool with_rotations)
+    forces(benchmark::State &state, const CellKernels *kernels, const Rotations rotations)
     {
       CellTask task         = scene->task;
-      task.update_rotations = with_rotations;
+      task.use_of_rotations = rotations;
       for (auto _ : state)
       {
         CellSums sums;
@@ -175,8 +175,10 @@ main(int argc, char *argv[])
   {
     const std::string name = std::string("/") + kernels->name;
     benchmark::RegisterBenchmark(("rotations" + name).c_str(), rotations, kernels);
-    benchmark::RegisterBenchmark(("forces" + name).c_str(), forces, kernels, false);
-    benchmark::RegisterBenchmark(("rotations_and_forces" + name).c_str(), forces, kernels, true);
+    benchmark::RegisterBenchmark(("forces" + name).c_str(), forces, kernels, Rotations::keep);
+    benchmark::RegisterBenchmark(("rotations_and_forces" + name).c_str(), forces, kernels, Rotations::update);
+    benchmark::RegisterBenchmark(("forces_without_storing_rotations" + name).c_str(), forces, kernels,
+                                 Rotations::find_and_forget);
   }
   benchmark::RegisterBenchmark("evaluation", evaluation);
   benchmark::RegisterBenchmark("assembly/convex", assembly, Tangent::convex);

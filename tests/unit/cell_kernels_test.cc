@@ -43,7 +43,7 @@ namespace Exemplar::Testing
         task.damping                = { damping.data(), past.data() };
         task.positions              = positions.data();
         task.weights                = weights.data();
-        task.update_rotations       = true;
+        task.use_of_rotations       = Rotations::update;
         task.weights_are_free       = true;
         const std::size_t n_batches = task.cells.n_batches();
 

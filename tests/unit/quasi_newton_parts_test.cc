@@ -158,12 +158,12 @@ namespace Exemplar::Testing
       std::vector<double> forces = some_forces(now.free_dofs), exact = forces;
       now.matrix->solve(exact);
       factor.turn_back(forces);
-      factor.solve(forces, {});
+      factor.solve(forces);
       factor.turn_forth(forces);
       EXPECT_LT(relative_difference(forces, exact), 0.1);
       std::vector<double> unturned = some_forces(now.free_dofs);
       factor.turn(then.rotations);
-      factor.solve(unturned, {});
+      factor.solve(unturned);
       EXPECT_GT(relative_difference(unturned, exact), 0.5);
     }
   } // namespace
