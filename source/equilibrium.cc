@@ -22,6 +22,9 @@ namespace Exemplar
                                                      { LinearSolver::iterative, "iterative" },
                                                      { LinearSolver::umfpack, "umfpack" } };
 
+    const EnumTable<PassRotations> pass_rotations
+        = { { PassRotations::last, "last" }, { PassRotations::predicted, "predicted" } };
+
     const EnumTable<SolveStatus> statuses = { { SolveStatus::initial, "initial" },
                                               { SolveStatus::converged, "converged" },
                                               { SolveStatus::one_pass, "one pass" },
@@ -76,6 +79,11 @@ namespace Exemplar
         "2; newton first tries half the step, up to six times, with as many each. Not "
         "used by one pass.",
         dealii::Patterns::Integer(1));
+    declare_enum(
+        prm, "Rotations", rotations, pass_rotations,
+        "Rotations of the cells in one pass, and in the first pass of fixed point: last: those of "
+        "the last step's positions, as in the paper; predicted: those of positions that the last "
+        "velocities predict, for dynamic scenes. Not used by other methods.");
     declare_enum(
         prm, "Linear solver", linear_solver, linear_solvers,
         "cholesky: CHOLMOD factorises the positions' block, the weights follow from a "

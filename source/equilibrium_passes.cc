@@ -40,20 +40,43 @@ namespace Exemplar
                                                    state.weights, current);
   }
 
+  void
+  Equilibrium::begin_predicted_step(State &state, const double time, const double step_size)
+  {
+    // forces with frozen rotations are linear in the positions: where a pass starts from does
+    // not matter, but of where the rotations are does
+    StepClock::Scope scope(parts.clock, Part::evaluate);
+    const State      accepted = state;
+    state.time                = time;
+    update_loads(time);
+    if (parts.examples != nullptr && parts.examples->weights_are_prescribed())
+      state.weights = parts.examples->prescribed_weights(time);
+    predict_positions(accepted, step_size, state);
+    evaluate(state, Rotations::update);
+  }
+
   SolveReport
   Equilibrium::solve_by_passes(State &state, const double time, const double step_size)
   {
     SolveReport report;
     try
     {
-      // The rotations are still those of the last accepted positions, before the
-      // handles move: the paper's choice.
       begin_dynamic_step(state, step_size);
+      // if not predicted, the rotations are still those of the last accepted positions, before
+      // the handles move: the paper's choice
       dealii::Vector<double> linearized_at = state.positions;
-      begin_step(state, time);
+      if (parameters.rotations == PassRotations::last)
+        begin_step(state, time);
+      else
+      {
+        begin_predicted_step(state, time, step_size);
+        linearized_at = state.positions;
+      }
       while (report.status == SolveStatus::initial)
       {
-        check_interrupt();
+        // a prediction has changed the memory by now, and checkpoints are of whole steps
+        if (parameters.rotations == PassRotations::last)
+          check_interrupt();
         factorize(linearized_at, state.weights, 1.);
         solve_for_step(state);
         add_step(state);

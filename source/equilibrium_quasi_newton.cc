@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/equilibrium.h>
 #include <exemplar/errors.h>
-#include <exemplar/linear_prediction.h>
 #include <exemplar/long_vectors.h>
 
 #include <algorithm>
@@ -16,7 +15,6 @@ namespace Exemplar
 {
   namespace
   {
-    constexpr std::size_t  n_velocities            = 6; ///< that predict the next
     constexpr unsigned int most_iterations         = 7; ///< with one factor in a step
     constexpr unsigned int most_factors            = 2; ///< that a step may ask for
     constexpr unsigned int most_halvings_of_step   = 5;
@@ -48,10 +46,8 @@ namespace Exemplar
   {
     std::vector<double> velocity;
     gather_free(accepted.velocities, velocity);
-    memory.velocities.push_front(std::move(velocity));
-    if (memory.velocities.size() > n_velocities)
-      memory.velocities.pop_back();
-    add_to_free(step_size, predict_next(memory.velocities), trial.positions);
+    memory.velocities.add(std::move(velocity));
+    add_to_free(step_size, memory.velocities.next(), trial.positions);
     if (parts.handles != nullptr)
       parts.handles->move(trial.time, trial.positions);
   }

@@ -12,8 +12,27 @@ namespace Exemplar
     constexpr double ridge = 1e-10;
   } // namespace
 
+  void
+  LinearPrediction::multiply_out(const std::size_t i)
+  {
+    for (std::size_t j = i; j < history.size(); ++j)
+      products[i][j] = dot(history[i], history[j]);
+  }
+
+  void
+  LinearPrediction::add(std::vector<double> vector)
+  {
+    if (history.size() == most_vectors)
+      history.pop_back();
+    history.push_front(std::move(vector));
+    for (std::size_t i = history.size() - 1; i > 0; --i)
+      for (std::size_t j = i; j < history.size(); ++j)
+        products[i][j] = products[i - 1][j - 1];
+    multiply_out(0);
+  }
+
   std::vector<double>
-  predict_next(const std::deque<std::vector<double>> &history)
+  LinearPrediction::next() const
   {
     const unsigned int m = history.size() - 1;
     if (m == 0)
@@ -22,9 +41,9 @@ namespace Exemplar
     std::vector<double>        coefficients(m);
     for (unsigned int i = 0; i < m; ++i)
     {
-      coefficients[i] = dot(history[0], history[i + 1]);
+      coefficients[i] = products[0][i + 1];
       for (unsigned int j = 0; j <= i; ++j)
-        gram(i, j) = dot(history[i + 1], history[j + 1]);
+        gram(i, j) = products[j + 1][i + 1];
     }
     const double trace = gram.trace();
     for (unsigned int i = 0; i < m; ++i)
@@ -33,7 +52,7 @@ namespace Exemplar
       return history[0]; // at rest
     std::vector<double> next(history[0].size(), 0.);
     for (unsigned int j = 0; j < m; ++j)
-      add(next, coefficients[j], history[j]);
+      Exemplar::add(next, coefficients[j], history[j]);
     return next;
   }
 } // namespace Exemplar

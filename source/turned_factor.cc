@@ -112,9 +112,8 @@ namespace Exemplar
     std::transform(weight_gradient.begin(), weight_gradient.end(), c.begin(), std::negate<>());
     for (std::size_t j = 0; j < coupled.size(); ++j)
       c[coupled[j]] += dot(forces, &Z[j * n]);
-    const WeightQpSolution change
-        = minimize_over_weights(schur, c, std::vector<double>(sums.m(), 0.), lower,
-                                std::vector<double>(c.size(), 0.));
+    const WeightQpSolution change = minimize_over_weights(
+        schur, c, std::vector<double>(sums.m(), 0.), lower, std::vector<double>(c.size(), 0.));
     return change.found ? change.weights : std::vector<double>(c.size(), 0.);
   }
 

@@ -96,7 +96,7 @@ namespace Exemplar
     evaluate(const dealii::Vector<double> &positions,
              const std::vector<double>    &weights,
              Evaluation                   &evaluation,
-             Rotations                     rotations = Rotations::keep,
+             Rotations                     rotations     = Rotations::keep,
              const std::vector<double>    *weight_target = nullptr);
 
     /// A, Eq. (8) or (18), into the values on matrix_pattern() [N/m] and, with weights to
@@ -266,13 +266,13 @@ namespace Exemplar
     std::vector<int>      block_positions; ///< of TangentTask
     std::vector<unsigned> mixed_cells;     ///< with a node of which only some components are held
     std::vector<unsigned> cells_beside_held_nodes;
-    dealii::AlignedVector<double> rotation_sums;
+    dealii::AlignedVector<float>  rotation_sums;
     dealii::AlignedVector<double> node_positions; ///< of the last loop, as the kernels want them
     bool                          rotations_are_forgotten = false; ///< those of node_positions
-    dealii::AlignedVector<double> nodal_sums;     ///< of forces and scales, stripe by stripe
-    std::vector<double>           mass_values;    ///< M on the pattern; empty in statics
-    double                        damping = 0.;   ///< s of set_damping()
-    dealii::AlignedVector<double> cell_damping;   ///< in batches; empty without damping
+    dealii::AlignedVector<double> nodal_sums;   ///< of forces and scales, stripe by stripe
+    std::vector<double>           mass_values;  ///< M on the pattern; empty in statics
+    double                        damping = 0.; ///< s of set_damping()
+    dealii::AlignedVector<double> cell_damping; ///< in batches; empty without damping
     dealii::AlignedVector<double> damping_strains;
     double                        greatest_rounding_force = 0.;
     double                        rounding_stress_norm    = 0.; ///< (sum V T^2)^(1/2)

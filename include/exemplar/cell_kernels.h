@@ -130,10 +130,10 @@ namespace Exemplar
 
     /// Add the rotations of the cells to the sums of their nodes, twelve numbers a node of
     /// which nine count.
-    void (*add_rotations)(const CellTask &, std::size_t begin, std::size_t end, double *nodal_sums);
+    void (*add_rotations)(const CellTask &, std::size_t begin, std::size_t end, float *nodal_sums);
 
     /// The rotations closest to n such sums, nine numbers each.
-    void (*closest_rotations)(std::size_t n, const double *sums, float *rotations);
+    void (*closest_rotations)(std::size_t n, const float *sums, float *rotations);
 
     /// Energies; the forces and force scales [N] are added to `nodal_sums`, four numbers a node
     /// of the mesh, and -dPsi/dw_i to the batch of lanes `weight_sums` + 8 i.

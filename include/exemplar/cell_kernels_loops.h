@@ -217,31 +217,62 @@ namespace Exemplar
     add_rotations(const CellTask   &task,
                   const std::size_t begin,
                   const std::size_t end,
-                  double           *nodal_sums)
+                  float            *nodal_sums)
     {
       for_each_place(begin, end,
                      [&](const Place &place)
                      {
-                       alignas(64) double lanes[12][width] = {};
-                       for (int k = 0; k < 9; ++k)
-                         Lanes<Number>::store(load(task.cells.rotations, place, 9, k), lanes[k]);
-                       for (std::size_t lane = 0; lane < width; ++lane)
-                       {
-                         alignas(32) double R[12];
-                         for (int k = 0; k < 12; ++k)
-                           R[k] = lanes[k][lane];
-                         for (int a = 0; a < 4; ++a)
+                       const int *nodes = task.cells.nodes + place.at(4, 0);
+                       if constexpr (width >= 4)
+                         for (std::size_t lane = 0; lane < width; lane += 4)
                          {
-                           double *sum = nodal_sums + 12 * task.cells.nodes[place.at(4, a) + lane];
-                           for (int k = 0; k < 12; k += 4)
-                             store_four(load_four(sum + k) + load_four(R + k), sum + k);
+                           FourFloats R[4][3];
+                           load_rotations(task.cells, { place.batch, place.lane + lane }, R);
+                           for (std::size_t l = 0; l < 4; ++l)
+                             for (int a = 0; a < 4; ++a)
+                               add_to(nodal_sums + 12 * nodes[a * batch_size + lane + l], R[l]);
                          }
-                       }
+                       else
+                         for (std::size_t lane = 0; lane < width; ++lane)
+                           for (int a = 0; a < 4; ++a)
+                             for (int k = 0; k < 9; ++k)
+                               nodal_sums[12 * nodes[a * batch_size + lane] + k]
+                                   += static_cast<float>(
+                                       task.cells.rotations[place.at(9, k) + lane]);
                      });
     }
 
+    using FourFloats = float [[gnu::vector_size(16)]];
+
+    /// R of four cells, each in three vectors of which the last holds one number.
     static void
-    closest_rotations(const std::size_t n, const double *sums, float *rotations)
+    load_rotations(const CellArrays &cells, const Place &place, FourFloats (&R)[4][3])
+    {
+      for (int part = 0; part < 3; ++part)
+      {
+        Four rows[4] = {};
+        for (int k = 4 * part; k < std::min(9, 4 * part + 4); ++k)
+          rows[k % 4] = load_four(cells.rotations + place.at(9, k));
+        transpose(rows);
+        for (int l = 0; l < 4; ++l)
+          R[l][part] = __builtin_convertvector(rows[l], FourFloats);
+      }
+    }
+
+    static void
+    add_to(float *sums, const FourFloats (&R)[3])
+    {
+      for (int part = 0; part < 3; ++part)
+      {
+        FourFloats sum;
+        __builtin_memcpy(&sum, sums + 4 * part, sizeof(sum));
+        sum += R[part];
+        __builtin_memcpy(sums + 4 * part, &sum, sizeof(sum));
+      }
+    }
+
+    static void
+    closest_rotations(const std::size_t n, const float *sums, float *rotations)
     {
       for (std::size_t first = 0; first < n; first += width)
       {

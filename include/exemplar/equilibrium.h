@@ -29,6 +29,13 @@ namespace Exemplar
     quasi_newton
   };
 
+  /// Of which positions the rotations of a step's first pass are.
+  enum class PassRotations
+  {
+    last,
+    predicted
+  };
+
   enum class LinearSolver
   {
     automatic,
@@ -40,11 +47,12 @@ namespace Exemplar
   /// Subsection Solver.
   struct SolverParameters
   {
-    Method       method             = Method::automatic;
-    double       tolerance          = 1e-8;
-    double       step_tolerance     = 1e-3;
-    unsigned int maximum_iterations = 50;
-    LinearSolver linear_solver      = LinearSolver::automatic;
+    Method        method             = Method::automatic;
+    double        tolerance          = 1e-8;
+    double        step_tolerance     = 1e-3;
+    unsigned int  maximum_iterations = 50;
+    PassRotations rotations          = PassRotations::last;
+    LinearSolver  linear_solver      = LinearSolver::automatic;
 
     void
     declare(dealii::ParameterHandler &prm);
@@ -206,6 +214,9 @@ namespace Exemplar
     SolveReport
     solve_by_passes(State &state, double time, double step_size);
 
+    void
+    begin_predicted_step(State &state, double time, double step_size);
+
     SolveReport
     solve_by_newton(State &state, double time, double step_size);
 
@@ -329,7 +340,7 @@ namespace Exemplar
     dealii::Vector<double> total_gradient;
     dealii::Vector<double> force_scale; ///< a node, of the total gradient [N]
     dealii::Vector<double> external_force;
-    dealii::Vector<double> external_force_norms; ///< of each node
+    dealii::Vector<double> external_force_norms;      ///< of each node
     double                 inertia_energy    = 0.;    ///< of the step [J]
     double                 current_objective = 0.;    ///< of Newton's method [J]
     bool                   dynamic_terms     = false; ///< within a step of a dynamic scene

@@ -2,18 +2,47 @@
 #ifndef exemplar_linear_prediction_h
 #define exemplar_linear_prediction_h
 
+#include <array>
+#include <cstddef>
 #include <deque>
 #include <vector>
 
 namespace Exemplar
 {
-  /// The next vector of a sequence, `history` with the newest first: the combination of all
-  /// but the oldest that, one place earlier, comes closest to the newest, sum_j a_j v_(n-j)
-  /// with |v_n - sum_j a_j v_(n-1-j)| least. Polynomials and damped oscillations in time are
-  /// continued exactly, as far as the history is long enough. A history of one is constant;
-  /// it must not be empty.
-  std::vector<double>
-  predict_next(const std::deque<std::vector<double>> &history);
+  /// Predicts the next vector of a sequence: by the linear combination of the last ones that,
+  /// one earlier, comes closest to the last. Exact for what is a sum of few oscillations,
+  /// damped or not, and for polynomials of low degree.
+  class LinearPrediction
+  {
+  public:
+    static constexpr std::size_t most_vectors = 6;
+
+    void
+    add(std::vector<double> vector);
+
+    /// Requires that there is a last one.
+    std::vector<double>
+    next() const;
+
+    /// For checkpoints.
+    template <typename Archive>
+    void
+    serialize(Archive &archive, unsigned int /*version*/)
+    {
+      archive &history;
+      if (Archive::is_loading::value)
+        for (std::size_t i = history.size(); i-- > 0;)
+          multiply_out(i);
+    }
+
+  private:
+    /// Products of vector i with those that are older.
+    void
+    multiply_out(std::size_t i);
+
+    std::deque<std::vector<double>>                            history;    ///< the last first
+    std::array<std::array<double, most_vectors>, most_vectors> products{}; ///< [i][j], i <= j
+  };
 } // namespace Exemplar
 
 #endif

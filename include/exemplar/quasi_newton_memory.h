@@ -3,11 +3,9 @@
 #define exemplar_quasi_newton_memory_h
 
 #include <exemplar/lbfgs.h>
+#include <exemplar/linear_prediction.h>
 
 #include <deal.II/lac/vector.h>
-
-#include <deque>
-#include <vector>
 
 namespace Exemplar
 {
@@ -21,7 +19,7 @@ namespace Exemplar
     unsigned int           iterations      = 0;  ///< in these steps
     unsigned int           last_iterations = 0;  ///< in the last of them
     Lbfgs                  lbfgs;                ///< in the frame of the factor
-    std::deque<std::vector<double>> velocities;  ///< of the last steps, by free degree of freedom
+    LinearPrediction       velocities;           ///< of the last steps, by free degree of freedom
 
     template <typename Archive>
     void

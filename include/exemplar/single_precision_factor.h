@@ -20,7 +20,9 @@ namespace Exemplar
     std::vector<std::size_t> first_row;    ///< where its rows begin in `rows`, and the end
     std::vector<std::size_t> first_value;  ///< where its block begins in `values`
     std::vector<int>         rows;         ///< of L, ascending; the block's own columns first
-    std::vector<float>       values;
+    std::vector<float>       values;       ///< and `most_lanes` more
+
+    static constexpr std::size_t most_lanes = 16; ///< in a register
   };
 
   class SinglePrecisionFactor
@@ -45,8 +47,8 @@ namespace Exemplar
     std::vector<float> permuted, block;
   };
 
-  /// The two triangular solves for an instruction set. `block` is as large as the greatest
-  /// supernode has rows.
+  /// The two triangular solves for an instruction set. `block` has as many entries as the
+  /// greatest supernode has rows, and `most_lanes` more.
   struct TriangularKernels
   {
     void (*forward)(const FactorPanels &, float *vector, float *block);

@@ -4,16 +4,22 @@
 
 #include <exemplar/single_precision_factor.h>
 
+#include <algorithm>
+
 namespace Exemplar
 {
   /// The triangular solves with batches of floats; see cell_kernels_loops.h for who may include this.
   template <typename Batch>
   struct TriangularLoops
   {
-    static constexpr std::size_t width     = Batch::size;
-    static constexpr int         n_columns = 4; ///< that are treated at once
+    static constexpr std::size_t width = Batch::size;
+    static_assert(width <= FactorPanels::most_lanes);
+    static constexpr int n_columns = 4; ///< that are treated at once
 
-    /// target -= sum_k y_k column_k over the rows begin to end - 1.
+    // The last batch reaches beyond the rows, into what follows in memory: `values` and `block`
+    // have room for it, and there the block is zero or unused.
+
+    /// target -= sum_k y_k column_k over the rows from `row` to end - 1.
     template <int n>
     static void
     subtract_columns(const float *columns,
@@ -26,19 +32,16 @@ namespace Exemplar
       Batch factor[n];
       for (int k = 0; k < n; ++k)
         factor[k] = Batch(y[k]);
-      for (; row + static_cast<int>(width) <= end; row += width)
+      for (; row < end; row += width)
       {
         Batch sum = Batch::load_unaligned(target + row);
         for (int k = 0; k < n; ++k)
           sum -= factor[k] * Batch::load_unaligned(columns + k * stride + row);
         sum.store_unaligned(target + row);
       }
-      for (; row < end; ++row)
-        for (int k = 0; k < n; ++k)
-          target[row] -= y[k] * columns[k * stride + row];
     }
 
-    /// Products of the columns with a vector over the rows begin to end - 1.
+    /// Products of the columns with a vector over the rows from `row` to end - 1.
     template <int n>
     static void
     multiply_columns(const float *columns,
@@ -51,7 +54,7 @@ namespace Exemplar
       Batch sum[n];
       for (int k = 0; k < n; ++k)
         sum[k] = Batch(0.f);
-      for (; row + static_cast<int>(width) <= end; row += width)
+      for (; row < end; row += width)
       {
         const Batch x = Batch::load_unaligned(vector + row);
         for (int k = 0; k < n; ++k)
@@ -59,9 +62,6 @@ namespace Exemplar
       }
       for (int k = 0; k < n; ++k)
         product[k] = xsimd::hadd(sum[k]);
-      for (; row < end; ++row)
-        for (int k = 0; k < n; ++k)
-          product[k] += columns[k * stride + row] * vector[row];
     }
 
     template <int n>
@@ -132,6 +132,7 @@ namespace Exemplar
           block[i] = vector[first + i];
         for (int i = n; i < n_rows; ++i)
           block[i] = vector[rows[i]];
+        std::fill(block + n_rows, block + n_rows + width, 0.f);
         int c = n;
         for (; c % n_columns != 0; --c)
           backward_columns<1>(L + static_cast<std::size_t>(c - 1) * n_rows, n_rows, c - 1, block);

@@ -5,7 +5,7 @@ Usage: python3 tests/benchmark/run_benchmarks.py [--large] [--steps N] [--repeat
                                                  [--program FILE] [--output DIRECTORY] [--write-baseline] [SCENE]...
 on a quiet machine, after `ninja -C build/release benchmark_steps`. SCENE is a name in scenes/, or growth-cells or
 growth-examples; by default all but those of a million cells, which --large adds. --steps measures so many steps of
-each scene only. --set applies to all scenes, --large-set to those of a million cells.
+each scene only. --set applies to all scenes.
 
 A number is the median of three runs. The unit is one CHOLMOD factorisation and one solve of the scene's own matrix, so
 ratios to it can be compared between machines. Errors are those of each step against the step solved to 1e-11 from the
@@ -34,6 +34,7 @@ REFERENCE_STEPS = {"bar100k": 10}
 BAR_BRICKS = [4, 8, 16]  # of the bar 4:1:1 along its short sides, with 24 n^3 tetrahedra
 LARGE_BAR_BRICKS = 35
 LARGE_STEPS = 5
+LARGE_SETTINGS = {"Solver/Linear solver": "iterative"}  # a factor takes too much memory
 EXAMPLE_COUNTS = [0, 1, 4, 16, 64]
 PARTS = ["evaluate", "assemble", "factorize", "solve", "output"]
 WORSE = 1.15
@@ -82,20 +83,17 @@ def steps_flags(*limits):
 def measure(options, scene, failures, settings=None, flags=()):
     """Medians over the runs, None if none was of any use."""
     steps = [] if "--steps" in flags else steps_flags(options.steps)
-    runs = [run_once(options, scene, settings or {}, [*steps, *flags], failures) for _ in range(options.repeats)]
+    repeats = 1 if "--no-unit" in flags else options.repeats  # there are minutes in such a run
+    runs = [run_once(options, scene, settings or {}, [*steps, *flags], failures) for _ in range(repeats)]
     runs = [run for run in runs if run is not None]
     return median_of(runs) if runs else None
-
-
-def large_settings(options):
-    return dict(setting.split("=", 1) for setting in options.large_set)
 
 
 def measure_scene(options, scene, failures):
     """Times of a scene, and its errors if it has a reference."""
     print(f"{scene} ...", file=sys.stderr, flush=True)
     if scene == LARGE_SCENE:
-        return measure(options, scene, failures, large_settings(options), ["--no-unit"])
+        return measure(options, scene, failures, flags=["--no-unit"])
     result = measure(options, scene, failures)
     if result is None or scene in WITHOUT_REFERENCE:
         return result
@@ -118,7 +116,7 @@ def measure_growth_with_cells(options, results, failures):
         else:
             flags = ["--no-unit", *steps_flags(options.steps, LARGE_STEPS)] if large else []
             result = measure(options, "bar100k", failures, {
-                "Mesh/Box cells": f"{4 * n}, {n}, {n}", **(large_settings(options) if large else {})}, flags)
+                "Mesh/Box cells": f"{4 * n}, {n}, {n}", **(LARGE_SETTINGS if large else {})}, flags)
         if result is not None:
             sizes[result["cells"]] = result
     return sizes
@@ -306,7 +304,6 @@ def parse_arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("names", metavar="SCENE", nargs="*", help="what to measure instead of everything")
     parser.add_argument("--large", action="store_true", help="measure a million cells, too")
-    parser.add_argument("--large-set", action="append", default=[], help="setting of scenes of a million cells")
     parser.add_argument("--steps", type=int, help="measure so many steps of each scene only")
     parser.add_argument("--repeats", type=int, default=3, help="runs of which the median is taken")
     parser.add_argument("--set", action="append", default=[], help="setting of all scenes")

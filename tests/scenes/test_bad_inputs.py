@@ -210,6 +210,8 @@ SCENES = [
      ["Handles/left/Motion", "'sinus(t)'", "sinus", "sin, cos"]),
     ("assignment in a formula", {**BAR, "Handles/left/Motion": "0; 0; t=0.5 ? 1 : 0"},
      ["Handles/left/Motion", "single '='", "Write =="]),
+    ("rotations from velocities that are not there", {**BAR, "Solver/Rotations": "predicted"},
+     ["Solver/Rotations = predicted", "Scene = dynamic"]),
     ("newton with frozen forces", {**BAR, "Solver/Method": "newton", "Model/Gradient": "frozen"},
      ["Solver/Method = newton", "Model/Gradient = consistent"]),
     ("umfpack with newton", {**BAR, "Solver/Linear solver": "umfpack"},

@@ -91,6 +91,9 @@ class Resume(SceneTest):
         self.check_kills({**DYNAMIC, "Time/Scheme": "bdf2", "Time/Stiffness damping": "0.01",
                           "Time/Mass damping": "0.1"}, [(1, 0.), (20, 0.003)])
 
+    def test_killed_scene_with_predicted_rotations(self):
+        self.check_kills({**DYNAMIC, "Solver/Method": "one pass", "Solver/Rotations": "predicted"}, [(7, 0.), (20, 0.003)])
+
     def test_killed_static_scene(self):
         self.check_kills(STATIC, [(20, 0.)])
 

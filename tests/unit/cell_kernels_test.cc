@@ -65,7 +65,7 @@ namespace Exemplar::Testing
         coupling.resize(12 * batch_size * task.examples.n);
         kernels.coupling(task, {}, guard_bound == no_guard, 1, coupling.data());
 
-        dealii::AlignedVector<double> rotation_sums(12 * n_nodes);
+        dealii::AlignedVector<float> rotation_sums(12 * n_nodes);
         kernels.add_rotations(task, 0, n_batches, rotation_sums.data());
         node_rotations.resize(9 * n_nodes);
         kernels.closest_rotations(n_nodes, rotation_sums.data(), node_rotations.data());

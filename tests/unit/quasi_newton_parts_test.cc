@@ -15,17 +15,25 @@ namespace Exemplar::Testing
 {
   namespace
   {
-    using History = std::deque<std::vector<double>>;
+    /// What follows a sequence, the oldest first.
+    std::vector<double>
+    predict(const std::vector<std::vector<double>> &sequence)
+    {
+      LinearPrediction prediction;
+      for (const std::vector<double> &vector : sequence)
+        prediction.add(vector);
+      return prediction.next();
+    }
 
     /// Samples of t -> (f, g, h), the newest at t = 0.
     template <typename Function>
-    History
+    std::vector<std::vector<double>>
     samples(const Function &function, const unsigned int n)
     {
-      History history;
-      for (unsigned int i = 0; i < n; ++i)
-        history.push_back(function(-0.1 * i));
-      return history;
+      std::vector<std::vector<double>> sequence;
+      for (unsigned int i = n; i-- > 0;)
+        sequence.push_back(function(-0.1 * i));
+      return sequence;
     }
 
     TEST(LinearPrediction, ContinuesOscillationsAndPolynomials)
@@ -39,19 +47,19 @@ namespace Exemplar::Testing
       const auto parabola = [](const double t) {
         return std::vector<double>{ 1. + t, t * t, 2. * t - t * t };
       };
-      for (const auto &next : { predict_next(samples(damped, 6)) })
-        for (unsigned int i = 0; i < next.size(); ++i)
-          EXPECT_NEAR(next[i], damped(0.1)[i], 1e-4);
-      const auto next = predict_next(samples(parabola, 4));
-      for (unsigned int i = 0; i < next.size(); ++i)
-        EXPECT_NEAR(next[i], parabola(0.1)[i], 1e-4);
+      // with more samples than are kept, too
+      for (const unsigned int n : { 6, 9 })
+        for (unsigned int i = 0; i < 4; ++i)
+          EXPECT_NEAR(predict(samples(damped, n))[i], damped(0.1)[i], 1e-4);
+      for (unsigned int i = 0; i < 3; ++i)
+        EXPECT_NEAR(predict(samples(parabola, 4))[i], parabola(0.1)[i], 1e-4);
     }
 
     TEST(LinearPrediction, NeedsNoHistory)
     {
-      EXPECT_EQ(predict_next({ { 1., 2. } }), (std::vector<double>{ 1., 2. }));
-      EXPECT_EQ(predict_next({ { 0., 0. }, { 0., 0. } }), (std::vector<double>{ 0., 0. }));
-      EXPECT_EQ(predict_next({ { 3., 1. }, { 0., 0. } }), (std::vector<double>{ 3., 1. }));
+      EXPECT_EQ(predict({ { 1., 2. } }), (std::vector<double>{ 1., 2. }));
+      EXPECT_EQ(predict({ { 0., 0. }, { 0., 0. } }), (std::vector<double>{ 0., 0. }));
+      EXPECT_EQ(predict({ { 0., 0. }, { 3., 1. } }), (std::vector<double>{ 3., 1. }));
     }
 
     TEST(Lbfgs, MeetsItsPairs)
