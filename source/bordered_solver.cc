@@ -39,6 +39,12 @@ namespace Exemplar
         return A->values();
       }
 
+      const dealii::FullMatrix<double> &
+      schur_complement() const override
+      {
+        return schur;
+      }
+
       void
       place_nodes(const dealii::Vector<double> &positions) override
       {
@@ -84,12 +90,12 @@ namespace Exemplar
     private:
       /// The quadratic of the Schur complement H - G^T Z over the weights, Eq. (11)
       void
-      solve_weights(const WeightBlock &block, BorderedVector &vector) const
+      solve_weights(const WeightBlock &block, BorderedVector &vector)
       {
-        const std::size_t          n     = vector.positions.size();
-        const auto                &index = block.coupled;
-        dealii::FullMatrix<double> schur(block.H);
-        std::vector<double>        right_side = vector.weights;
+        const std::size_t   n          = vector.positions.size();
+        const auto         &index      = block.coupled;
+        std::vector<double> right_side = vector.weights;
+        schur                          = block.H;
         for (std::size_t i = 0; i < index.size(); ++i)
         {
           const double *G_i = block.coupling.data() + i * n;
@@ -108,6 +114,7 @@ namespace Exemplar
       }
 
       const std::unique_ptr<SpdOperator> A;
+      dealii::FullMatrix<double>         schur;   ///< of the last solve
       std::vector<double>                columns; ///< z and Z; empty: none since factorize()
     };
   } // namespace

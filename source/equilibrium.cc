@@ -240,6 +240,20 @@ namespace Exemplar
     parts.linear_solver.solve(block, unknowns);
   }
 
+  Conditioning
+  Equilibrium::conditioning() const
+  {
+    Conditioning result;
+    if (SpdOperator *matrix = parts.linear_solver.matrix())
+      result.matrix = matrix->condition_estimate();
+    const dealii::FullMatrix<double> &schur = turned_factor.empty()
+                                                  ? parts.linear_solver.schur_complement()
+                                                  : turned_factor.schur_complement();
+    if (schur.m() > 0)
+      result.schur = condition_number(form_of_differences(schur, parts.examples->size()));
+    return result;
+  }
+
   dealii::Vector<double>
   Equilibrium::solved_step(const State &state) const
   {

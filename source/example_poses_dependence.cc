@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/conditioning.h>
 #include <exemplar/errors.h>
 #include <exemplar/example_poses.h>
-
-#include <deal.II/lac/lapack_full_matrix.h>
 
 #include <cmath>
 #include <limits>
@@ -14,22 +13,6 @@ namespace Exemplar
 {
   namespace
   {
-    /// Ratio of the greatest to the least eigenvalue of a positive semidefinite matrix,
-    /// whose rows and columns are first scaled to a diagonal of ones.
-    double
-    condition_number(const dealii::FullMatrix<double> &matrix)
-    {
-      const unsigned int               n = matrix.m();
-      dealii::LAPACKFullMatrix<double> scaled(n, n);
-      for (unsigned int i = 0; i < n; ++i)
-        for (unsigned int j = 0; j < n; ++j)
-          scaled(i, j) = matrix(i, j) / std::sqrt(matrix(i, i) * matrix(j, j));
-      dealii::Vector<double>     values(n);
-      dealii::FullMatrix<double> vectors;
-      scaled.compute_eigenvalues_symmetric(-1., 2. * n, 0., values, vectors);
-      return values[0] > 0. ? values[n - 1] / values[0] : std::numeric_limits<double>::infinity();
-    }
-
     /// The row at which Cholesky's factorisation finds the least pivot relative to its
     /// diagonal entry: that depends most on the rows before it.
     struct LeastPivot
@@ -69,18 +52,12 @@ namespace Exemplar
   void
   ExamplePoses::check_independence(const Material &material)
   {
-    // the Gram matrix of the differences to each region's first example
-    const unsigned int         n = n_weights() - n_regions(), k = size();
-    dealii::FullMatrix<double> differences(n, n);
-    const auto                 first  = [k](const unsigned int d) { return d / (k - 1) * k; };
-    const auto                 second = [&](const unsigned int d) { return d + d / (k - 1) + 1; };
-    for (unsigned int d = 0; d < n; ++d)
-      for (unsigned int f = 0; f < n; ++f)
-        differences(d, f) = gram(second(d), second(f)) - gram(second(d), first(f))
-                            - gram(first(d), second(f)) + gram(first(d), first(f));
+    const unsigned int               k           = size();
+    const dealii::FullMatrix<double> differences = form_of_differences(gram, k);
+    const auto second = [k](const unsigned int d) { return d + d / (k - 1) + 1; };
     // strains of 1e-10 are the rounding of a rest pose
     const LeastPivot least = least_pivot(differences, 1e-20 * unit_energy(fe_space, material));
-    if (n == 0 || least.ratio > 1e-8)
+    if (differences.m() == 0 || least.ratio > 1e-8)
       return;
     const unsigned int example = second(least.row) % k;
     const std::string  where

@@ -46,6 +46,14 @@ namespace Exemplar
         return common.fl;
       }
 
+      double
+      condition_estimate() override
+      {
+        if (pattern.n() == 0 || factor->xtype == CHOLMOD_PATTERN) // not factorised
+          return 0.;
+        return 1. / cholmod_rcond(factor, &common);
+      }
+
       void
       reinit(const SymmetricPattern &new_pattern) override
       {

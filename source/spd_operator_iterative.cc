@@ -16,6 +16,7 @@
 #include <ml_MultiLevelPreconditioner.h>
 #include <ml_utils.h>
 #include <mpi.h>
+#include <numeric>
 #include <string>
 
 namespace Exemplar
@@ -43,12 +44,19 @@ namespace Exemplar
       std::atexit([] { MPI_Finalize(); });
     }
 
+    /// deal.II's own asserts in Debug that it is finite; ours may not be, and then says so.
+    double
+    dot(const Vector &a, const Vector &b)
+    {
+      return std::inner_product(a.begin(), a.end(), b.begin(), 0.);
+    }
+
     /// Throws unless x A x > 0: there conjugate gradients would go astray, and Newton's
     /// method wants to know.
     void
     check_curvature(const Vector &direction, const Vector &image)
     {
-      if (!(direction * image > 0.)) // nor is a NaN
+      if (!(dot(direction, image) > 0.)) // nor is a NaN
         throw indefinite_matrix();
     }
 
@@ -308,9 +316,11 @@ namespace Exemplar
       solve(const Vector &right_side, Vector &solution) const
       {
         solution          = 0.;
-        const double norm = right_side.l2_norm();
+        const double norm = std::sqrt(dot(right_side, right_side));
         if (norm == 0.)
           return;
+        if (!std::isfinite(norm))
+          throw SolverFailure("The forces are not finite numbers.");
         const auto multiply
             = [this](const Epetra_Vector &x, Epetra_Vector &y) { matrix->Multiply(false, x, y); };
         const auto cycle

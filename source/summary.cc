@@ -72,6 +72,11 @@ namespace Exemplar
     json["factorizations"]  = totals.factorizations;
     json["status"]          = status;
     json["worst_residual"]  = totals.worst_residual;
+    const Conditioning conditioning = problem.equilibrium.conditioning();
+    if (conditioning.matrix > 0.)
+      json["condition_matrix"] = conditioning.matrix; // null: singular
+    if (conditioning.schur > 0.)
+      json["condition_schur"] = conditioning.schur;
     json["seconds"]         = seconds_of(totals.seconds);
     json["peak_memory_mib"] = peak_memory_mib();
     json["bytes_per_cell"]  = std::round(1048576. * peak_memory_mib() / problem.mesh.n_cells());

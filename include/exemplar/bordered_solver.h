@@ -57,6 +57,14 @@ namespace Exemplar
     matrix()
         = 0;
 
+    /// The last Schur complement H - G^T Z; empty if there was none.
+    virtual const dealii::FullMatrix<double> &
+    schur_complement() const
+    {
+      static const dealii::FullMatrix<double> none;
+      return none;
+    }
+
     /// Where the nodes are in the state of which A is the tangent; see SpdOperator.
     virtual void
     place_nodes(const dealii::Vector<double> & /*positions*/)

@@ -4,6 +4,7 @@
 
 #include <exemplar/assembler.h>
 #include <exemplar/bordered_solver.h>
+#include <exemplar/conditioning.h>
 #include <exemplar/handles.h>
 #include <exemplar/inertia.h>
 #include <exemplar/loads.h>
@@ -164,6 +165,10 @@ namespace Exemplar
 
     void
     restore(const QuasiNewtonMemory &earlier);
+
+    /// Of the systems that were solved last.
+    Conditioning
+    conditioning() const;
 
     /// Factorisations so far.
     unsigned int

@@ -83,6 +83,14 @@ namespace Exemplar
       return 0.;
     }
 
+    /// The ratio of the greatest to the least pivot of the last factor, which the condition
+    /// number is not below; 0 if there is none.
+    virtual double
+    condition_estimate()
+    {
+      return 0.;
+    }
+
     /// Where the nodes are in the state of which the next matrix is the tangent. Operators
     /// that ask nothing of it ignore it.
     virtual void

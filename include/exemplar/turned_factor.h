@@ -23,6 +23,13 @@ namespace Exemplar
     void
     reinit(SpdOperator &matrix, const WeightBlock &block, const std::vector<float> &rotations);
 
+    /// H - G^T Z; empty without weights to find.
+    const dealii::FullMatrix<double> &
+    schur_complement() const
+    {
+      return schur;
+    }
+
     /// From now on the nodes are turned by these rotations.
     void
     turn(const std::vector<float> &rotations);
