@@ -3,6 +3,8 @@
 #include <exemplar/drivers.h>
 #include <exemplar/environment.h>
 #include <exemplar/errors.h>
+#include <exemplar/study.h>
+#include <exemplar/study_file.h>
 #include <exemplar/verification.h>
 #include <exemplar/version.h>
 
@@ -31,8 +33,20 @@ namespace Exemplar
         ->check(CLI::Range(1, 1024));
     app.add_flag("--quiet", options.quiet, "print warnings and errors only");
     app.add_flag("--verbose", options.verbose, "print a line an iteration");
-    app.add_flag("--validate", validate, "check the scene and its files, compute nothing");
+    app.add_flag("--validate", validate, "check the scene or study and its files, compute nothing");
     app.add_flag("--print-parameters", print, "every parameter, its default, range and meaning");
+
+    StudyOptions study;
+    bool         print_study = false;
+    CLI::App    *studying
+        = app.add_subcommand("study", "run a scene with many settings: error against run time");
+    for (CLI::Option *of_scenes : app.get_options())
+      studying->excludes(of_scenes);
+    studying->add_option("STUDY", study.file, "study file (.prm)");
+    studying->add_option("--output", study.output, "directory of the results");
+    studying->add_flag("--quiet", study.quiet, "print warnings and errors only");
+    studying->add_flag("--print-parameters", print_study,
+                       "every key of a study file, its default, range and meaning");
 
     std::vector<std::string> cases;
     bool                     list         = false;
@@ -46,8 +60,10 @@ namespace Exemplar
     try
     {
       app.parse(argc, argv);
-      if (!print && !*verification && options.scene_file.empty())
+      if (!print && !*verification && !*studying && options.scene_file.empty())
         throw CLI::RequiredError("SCENE");
+      if (*studying && !print_study && study.file.empty())
+        throw CLI::RequiredError("STUDY");
     }
     catch (const CLI::Success &request) // --help or --version
     {
@@ -67,10 +83,15 @@ namespace Exemplar
         return verify(cases);
       list_verification_cases();
     }
+    else if (*studying)
+      print_study ? print_study_parameters() : run_study(study);
     else if (print)
       print_parameters();
     else if (validate)
-      validate_scene(options);
+      is_study(options.scene_file) ? validate_study(options.scene_file) : validate_scene(options);
+    else if (is_study(options.scene_file))
+      throw UserError(options.scene_file.string() + " is a study. Run it by: exemplar study "
+                      + options.scene_file.string());
     else
       run_scene(options);
     return 0;
