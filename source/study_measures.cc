@@ -157,8 +157,8 @@ namespace Exemplar
     double           first_energy = nan, scale = 0., growth = 0.;
     while (row.next())
     {
-      run.iterations += row.number("iterations", 0.);
-      run.residual        = std::max(run.residual, row.number("residual", 0.));
+      run.iterations      = std::fmax(run.iterations, 0.) + row.number("iterations", 0.);
+      run.residual        = std::fmax(run.residual, row.number("residual", nan));
       const double energy = total_energy(row);
       if (std::isnan(energy)) // a step that failed
         continue;

@@ -3,9 +3,9 @@
 #include <exemplar/study_report.h>
 #include <exemplar/version.h>
 
-#include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <map>
 #include <sstream>
 
 namespace Exemplar
@@ -155,14 +155,35 @@ namespace Exemplar
       }
     }
 
+    /// "Section/Key = value, ..." on all axes, or on those that do not change in a line.
     std::string
-    values_text(const StudyTable &table, const StudyRow &row)
+    values_text(const StudyTable &table, const StudyRow &row, const bool of_line)
     {
+      const auto  numeric = numeric_axis(table.axes);
       std::string text;
       for (unsigned int a = 0; a < table.axes.size(); ++a)
-        text += (a == 0 ? "" : ", ") + table.axes[a].name() + " = "
-                + table.axes[a].text(row.choice[a]);
+        if (!of_line || (numeric && a != *numeric))
+          text += (text.empty() ? "" : ", ") + table.axes[a].name() + " = "
+                  + table.axes[a].text(row.choice[a]);
       return text;
+    }
+
+    /// What failed for the same reason, together.
+    void
+    write_failures(std::ostream &out, const StudyTable &table)
+    {
+      std::map<std::string, std::vector<const StudyRow *>> failures;
+      for (const StudyRow &row : table.rows)
+        if (row.exit_status != 0)
+          failures[row.status + ". " + row.message].push_back(&row);
+      if (!failures.empty())
+        out << "\n## What failed\n";
+      for (const auto &[reason, rows] : failures)
+      {
+        out << "\n" << rows.size() << (rows.size() == 1 ? " run: " : " runs: ") << reason << "\n\n";
+        for (const StudyRow *row : rows)
+          out << "- " << values_text(table, *row, false) << '\n';
+      }
     }
   } // namespace
 
@@ -177,17 +198,12 @@ namespace Exemplar
              "reference.\nAn order is p in error ~ number^p, between a row and the one above.\n";
     for (const StudyLine &line : lines_of(table))
     {
-      if (!line.title.empty())
-        out << "\n## " << line.title << "\n";
+      if (const std::string title = values_text(table, *line.rows[0], true); !title.empty())
+        out << "\n## " << title << "\n";
       out << '\n';
       write_table(out, table, line);
     }
-    if (std::any_of(table.rows.begin(), table.rows.end(),
-                    [](const StudyRow &row) { return !row.message.empty(); }))
-      out << "\n## What failed\n\n";
-    for (const StudyRow &row : table.rows)
-      if (!row.message.empty())
-        out << "- " << values_text(table, row) << ": " << row.status << ". " << row.message << '\n';
+    write_failures(out, table);
     atomic_file.commit();
   }
 } // namespace Exemplar

@@ -15,9 +15,9 @@ namespace Exemplar
   /// What statistics.csv says of a run as a whole; NaN where it says nothing.
   struct RunStatistics
   {
-    double steps      = 0.; ///< that were accepted
-    double iterations = 0.;
-    double residual   = 0.; ///< the greatest
+    double steps      = std::numeric_limits<double>::quiet_NaN(); ///< that were accepted
+    double iterations = std::numeric_limits<double>::quiet_NaN();
+    double residual   = std::numeric_limits<double>::quiet_NaN(); ///< the greatest
     double min_det_F  = std::numeric_limits<double>::quiet_NaN();
     double energy     = std::numeric_limits<double>::quiet_NaN(); ///< in total, at the end [J]
     /// The greatest energy over all steps that neither was there at first nor was done as
