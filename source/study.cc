@@ -235,7 +235,9 @@ namespace Exemplar
     const StudyDirectory directory(options.output.empty() ? fs::path("output") / options.file.stem()
                                                           : options.output);
     directory.check(options.file);
-    directory.begin(study.text);
+    directory.make();
+    const FileLock lock = directory.lock();
+    directory.write_study(study.text);
 
     StudyRuns runs(directory.runs(), study);
     if (!options.quiet)

@@ -3,8 +3,12 @@
 #include <exemplar/errors.h>
 #include <exemplar/study_directory.h>
 
-#include <fstream>
+#include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
+
+#include <cerrno>
+#include <fstream>
 
 namespace Exemplar
 {
@@ -17,6 +21,22 @@ namespace Exemplar
 
     const std::string remedy = " Give another one by --output.";
   } // namespace
+
+  FileLock::FileLock(const fs::path &file, const std::string &refusal)
+      : descriptor(::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666))
+  {
+    if (descriptor >= 0 && ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    {
+      ::close(descriptor);
+      throw UserError(refusal);
+    }
+  }
+
+  FileLock::~FileLock()
+  {
+    if (descriptor >= 0)
+      ::close(descriptor);
+  }
 
   StudyDirectory::StudyDirectory(fs::path path) : path(std::move(path)) {}
 
@@ -48,17 +68,31 @@ namespace Exemplar
   }
 
   void
-  StudyDirectory::begin(const std::string &study_text) const
+  StudyDirectory::make() const
   {
     std::error_code error;
     fs::create_directories(path, error);
     if (error)
       throw UserError("Output directory " + path.string() + " cannot be made: " + error.message()
                       + "." + remedy);
-    AtomicFile file(study_prm()); // first: by it the directory is known as ours
+    if (!is_ours())
+      write_study(""); // first: by it the directory is known as ours
+    fs::create_directories(runs());
+  }
+
+  FileLock
+  StudyDirectory::lock() const
+  {
+    return { runs() / "lock",
+             "Another study is running in the output directory " + path.string() + "." + remedy };
+  }
+
+  void
+  StudyDirectory::write_study(const std::string &study_text) const
+  {
+    AtomicFile file(study_prm());
     file.stream() << mark << '\n' << study_text;
     file.commit();
-    fs::create_directories(runs());
   }
 
   void

@@ -7,6 +7,24 @@
 
 namespace Exemplar
 {
+  /// While it lives, no other process has a lock on the same file. Ends with the process,
+  /// however that ends.
+  class FileLock
+  {
+  public:
+    /// Throws UserError with `refusal` if another has it.
+    FileLock(const std::filesystem::path &file, const std::string &refusal);
+    ~FileLock();
+
+    FileLock(const FileLock &) = delete;
+    FileLock &
+    operator=(const FileLock &)
+        = delete;
+
+  private:
+    const int descriptor;
+  };
+
   /// Where a study writes, and the names of what it writes.
   class StudyDirectory
   {
@@ -18,9 +36,17 @@ namespace Exemplar
     void
     check(const std::filesystem::path &study_file) const;
 
-    /// Make the directory and its parts, and write the study into it.
+    /// Make the directory and its parts.
     void
-    begin(const std::string &study_text) const;
+    make() const;
+
+    /// Throws UserError if another study is running here.
+    FileLock
+    lock() const;
+
+    /// Write the study into the directory.
+    void
+    write_study(const std::string &study_text) const;
 
     /// Remove the tables and the figure, which belong to earlier rows.
     void

@@ -103,7 +103,9 @@ class Studies(SceneTest):
                                   "log.txt", "parameters.prm"}, results)
             self.assertNotIn("checkpoint.bin", results)
             self.assertEqual([name for name in results if name.endswith(".vtu")], [])
-        self.assertEqual(len(list((self.directory / "out/runs").iterdir())), 5)
+        self.assertEqual({file.name for file in (self.directory / "out/runs").iterdir()},
+                         {"lock", *self.records()})
+        self.assertEqual(len(self.records()), 5)  # with the reference
         self.assertTrue((self.directory / "out/study.prm").read_text().endswith(
             (self.directory / "study.prm").read_text()))
         self.assertIn("## Solver/Method = newton\n", self.report())
@@ -225,6 +227,15 @@ class Studies(SceneTest):
         status, message = self.check_stop(signal.SIGINT)
         self.assertEqual(status, 130)
         self.assertRegex(message, "^exemplar: Interrupted after 3 of 9 runs. The same command ")
+
+    def test_one_study_at_a_time(self):
+        self.prepare({**DYNAMIC, "Time/End": "0.1"}, "Time/Step: 1e-7 0.1")  # a million steps
+        process = self.start(lambda process: self.is_running())
+        self.study(status=1)
+        self.assertIn("Another study is running in the output directory out. Give another",
+                      self.run_of_study.stderr)
+        process.kill()
+        process.communicate(timeout=300)
 
     def test_only_what_has_changed_is_run_anew(self):
         self.prepare(DYNAMIC, "Time/Step: 0.1 0.05", Reference="Time/Step=0.01")
