@@ -175,7 +175,7 @@ class Studies(SceneTest):
                       self.run_of_study.stderr)
 
     def test_a_crash_is_a_row(self):
-        self.prepare({**DYNAMIC, "Time/End": "0.1"}, "Time/Step: 1e-7 0.1")  # a million steps
+        self.prepare({**DYNAMIC, "Time/End": "0.1"}, "Time/Step: 1e-9 0.1")  # a hundred million steps
         process = self.start(lambda process: self.is_running())
         os.kill(children(process)[0], signal.SIGSEGV)
         self.assertEqual((process.communicate(timeout=300)[1], process.returncode), ("", 0))
@@ -186,56 +186,56 @@ class Studies(SceneTest):
         self.assertEqual(good["status"], "converged")
 
     def test_timeout(self):
-        self.prepare({**DYNAMIC, "Time/End": "0.1"}, "Time/Step: 1e-7 0.1", Timeout="0.5")
+        self.prepare({**DYNAMIC, "Time/End": "0.1"}, "Time/Step: 1e-9 0.1", Timeout="0.5")
         endless, good = self.study()
         self.assertEqual((endless["status"], good["status"]), ("timeout", "converged"))
         self.assertIn("0.5 s", endless["message"])
         before = self.records()
         self.study()
         self.assertEqual(self.records(), before)
-        self.prepare({**DYNAMIC, "Time/End": "0.1"}, "Time/Step: 1e-7 0.1", Timeout="0.6")
+        self.prepare({**DYNAMIC, "Time/End": "0.1"}, "Time/Step: 1e-9 0.1", Timeout="0.6")
         self.assertIn("0.6 s", self.study()[0]["message"])
         after = self.records()
         self.assertEqual([run for run in after if after[run] != before[run]], [endless["run"]])
 
     def check_stop(self, how):
-        vary = {"vary": "Time/Step: 0.1 0.05 1e-3 0.02", "Reference": "Time/Step=0.01",
+        vary = {"vary": "Time/Step: 0.1 0.05 5e-5 0.02", "Reference": "Time/Step=0.01",
                 "Repeats": "2"}
         self.prepare(DYNAMIC, **vary)
-        process = self.start(lambda process: len(self.records()) == 3 and self.is_running())
-        runs = children(process)
+        process = self.start(lambda process: len(self.records()) >= 3)
         process.send_signal(how)
         message = process.communicate(timeout=300)[1]
-        self.assertEqual(len(runs), 1)
-        self.wait_until(lambda: state_and_parent(runs[0]) is None)
-        before = self.records()
-        self.assertEqual(len(before), 3)
+        finished = len(self.records())
+        self.assertLess(finished, 5, "too late: the first repeat of all runs is there")
         self.assertFalse((self.directory / "out/study.csv").exists())
         rows = self.study()
-        self.assertIn("3 of them are there", self.run_of_study.stdout)
+        self.assertIn(f"{finished} of them are there", self.run_of_study.stdout)
         self.assertEqual([row["status"] for row in rows], ["converged"] * 4)
         stopped = self.timeless()
         shutil.rmtree(self.directory / "out")
         self.study()
         self.assertEqual(self.timeless(), stopped)
-        return process.returncode, message
+        return process.returncode, message, finished
 
     def test_goes_on_after_a_kill(self):
-        self.assertEqual(self.check_stop(signal.SIGKILL), (-signal.SIGKILL, ""))
+        self.assertEqual(self.check_stop(signal.SIGKILL)[:2], (-signal.SIGKILL, ""))
 
     def test_goes_on_after_an_interrupt(self):
-        status, message = self.check_stop(signal.SIGINT)
+        status, message, finished = self.check_stop(signal.SIGINT)
         self.assertEqual(status, 130)
-        self.assertRegex(message, "^exemplar: Interrupted after 3 of 9 runs. The same command ")
+        self.assertEqual(message, f"exemplar: Interrupted after {finished} of 9 runs. The same "
+                         "command goes on with the others.\n")
 
     def test_one_study_at_a_time(self):
-        self.prepare({**DYNAMIC, "Time/End": "0.1"}, "Time/Step: 1e-7 0.1")  # a million steps
+        self.prepare({**DYNAMIC, "Time/End": "0.1"}, "Time/Step: 1e-9 0.1")  # a hundred million steps
         process = self.start(lambda process: self.is_running())
         self.study(status=1)
         self.assertIn("Another study is running in the output directory out. Give another",
                       self.run_of_study.stderr)
+        [run] = children(process)
         process.kill()
         process.communicate(timeout=300)
+        self.wait_until(lambda: state_and_parent(run) is None)  # it would take minutes by itself
 
     def test_only_what_has_changed_is_run_anew(self):
         self.prepare(DYNAMIC, "Time/Step: 0.1 0.05", Reference="Time/Step=0.01")

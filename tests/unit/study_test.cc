@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/mesh.h>
+#include <exemplar/mesh_generation.h>
 #include <exemplar/study_file.h>
 #include <exemplar/study_measures.h>
 #include <exemplar/study_plot.h>
@@ -159,6 +161,54 @@ namespace Exemplar::Testing
       EXPECT_EQ(run.energy, 12.);
       EXPECT_EQ(run.energy_growth, (12. - 2. - 4.) / 4.);
       EXPECT_TRUE(std::isnan(read_run_statistics(directory / "absent.csv").steps));
+    }
+
+    class StudyPoses : public InTemporaryDirectory
+    {
+    protected:
+      /// A unit cube of n^3 bricks, displaced.
+      template <typename Displacement>
+      FinalPose
+      pose(const unsigned int n, const Displacement &displacement) const
+      {
+        const Mesh mesh(generate_box({ { 1., 1., 1. } }, { { n, n, n } }), "box");
+        auto       positions = mesh.get_nodes();
+        for (auto &position : positions)
+          position += displacement(position);
+        mesh.write_pose(positions, directory / "final.msh");
+        return { mesh, directory / "final.msh" };
+      }
+    };
+
+    using Vector = dealii::Tensor<1, 3>;
+
+    Vector
+    along_x(const dealii::Point<3> &)
+    {
+      return Vector({ 2., 0., 0. });
+    }
+
+    TEST_F(StudyPoses, ErrorsOverTheVolume)
+    {
+      // the lowest corner belongs to all six tetrahedra and so has a quarter of the volume
+      const auto corner = [](const dealii::Point<3> &x) {
+        return along_x(x) + Vector({ 0., 0., x.distance({ 0., -0.5, -0.5 }) == 0. ? 1. : 0. });
+      };
+      const PoseErrors errors = pose_errors(pose(1, corner), pose(1, along_x));
+      EXPECT_NEAR(errors.l2, 0.5 / 2., 1e-14);
+      EXPECT_NEAR(errors.max, 1. / 2., 1e-14);
+      EXPECT_NEAR(pose(1, corner).max_displacement(), std::sqrt(5.), 1e-14);
+    }
+
+    TEST_F(StudyPoses, RefinedReference)
+    {
+      const auto longer = [](const dealii::Point<3> &x) {
+        return along_x(x) + Vector({ 1., 0., 0. });
+      };
+      for (const unsigned int n : { 2u, 3u, 6u, 12u })
+        EXPECT_NEAR(pose_errors(pose(n, longer), pose(12, along_x)).l2, 0.5, 1e-12) << n;
+      EXPECT_TRUE(std::isnan(pose_errors(pose(5, longer), pose(12, along_x)).l2));
+      EXPECT_TRUE(std::isnan(pose_errors(pose(12, longer), pose(6, along_x)).l2));
     }
 
     TEST(Study, ObservedOrders)
