@@ -83,12 +83,13 @@ namespace Exemplar
         const StudyRecord &record    = runs.record(planned.name);
         const fs::path     directory = runs.path(planned.name);
         StudyRow           row;
-        row.choice      = planned.choice;
-        row.status      = record.status;
-        row.exit_status = record.exit_status;
-        row.message     = record.message;
-        row.run         = planned.name;
-        row.statistics  = read_run_statistics(RunDirectory(directory).statistics());
+        row.choice       = planned.choice;
+        row.status       = record.status;
+        row.exit_status  = record.exit_status;
+        row.message      = record.message;
+        row.run          = planned.name;
+        row.statistics   = read_run_statistics(RunDirectory(directory).statistics());
+        row.conditioning = read_run_conditioning(RunDirectory(directory).summary());
         if (record.status != "refused")
         {
           row.seconds_median = median(record.seconds);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <set>
-#include <sstream>
 
 namespace Exemplar
 {
@@ -34,7 +33,9 @@ namespace Exemplar
             "Values "
             "are separated by ';', without one by commas, without these by blanks. Keys that "
             "change "
-            "together are joined by '+', and so are their values. To be set in every study.");
+            "together are joined by '+', and so are their values. Values that hold separators are "
+            "put "
+            "in double quotes, here and in Base. To be set in every study.");
         prm.add_parameter("Repeats", repeats,
                           "How often each combination is run, for the median of the seconds.",
                           dealii::Patterns::Integer(1));
@@ -45,6 +46,49 @@ namespace Exemplar
                           dealii::Patterns::Integer(1, 1024));
       }
     };
+
+    std::size_t
+    find_unquoted(const std::string &text, const char separator, std::size_t from = 0)
+    {
+      bool is_quoted = std::count(text.begin(), text.begin() + from, '"') % 2 == 1;
+      for (; from < text.size(); ++from)
+        if (text[from] == '"')
+          is_quoted = !is_quoted;
+        else if (text[from] == separator && !is_quoted)
+          return from;
+      return std::string::npos;
+    }
+
+    /// As split_trimmed(), but quoted separators do not count.
+    std::vector<std::string>
+    split_unquoted(const std::string &text, const char separator)
+    {
+      std::vector<std::string> parts;
+      std::size_t              begin = 0;
+      if (trim(text).empty())
+        return parts;
+      for (std::size_t end; (end = find_unquoted(text, separator, begin)) != std::string::npos;
+           begin = end + 1)
+        parts.push_back(trim(text.substr(begin, end - begin)));
+      parts.push_back(trim(text.substr(begin)));
+      return parts;
+    }
+
+    std::string
+    without_quotes(const std::string &value)
+    {
+      const bool is_quoted = value.size() > 1 && value.front() == '"' && value.back() == '"';
+      return is_quoted ? value.substr(1, value.size() - 2) : value;
+    }
+
+    void
+    require_closed_quotes(const std::string &text, const std::string &place)
+    {
+      if (std::count(text.begin(), text.end(), '"') % 2 == 1)
+        throw UserError(place
+                        + ": a quotation mark is not closed. Put '\"' around values that "
+                          "hold ';', '|', ',' or blanks.");
+    }
 
     std::string
     joined(const std::vector<std::string> &parts)
@@ -70,10 +114,12 @@ namespace Exemplar
     {
       std::vector<Assignment> settings;
       std::set<std::string>   paths;
-      for (const std::string &part : split_trimmed(text, ';'))
+      require_closed_quotes(text, place);
+      for (const std::string &part : split_unquoted(text, ';'))
         if (!part.empty())
         {
           settings.push_back(parse_assignment(part, place));
+          settings.back().value = without_quotes(settings.back().value);
           require_own_key(settings.back());
           if (!paths.insert(settings.back().path()).second)
             throw UserError(place + ": " + settings.back().path() + " is set twice. Keep one.");
@@ -84,10 +130,8 @@ namespace Exemplar
     std::vector<std::string>
     split_at_blanks(const std::string &text)
     {
-      std::istringstream       words(text);
-      std::vector<std::string> parts;
-      for (std::string word; words >> word;)
-        parts.push_back(word);
+      std::vector<std::string> parts = split_unquoted(text, ' ');
+      parts.erase(std::remove(parts.begin(), parts.end(), ""), parts.end());
       return parts;
     }
 
@@ -95,9 +139,9 @@ namespace Exemplar
     split_values(const std::string &text)
     {
       for (const char separator : { ';', ',' })
-        if (text.find(separator) != std::string::npos)
+        if (find_unquoted(text, separator) != std::string::npos)
         {
-          std::vector<std::string> values = split_trimmed(text, separator);
+          std::vector<std::string> values = split_unquoted(text, separator);
           if (values.back().empty()) // "one pass," is a single value
             values.pop_back();
           return values;
@@ -120,8 +164,12 @@ namespace Exemplar
       if (axis.keys.empty())
         throw UserError(place + ": the axis '" + text + "' names no key." + remedy);
       for (const std::string &value : split_values(trim(text.substr(colon + 1))))
-        axis.values.push_back(axis.keys.size() > 1 ? split_trimmed(value, '+')
+      {
+        axis.values.push_back(axis.keys.size() > 1 ? split_unquoted(value, '+')
                                                    : std::vector<std::string>{ value });
+        for (std::string &part : axis.values.back())
+          part = without_quotes(part);
+      }
       if (axis.values.empty())
         throw UserError(place + ": " + axis.name() + " has no values." + remedy);
       for (const auto &values : axis.values)
@@ -143,7 +191,8 @@ namespace Exemplar
     {
       std::vector<StudyAxis> axes;
       std::set<std::string>  keys;
-      for (const std::string &part : split_trimmed(text, '|'))
+      require_closed_quotes(text, place);
+      for (const std::string &part : split_unquoted(text, '|'))
       {
         axes.push_back(parse_axis(part, place));
         for (const std::string &key : axes.back().keys)
@@ -236,8 +285,10 @@ namespace Exemplar
     all.insert(all.end(), base.begin(), base.end());
     for (unsigned int a = 0; a < choice.size(); ++a)
       for (unsigned int k = 0; k < axes[a].keys.size(); ++k)
-        all.push_back(
-            parse_assignment(axes[a].keys[k] + "=" + axes[a].values[choice[a]][k], vary_place));
+      {
+        all.push_back(parse_assignment(axes[a].keys[k] + "=", vary_place));
+        all.back().value = axes[a].values[choice[a]][k];
+      }
     return all;
   }
 

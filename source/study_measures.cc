@@ -3,6 +3,8 @@
 #include <exemplar/prm_tools.h>
 #include <exemplar/study_measures.h>
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -159,6 +161,7 @@ namespace Exemplar
     {
       run.iterations      = std::fmax(run.iterations, 0.) + row.number("iterations", 0.);
       run.residual        = std::fmax(run.residual, row.number("residual", nan));
+      run.kkt             = std::fmax(run.kkt, row.number("kkt_residual", nan));
       const double energy = total_energy(row);
       if (std::isnan(energy)) // a step that failed
         continue;
@@ -173,6 +176,23 @@ namespace Exemplar
     if (scale > 0.)
       run.energy_growth = growth / scale;
     return run;
+  }
+
+  RunConditioning
+  read_run_conditioning(const std::filesystem::path &summary)
+  {
+    std::ifstream in(summary);
+    if (!in)
+      return {};
+    const auto json   = nlohmann::json::parse(in);
+    const auto number = [&](const char *key)
+    {
+      if (!json.contains(key))
+        return nan;
+      return json[key].is_null() ? std::numeric_limits<double>::infinity()
+                                 : json[key].get<double>();
+    };
+    return { number("condition_matrix"), number("condition_schur") };
   }
 
   FinalPose::FinalPose(const Mesh &mesh, const std::filesystem::path &final_msh)

@@ -61,6 +61,9 @@ namespace Exemplar
       append("steps", row.statistics.steps);
       append("iterations", row.statistics.iterations);
       append("residual", row.statistics.residual);
+      append("kkt_residual", row.statistics.kkt);
+      append("condition_matrix", row.conditioning.matrix);
+      append("condition_schur", row.conditioning.schur);
       append("min_det_F", row.statistics.min_det_F);
       append("energy_growth", row.statistics.energy_growth);
       append("max_displacement", row.max_displacement);

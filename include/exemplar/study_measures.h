@@ -18,12 +18,23 @@ namespace Exemplar
     double steps      = std::numeric_limits<double>::quiet_NaN(); ///< that were accepted
     double iterations = std::numeric_limits<double>::quiet_NaN();
     double residual   = std::numeric_limits<double>::quiet_NaN(); ///< the greatest
+    double kkt        = std::numeric_limits<double>::quiet_NaN(); ///< the greatest of the weights'
     double min_det_F  = std::numeric_limits<double>::quiet_NaN();
     double energy     = std::numeric_limits<double>::quiet_NaN(); ///< in total, at the end [J]
     /// The greatest energy over all steps that neither was there at first nor was done as
     /// work, over the greatest of what was there at first and the work [-].
     double energy_growth = std::numeric_limits<double>::quiet_NaN();
   };
+
+  /// Condition numbers that summary.json gives; NaN: none, infinity: singular.
+  struct RunConditioning
+  {
+    double matrix = std::numeric_limits<double>::quiet_NaN();
+    double schur  = std::numeric_limits<double>::quiet_NaN();
+  };
+
+  RunConditioning
+  read_run_conditioning(const std::filesystem::path &summary);
 
   /// Of a run in this directory; without statistics.csv all is empty.
   RunStatistics

@@ -27,6 +27,7 @@ namespace Exemplar
     double                    max_displacement = std::numeric_limits<double>::quiet_NaN();
     PoseErrors                errors;
     RunStatistics             statistics;
+    RunConditioning           conditioning;
   };
 
   /// The rows of a study in the order of its combinations.

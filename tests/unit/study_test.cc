@@ -61,6 +61,21 @@ namespace Exemplar::Testing
 
     using Values = std::vector<std::vector<std::string>>;
 
+    TEST_F(StudyFile, QuotedValuesMayHoldSeparators)
+    {
+      const Study quoted = study("Examples/Pose functions: \"x; y; -z\" \"2*x; y, z | x; y; z\" | "
+                                 "A/B + C: \"1 + 2\" + 3, 4 + \"5, 6\"",
+                                 "set Base = D/E=1; D/F=\"0; t; 0\"\n");
+      ASSERT_EQ(quoted.axes.size(), 2U);
+      EXPECT_EQ(quoted.axes[0].values, (std::vector<std::vector<std::string>>{
+                                           { "x; y; -z" }, { "2*x; y, z | x; y; z" } }));
+      EXPECT_EQ(quoted.axes[1].values,
+                (std::vector<std::vector<std::string>>{ { "1 + 2", "3" }, { "4", "5, 6" } }));
+      EXPECT_EQ(quoted.base[1].value, "0; t; 0");
+      EXPECT_EQ(quoted.assignments({ 1, 0 }).back().value, "3");
+      expect_refusal({ "Vary", "quotation mark is not closed" }, "A/B: \"x; y");
+    }
+
     TEST_F(StudyFile, SeparatorsOfValues)
     {
       EXPECT_EQ(axis("Time/Step: 0.1  0.05").values, (Values{ { "0.1" }, { "0.05" } }));
