@@ -41,6 +41,12 @@ namespace Exemplar
       return cell + "\"";
     }
 
+    std::string
+    condition_text(const double condition)
+    {
+      return std::isinf(condition) ? "singular" : shortest_text(condition);
+    }
+
     using CsvRow = std::vector<std::pair<std::string, std::string>>;
 
     CsvRow
@@ -62,8 +68,8 @@ namespace Exemplar
       append("iterations", row.statistics.iterations);
       append("residual", row.statistics.residual);
       append("kkt_residual", row.statistics.kkt);
-      append("condition_matrix", row.conditioning.matrix);
-      append("condition_schur", row.conditioning.schur);
+      cells.emplace_back("condition_matrix", condition_text(row.conditioning.matrix));
+      cells.emplace_back("condition_schur", condition_text(row.conditioning.schur));
       append("min_det_F", row.statistics.min_det_F);
       append("energy_growth", row.statistics.energy_growth);
       append("max_displacement", row.max_displacement);
