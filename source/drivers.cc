@@ -208,6 +208,12 @@ namespace Exemplar
   }
 
   void
+  check_parts(const Parameters &parameters)
+  {
+    make_problem(parameters);
+  }
+
+  void
   print_parameters()
   {
     std::cout << "# All parameters of exemplar with their defaults.\n"

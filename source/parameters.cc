@@ -3,9 +3,7 @@
 #include <exemplar/parameters.h>
 
 #include <algorithm>
-#include <fstream>
 #include <set>
-#include <sstream>
 
 namespace Exemplar
 {
@@ -19,17 +17,13 @@ namespace Exemplar
 
     const dealii::Patterns::List names_pattern{ dealii::Patterns::Anything() };
 
-    /// The bytes of a scene file.
-    std::string
-    read_scene(const std::filesystem::path &file)
+    std::vector<Assignment>
+    parse_overrides(const std::vector<std::string> &texts)
     {
-      std::ifstream in(file, std::ios::binary);
-      if (!in || std::filesystem::is_directory(file))
-        throw UserError(file.string()
-                        + ": cannot be read. Give the name of an existing .prm file.");
-      std::ostringstream bytes;
-      bytes << in.rdbuf();
-      return bytes.str();
+      std::vector<Assignment> overrides;
+      for (const std::string &text : texts)
+        overrides.push_back(parse_override(text));
+      return overrides;
     }
 
     /// Named subsections are the ones two deep: Handles/NAME, Loads/NAME, Material/region N.
@@ -65,10 +59,10 @@ namespace Exemplar
       for (const Assignment &a : assignments)
         if (a.subsections[0] == section
             && std::find(names.begin(), names.end(), a.subsections[1]) == names.end())
-          throw UserError(a.place + ": subsection " + section + "/" + a.subsections[1]
-                          + " is not in " + section
-                          + "/Names (there: " + (listed.empty() ? "none" : listed)
-                          + "). Add it there, or remove the subsection.");
+          throw UnknownKey(a.place + ": subsection " + section + "/" + a.subsections[1]
+                           + " is not in " + section
+                           + "/Names (there: " + (listed.empty() ? "none" : listed)
+                           + "). Add it there, or remove the subsection.");
     }
 
     std::set<unsigned int>
@@ -83,9 +77,9 @@ namespace Exemplar
           if (name.compare(0, prefix.size(), prefix) != 0 || name.size() == prefix.size()
               || name.size() > prefix.size() + 9
               || name.find_first_not_of("0123456789", prefix.size()) != std::string::npos)
-            throw UserError(a.place + ": subsection Material/" + name
-                            + " is not understood. Subsections of Material are 'region ID' with a "
-                              "material id of the mesh.");
+            throw UnknownKey(a.place + ": subsection Material/" + name
+                             + " is not understood. Subsections of Material are 'region ID' with a "
+                               "material id of the mesh.");
           ids.insert(static_cast<unsigned int>(std::stoul(name.substr(prefix.size()))));
         }
       return ids;
@@ -120,18 +114,24 @@ namespace Exemplar
 
   Parameters::Parameters(const std::filesystem::path    &scene_file,
                          const std::vector<std::string> &overrides)
-      : Parameters(scene_file, read_scene(scene_file), overrides)
+      : Parameters(scene_file, read_prm(scene_file), overrides)
   {
   }
 
   Parameters::Parameters(const std::filesystem::path    &scene_file,
                          const std::string              &scene_text,
                          const std::vector<std::string> &overrides)
+      : Parameters(scene_file, scene_text, parse_overrides(overrides))
+  {
+  }
+
+  Parameters::Parameters(const std::filesystem::path   &scene_file,
+                         const std::string             &scene_text,
+                         const std::vector<Assignment> &overrides)
       : scene_file(scene_file), scene_text(scene_text)
   {
     std::vector<Assignment> assignments = read_assignments(scene_text, scene_file.string());
-    for (const std::string &text : overrides)
-      assignments.push_back(parse_override(text));
+    assignments.insert(assignments.end(), overrides.begin(), overrides.end());
     if (find_assignment(assignments, "Scene") == nullptr)
       throw UserError(scene_file.string()
                       + ": Scene is not set. Add a line 'set Scene = dynamic' (or static, or "

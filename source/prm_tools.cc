@@ -216,9 +216,9 @@ namespace Exemplar
           = std::find_if(keys.begin(), keys.end(),
                          [&](const DeclaredKey &k) { return k.path() == assignment.path(); });
       if (key == keys.end())
-        throw UserError(assignment.place + ": there is no parameter '" + assignment.path()
-                        + "'. Did you mean '" + nearest_path(assignment.path(), keys)
-                        + "'? exemplar --print-parameters lists them all.");
+        throw UnknownKey(assignment.place + ": there is no parameter '" + assignment.path()
+                         + "'. Did you mean '" + nearest_path(assignment.path(), keys)
+                         + "'? exemplar --print-parameters lists them all.");
       set_value(prm, *key, assignment,
                 key->is_input_file ? absolute_files(*key, assignment.value, directory)
                                    : assignment.value);

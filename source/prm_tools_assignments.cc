@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <fstream>
 #include <map>
 #include <sstream>
 
@@ -151,6 +152,17 @@ namespace Exemplar
     return parts;
   }
 
+  std::string
+  read_prm(const std::filesystem::path &file)
+  {
+    std::ifstream in(file, std::ios::binary);
+    if (!in || std::filesystem::is_directory(file))
+      throw UserError(file.string() + ": cannot be read. Give the name of an existing .prm file.");
+    std::ostringstream bytes;
+    bytes << in.rdbuf();
+    return bytes.str();
+  }
+
   std::vector<Assignment>
   read_assignments(const std::string &prm_text, const std::string &file)
   {
@@ -158,17 +170,24 @@ namespace Exemplar
   }
 
   Assignment
-  parse_override(const std::string &text)
+  parse_assignment(const std::string &text, const std::string &place)
   {
-    const auto equals = text.find('=');
+    const std::string remedy = " Write 'Section/Key=value'.";
+    const auto        equals = text.find('=');
     if (equals == std::string::npos)
-      throw UserError("--set '" + text + "' has no '='. Write --set 'Section/Key=value'.");
+      throw UserError(place + " '" + text + "' has no '='." + remedy);
     std::vector<std::string> path = split_trimmed(text.substr(0, equals), '/');
     if (path.empty() || path.back().empty())
-      throw UserError("--set '" + text + "' names no key. Write --set 'Section/Key=value'.");
+      throw UserError(place + " '" + text + "' names no key." + remedy);
     const std::string key = path.back();
     path.pop_back();
-    return { path, key, trim(text.substr(equals + 1)), "--set" };
+    return { path, key, trim(text.substr(equals + 1)), place };
+  }
+
+  Assignment
+  parse_override(const std::string &text)
+  {
+    return parse_assignment(text, "--set");
   }
 
   const Assignment *

@@ -34,9 +34,10 @@ namespace Exemplar
   Progress::Progress(std::ostream      &out,
                      const bool         quiet,
                      const unsigned int first,
-                     const unsigned int n_steps)
+                     const unsigned int n_steps,
+                     const std::string &unit)
       : out(out), quiet(quiet), terminal(&out == &std::cout && isatty(STDOUT_FILENO) != 0),
-        first(first), n_steps(n_steps), begin(Clock::now()), last_shown(begin)
+        first(first), n_steps(n_steps), unit(unit), begin(Clock::now()), last_shown(begin)
   {
   }
 
@@ -56,7 +57,7 @@ namespace Exemplar
       const unsigned int width = 20, filled = width * step / n_steps;
       text << '[' << std::string(filled, '#') << std::string(width - filled, '.') << "] ";
     }
-    text << "step " << step << " of " << n_steps << ", " << duration_text(left) << " left, "
+    text << unit << " " << step << " of " << n_steps << ", " << duration_text(left) << " left, "
          << note;
     if (terminal) // one line, whatever stood there before; "\033[K" clears the rest of it
       out << '\r' << text.str().substr(0, 79) << "\033[K" << std::flush;

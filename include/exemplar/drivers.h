@@ -8,6 +8,8 @@
 
 namespace Exemplar
 {
+  class Parameters;
+
   /// What the command line says of a run.
   struct RunOptions
   {
@@ -27,6 +29,11 @@ namespace Exemplar
   /// Read and check a scene and its files; compute and write nothing. Throws UserError.
   void
   validate_scene(const RunOptions &options);
+
+  /// Build the parts of a scene and let them go: its files are read and checked. Throws
+  /// UserError.
+  void
+  check_parts(const Parameters &parameters);
 
   /// Print every parameter with its default, range, unit and meaning, as a .prm.
   void

@@ -62,6 +62,11 @@ namespace Exemplar
                const std::string              &scene_text,
                const std::vector<std::string> &overrides);
 
+    /// The same, with overrides that know their places.
+    Parameters(const std::filesystem::path   &scene_file,
+               const std::string             &scene_text,
+               const std::vector<Assignment> &overrides);
+
     Parameters(const Parameters &) = delete;
     Parameters &
     operator=(const Parameters &)

@@ -13,6 +13,12 @@
 
 namespace Exemplar
 {
+  /// A key that is declared nowhere, as opposed to a value that is not allowed.
+  class UnknownKey : public UserError
+  {
+    using UserError::UserError;
+  };
+
   /// One table per enum gives its names in scene files, the pattern and the text.
   template <typename Enum>
   using EnumTable = std::vector<std::pair<Enum, std::string>>;
@@ -86,12 +92,20 @@ namespace Exemplar
     path() const;
   };
 
+  /// The bytes of a .prm file. Throws UserError if it cannot be read.
+  std::string
+  read_prm(const std::filesystem::path &file);
+
   /// All assignments in the text of a .prm file in order, checked for syntax only: `subsection`
   /// and `end` match, no key is set twice. Throws UserError with file and line.
   std::vector<Assignment>
   read_assignments(const std::string &prm_text, const std::string &file);
 
-  /// "Section/Subsection/Key=value" of the command line.
+  /// "Section/Subsection/Key=value"; `place` is the assignment's.
+  Assignment
+  parse_assignment(const std::string &text, const std::string &place);
+
+  /// The same from a --set of the command line.
   Assignment
   parse_override(const std::string &text);
 
@@ -120,8 +134,8 @@ namespace Exemplar
   declared_keys(const dealii::ParameterHandler &prm);
 
   /// Set the values in `prm`; input files become absolute, relative ones starting
-  /// from `directory`. Throws UserError for an undeclared key (with the nearest
-  /// declared one) and for a value that its pattern does not allow.
+  /// from `directory`. Throws UnknownKey for an undeclared key (with the nearest
+  /// declared one) and UserError for a value that its pattern does not allow.
   void
   apply_assignments(dealii::ParameterHandler      &prm,
                     const std::vector<Assignment> &assignments,

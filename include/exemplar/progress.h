@@ -13,8 +13,12 @@ namespace Exemplar
   class Progress
   {
   public:
-    /// `first` steps are done already, of `n_steps`.
-    Progress(std::ostream &out, bool quiet, unsigned int first, unsigned int n_steps);
+    /// `first` steps are done already, of `n_steps`; `unit` is what a step is called.
+    Progress(std::ostream      &out,
+             bool               quiet,
+             unsigned int       first,
+             unsigned int       n_steps,
+             const std::string &unit = "step");
 
     /// Step `step` is done; `note` is shown beside it.
     void
@@ -32,6 +36,7 @@ namespace Exemplar
     const bool              terminal;
     const unsigned int      first;
     const unsigned int      n_steps;
+    const std::string       unit;
     const Clock::time_point begin;
     Clock::time_point       last_shown;
     bool                    line_open = false;

@@ -19,9 +19,15 @@ Every key is optional except Scene and a mesh. Input files are relative to the .
 `--set`; Output/Directory is relative to the working directory. NAME and N stand for as many as a scene names.
 """
 
+STUDIES = """
+# Keys of a study
 
-def page(printed):
-    lines, comments, sections = [HEAD], [], []
+From `exemplar study --print-parameters`. Scene and Vary are to be set; [studies.md](studies.md) says more.
+"""
+
+
+def page(head, printed):
+    lines, comments, sections = [head], [], []
     for line in printed.splitlines():
         line = line.strip()
         if line.startswith("# "):
@@ -43,7 +49,11 @@ def page(printed):
 
 def main():
     program = os.environ.get("EXEMPLAR", str(TOP / "build/release/exemplar"))
-    text = page(subprocess.run([program, "--print-parameters"], check=True, capture_output=True, text=True).stdout)
+
+    def printed(*command):
+        return subprocess.run([program, *command, "--print-parameters"], check=True, capture_output=True, text=True).stdout
+
+    text = page(HEAD, printed()) + page(STUDIES, printed("study"))
     if "--write" in sys.argv:
         PAGE.write_text(text)
     elif not PAGE.exists() or PAGE.read_text() != text:

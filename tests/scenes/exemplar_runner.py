@@ -63,9 +63,10 @@ class SceneTest(unittest.TestCase):
         file.write_text(text)
         return file
 
-    def call(self, *arguments):
-        """Run the program as it is called."""
+    def call(self, *arguments, **environment):
+        """Run the program as it is called, with changes to the environment."""
         done = subprocess.run([EXEMPLAR, *map(str, arguments)], cwd=self.directory, text=True,
+                              env={**os.environ, **environment},
                               stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                               stderr=subprocess.PIPE, timeout=300)
         return Run(done.returncode, done.stdout, done.stderr, None)

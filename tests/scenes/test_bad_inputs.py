@@ -302,7 +302,61 @@ COMMANDS = [
     ("output where nobody can write", ["scene.prm", "--output", "/proc/exemplar/out"],
      ["/proc/exemplar/out", "cannot be made", "--output"]),
     ("working directory as output", ["scene.prm", "--output", "."], ["not empty", "--output"]),
+    ("no study", ["study"], ["STUDY is required", "--help"]),
+    ("study that is absent", ["study", "absent.prm"], ["absent.prm", "cannot be read"]),
+    ("study run as a scene", ["study.prm"], ["study.prm is a study", "exemplar study study.prm"]),
+    ("options of scenes in a study", ["study", "study.prm", "--set", "Time/End=1"],
+     ["--set", "--help"]),
+    ("output directory of others for a study",
+     ["study", "study.prm", "--output", "a directory"],
+     ["a directory", "not empty", "no study", "--output"]),
+    ("output directory of a run for a study", ["study", "study.prm", "--output", "broken"],
+     ["broken", "not empty", "no study", "--output"]),
+    ("output of a study is a file", ["study", "study.prm", "--output", "small.msh"],
+     ["small.msh", "is a file", "--output"]),
+    ("output of a study where nobody can write",
+     ["study", "study.prm", "--output", "/proc/exemplar/out"],
+     ["/proc/exemplar/out", "cannot be made", "--output"]),
     ("--validate of a bad scene", ["bad.prm", "--validate"], ["Scene = 'statics'"]),
+]
+
+STUDY = {"Scene": "scene.prm", "Vary": "Time/Increments: 1 2"}
+
+# name, study (text or keys), what stderr must contain
+STUDIES = [
+    ("unknown key of a study", {**STUDY, "Repeat": "2"},
+     ["study.prm:", "'Repeat'", "Did you mean 'Repeats'"]),
+    ("a scene", prm(BAR), ["study.prm", "Vary is not set", "set Vary ="]),
+    ("no scene in a study", {**STUDY, "Scene": None}, ["study.prm", "Scene is not set"]),
+    ("absent scene of a study", {**STUDY, "Scene": "absent.prm"},
+     ["/absent.prm", "cannot be read", "existing .prm"]),
+    ("bad scene of a study", {**STUDY, "Scene": "bad.prm"}, ["Scene = 'statics'"]),
+    ("unknown key in Vary", {**STUDY, "Vary": "Time/Increment: 1 2"},
+     ["study.prm:2, Vary", "'Time/Increment'", "Did you mean 'Time/Increments'"]),
+    ("unknown key in Base", {**STUDY, "Base": "Time/Ends=1"},
+     ["study.prm:3, Base", "'Time/Ends'", "Did you mean 'Time/End'"]),
+    ("unknown key in Reference", {**STUDY, "Reference": "Time/Ends=1"},
+     ["study.prm:3, Reference", "'Time/Ends'", "Did you mean 'Time/End'"]),
+    ("unknown handle in Vary", {**STUDY, "Vary": "Handles/top/Motion: t"},
+     ["study.prm:2, Vary", "Handles/top", "not in Handles/Names"]),
+    ("axis without values", {**STUDY, "Vary": "Time/Increments:"},
+     ["study.prm:2, Vary", "Time/Increments has no values", "Section/Key: value"]),
+    ("axis without colon", {**STUDY, "Vary": "Time/Increments 1 2"},
+     ["study.prm:2, Vary", "no ':'", "Section/Key: value"]),
+    ("assignment without =", {**STUDY, "Base": "Time/End"},
+     ["study.prm:3, Base", "'Time/End'", "no '='", "Section/Key=value"]),
+    ("key in Base and Vary", {**STUDY, "Base": "Time/Increments=3"},
+     ["study.prm:3, Base", "Time/Increments", "Vary varies it", "Remove"]),
+    ("output of a study's runs", {**STUDY, "Base": "Output/Directory=x"},
+     ["study.prm:3, Base", "Output/Directory", "Remove", "--output"]),
+    ("refused reference", {**STUDY, "Reference": "Material/Poisson's ratio=0.6"},
+     ["study.prm:3, Reference", "Material/Poisson's ratio = '0.6'", "0.5"]),
+    ("all runs refused", {**STUDY, "Vary": "Material/Poisson's ratio: 0.6 0.7"},
+     ["study.prm:2, Vary", "Material/Poisson's ratio = '0.6'", "0.5"]),
+    ("mesh of a study", {**STUDY, "Base": "Mesh/Generator=none; Mesh/File=absent.msh",
+                         "Reference": "Time/Increments=9"}, ["/absent.msh", "cannot be opened"]),
+    ("no repeats", {**STUDY, "Repeats": "0"}, ["Repeats = '0'", "an integer >= 1"]),
+    ("negative timeout", {**STUDY, "Timeout": "-1"}, ["Timeout = '-1'", "a number >= 0"]),
 ]
 
 # What a crash, a deal.II exception or a C++ library would print.
@@ -358,10 +412,21 @@ class BadInputs(SceneTest):
 
     def test_commands(self):
         self.write("scene.prm", prm(BAR))
+        self.write("study.prm", prm(STUDY))
         before = self.tree()
         for name, arguments, expected in COMMANDS:
             with self.subTest(name):
                 self.check(self.call(*arguments), expected, before)
+
+    def test_studies(self):
+        self.write("scene.prm", prm(BAR))
+        for name, study, expected in STUDIES:
+            with self.subTest(name):
+                self.write("study.prm", study if isinstance(study, str) else prm(study))
+                before = self.tree()
+                self.check(self.call("study", "study.prm"), expected, before)
+                if "Vary" in study:
+                    self.check(self.call("--validate", "study.prm"), expected, before)
 
     def test_the_scenes_that_the_table_changes_are_good(self):
         weights = {"Examples/Prescribed weights": "1-t; t"}

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_child_process_h
+#define exemplar_child_process_h
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace Exemplar
+{
+  /// How a process ended.
+  struct ChildEnd
+  {
+    int    exit_status = 0; ///< 128 + signal if it was killed by one, as in shells
+    int    signal      = 0; ///< that ended it, or 0
+    bool   timed_out   = false;
+    double seconds     = 0.; ///< on the wall clock
+  };
+
+  /// The exit status if there is no such program.
+  constexpr int no_such_program = 127;
+
+  /// Run a program (found in PATH, like in a shell) to its end, its output and errors going
+  /// to `log`. It is killed after `timeout` seconds (0: never), when this process ends in
+  /// whatever way, and on an interrupt, upon which this throws Interrupted.
+  ChildEnd
+  run_child(const std::vector<std::string> &command,
+            const std::filesystem::path    &log,
+            double                          timeout);
+} // namespace Exemplar
+
+#endif

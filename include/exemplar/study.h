@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_study_h
+#define exemplar_study_h
+
+#include <filesystem>
+
+namespace Exemplar
+{
+  /// What the command line says of a study.
+  struct StudyOptions
+  {
+    std::filesystem::path file;
+    std::filesystem::path output; ///< empty: output/NAME of the study file
+    bool                  quiet = false;
+  };
+
+  /// Make the runs of a study that are not there yet, each in a process of its own, and write
+  /// its tables and figure. Throws UserError before anything is written; Interrupted with
+  /// all finished runs on disk.
+  void
+  run_study(const StudyOptions &options);
+
+  /// Check a study, the scenes of all its runs and the files of one; compute and write
+  /// nothing. Throws UserError.
+  void
+  validate_study(const std::filesystem::path &file);
+
+  /// Print every key of a study file with its default, range and meaning, as a .prm.
+  void
+  print_study_parameters();
+} // namespace Exemplar
+
+#endif

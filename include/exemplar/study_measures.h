@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_study_measures_h
+#define exemplar_study_measures_h
+
+#include <deal.II/base/point.h>
+
+#include <filesystem>
+#include <limits>
+#include <vector>
+
+namespace Exemplar
+{
+  class Mesh;
+
+  /// What statistics.csv says of a run as a whole; NaN where it says nothing.
+  struct RunStatistics
+  {
+    double steps      = std::numeric_limits<double>::quiet_NaN(); ///< that were accepted
+    double iterations = std::numeric_limits<double>::quiet_NaN();
+    double residual   = std::numeric_limits<double>::quiet_NaN(); ///< the greatest
+    double kkt        = std::numeric_limits<double>::quiet_NaN(); ///< the greatest of the weights'
+    double min_det_F  = std::numeric_limits<double>::quiet_NaN();
+    double energy     = std::numeric_limits<double>::quiet_NaN(); ///< in total, at the end [J]
+    /// The greatest energy over all steps that neither was there at first nor was done as
+    /// work, over the greatest of what was there at first and the work [-].
+    double energy_growth = std::numeric_limits<double>::quiet_NaN();
+  };
+
+  /// Condition numbers that summary.json gives; NaN: none, infinity: singular.
+  struct RunConditioning
+  {
+    double matrix = std::numeric_limits<double>::quiet_NaN();
+    double schur  = std::numeric_limits<double>::quiet_NaN();
+  };
+
+  RunConditioning
+  read_run_conditioning(const std::filesystem::path &summary);
+
+  /// Of a run in this directory; without statistics.csv all is empty.
+  RunStatistics
+  read_run_statistics(const std::filesystem::path &file);
+
+  /// A body at the end of a run.
+  struct FinalPose
+  {
+    FinalPose(const Mesh &mesh, const std::filesystem::path &final_msh);
+
+    /// The greatest displacement [m].
+    double
+    max_displacement() const;
+
+    const std::vector<dealii::Point<3>> rest;
+    const std::vector<dealii::Point<3>> positions;
+    std::vector<double>                 volumes; ///< a quarter of each cell's to each node
+  };
+
+  /// Distances between two poses of one body over the displacement of the reference.
+  struct PoseErrors
+  {
+    double l2  = std::numeric_limits<double>::quiet_NaN(); ///< root mean square over the volume
+    double max = std::numeric_limits<double>::quiet_NaN(); ///< greatest over greatest
+  };
+
+  /// The nodes are matched by their rest positions, so the mesh of the reference may also be a
+  /// refinement of the other. NaN if it is neither.
+  PoseErrors
+  pose_errors(const FinalPose &pose, const FinalPose &reference);
+} // namespace Exemplar
+
+#endif
