@@ -71,7 +71,8 @@ namespace Exemplar
                       dealii::Patterns::Double(1e-16, 1.));
     prm.add_parameter("Step tolerance", step_tolerance,
                       "Error of the positions at which a step of quasi newton has converged, "
-                      "over the greatest displacement in this step. Not used by other methods.",
+                      "over the greatest displacement in this step; its relative residual must be "
+                      "as small, too. Not used by other methods.",
                       dealii::Patterns::Double(0., 1.));
     prm.add_parameter(
         "Maximum iterations", maximum_iterations,

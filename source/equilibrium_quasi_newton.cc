@@ -19,7 +19,7 @@ namespace Exemplar
     constexpr unsigned int most_factors            = 2; ///< that a step may ask for
     constexpr unsigned int most_halvings_of_step   = 5;
     constexpr double       slowest_contraction     = 0.9;
-    constexpr double       least_error_over_length = 1.;
+    constexpr double       least_error_over_length = 1.2;
   } // namespace
 
   void
@@ -178,7 +178,7 @@ namespace Exemplar
   {
     std::vector<double> gradient, change, weight_change;
     QuasiNewtonStep     step;
-    double              last_length = 0.;
+    double              last_length = 0., last_contraction = 0.;
     unsigned int        n_factors = 0, n_with_factor = 0;
     gather_free(total_gradient, gradient);
     while (!has_met_tolerance(report))
@@ -226,9 +226,14 @@ namespace Exemplar
       const double length      = report.step_length * greatest_entry(step.direct);
       const double contraction = std::min(
           std::max(ratio, last_length > 0. ? length / last_length : 0.), slowest_contraction);
-      last_length = length;
-      if (length * std::max(least_error_over_length, contraction / (1. - contraction))
-          <= parameters.step_tolerance * greatest_displacement(accepted, trial))
+      const double slower = std::max(contraction, last_contraction); // one alone may be luck
+      last_length         = length;
+      last_contraction    = contraction;
+      const bool is_near  = length * std::max(least_error_over_length, slower / (1. - slower))
+                           <= parameters.step_tolerance * greatest_displacement(accepted, trial);
+      // of a stiff body, or one that is carried far, small errors of positions are large ones of
+      // forces
+      if (is_near && report.residual <= parameters.step_tolerance)
         break;
     }
     report.status = SolveStatus::converged;
