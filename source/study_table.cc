@@ -44,7 +44,7 @@ namespace Exemplar
     std::string
     condition_text(const double condition)
     {
-      return std::isinf(condition) ? "singular" : shortest_text(condition);
+      return std::isinf(condition) ? "not definite" : shortest_text(condition);
     }
 
     using CsvRow = std::vector<std::pair<std::string, std::string>>;

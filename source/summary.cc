@@ -74,7 +74,7 @@ namespace Exemplar
     json["worst_residual"]  = totals.worst_residual;
     const Conditioning conditioning = problem.equilibrium.conditioning();
     if (conditioning.matrix > 0.)
-      json["condition_matrix"] = conditioning.matrix; // null: singular
+      json["condition_matrix"] = conditioning.matrix; // null: not definite
     if (conditioning.schur > 0.)
       json["condition_schur"] = conditioning.schur;
     json["seconds"]         = seconds_of(totals.seconds);

@@ -14,11 +14,11 @@ namespace Exemplar
 
   /// Ratio of the greatest to the least eigenvalue of a positive semidefinite matrix, whose
   /// rows and columns are first scaled to a diagonal of ones. 1 if it is empty, infinity if it
-  /// is singular.
+  /// is not positive definite.
   double
   condition_number(const dealii::FullMatrix<double> &matrix);
 
-  /// How well the systems of a step are conditioned; infinity: singular.
+  /// How well the systems of a step are conditioned; infinity: not positive definite.
   struct Conditioning
   {
     double matrix = 0.; ///< of A, a lower bound; 0: not known

@@ -26,7 +26,7 @@ namespace Exemplar
     double energy_growth = std::numeric_limits<double>::quiet_NaN();
   };
 
-  /// Condition numbers that summary.json gives; NaN: none, infinity: singular.
+  /// Condition numbers that summary.json gives; NaN: none, infinity: not definite.
   struct RunConditioning
   {
     double matrix = std::numeric_limits<double>::quiet_NaN();

@@ -241,7 +241,7 @@ def draw(directory, cells, examples):
         plot(directory / "growth_cells.svg",
              [(count, 1e3 * result["mean_step_ms"] / count) for count, result in cells.items()],
              "A bar that falls under its weight", "cells", "microseconds a cell and step",
-             "set logscale x\nset xrange [1e3:2e6]")
+             "set logscale xy\nset xrange [1e3:2e6]\nset yrange [0.1:100]")
     ratios = example_ratios(examples)
     if ratios:
         # k + 1 on the axis, so that none has a place on it
