@@ -292,8 +292,9 @@ namespace Exemplar
       throw UserError("Solver/Method = quasi newton keeps a factor, but Solver/Linear solver = "
                       "iterative makes none. Set it to cholesky, or Solver/Method = newton.");
     if (solver.rotations == PassRotations::predicted && scene != SceneKind::dynamic)
-      throw UserError("Solver/Rotations = predicted follows the velocities of a dynamic scene; this "
-                      "one has none. Set Solver/Rotations = last, or Scene = dynamic.");
+      throw UserError(
+          "Solver/Rotations = predicted follows the velocities of a dynamic scene; this "
+          "one has none. Set Solver/Rotations = last, or Scene = dynamic.");
     const bool bounded = examples.in_use() && examples.weights == ExampleWeights::simplex;
     if (solver.linear_solver == LinearSolver::umfpack && (bounded || descends))
       throw UserError("Solver/Linear solver = umfpack solves linear systems without bounds and "

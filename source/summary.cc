@@ -65,13 +65,13 @@ namespace Exemplar
     json["constrained_dofs"] = problem.fe_space.n_dofs() - problem.free_dofs.size();
     if (problem.support)
       json["support_nodes"] = support_nodes(problem);
-    json["linear_solver"]   = problem.linear_solver->name();
-    json["examples"]        = problem.examples != nullptr ? problem.examples->size() : 0;
-    json["steps"]           = problem.state.step;
-    json["iterations"]      = totals.iterations;
-    json["factorizations"]  = totals.factorizations;
-    json["status"]          = status;
-    json["worst_residual"]  = totals.worst_residual;
+    json["linear_solver"]           = problem.linear_solver->name();
+    json["examples"]                = problem.examples != nullptr ? problem.examples->size() : 0;
+    json["steps"]                   = problem.state.step;
+    json["iterations"]              = totals.iterations;
+    json["factorizations"]          = totals.factorizations;
+    json["status"]                  = status;
+    json["worst_residual"]          = totals.worst_residual;
     const Conditioning conditioning = problem.equilibrium.conditioning();
     if (conditioning.matrix > 0.)
       json["condition_matrix"] = conditioning.matrix; // null: not definite

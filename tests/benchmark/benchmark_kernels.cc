@@ -176,9 +176,10 @@ main(int argc, char *argv[])
     const std::string name = std::string("/") + kernels->name;
     benchmark::RegisterBenchmark(("rotations" + name).c_str(), rotations, kernels);
     benchmark::RegisterBenchmark(("forces" + name).c_str(), forces, kernels, Rotations::keep);
-    benchmark::RegisterBenchmark(("rotations_and_forces" + name).c_str(), forces, kernels, Rotations::update);
-    benchmark::RegisterBenchmark(("forces_without_storing_rotations" + name).c_str(), forces, kernels,
-                                 Rotations::find_and_forget);
+    benchmark::RegisterBenchmark(("rotations_and_forces" + name).c_str(), forces, kernels,
+                                 Rotations::update);
+    benchmark::RegisterBenchmark(("forces_without_storing_rotations" + name).c_str(), forces,
+                                 kernels, Rotations::find_and_forget);
   }
   benchmark::RegisterBenchmark("evaluation", evaluation);
   benchmark::RegisterBenchmark("assembly/convex", assembly, Tangent::convex);

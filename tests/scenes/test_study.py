@@ -17,7 +17,7 @@ DYNAMIC = {**BAR, "Scene": "dynamic", "Material/Young's modulus": "1e4", "Time/S
 FREE_FALL = {**DYNAMIC, "Handles/Names": None, "Handles/left/Select": None, "Time/End": "1"}
 
 MEASURES = ["status", "error_position_l2", "error_position_max", "error_energy", "seconds_median",
-            "seconds_min", "steps", "iterations", "residual", "min_det_F", "energy_growth",
+            "seconds_min", "steps", "iterations", "residual", "kkt_residual", "condition_matrix", "condition_schur", "min_det_F", "energy_growth",
             "max_displacement", "exit_status", "run", "message"]
 
 

@@ -73,7 +73,8 @@ namespace Exemplar::Testing
       {
         const std::vector<double> all = errors(
             turned_bar("", "0.01"), { "Solver/Method=one pass", "Solver/Rotations=" + rotations });
-        return std::accumulate(all.begin() + 6, all.end(), 0.) / static_cast<double>(all.size() - 6);
+        return std::accumulate(all.begin() + 6, all.end(), 0.)
+               / static_cast<double>(all.size() - 6);
       };
       const double last = mean_error("last"), predicted = mean_error("predicted");
       EXPECT_LT(predicted, 0.05 * last);
