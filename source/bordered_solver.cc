@@ -65,9 +65,10 @@ namespace Exemplar
 
         if (columns.empty()) // z = A^-1 r_x, Z = A^-1 G
         {
-          columns = vector.positions;
-          columns.insert(columns.end(), block.coupling.begin(), block.coupling.end());
-          A->solve(columns);
+          std::vector<double> all = vector.positions; // no columns if this throws
+          all.insert(all.end(), block.coupling.begin(), block.coupling.end());
+          A->solve(all);
+          columns = std::move(all);
         }
         else // Z is still that of this factor
         {

@@ -45,7 +45,8 @@ namespace Exemplar
         argv.push_back(const_cast<char *>(argument.c_str())); // execvp does not change it
       argv.push_back(nullptr);
       const pid_t parent = getpid();
-      const pid_t child  = fork();
+      std::signal(SIGCHLD, SIG_DFL); // if ignored, the kernel would take the status
+      const pid_t child = fork();
       if (child == 0)
         become(argv.data(), log.c_str(), parent);
       if (child < 0)
@@ -80,7 +81,13 @@ namespace Exemplar
       bool
       has_ended()
       {
-        ended = ended || waitpid(id, &status, WNOHANG) == id;
+        if (!ended)
+        {
+          const pid_t found = waitpid(id, &status, WNOHANG);
+          if (found < 0 && errno != EINTR)
+            throw std::system_error(errno, std::generic_category(), "waiting for a run");
+          ended = found == id;
+        }
         return ended;
       }
 

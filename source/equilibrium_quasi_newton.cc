@@ -9,7 +9,7 @@
 // Steps of dynamics that seldom factorise: the exact gradient, and for the inverse of its
 // derivative the factor of an earlier step, turned with the nodes and corrected by L-BFGS,
 // whose pairs are kept in the frame of the factor and so stay good for many steps. Newton's
-// method takes over where that does not converge. doc/method.md, section 8.
+// method takes over where that does not converge. doc/method.md, "Steps without a factorisation".
 
 namespace Exemplar
 {

@@ -228,7 +228,9 @@ namespace Exemplar
     }
     const SolveReport report
         = equilibrium.solve(next, time_axis.time(step), time_axis.step_size(step));
-    if (is_success(report.status))
+    if (!is_success(report.status))
+      equilibrium.restore({}); // what it remembers has seen the step that failed
+    else
     {
       if (inertia != nullptr)
         inertia->end_step(state, next);

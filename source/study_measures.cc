@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <map>
 #include <optional>
@@ -48,7 +49,7 @@ namespace Exemplar
         const auto index = static_cast<std::size_t>(found - columns.begin());
         if (index >= columns.size() || index >= cells.size() || cells[index].empty())
           return absent;
-        return std::stod(cells[index]);
+        return std::strtod(cells[index].c_str(), nullptr);
       }
 
     private:

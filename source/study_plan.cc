@@ -30,18 +30,38 @@ namespace Exemplar
     }
   } // namespace
 
+  namespace
+  {
+    /// Whether a run can be built; why not is in `refusal`, if nothing is there yet.
+    bool
+    can_be_built(const Parameters &parameters, std::string &refusal)
+    {
+      try
+      {
+        check_parts(parameters);
+        return true;
+      }
+      catch (const UserError &error)
+      {
+        if (refusal.empty())
+          refusal = error.what();
+        return false;
+      }
+    }
+  } // namespace
+
   StudyPlan::StudyPlan(const Study &study) : study(study), scene_text(read_prm(study.scene))
   {
     read_assignments(scene_text, study.scene.string()); // its syntax concerns all runs
-    RunNames   names(study, scene_text);
-    bool       parts_are_checked = false;
-    const auto plan = [&](const std::vector<unsigned int> &choice, const auto &assignments)
+    RunNames    names(study, scene_text);
+    bool        parts_are_checked = false;
+    std::string refusal;
+    const auto  plan = [&](const std::vector<unsigned int> &choice, const auto &assignments)
     {
       const auto parameters = parameters_of(assignments, study, scene_text);
-      if (parameters != nullptr && !parts_are_checked)
-        check_parts(*parameters);
-      parts_are_checked = parts_are_checked || parameters != nullptr;
-      using Files       = std::vector<std::filesystem::path>;
+      parts_are_checked
+          = parts_are_checked || (parameters != nullptr && can_be_built(*parameters, refusal));
+      using Files = std::vector<std::filesystem::path>;
       return PlannedRun{ names.name(assignments,
                                     parameters != nullptr ? parameters->input_files() : Files()),
                          choice, assignments };
@@ -51,11 +71,15 @@ namespace Exemplar
       const auto assignments = study.reference_assignments();
       Parameters(study.scene, scene_text, assignments); // throws if it is refused
       reference = plan({}, assignments);
+      if (!parts_are_checked)
+        throw UserError(refusal);
     }
     for (const auto &choice : study.choices())
       runs.push_back(plan(choice, study.assignments(choice)));
-    if (!parts_are_checked) // say why, by the first
-      Parameters(study.scene, scene_text, runs.at(0).assignments);
+    if (parts_are_checked)
+      return;
+    Parameters(study.scene, scene_text, runs.at(0).assignments); // throws if that is why
+    throw UserError(refusal);
   }
 
   unsigned int

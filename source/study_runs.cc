@@ -48,7 +48,7 @@ namespace Exemplar
       json["seconds"]     = record.seconds;
       json["timeout"]     = record.timeout;
       AtomicFile atomic_file(file);
-      atomic_file.stream() << json.dump(2) << '\n';
+      atomic_file.stream() << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
       atomic_file.commit();
     }
 
@@ -148,15 +148,20 @@ namespace Exemplar
   void
   StudyRuns::load(const std::string &name)
   {
-    const Json json = read_json(record_file(path(name)));
-    if (json.empty())
-      return;
     StudyRecord record;
-    record.status      = json.at("status");
-    record.exit_status = json.at("exit_status");
-    record.message     = json.at("message");
-    record.seconds     = json.at("seconds").get<std::vector<double>>();
-    record.timeout     = json.at("timeout");
+    try
+    {
+      const Json json    = read_json(record_file(path(name)));
+      record.status      = json.at("status");
+      record.exit_status = json.at("exit_status");
+      record.message     = json.at("message");
+      record.seconds     = json.at("seconds").get<std::vector<double>>();
+      record.timeout     = json.at("timeout");
+    }
+    catch (const Json::exception &)
+    {
+      return; // none, or of a version that wrote others
+    }
     if (record.status == "timeout" && (study.timeout == 0. || study.timeout > record.timeout))
       return; // now it may take longer
     records[name] = record;
@@ -200,9 +205,11 @@ namespace Exemplar
   {
     StudyRecord now     = run_in_scratch(planned);
     const auto  earlier = records.find(planned.name);
-    if (earlier != records.end() && now.succeeded())
+    if (earlier != records.end() && earlier->second.succeeded())
     {
-      earlier->second.seconds.push_back(now.seconds[0]); // all else is the same
+      // all else is the same, unless the repeat was killed or took too long
+      if (now.succeeded())
+        earlier->second.seconds.push_back(now.seconds[0]);
       now = earlier->second;
       fs::remove_all(scratch());
     }

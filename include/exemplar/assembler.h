@@ -185,11 +185,11 @@ namespace Exemplar
          const std::vector<double>    &weights,
          Rotations                     rotations);
 
-    /// Sums of the cells' forces at the nodes.
     /// Find the rotations that the last loop has forgotten.
     void
     refresh_rotations();
 
+    /// Sums of the cells' forces at the nodes.
     void
     gather_forces(Evaluation &result) const;
 

@@ -12,13 +12,14 @@ namespace Exemplar
 {
   /// The factor of an earlier tangent as an approximate inverse of the present one: in single
   /// precision, and turned with the nodes, W P^-1 W^T with W the rotation of each node since
-  /// then. With weights to find it is that of the bordered system, Eq. (23).
+  /// then. With weights to find it also tells how they follow, by the Schur complement of
+  /// Eq. (23).
   class TurnedFactor
   {
   public:
     explicit TurnedFactor(const FreeDofs &free_dofs);
 
-    /// Take over the factor of a matrix that was just factorised. `coupling` is overwritten.
+    /// Take over the factor of a matrix that was just factorised.
     /// `rotations` are those of the nodes then, nine numbers a node by rows.
     void
     reinit(SpdOperator &matrix, const WeightBlock &block, const std::vector<float> &rotations);

@@ -9,7 +9,8 @@ import unittest
 from exemplar_runner import REPOSITORY, SceneTest
 
 STUDIES = sorted((REPOSITORY / "prm/studies").glob("stability_*.prm"))
-LEAST_CASES = 60
+LEAST_CASES = 118
+MORE_FAILURES = 1  # than in doc/studies: next to the limit of iterations rounding decides
 # of what was there at first and was done as work; Newton's tolerance leaves less, and steps to a
 # thousandth of the displacement that much of the energy in them
 MOST_ENERGY_FROM_NOWHERE = 1e-3
@@ -44,7 +45,11 @@ class Stability(SceneTest):
     def check_study(self, study):
         scene = study.parent / re.search(r"set Scene = (.*)", study.read_text()).group(1)
         is_dynamic = "set Scene = dynamic" in scene.read_text()
-        for row in self.rows(study):
+        rows = self.rows(study)
+        with open(REPOSITORY / f"doc/studies/{study.stem}.csv", newline="") as file:
+            known = sum(row["exit_status"] != "0" for row in csv.DictReader(file))
+        self.assertLessEqual(sum(row["exit_status"] != "0" for row in rows), known + MORE_FAILURES)
+        for row in rows:
             with self.subTest(study.stem, **{key: value[:60] for key, value in row.items() if "/" in key}):
                 self.check_row(row, is_dynamic)
 

@@ -125,6 +125,28 @@ namespace Exemplar::Testing
       }
     }
 
+    TEST(WeightQp, AnyStartLeadsToTheMinimiser)
+    {
+      std::mt19937              generator(5);
+      const std::vector<double> lower(8, 0.), sums = { 1., 0.5 };
+      for (int sample = 0; sample < 50; ++sample)
+      {
+        const Qp   qp   = random_qp(generator, 8, 8, 1e-3);
+        const auto cold = minimize_over_weights(qp.H, qp.c, sums, lower);
+        // inside, on a face, at a corner, and there already
+        for (const std::vector<double> &start :
+             { std::vector<double>{ 0.25, 0.25, 0.25, 0.25, 0.2, 0.1, 0.1, 0.1 },
+               std::vector<double>{ 0.5, 0., 0.5, 0., 0., 0., 0.25, 0.25 },
+               std::vector<double>{ 0., 0., 0., 1., 0.5, 0., 0., 0. }, cold.weights })
+        {
+          const auto warm = minimize_over_weights(qp.H, qp.c, sums, lower, start);
+          expect_kkt(qp, warm, lower, sums);
+          for (unsigned int i = 0; i < 8; ++i)
+            EXPECT_NEAR(warm.weights[i], cold.weights[i], 1e-9);
+        }
+      }
+    }
+
     TEST(WeightQp, GroupsKeepTheirOwnSums)
     {
       std::mt19937              generator(4);
