@@ -10,7 +10,7 @@ from exemplar_runner import REPOSITORY, SceneTest
 
 STUDIES = sorted((REPOSITORY / "prm/studies").glob("stability_*.prm"))
 LEAST_CASES = 118
-MORE_FAILURES = 1  # than in doc/studies: next to the limit of iterations rounding decides
+MORE_FAILURES = 3  # than in doc/studies: next to the limit of iterations rounding decides
 # of what was there at first and was done as work; Newton's tolerance leaves less, and steps to a
 # thousandth of the displacement that much of the energy in them
 MOST_ENERGY_FROM_NOWHERE = 1e-3
