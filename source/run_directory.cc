@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/errors.h>
+#include <exemplar/output_directory.h>
 #include <exemplar/run_directory.h>
 
 #include <algorithm>
-#include <fstream>
 #include <regex>
-#include <unistd.h>
 
 namespace Exemplar
 {
@@ -40,9 +39,7 @@ namespace Exemplar
   bool
   RunDirectory::is_ours() const
   {
-    std::ifstream in(parameters_prm());
-    std::string   line;
-    return std::getline(in, line) && line == mark;
+    return begins_with(parameters_prm(), mark);
   }
 
   std::vector<fs::path>
@@ -58,15 +55,7 @@ namespace Exemplar
   void
   RunDirectory::check_for_new_run(const std::vector<fs::path> &input_files) const
   {
-    fs::path parent = fs::absolute(path);
-    while (!fs::exists(parent))
-      parent = parent.parent_path();
-    if (!fs::is_directory(parent))
-      throw UserError("Output directory " + path.string() + ": " + parent.string() + " is a file."
-                      + remedy);
-    if (access(parent.c_str(), W_OK | X_OK) != 0)
-      throw UserError("Output directory " + path.string() + ": no right to write in "
-                      + parent.string() + "." + remedy);
+    require_writable(path, remedy);
     if (!fs::exists(path) || fs::is_empty(path))
       return;
     if (!is_ours())
@@ -82,11 +71,7 @@ namespace Exemplar
   void
   RunDirectory::clear() const
   {
-    std::error_code error;
-    fs::create_directories(path, error);
-    if (error)
-      throw UserError("Output directory " + path.string() + " cannot be made: " + error.message()
-                      + "." + remedy);
+    make_directory(path, remedy);
     for (const fs::path &file : own_files())
       if (file != parameters_prm())
         fs::remove(file);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/atomic_file.h>
 #include <exemplar/errors.h>
+#include <exemplar/output_directory.h>
 #include <exemplar/study_directory.h>
 
 #include <fcntl.h>
@@ -8,7 +9,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <fstream>
 
 namespace Exemplar
 {
@@ -43,22 +43,14 @@ namespace Exemplar
   bool
   StudyDirectory::is_ours() const
   {
-    std::ifstream in(study_prm());
-    std::string   line;
-    return std::getline(in, line) && line == mark;
+    return begins_with(study_prm(), mark);
   }
 
   void
   StudyDirectory::check(const fs::path &study_file) const
   {
-    const std::string place  = "Output directory " + path.string();
-    fs::path          parent = fs::absolute(path);
-    while (!fs::exists(parent))
-      parent = parent.parent_path();
-    if (!fs::is_directory(parent))
-      throw UserError(place + ": " + parent.string() + " is a file." + remedy);
-    if (access(parent.c_str(), W_OK | X_OK) != 0)
-      throw UserError(place + ": no right to write in " + parent.string() + "." + remedy);
+    const std::string place = "Output directory " + path.string();
+    require_writable(path, remedy);
     if (!fs::exists(path) || fs::is_empty(path))
       return;
     if (!is_ours())
@@ -70,11 +62,7 @@ namespace Exemplar
   void
   StudyDirectory::make() const
   {
-    std::error_code error;
-    fs::create_directories(path, error);
-    if (error)
-      throw UserError("Output directory " + path.string() + " cannot be made: " + error.message()
-                      + "." + remedy);
+    make_directory(path, remedy);
     if (!is_ours())
       write_study(""); // first: by it the directory is known as ours
     fs::create_directories(runs());

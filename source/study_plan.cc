@@ -28,10 +28,7 @@ namespace Exemplar
         return nullptr;
       }
     }
-  } // namespace
 
-  namespace
-  {
     /// Whether a run can be built; why not is in `refusal`, if nothing is there yet.
     bool
     can_be_built(const Parameters &parameters, std::string &refusal)
