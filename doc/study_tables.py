@@ -1,22 +1,38 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The tables of doc/results.md that come from studies: check that they are those of doc/studies/*.csv, write or renew them.
+"""The tables of doc/results.md and doc/tutorial that come from studies: check that they are those of doc/studies/*.csv,
+write or renew them.
 
-Usage: python3 doc/study_tables.py             exit 1 if a table of the page is not what the files say
-       python3 doc/study_tables.py --write     put the tables into the page
+Usage: python3 doc/study_tables.py             exit 1 if a table of a page is not what the files say
+       python3 doc/study_tables.py --write     put the tables into the pages
        python3 doc/study_tables.py --run NAME...
-                                               run prm/studies/NAME.prm (all, if none is named), keep study.csv and
-                                               study.svg here; on a quiet machine, half an hour
+                                               run the studies NAME.prm of prm/studies and prm/tutorial (all, if none is
+                                               named), keep study.csv and study.svg here; on a quiet machine, two hours
+
+A page says itself which table it wants, in a comment before it; a table ends with <!-- end table -->:
+
+<!-- table: NAME where KEY=VALUE, ...: COLUMN as HEADING; COLUMN; ... -->      a line a row of NAME.csv
+<!-- orders: NAME where KEY=VALUE, ...: AXIS; AXIS, AXIS -->                   errors with observed orders, a line a value
+                                                                               of the first axis
+<!-- cost: NAME: AXIS -->              seconds of the cheapest run whose error is below a bound, a column a value of AXIS
+<!-- extrapolation: NAME: AXIS; COLUMN; EXACT -->   a quantity as a mesh is refined, and its limit; EXACT: from elsewhere
+<!-- stability: all -->, <!-- failures: all -->     the stability studies
 """
 import csv
+import math
+import os
+import re
 import shutil
 import subprocess
 import sys
-import tempfile
 from pathlib import Path
 
 TOP = Path(__file__).resolve().parents[1]
-PAGE, FILES, FIGURES = TOP / "doc/results.md", TOP / "doc/studies", TOP / "doc/figures"
-STUDIES = TOP / "prm/studies"
+PAGES = [TOP / "doc/results.md", *sorted((TOP / "doc/tutorial").glob("*.md"))]
+FILES, FIGURES = TOP / "doc/studies", TOP / "doc/figures"
+STUDIES = {file.stem: file for folder in ("prm/studies", "prm/tutorial") for file in sorted((TOP / folder).glob("*.prm"))
+           if re.search(r"^\s*set Vary", file.read_text(), re.MULTILINE)}
+BOUNDS = (1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5)
+COMMENT = re.compile(r"(<!-- (\w+): ([\w*]+)(?: where ([^:]*))?(?:: (.*?))? -->\n).*?(<!-- end table -->)", re.DOTALL)
 
 
 def read(name):
@@ -24,29 +40,117 @@ def read(name):
         return list(csv.DictReader(file))
 
 
+def chosen(name, where):
+    """The rows of a file in which some keys have some values."""
+    wanted = [pair.strip().split("=", 1) for pair in (where or "").split(",") if pair.strip()]
+    return [row for row in read(name) if all(row[key.strip()] == value.strip() for key, value in wanted)]
+
+
 def numbers(rows, column):
     return [float(row[column]) for row in rows if row[column] not in ("", "not definite")]
 
 
-def short(value):
-    return f"{value:.2g}" if value else "0"
+def short(value, digits=2):
+    return f"{value:.{digits}g}" if value else "0"
 
 
 def span(values):
     return f"{short(min(values))} to {short(max(values))}" if values else "–"
 
 
-def table(head, rows):
-    return "\n".join("| " + " | ".join(row) + " |" for row in [head, ["---"] * len(head), *rows])
+def most(rows, column):
+    """The greatest number, 0 if none is positive, a dash if there are none."""
+    return short(max([0, *numbers(rows, column)])) if numbers(rows, column) else "–"
+
+
+def markdown(head, rows):
+    return "\n".join("| " + " | ".join(row) + " |" for row in [head, ["---"] * len(head), *rows]) + "\n"
 
 
 def axes(rows):
-    """The varied keys: all columns before status."""
+    """The varied keys: all columns before status, if there is one."""
     columns = list(rows[0])
-    return columns[:columns.index("status")]
+    return columns[:columns.index("status")] if "status" in columns else columns
 
 
-def stability():
+def text_of(row, column):
+    """A cell: numbers that were measured or computed in three digits, settings as they are."""
+    value = row[column]
+    if column in axes([row]) or not re.fullmatch(r"-?[\d.]+(e[-+]?\d+)?", value):
+        return re.sub(r"[\w./]*/(?=\w+\.(msh|geo))", "", value).replace("|", "\\|")
+    number = float(value)
+    return str(int(number)) if number == int(number) and abs(number) < 1e6 else short(number, 3)
+
+
+def table(name, where, wishes):
+    rows = chosen(name, where)
+    columns = [re.split(r"\s+as\s+", wish.strip()) for wish in wishes.split(";")]
+    return markdown([column[-1] for column in columns], [[text_of(row, column[0]) for column in columns] for row in rows])
+
+
+def error(row):
+    return float(row["error_position_l2"]) if row["error_position_l2"] else math.nan
+
+
+def values_of(rows, keys):
+    """The different values of some keys together, in order of appearance."""
+    return list(dict.fromkeys(tuple(row[key] for key in keys) for row in rows))
+
+
+def orders(name, where, wishes):
+    rows = chosen(name, where)
+    axis, others = (part.strip() for part in wishes.split(";"))
+    others = [key.strip() for key in others.split(",")]
+    body = {value: [value] for (value,) in values_of(rows, [axis])}
+    for other in values_of(rows, others):
+        before = None
+        for row in (row for row in rows if tuple(row[key] for key in others) == other):
+            cell = short(error(row)) if error(row) == error(row) else row["status"]
+            if before and error(row) > 0 and error(before) > 0:
+                order = math.log(error(before) / error(row)) / math.log(float(before[axis]) / float(row[axis]))
+                cell += f" ({order:.2f})"
+            body[row[axis]].append(cell)
+            before = row
+    return markdown([axis.split("/")[-1], *(", ".join(other) for other in values_of(rows, others))], body.values())
+
+
+def cost(name, where, axis):
+    rows = [row for row in chosen(name, where) if error(row) == error(row)]
+    methods = [value for (value,) in values_of(rows, [axis.strip()])]
+    body = []
+    for bound in BOUNDS:
+        cheapest = {}
+        for row in rows:
+            method = row[axis.strip()]
+            if error(row) <= bound and float(row["seconds_median"]) < cheapest.get(method, (math.inf,))[0]:
+                cheapest[method] = (float(row["seconds_median"]), row)
+        if not cheapest:
+            continue
+        best = min(seconds for seconds, row in cheapest.values())
+        line = [f"{bound:g}"]
+        for method in methods:
+            seconds, row = cheapest.get(method, (None, None))
+            how = row and ", ".join(row[key] for key in axes(rows) if key != axis.strip())
+            mark = "**" if seconds == best else ""
+            line.append(f"{mark}{short(seconds)} s{mark} ({how})" if row else "–")
+        body.append(line)
+    return markdown(["error below", *methods], body)
+
+
+def extrapolation(name, where, wishes):
+    """By the observed order of the last three meshes, each twice as fine as the one before."""
+    rows = chosen(name, where)
+    axis, column, exact = (part.strip() for part in wishes.split(";"))
+    values = [float(row[column]) for row in rows]
+    ratio = (values[-1] - values[-2]) / (values[-2] - values[-3])
+    limit = values[-1] + (values[-1] - values[-2]) * ratio / (1 - ratio)
+    body = [[text_of(row, axis), f"{value:.5g}", f"{100 * (value / float(exact) - 1):+.2f} %"]
+            for row, value in zip(rows, values)]
+    body.append([f"extrapolated, order {-math.log2(ratio):.2f}", f"{limit:.5g}", f"{100 * (limit / float(exact) - 1):+.2f} %"])
+    return markdown([axis.split("/")[-1], column, f"from {exact}"], body)
+
+
+def stability(*_):
     body = []
     for file in sorted(FILES.glob("stability_*.csv")):
         rows = read(file.stem)
@@ -57,16 +161,16 @@ def stability():
         body.append([f"[{file.stem[10:]}](../prm/studies/{file.stem}.prm)", str(len(rows)), str(len(converged)),
                      str(sum(row["exit_status"] == "2" for row in rows)),
                      str(sum(row["exit_status"] not in "02" for row in rows)),
-                     short(max(numbers(rows, "residual"))), short(max([0, *numbers(rows, "energy_growth")])),
-                     short(min(numbers(rows, "min_det_F"))), span(numbers(rows, "condition_matrix")), schur,
-                     short(max([0, *numbers(rows, "kkt_residual")]))])
-    total = ["all", *(str(sum(int(row[i]) for row in body)) for i in range(1, 5)), *[""] * 6]
-    return table(["study", "cases", "done", "failure reported", "wrong or crashed", "worst residual",
-                  "energy from nowhere", "least det F", "condition of A", "of the Schur complement", "worst KKT residual"],
-                 body + [total])
+                     short(max(numbers(rows, "residual"))), most(rows, "energy_growth"),
+                     most(rows, "bound_excess"), short(min(numbers(rows, "min_det_F"))),
+                     span(numbers(rows, "condition_matrix")), schur, most(rows, "kkt_residual")])
+    total = ["all", *(str(sum(int(row[i]) for row in body)) for i in range(1, 5)), *[""] * 7]
+    return markdown(["study", "cases", "done", "failure reported", "wrong or crashed", "worst residual",
+                     "energy from nowhere", "above the bound of implicit Euler", "least det F", "condition of A",
+                     "of the Schur complement", "worst KKT residual"], body + [total])
 
 
-def failures():
+def failures(*_):
     body = []
     for file in sorted(FILES.glob("stability_*.csv")):
         rows = read(file.stem)
@@ -74,63 +178,42 @@ def failures():
             if row["exit_status"] != "0":
                 values = ", ".join(f"{key.split('/')[-1]} = `{row[key]}`" for key in axes(rows))
                 body.append([file.stem[10:], values.replace("|", "\\|"), row["status"], row["steps"] or "0"])
-    return table(["study", "case", "how it ended", "steps before"], body)
+    return markdown(["study", "case", "how it ended", "steps before"], body)
 
 
-def error(row):
-    return short(float(row["error_position_l2"])) if row["error_position_l2"] else row["status"]
-
-
-def errors(name):
-    rows = read(name)
-    keys = axes(rows)
-    has_errors = any(row["error_position_l2"] for row in rows)
-    body = [[*(row[key].replace("../../meshes/poses/", "") for key in keys), *([error(row)] if has_errors else []),
-             short(float(row["seconds_median"])), row["iterations"]] for row in rows]
-    return table([*(key.split("/")[-1] for key in keys), *(["error of positions (L2)"] if has_errors else []), "seconds",
-                  "iterations"], body)
-
-
-TABLES = {"stability": stability, "failures": failures,
-          **{name: lambda name=name: errors(name) for name in (
-              "time_step_bar", "time_step_cat", "time_scheme", "gradient", "strain", "solver_tolerance", "examples_count",
-              "damping")}}
+KINDS = {make.__name__: make for make in (table, orders, cost, extrapolation, stability, failures)}
 
 
 def page_with_tables(page):
-    for name, make in TABLES.items():
-        begin, end = f"<!-- {name}: begin -->\n", f"<!-- {name}: end -->"
-        if begin in page:
-            before, rest = page.split(begin, 1)
-            page = before + begin + make() + "\n" + end + rest.split(end, 1)[1]
-    return page
+    return COMMENT.sub(lambda found: found[1] + KINDS[found[2]](found[3], found[4], found[5]) + found[6], page)
 
 
 def run(name):
-    with tempfile.TemporaryDirectory() as directory:
-        subprocess.run([str(TOP / "build/release/exemplar"), "study", str(STUDIES / f"{name}.prm"), "--quiet",
-                        "--output", f"{directory}/{name}"], check=True)
-        shutil.copy(f"{directory}/{name}/study.csv", FILES / f"{name}.csv")
-        if Path(f"{directory}/{name}/study.svg").exists():
-            shutil.copy(f"{directory}/{name}/study.svg", FIGURES / f"{name}.svg")
+    """In output/studies, where a study that was stopped goes on."""
+    program = os.environ.get("EXEMPLAR", str(TOP / "build/release/exemplar"))
+    output = TOP / "output/studies" / name
+    subprocess.run([program, "study", str(STUDIES[name]), "--quiet", "--output", str(output)], check=True)
+    shutil.copy(output / "study.csv", FILES / f"{name}.csv")
+    if (output / "study.svg").exists() and any(f"figures/{name}.svg" in page.read_text() for page in PAGES):
+        shutil.copy(output / "study.svg", FIGURES / f"{name}.svg")
 
 
 def main():
     if sys.argv[1:2] == ["--run"]:
-        for name in sys.argv[2:] or sorted(file.stem for file in STUDIES.glob("*.prm")):
+        for name in sys.argv[2:] or STUDIES:
             print(name, file=sys.stderr, flush=True)
             run(name)
         return
-    page = PAGE.read_text()
-    right = page_with_tables(page)
-    missing = [file.stem for file in STUDIES.glob("*.prm") if not (FILES / f"{file.stem}.csv").exists()]
+    missing = [name for name in STUDIES if not (FILES / f"{name}.csv").exists()]
     if missing:
-        sys.exit(f"doc/studies has no results of {', '.join(sorted(missing))}: python3 doc/study_tables.py --run NAME")
-    if sys.argv[1:] == ["--write"]:
-        PAGE.write_text(right)
-    elif page != right:
-        sys.exit("doc/results.md has other numbers than doc/studies/*.csv: python3 doc/study_tables.py --write")
-    print("doc/results.md has the numbers of doc/studies")
+        sys.exit(f"doc/studies has no results of {', '.join(missing)}: python3 doc/study_tables.py --run NAME")
+    for page in PAGES:
+        right = page_with_tables(page.read_text())
+        if sys.argv[1:] == ["--write"]:
+            page.write_text(right)
+        elif page.read_text() != right:
+            sys.exit(f"{page} has other numbers than doc/studies/*.csv: python3 doc/study_tables.py --write")
+    print("the pages have the numbers of doc/studies")
 
 
 if __name__ == "__main__":

@@ -2,6 +2,8 @@
 #include <exemplar/assembler.h>
 #include <exemplar/environment.h>
 
+#include <deal.II/base/memory_consumption.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -386,5 +388,17 @@ namespace Exemplar
       results.von_mises_stress[cell] = std::sqrt(1.5 * contract(T, T));
     }
     return results;
+  }
+
+  std::size_t
+  Assembler::memory_consumption() const
+  {
+    using dealii::MemoryConsumption::memory_consumption;
+    return batches.memory_consumption() + memory_consumption(pattern.column_start)
+           + memory_consumption(pattern.row) + memory_consumption(block_positions)
+           + memory_consumption(mixed_cells) + memory_consumption(cells_beside_held_nodes)
+           + rotation_sums.memory_consumption() + node_positions.memory_consumption()
+           + nodal_sums.memory_consumption() + memory_consumption(mass_values)
+           + cell_damping.memory_consumption() + damping_strains.memory_consumption();
   }
 } // namespace Exemplar

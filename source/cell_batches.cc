@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/cell_batches.h>
 
+#include <deal.II/base/memory_consumption.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -41,5 +43,13 @@ namespace Exemplar
   {
     return { n_cells,     nodes.data(),     gradients.data(), volumes.data(),
              lame.data(), rotations.data(), strain,           guard_bound };
+  }
+
+  std::size_t
+  CellBatches::memory_consumption() const
+  {
+    return dealii::MemoryConsumption::memory_consumption(nodes) + gradients.memory_consumption()
+           + volumes.memory_consumption() + lame.memory_consumption()
+           + rotations.memory_consumption();
   }
 } // namespace Exemplar

@@ -24,8 +24,10 @@ namespace Exemplar
   Diagnostics::Diagnostics(const Handles      *handles,
                            const Loads        *loads,
                            const ExamplePoses *examples,
-                           const Inertia      *inertia)
-      : handles(handles), loads(loads), examples(examples), inertia(inertia)
+                           const Inertia      *inertia,
+                           const bool          energy_is_bounded)
+      : handles(handles), loads(loads), examples(examples), inertia(inertia),
+        energy_is_bounded(energy_is_bounded)
   {
   }
 
@@ -66,6 +68,8 @@ namespace Exemplar
     const MotionSums sums = inertia != nullptr ? inertia->motion_sums(state) : MotionSums();
     if (inertia != nullptr)
       append(row, "energy_kinetic", sums.kinetic_energy);
+    if (energy_is_bounded)
+      append(row, "energy_inertia", equilibrium.energy_of_inertia());
     for (unsigned int i = 0; i < state.weights.size(); ++i)
       append(row, examples->weight_name("weight", i), state.weights[i]);
     if (examples != nullptr && !examples->weights_are_prescribed())

@@ -113,14 +113,21 @@ namespace Exemplar
             + (report.status == SolveStatus::failed ? " failed: " : " has no descent: ")
             + report.failure);
       std::ostringstream message;
-      message
-          << "Step " << step
-          << (report.status == SolveStatus::stalled ? " stalled"
-                                                    : " stopped at its iteration limit")
-          << ": residual " << report.residual << " after " << report.iterations
-          << " iterations, tolerance " << problem.parameters.solver.tolerance
-          << ". Take smaller steps (Time/Step or Time/Increments), or change Solver/Tolerance or "
-             "Solver/Maximum iterations.";
+      const bool         lacks_derivative
+          = problem.parameters.solver.method == Method::fixed_point && problem.examples != nullptr
+            && problem.parameters.model.strain == StrainMeasure::corotational
+            && !problem.parameters.model.is_frozen();
+      message << "Step " << step
+              << (report.status == SolveStatus::stalled ? " stalled"
+                                                        : " stopped at its iteration limit")
+              << ": residual " << report.residual << " after " << report.iterations
+              << " iterations, tolerance " << problem.parameters.solver.tolerance
+              << (lacks_derivative
+                      ? ". The matrix of a fixed point lacks a part of the consistent force's "
+                        "derivative, so it may never converge: set Solver/Method = newton, "
+                        "or Model/Gradient = frozen."
+                      : ". Take smaller steps (Time/Step or Time/Increments), or change "
+                        "Solver/Tolerance or Solver/Maximum iterations.");
       throw SolverFailure(message.str());
     }
 

@@ -4,6 +4,8 @@
 #include <exemplar/prm_tools.h>
 #include <exemplar/supports.h>
 
+#include <deal.II/base/memory_consumption.h>
+
 #include <cmath>
 #include <numeric>
 
@@ -344,5 +346,23 @@ namespace Exemplar
     default:
       return solve_by_passes(state, time, step_size);
     }
+  }
+
+  std::size_t
+  Equilibrium::memory_of_weights() const
+  {
+    if (block.H.m() == 0)
+      return 0;
+    return dealii::MemoryConsumption::memory_consumption(block.coupling)
+           + block.H.memory_consumption() + block.N.memory_consumption();
+  }
+
+  std::size_t
+  Equilibrium::memory_of_quasi_newton() const
+  {
+    if (turned_factor.empty())
+      return 0;
+    return turned_factor.memory_consumption() + memory.memory_consumption()
+           + dealii::MemoryConsumption::memory_consumption(node_rotations);
   }
 } // namespace Exemplar

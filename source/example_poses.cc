@@ -4,6 +4,8 @@
 #include <exemplar/number_text.h>
 #include <exemplar/prm_tools.h>
 
+#include <deal.II/base/memory_consumption.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -335,5 +337,14 @@ namespace Exemplar
                           + " at t = " + shortest_text(time)
                           + ", not to 1. Make the last one 1 minus the others.");
       }
+  }
+
+  std::size_t
+  ExamplePoses::memory_consumption() const
+  {
+    using dealii::MemoryConsumption::memory_consumption;
+    return memory_consumption(positions) + strains.memory_consumption()
+           + memory_consumption(strain_norms) + gram.memory_consumption()
+           + penalty.memory_consumption() + H.memory_consumption();
   }
 } // namespace Exemplar

@@ -89,4 +89,10 @@ namespace Exemplar
         }
     }
   }
+
+  std::size_t
+  FESpace::memory_consumption() const
+  {
+    return tetrahedra.capacity() * sizeof(tetrahedra[0]) + rest.memory_consumption();
+  }
 } // namespace Exemplar

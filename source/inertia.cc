@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/inertia.h>
 
+#include <deal.II/base/memory_consumption.h>
+
 #include <cmath>
 
 namespace Exemplar
@@ -167,5 +169,14 @@ namespace Exemplar
       sums.angular_momentum += dealii::cross_product_3d(at(state.positions, node), at(p, node));
     }
     return sums;
+  }
+
+  std::size_t
+  Inertia::memory_consumption() const
+  {
+    using dealii::MemoryConsumption::memory_consumption;
+    return pattern.memory_consumption() + mass.memory_consumption() + memory_consumption(row_start)
+           + memory_consumption(columns) + memory_consumption(values) + base.memory_consumption()
+           + predicted.memory_consumption();
   }
 } // namespace Exemplar

@@ -285,4 +285,17 @@ namespace Exemplar
       }
     return lower.distance(upper);
   }
+
+  std::size_t
+  Mesh::memory_consumption() const
+  {
+    std::size_t bytes
+        = triangulation.memory_consumption() + contents.nodes.capacity() * sizeof(contents.nodes[0])
+          + contents.node_numbers.capacity() * sizeof(contents.node_numbers[0])
+          + cells.capacity() * sizeof(cells[0]) + material_ids.capacity() * sizeof(material_ids[0])
+          + boundary_faces.capacity() * sizeof(boundary_faces[0]);
+    for (const MshElement &element : contents.elements)
+      bytes += sizeof(element) + element.nodes.capacity() * sizeof(element.nodes[0]);
+    return bytes;
+  }
 } // namespace Exemplar

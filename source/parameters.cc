@@ -177,7 +177,10 @@ namespace Exemplar
                       names_pattern);
     prm.leave_subsection();
     prm.enter_subsection("Loads");
-    prm.add_parameter("Gravity", gravity, "Acceleration of gravity [m/s^2].");
+    prm.add_parameter(
+        "Gravity", gravity,
+        "Acceleration of gravity [m/s^2]. It acts in full from the start, also in a static "
+        "scene; a weight that grows is a force of Loads/Names on a region.");
     prm.add_parameter("Names", load_names,
                       "Names of dead forces, separated by commas; each has a subsection.",
                       names_pattern);

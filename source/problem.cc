@@ -154,7 +154,7 @@ namespace Exemplar
                     { free_dofs, fe_space.rest_positions(), assembler, *linear_solver, clock,
                       handles.get(), loads.get(), examples.get(), inertia.get(),
                       support && turns_freely() && !parameters.model.is_frozen() }),
-        diagnostics(handles.get(), loads.get(), examples.get(), inertia.get()),
+        diagnostics(handles.get(), loads.get(), examples.get(), inertia.get(), energy_is_bounded()),
         state(initial_state(parameters.initial,
                             mesh,
                             fe_space,
@@ -276,12 +276,28 @@ namespace Exemplar
             { "CHOLMOD", solver == "cholesky" },
             { "algebraic multigrid", solver == "iterative" },
             { "UMFPACK", solver == "umfpack" },
+            { "quasi-Newton method", equilibrium.memory_of_quasi_newton() > 0 },
             { "frame writer", parameters.output.every > 0 } };
     std::vector<std::string> names;
     for (const auto &[name, is_there] : all)
       if (is_there == present)
         names.push_back(name);
     return names;
+  }
+
+  std::vector<std::pair<std::string, std::size_t>>
+  Problem::memory_of_parts() const
+  {
+    std::vector<std::pair<std::string, std::size_t>> parts
+        = { { "mesh", mesh.memory_consumption() },
+            { "cells", fe_space.memory_consumption() + assembler.memory_consumption() },
+            { "mass matrix", inertia == nullptr ? 0 : inertia->memory_consumption() },
+            { "example poses", examples == nullptr ? 0 : examples->memory_consumption() },
+            { "weight block", equilibrium.memory_of_weights() },
+            { "quasi-Newton method", equilibrium.memory_of_quasi_newton() } };
+    if (const SpdOperator *matrix = linear_solver->matrix())
+      parts.emplace_back("linear solver", matrix->memory_consumption());
+    return parts;
   }
 
   std::vector<std::string>
@@ -297,6 +313,15 @@ namespace Exemplar
     if (examples != nullptr)
       all.insert(all.end(), examples->get_warnings().begin(), examples->get_warnings().end());
     return all;
+  }
+
+  bool
+  Problem::energy_is_bounded() const
+  {
+    const bool has_one_energy
+        = examples == nullptr
+          || (!examples->weights_are_prescribed() && !parameters.model.is_frozen());
+    return inertia != nullptr && inertia->is_undamped_implicit_euler() && has_one_energy;
   }
 
   bool

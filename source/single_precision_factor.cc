@@ -55,4 +55,14 @@ namespace Exemplar
     for (std::size_t i = 0; i < permuted.size(); ++i)
       vector[panels.permutation[i]] = permuted[i];
   }
+
+  std::size_t
+  SinglePrecisionFactor::memory_consumption() const
+  {
+    return sizeof(int)
+               * (panels.permutation.capacity() + panels.first_column.capacity()
+                  + panels.rows.capacity())
+           + sizeof(std::size_t) * (panels.first_row.capacity() + panels.first_value.capacity())
+           + sizeof(float) * (panels.values.capacity() + permuted.capacity() + block.capacity());
+  }
 } // namespace Exemplar

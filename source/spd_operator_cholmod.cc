@@ -54,6 +54,14 @@ namespace Exemplar
         return 1. / cholmod_rcond(factor, &common);
       }
 
+      std::size_t
+      memory_consumption() const override
+      {
+        return common.memory_inuse
+               + sizeof(int) * (pattern.row.size() + pattern.column_start.size())
+               + sizeof(double) * matrix_values.size();
+      }
+
       void
       reinit(const SymmetricPattern &new_pattern) override
       {

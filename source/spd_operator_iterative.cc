@@ -90,6 +90,14 @@ namespace Exemplar
       const Multiply   &multiply;
     };
 
+    /// Bytes that are allocated; ML does not tell what its hierarchies take.
+    std::size_t
+    heap_in_use()
+    {
+      const auto heap = mallinfo2();
+      return heap.uordblks + heap.hblkhd;
+    }
+
     /// The matrix has a block of three rows for every node that is not held as a whole, since
     /// ML takes the blocks for its graph. In the row of a held component is the unit matrix,
     /// and all vectors are zero there.
@@ -116,6 +124,15 @@ namespace Exemplar
       name() const override
       {
         return "iterative";
+      }
+
+      std::size_t
+      memory_consumption() const override
+      {
+        const std::size_t entries
+            = matrix == nullptr ? 0 : static_cast<std::size_t>(matrix->NumMyNonzeros());
+        return sizeof(double) * lower_values.size() + (sizeof(int) + sizeof(double)) * entries
+               + multigrid_memory;
       }
 
       void
@@ -167,6 +184,7 @@ namespace Exemplar
         // nothing takes as much memory as a hierarchy: give back what has been freed before
         multigrid.reset();
         malloc_trim(0);
+        const std::size_t before = heap_in_use();
 
         const std::vector<double> modes = rigid_modes();
         Teuchos::ParameterList    parameters;
@@ -187,6 +205,8 @@ namespace Exemplar
         if (!multigrid->IsPreconditionerComputed())
           throw SolverFailure("ML makes no multigrid hierarchy of the matrix of the step. Set "
                               "Solver/Linear solver to cholesky.");
+        const std::size_t after = heap_in_use(); // a frame's writer may have freed memory since
+        multigrid_memory        = after > before ? after - before : 0;
       }
 
       void
@@ -349,6 +369,7 @@ namespace Exemplar
       std::vector<double>               lower_values;
       std::unique_ptr<Epetra_CrsMatrix> matrix;
       std::unique_ptr<Multigrid>        multigrid;
+      std::size_t multigrid_memory = 0; ///< what its making has left on the heap [bytes]
     };
   } // namespace
 

@@ -68,7 +68,8 @@ namespace Exemplar
     {
     public:
       RowMaker(const StudyPlan &plan, const StudyRuns &runs)
-          : runs(runs), poses(plan.study, plan.scene_text)
+          : runs(runs), poses(plan.study, plan.scene_text), columns(plan.study.columns),
+            probe(plan.study.probe)
       {
         if (!plan.reference || !runs.record(plan.reference->name).succeeded())
           return;
@@ -83,18 +84,20 @@ namespace Exemplar
         const StudyRecord &record    = runs.record(planned.name);
         const fs::path     directory = runs.path(planned.name);
         StudyRow           row;
-        row.choice       = planned.choice;
-        row.status       = record.status;
-        row.exit_status  = record.exit_status;
-        row.message      = record.message;
-        row.run          = planned.name;
-        row.statistics   = read_run_statistics(RunDirectory(directory).statistics());
-        row.conditioning = read_run_conditioning(RunDirectory(directory).summary());
+        row.choice      = planned.choice;
+        row.status      = record.status;
+        row.exit_status = record.exit_status;
+        row.message     = record.message;
+        row.run         = planned.name;
+        row.statistics  = read_run_statistics(RunDirectory(directory).statistics());
+        row.summary     = read_run_summary(RunDirectory(directory).summary());
+        row.extra       = read_last_values(RunDirectory(directory).statistics(), columns);
         if (record.status != "refused")
         {
           row.seconds_median = median(record.seconds);
           row.seconds_min    = *std::min_element(record.seconds.begin(), record.seconds.end());
         }
+        row.extra.resize(columns.size() + (probe ? 3 : 0), std::nan(""));
         if (record.succeeded())
           compare(planned, row);
         return row;
@@ -106,6 +109,8 @@ namespace Exemplar
       {
         const FinalPose pose = poses.read(planned, runs.path(planned.name));
         row.max_displacement = pose.max_displacement();
+        for (unsigned int c = 0; probe && c < 3; ++c)
+          row.extra[columns.size() + c] = pose.displacement_near(*probe)[c];
         if (reference == nullptr)
           return;
         row.errors = pose_errors(pose, *reference);
@@ -114,10 +119,12 @@ namespace Exemplar
               = std::abs(row.statistics.energy - reference_energy) / std::abs(reference_energy);
       }
 
-      const StudyRuns                 &runs;
-      FinalPoses                       poses;
-      std::unique_ptr<const FinalPose> reference; ///< null if there is none
-      double                           reference_energy = 0.;
+      const StudyRuns                       &runs;
+      FinalPoses                             poses;
+      const std::vector<std::string>        &columns;
+      const std::optional<dealii::Point<3>> &probe;
+      std::unique_ptr<const FinalPose>       reference; ///< null if there is none
+      double                                 reference_energy = 0.;
     };
 
     std::string
@@ -197,6 +204,16 @@ namespace Exemplar
         std::cerr << "Warning: " << warning << std::endl;
     }
 
+    void
+    warn_of_empty_columns(const StudyTable &table)
+    {
+      for (unsigned int i = 0; i < table.extra_columns.size(); ++i)
+        if (std::all_of(table.rows.begin(), table.rows.end(),
+                        [&](const StudyRow &row) { return std::isnan(row.extra[i]); }))
+          warn("No run has a value in the column " + table.extra_columns[i]
+               + ". The first line of a run's statistics.csv names those that there are.");
+    }
+
     StudyTable
     make_table(const StudyPlan &plan, const StudyRuns &runs)
     {
@@ -204,10 +221,13 @@ namespace Exemplar
         warn("The reference run has ended with the status "
              + runs.record(plan.reference->name).status + ", so there are no errors. "
              + runs.record(plan.reference->name).message);
-      StudyTable table{ plan.study.axes, {}, plan.reference.has_value() };
-      RowMaker   rows(plan, runs);
+      StudyTable table{
+        plan.study.axes, {}, plan.reference.has_value(), extra_columns_of(plan.study)
+      };
+      RowMaker rows(plan, runs);
       for (const PlannedRun &run : plan.runs)
         table.rows.push_back(rows.make(run));
+      warn_of_empty_columns(table);
       return table;
     }
 

@@ -15,6 +15,7 @@ namespace Exemplar
       unsigned int repeats = 3;
       double       timeout = 0.;
       unsigned int threads = 1;
+      std::string  columns, probe;
 
       void
       declare(dealii::ParameterHandler &prm)
@@ -44,6 +45,13 @@ namespace Exemplar
                           dealii::Patterns::Double(0.));
         prm.add_parameter("Threads", threads, "Threads of each run.",
                           dealii::Patterns::Integer(1, 1024));
+        prm.add_parameter("Columns", columns,
+                          "Columns of statistics.csv whose values at the end are columns of the "
+                          "study's tables, separated by commas: weight_0, reaction_tip_z.");
+        prm.add_parameter("Probe", probe,
+                          "Rest position x, y, z [m], separated by commas, whose displacement at "
+                          "the end is in the columns probe_x, probe_y and probe_z [m]: that of the "
+                          "nearest node. Empty: no such columns.");
       }
     };
 
@@ -205,6 +213,35 @@ namespace Exemplar
       return axes;
     }
 
+    std::vector<std::string>
+    parse_columns(const std::string &text, const std::string &place)
+    {
+      std::vector<std::string> columns = split_trimmed(text, ',');
+      for (const std::string &column : columns)
+        if (column.empty() || std::count(columns.begin(), columns.end(), column) > 1)
+          throw UserError(place + ": "
+                          + (column.empty() ? "a name is empty." : column + " is there twice.")
+                          + " Name columns of statistics.csv, each once, separated by commas.");
+      return columns;
+    }
+
+    std::optional<dealii::Point<3>>
+    parse_probe(const std::string &text, const std::string &place)
+    {
+      if (text.empty())
+        return std::nullopt;
+      const std::vector<std::string> parts = split_trimmed(text, ',');
+      dealii::Point<3>               point;
+      for (unsigned int c = 0; c < 3; ++c)
+        if (parts.size() != 3 || !dealii::Patterns::Double().match(parts[c]))
+          throw UserError(place + ": '" + text
+                          + "' is no point. Write three numbers separated by commas, the rest "
+                            "position x, y, z in metres.");
+        else
+          point[c] = std::stod(parts[c]);
+      return point;
+    }
+
     /// What is set for all runs cannot be varied.
     void
     check_disjoint(const std::vector<Assignment> &base, const std::vector<StudyAxis> &axes)
@@ -257,6 +294,8 @@ namespace Exemplar
     repeats    = entries.repeats;
     timeout    = entries.timeout;
     threads    = entries.threads;
+    columns    = parse_columns(entries.columns, place("Columns"));
+    probe      = parse_probe(entries.probe, place("Probe"));
     check_disjoint(base, axes);
   }
 

@@ -41,7 +41,7 @@ namespace Exemplar
         return true;
       }
 
-      /// A number of the row, or what stands for an absent or empty cell.
+      /// A number of the row, or what stands for a cell that is absent or holds none.
       double
       number(const std::string &column, const double absent) const
       {
@@ -49,7 +49,17 @@ namespace Exemplar
         const auto index = static_cast<std::size_t>(found - columns.begin());
         if (index >= columns.size() || index >= cells.size() || cells[index].empty())
           return absent;
-        return std::strtod(cells[index].c_str(), nullptr);
+        char        *end   = nullptr;
+        const double value = std::strtod(cells[index].c_str(), &end);
+        return *end == '\0' ? value : absent;
+      }
+
+      bool
+      has(const std::string &column, const std::string &value) const
+      {
+        const auto found = std::find(columns.begin(), columns.end(), column);
+        const auto index = static_cast<std::size_t>(found - columns.begin());
+        return index < columns.size() && index < cells.size() && cells[index] == value;
       }
 
     private:
@@ -71,6 +81,30 @@ namespace Exemplar
       return row.number("work_handles", 0.) + row.number("work_gravity", 0.)
              + row.number("work_loads", 0.);
     }
+
+    /// The bound on the energy after a step of implicit Euler, row by row.
+    class EnergyBound
+    {
+    public:
+      /// How far a step is above it [J]; NaN in the first row, where handles have moved, and
+      /// where it does not hold.
+      double
+      excess_of_step(const StatisticsReader &row)
+      {
+        const double handles = row.number("work_handles", 0.);
+        const double before  = bound - work;
+        const bool   at_rest = handles == handles_before && !row.has("status", "one pass");
+        handles_before       = handles;
+        work                 = row.number("work_gravity", 0.) + row.number("work_loads", 0.);
+        bound                = total_energy(row);
+        const double left
+            = bound - row.number("energy_kinetic", 0.) + row.number("energy_inertia", nan);
+        return at_rest ? left - work - before : nan;
+      }
+
+    private:
+      double handles_before = nan, bound = nan, work = nan;
+    };
 
     std::vector<double>
     nodal_volumes(const Mesh &mesh)
@@ -157,7 +191,8 @@ namespace Exemplar
   {
     RunStatistics    run;
     StatisticsReader row(file);
-    double           first_energy = nan, scale = 0., growth = 0.;
+    double           first_energy = nan, scale = 0., growth = 0., excess = nan;
+    EnergyBound      bound;
     while (row.next())
     {
       run.iterations      = std::fmax(run.iterations, 0.) + row.number("iterations", 0.);
@@ -172,17 +207,32 @@ namespace Exemplar
       run.energy    = energy;
       run.min_det_F = std::fmin(run.min_det_F, row.number("min_det_F", nan));
       growth        = std::max(growth, energy - first_energy - total_work(row));
+      excess        = std::fmax(excess, bound.excess_of_step(row));
       scale         = std::max({ scale, std::abs(first_energy), std::abs(total_work(row)) });
     }
     if (scale > 0.)
+    {
       run.energy_growth = growth / scale;
+      run.bound_excess  = excess / scale;
+    }
     return run;
   }
 
-  RunConditioning
-  read_run_conditioning(const std::filesystem::path &summary)
+  std::vector<double>
+  read_last_values(const std::filesystem::path &file, const std::vector<std::string> &columns)
   {
-    std::ifstream in(summary);
+    std::vector<double> values(columns.size(), nan);
+    StatisticsReader    row(file);
+    while (row.next())
+      for (unsigned int i = 0; i < columns.size(); ++i)
+        values[i] = row.number(columns[i], nan);
+    return values;
+  }
+
+  RunSummary
+  read_run_summary(const std::filesystem::path &file)
+  {
+    std::ifstream in(file);
     if (!in)
       return {};
     const auto json   = nlohmann::json::parse(in);
@@ -193,7 +243,8 @@ namespace Exemplar
       return json[key].is_null() ? std::numeric_limits<double>::infinity()
                                  : json[key].get<double>();
     };
-    return { number("condition_matrix"), number("condition_schur") };
+    return { number("factorizations"), number("condition_matrix"), number("condition_schur"),
+             number("peak_memory_mib") };
   }
 
   FinalPose::FinalPose(const Mesh &mesh, const std::filesystem::path &final_msh)
@@ -208,6 +259,16 @@ namespace Exemplar
     for (unsigned int i = 0; i < rest.size(); ++i)
       greatest = std::max(greatest, positions[i].distance(rest[i]));
     return greatest;
+  }
+
+  dealii::Tensor<1, 3>
+  FinalPose::displacement_near(const dealii::Point<3> &point) const
+  {
+    const auto nearest
+        = std::min_element(rest.begin(), rest.end(),
+                           [&](const auto &a, const auto &b)
+                           { return a.distance_square(point) < b.distance_square(point); });
+    return positions[nearest - rest.begin()] - *nearest;
   }
 
   PoseErrors

@@ -2,6 +2,7 @@
 #include <exemplar/drivers.h>
 #include <exemplar/parameters.h>
 #include <exemplar/study_plan.h>
+#include <exemplar/study_table.h>
 
 #include <memory>
 
@@ -49,6 +50,7 @@ namespace Exemplar
 
   StudyPlan::StudyPlan(const Study &study) : study(study), scene_text(read_prm(study.scene))
   {
+    check_extra_columns(study);
     read_assignments(scene_text, study.scene.string()); // its syntax concerns all runs
     RunNames    names(study, scene_text);
     bool        parts_are_checked = false;

@@ -4,6 +4,7 @@
 #include <exemplar/version.h>
 
 #include <cmath>
+#include <functional>
 #include <iomanip>
 #include <map>
 #include <sstream>
@@ -57,14 +58,15 @@ namespace Exemplar
     /// A column of a table: the error or another number of a row; errors have an order.
     struct Column
     {
-      std::string title;
-      double (*value)(const StudyRow &);
-      bool has_order;
+      std::string                             title;
+      std::function<double(const StudyRow &)> value;
+      bool                                    has_order;
     };
 
     std::vector<Column>
-    columns_of(const bool has_reference)
+    columns_of(const StudyTable &table)
     {
+      const bool          has_reference = table.has_reference;
       std::vector<Column> columns;
       if (has_reference)
         columns
@@ -76,6 +78,8 @@ namespace Exemplar
           { { "seconds", [](const StudyRow &row) { return row.seconds_median; }, false },
             { "steps", [](const StudyRow &row) { return row.statistics.steps; }, false },
             { "iterations", [](const StudyRow &row) { return row.statistics.iterations; }, false },
+            { "factorizations", [](const StudyRow &row) { return row.summary.factorizations; },
+              false },
             { "residual", [](const StudyRow &row) { return row.statistics.residual; }, false },
             { "min det F", [](const StudyRow &row) { return row.statistics.min_det_F; }, false } });
       if (!has_reference)
@@ -85,6 +89,9 @@ namespace Exemplar
                 false },
               { "max displacement", [](const StudyRow &row) { return row.max_displacement; },
                 false } });
+      for (unsigned int i = 0; i < table.extra_columns.size(); ++i)
+        columns.push_back(
+            { table.extra_columns[i], [i](const StudyRow &row) { return row.extra[i]; }, false });
       return columns;
     }
 
@@ -127,7 +134,7 @@ namespace Exemplar
     write_table(std::ostream &out, const StudyTable &table, const StudyLine &line)
     {
       const auto                numeric = numeric_axis(table.axes);
-      const std::vector<Column> columns = columns_of(table.has_reference);
+      const std::vector<Column> columns = columns_of(table);
       write_table_head(out, table, columns);
       const StudyRow *before = nullptr;
       for (const StudyRow *row : line.rows)

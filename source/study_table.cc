@@ -4,6 +4,7 @@
 #include <exemplar/study_table.h>
 
 #include <cmath>
+#include <set>
 
 namespace Exemplar
 {
@@ -50,10 +51,11 @@ namespace Exemplar
     using CsvRow = std::vector<std::pair<std::string, std::string>>;
 
     CsvRow
-    csv_row(const std::vector<StudyAxis> &axes, const StudyRow &row)
+    csv_row(const StudyTable &table, const StudyRow &row)
     {
-      CsvRow     cells;
-      const auto append = [&](const std::string &column, const double value)
+      const std::vector<StudyAxis> &axes = table.axes;
+      CsvRow                        cells;
+      const auto                    append = [&](const std::string &column, const double value)
       { cells.emplace_back(column, shortest_text(value)); };
       for (unsigned int a = 0; a < axes.size(); ++a)
         for (unsigned int k = 0; k < axes[a].keys.size(); ++k)
@@ -66,13 +68,18 @@ namespace Exemplar
       append("seconds_min", row.seconds_min);
       append("steps", row.statistics.steps);
       append("iterations", row.statistics.iterations);
+      append("factorizations", row.summary.factorizations);
       append("residual", row.statistics.residual);
       append("kkt_residual", row.statistics.kkt);
-      cells.emplace_back("condition_matrix", condition_text(row.conditioning.matrix));
-      cells.emplace_back("condition_schur", condition_text(row.conditioning.schur));
+      cells.emplace_back("condition_matrix", condition_text(row.summary.condition_matrix));
+      cells.emplace_back("condition_schur", condition_text(row.summary.condition_schur));
       append("min_det_F", row.statistics.min_det_F);
       append("energy_growth", row.statistics.energy_growth);
+      append("bound_excess", row.statistics.bound_excess);
       append("max_displacement", row.max_displacement);
+      append("peak_memory_mib", row.summary.peak_memory);
+      for (unsigned int i = 0; i < table.extra_columns.size(); ++i)
+        append(table.extra_columns[i], row.extra[i]);
       append("exit_status", row.exit_status);
       cells.emplace_back("run", row.run);
       cells.emplace_back("message", row.message);
@@ -136,6 +143,29 @@ namespace Exemplar
     return std::isfinite(order) ? order : nan;
   }
 
+  std::vector<std::string>
+  extra_columns_of(const Study &study)
+  {
+    std::vector<std::string> columns = study.columns;
+    if (study.probe)
+      columns.insert(columns.end(), { "probe_x", "probe_y", "probe_z" });
+    return columns;
+  }
+
+  void
+  check_extra_columns(const Study &study)
+  {
+    StudyRow row;
+    row.choice.assign(study.axes.size(), 0);
+    std::set<std::string> taken;
+    for (const auto &[name, value] : csv_row({ study.axes, {} }, row))
+      taken.insert(name);
+    for (const std::string &column : extra_columns_of(study))
+      if (!taken.insert(column).second)
+        throw UserError(study.file.string() + ": Columns: the study's table has a column " + column
+                        + " of its own. Remove it from Columns.");
+  }
+
   void
   write_study_csv(const StudyTable &table, const std::filesystem::path &file)
   {
@@ -146,10 +176,9 @@ namespace Exemplar
         atomic_file.stream() << (i == 0 ? "" : ",") << csv_cell(cell(row[i]));
       atomic_file.stream() << '\n';
     };
-    write_line(csv_row(table.axes, table.rows.at(0)),
-               [](const auto &entry) { return entry.first; });
+    write_line(csv_row(table, table.rows.at(0)), [](const auto &entry) { return entry.first; });
     for (const StudyRow &row : table.rows)
-      write_line(csv_row(table.axes, row), [](const auto &entry) { return entry.second; });
+      write_line(csv_row(table, row), [](const auto &entry) { return entry.second; });
     atomic_file.commit();
   }
 } // namespace Exemplar

@@ -35,6 +35,14 @@ namespace Exemplar
         json[part_names[part]] = seconds[part];
       return json;
     }
+    Json
+    memory_of(const Problem &problem)
+    {
+      Json json;
+      for (const auto &[part, bytes] : problem.memory_of_parts())
+        json[part] = std::round(static_cast<double>(bytes) / 1048.576) / 1000.;
+      return json;
+    }
   } // namespace
 
   void
@@ -80,6 +88,7 @@ namespace Exemplar
     json["seconds"]         = seconds_of(totals.seconds);
     json["peak_memory_mib"] = peak_memory_mib();
     json["bytes_per_cell"]  = std::round(1048576. * peak_memory_mib() / problem.mesh.n_cells());
+    json["memory_mib"]      = memory_of(problem);
     json["used"]            = problem.parts(true);
     json["left_out"]        = problem.parts(false);
 

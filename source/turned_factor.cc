@@ -3,6 +3,8 @@
 #include <exemplar/turned_factor.h>
 #include <exemplar/weight_qp.h>
 
+#include <deal.II/base/memory_consumption.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -35,8 +37,12 @@ namespace Exemplar
     }
   } // namespace
 
-  TurnedFactor::TurnedFactor(const FreeDofs &free_dofs) : free_dofs(free_dofs)
+  TurnedFactor::TurnedFactor(const FreeDofs &free_dofs) : free_dofs(free_dofs) {}
+
+  void
+  TurnedFactor::find_turned_nodes()
   {
+    turned_nodes.clear();
     for (unsigned int node = 0; 3 * node < free_dofs.n_dofs(); ++node)
       if (free_dofs.free_index(3 * node) != FreeDofs::held
           && free_dofs.free_index(3 * node + 1) != FreeDofs::held
@@ -51,6 +57,8 @@ namespace Exemplar
                        const WeightBlock        &block,
                        const std::vector<float> &rotations)
   {
+    if (empty()) // the first time
+      find_turned_nodes();
     rotations_then      = rotations;
     FactorPanels panels = matrix.panels();
     relative_cost       = factorization_cost(panels) / iteration_cost(panels);
@@ -139,5 +147,16 @@ namespace Exemplar
     factor.solve(right_side);
     for (std::size_t i = 0; i < vector.size(); ++i)
       vector[i] = scale * right_side[i];
+  }
+
+  std::size_t
+  TurnedFactor::memory_consumption() const
+  {
+    using dealii::MemoryConsumption::memory_consumption;
+    return factor.memory_consumption() + memory_consumption(turned_nodes)
+           + memory_consumption(rotations_then) + memory_consumption(turns)
+           + memory_consumption(coupled) + memory_consumption(G) + memory_consumption(Z)
+           + memory_consumption(right_side) + schur.memory_consumption()
+           + sums.memory_consumption();
   }
 } // namespace Exemplar

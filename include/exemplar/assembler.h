@@ -137,6 +137,10 @@ namespace Exemplar
     CellResults
     cell_results(const dealii::Vector<double> &positions, const std::vector<double> &weights);
 
+    /// Of the cells, their forces and the pattern of A, in bytes.
+    std::size_t
+    memory_consumption() const;
+
   private:
     bool
     has_weights() const

@@ -37,6 +37,10 @@ namespace Exemplar
       return nodes[batch_index(cell, 4, a)];
     }
 
+    /// In bytes.
+    std::size_t
+    memory_consumption() const;
+
   private:
     const std::size_t             n_cells;
     std::vector<int>              nodes;

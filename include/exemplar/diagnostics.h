@@ -30,10 +30,13 @@ namespace Exemplar
   class Diagnostics
   {
   public:
+    /// `energy_is_bounded`: steps minimise one energy, the same before and after the step, with
+    /// Inertia::is_undamped_implicit_euler().
     Diagnostics(const Handles      *handles,
                 const Loads        *loads,
                 const ExamplePoses *examples,
-                const Inertia      *inertia);
+                const Inertia      *inertia,
+                bool                energy_is_bounded);
 
     /// Add the work of the step from `old_positions` to `state`.
     void
@@ -65,6 +68,7 @@ namespace Exemplar
     const Loads        *loads;
     const ExamplePoses *examples;
     const Inertia      *inertia;
+    const bool          energy_is_bounded;
     Work                work;
   };
 } // namespace Exemplar

@@ -149,6 +149,14 @@ namespace Exemplar
       return total_gradient;
     }
 
+    /// Half the square of x - x_hat that the last step minimised with the energy [J], Eq. (12);
+    /// without damping and by implicit Euler |v_(n+1) - v_n|^2_M/2. 0 before the first step.
+    double
+    energy_of_inertia() const
+    {
+      return inertia_energy;
+    }
+
     /// The next step must make its factor from the state alone, as after a resume.
     void
     forget_factor()
@@ -165,6 +173,14 @@ namespace Exemplar
 
     void
     restore(const QuasiNewtonMemory &earlier);
+
+    /// Of what weights add to the linear systems: their columns and H; in bytes.
+    std::size_t
+    memory_of_weights() const;
+
+    /// Of what the quasi-Newton method keeps; in bytes.
+    std::size_t
+    memory_of_quasi_newton() const;
 
     /// Of the systems that were solved last.
     Conditioning

@@ -243,6 +243,10 @@ namespace Exemplar
       return warnings;
     }
 
+    /// In bytes.
+    std::size_t
+    memory_consumption() const;
+
   private:
     unsigned int
     n_strained() const

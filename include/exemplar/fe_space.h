@@ -87,6 +87,10 @@ namespace Exemplar
     compute_mass_matrix(const std::vector<double>    &density_of_cell,
                         dealii::SparseMatrix<double> &mass) const;
 
+    /// In bytes.
+    std::size_t
+    memory_consumption() const;
+
   private:
     void
     compute_tetrahedra();

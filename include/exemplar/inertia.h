@@ -76,6 +76,14 @@ namespace Exemplar
       return gamma * (gamma + mass_damping);
     }
 
+    /// Whether half the square of x - x_hat, which a step minimises with the energy, is
+    /// |v_(n+1) - v_n|^2_M/2: where the energy bound of doc/method.md, Eq. (12), can hold.
+    bool
+    is_undamped_implicit_euler() const
+    {
+      return scheme == TimeScheme::implicit_euler && mass_damping == 0. && stiffness_damping == 0.;
+    }
+
     /// Stiffness damping over the time that gamma stands for [-].
     double
     stiffness_damping_factor() const
@@ -99,6 +107,10 @@ namespace Exemplar
 
     MotionSums
     motion_sums(const State &state) const;
+
+    /// In bytes.
+    std::size_t
+    memory_consumption() const;
 
   private:
     dealii::Vector<double>

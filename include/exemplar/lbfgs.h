@@ -26,6 +26,16 @@ namespace Exemplar
     void
     add_pair(const std::vector<double> &s, const std::vector<double> &y);
 
+    /// In bytes.
+    std::size_t
+    memory_consumption() const
+    {
+      std::size_t bytes = 0;
+      for (const Pair &pair : pairs)
+        bytes += sizeof(double) * (pair.s.capacity() + pair.y.capacity());
+      return bytes;
+    }
+
     /// For checkpoints: all that it knows.
     template <typename Archive>
     void

@@ -24,6 +24,16 @@ namespace Exemplar
     std::vector<double>
     next() const;
 
+    /// In bytes.
+    std::size_t
+    memory_consumption() const
+    {
+      std::size_t bytes = 0;
+      for (const std::vector<double> &vector : history)
+        bytes += sizeof(double) * vector.capacity();
+      return bytes;
+    }
+
     /// For checkpoints.
     template <typename Archive>
     void

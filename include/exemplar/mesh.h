@@ -141,6 +141,10 @@ namespace Exemplar
     write_pose(const std::vector<dealii::Point<3>> &positions,
                const std::filesystem::path         &file) const;
 
+    /// In bytes.
+    std::size_t
+    memory_consumption() const;
+
   private:
     /// Fill what follows from `contents`, or throw.
     void

@@ -47,6 +47,11 @@ namespace Exemplar
     std::vector<std::string>
     parts(bool present) const;
 
+    /// What each kind of part holds at present, in bytes; 0 for what is not there. UMFPACK does
+    /// not tell, so there is no linear solver with it.
+    std::vector<std::pair<std::string, std::size_t>>
+    memory_of_parts() const;
+
     /// Warnings of all parts.
     std::vector<std::string>
     warnings() const;
@@ -80,6 +85,10 @@ namespace Exemplar
 
     void
     check_supports() const;
+
+    /// Whether the energy bound of doc/method.md, Eq. (12), holds where handles rest.
+    bool
+    energy_is_bounded() const;
 
     /// Whether nothing acts on the body that the rest pose could not bear without strain.
     bool

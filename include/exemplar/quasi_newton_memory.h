@@ -21,6 +21,14 @@ namespace Exemplar
     Lbfgs                  lbfgs;                ///< in the frame of the factor
     LinearPrediction       velocities;           ///< of the last steps, by free degree of freedom
 
+    /// In bytes.
+    std::size_t
+    memory_consumption() const
+    {
+      return factor_positions.memory_consumption() + lbfgs.memory_consumption()
+             + velocities.memory_consumption();
+    }
+
     template <typename Archive>
     void
     serialize(Archive &archive, unsigned int /*version*/)

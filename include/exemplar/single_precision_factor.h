@@ -42,6 +42,10 @@ namespace Exemplar
       return panels.permutation.empty();
     }
 
+    /// In bytes.
+    std::size_t
+    memory_consumption() const;
+
   private:
     FactorPanels       panels;
     std::vector<float> permuted, block;

@@ -4,7 +4,10 @@
 
 #include <exemplar/prm_tools.h>
 
+#include <deal.II/base/point.h>
+
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -51,6 +54,10 @@ namespace Exemplar
     unsigned int            repeats = 3;
     double                  timeout = 0.; ///< [s], 0: none
     unsigned int            threads = 1;
+    /// Of statistics.csv; their values at the end are columns of the table.
+    std::vector<std::string> columns;
+    /// Where the displacement at the end is a column [m].
+    std::optional<dealii::Point<3>> probe;
   };
 
   /// All keys of a study file, for the reference.

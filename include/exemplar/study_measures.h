@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <limits>
+#include <string>
 #include <vector>
 
 namespace Exemplar
@@ -24,21 +25,31 @@ namespace Exemplar
     /// The greatest energy over all steps that neither was there at first nor was done as
     /// work, over the greatest of what was there at first and the work [-].
     double energy_growth = std::numeric_limits<double>::quiet_NaN();
+    /// By how much a step in which handles rest misses the bound of implicit Euler at most,
+    /// Psi_(n+1) + |v_(n+1) - v_n|^2_M/2 <= Psi_n + |v_n|^2_M/2 + work of loads, over the same
+    /// scale [-]; negative if all are within. NaN where there is no such bound.
+    double bound_excess = std::numeric_limits<double>::quiet_NaN();
   };
 
-  /// Condition numbers that summary.json gives; NaN: none, infinity: not definite.
-  struct RunConditioning
+  /// What summary.json says of a run; NaN: nothing.
+  struct RunSummary
   {
-    double matrix = std::numeric_limits<double>::quiet_NaN();
-    double schur  = std::numeric_limits<double>::quiet_NaN();
+    double factorizations   = std::numeric_limits<double>::quiet_NaN();
+    double condition_matrix = std::numeric_limits<double>::quiet_NaN(); ///< infinity: not definite
+    double condition_schur  = std::numeric_limits<double>::quiet_NaN(); ///< infinity: not definite
+    double peak_memory      = std::numeric_limits<double>::quiet_NaN(); ///< [MiB]
   };
 
-  RunConditioning
-  read_run_conditioning(const std::filesystem::path &summary);
+  RunSummary
+  read_run_summary(const std::filesystem::path &file);
 
   /// Of a run in this directory; without statistics.csv all is empty.
   RunStatistics
   read_run_statistics(const std::filesystem::path &file);
+
+  /// The values of columns of statistics.csv in its last row; NaN where there are none.
+  std::vector<double>
+  read_last_values(const std::filesystem::path &file, const std::vector<std::string> &columns);
 
   /// A body at the end of a run.
   struct FinalPose
@@ -48,6 +59,10 @@ namespace Exemplar
     /// The greatest displacement [m].
     double
     max_displacement() const;
+
+    /// That of the node nearest to a rest position [m].
+    dealii::Tensor<1, 3>
+    displacement_near(const dealii::Point<3> &point) const;
 
     const std::vector<dealii::Point<3>> rest;
     const std::vector<dealii::Point<3>> positions;

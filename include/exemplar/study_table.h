@@ -27,16 +27,22 @@ namespace Exemplar
     double                    max_displacement = std::numeric_limits<double>::quiet_NaN();
     PoseErrors                errors;
     RunStatistics             statistics;
-    RunConditioning           conditioning;
+    RunSummary                summary;
+    std::vector<double>       extra; ///< in the columns that the study asks for
   };
 
   /// The rows of a study in the order of its combinations.
   struct StudyTable
   {
-    std::vector<StudyAxis> axes;
-    std::vector<StudyRow>  rows;
-    bool                   has_reference = false;
+    std::vector<StudyAxis>   axes;
+    std::vector<StudyRow>    rows;
+    bool                     has_reference = false;
+    std::vector<std::string> extra_columns = {};
   };
+
+  /// The columns that a study asks for.
+  std::vector<std::string>
+  extra_columns_of(const Study &study);
 
   /// Rows that differ on the numeric axis only.
   struct StudyLine
@@ -63,6 +69,10 @@ namespace Exemplar
   /// p in error ~ number^p between two points; NaN where it is not defined.
   double
   observed_order(double error_1, double error_2, double number_1, double number_2);
+
+  /// Throws UserError if study.csv has a column of such a name already.
+  void
+  check_extra_columns(const Study &study);
 
   /// study.csv: a line a row.
   void

@@ -86,7 +86,14 @@ namespace Exemplar
       return factor.empty();
     }
 
+    /// In bytes.
+    std::size_t
+    memory_consumption() const;
+
   private:
+    void
+    find_turned_nodes();
+
     /// With W stored by rows, `row` and `column` are the strides of its indices.
     void
     multiply_by_turns(std::vector<double> &vector, int row, int column) const;

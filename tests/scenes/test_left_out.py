@@ -47,9 +47,40 @@ class LeftOut(SceneTest):
         self.check_parts(output, ["mass matrix", "loads"],
                          ["gravity", "example poses", "second-order time scheme", "mass damping",
                           "stiffness damping"])
-        self.check_columns(output, COLUMNS_OF_ALL, ["energy_kinetic", "min_det_F",
-                                                    "inverted_cells"],
+        self.check_columns(output, COLUMNS_OF_ALL, ["energy_kinetic", "energy_inertia",
+                                                    "min_det_F", "inverted_cells"],
                            MOMENTA, ["work_handles", "work_loads"], REACTION, SECONDS)
+
+    def check_memory(self, scene, *parts):
+        """That these parts of the scene, and no others, hold memory."""
+        memory = read_summary(self.solve(scene))["memory_mib"]
+        self.assertEqual({part for part, mib in memory.items() if mib > 0},
+                         {"mesh", "cells", "linear solver", *parts})
+
+    def test_what_is_not_there_takes_no_memory(self):
+        prescribed = {"Examples/Weights": "prescribed", "Examples/Prescribed weights": "0.5; 0.5"}
+        dynamic_example = {**EXAMPLE, **DYNAMIC}
+        newton = {"Solver/Method": "newton"}
+        self.check_memory(BAR)
+        self.check_memory({**BAR, "Solver/Linear solver": "iterative"})
+        umfpack = self.solve({**EXAMPLE, **PAPER, "Solver/Linear solver": "umfpack"})
+        self.assertNotIn("linear solver", read_summary(umfpack)["memory_mib"])
+        self.check_memory({**EXAMPLE, **prescribed}, "example poses")
+        self.check_memory(EXAMPLE, "example poses", "weight block")
+        self.check_memory({**DYNAMIC, **newton}, "mass matrix")
+        self.check_memory(DYNAMIC, "mass matrix", "quasi-Newton method")
+        self.check_memory(dynamic_example, "mass matrix", "quasi-Newton method", "example poses",
+                          "weight block")
+
+    def test_the_energy_bound_is_there_where_it_holds(self):
+        example = {**EXAMPLE, **DYNAMIC}
+        prescribed = {"Examples/Weights": "prescribed", "Examples/Prescribed weights": "1-t; t"}
+        frozen = {"Model/Gradient": "frozen", "Solver/Method": "one pass"}
+        for scene, holds in ((DYNAMIC, True), (example, True), ({**DYNAMIC, **frozen}, True),
+                             ({**example, **prescribed}, False), ({**example, **frozen}, False),
+                             ({**DYNAMIC, "Time/Scheme": "bdf2"}, False),
+                             ({**DYNAMIC, "Time/Mass damping": "1"}, False)):
+            self.assertEqual("energy_inertia" in read_csv(self.solve(scene))[0], holds)
 
     def test_free_weights_need_the_weight_block(self):
         output = self.solve(EXAMPLE)

@@ -4,7 +4,7 @@
 import re
 import unittest
 
-from exemplar_runner import (BAR, SceneTest, distance, greatest_distance, prm, read_csv, read_msh,
+from exemplar_runner import (BAR, REPOSITORY, SceneTest, distance, greatest_distance, prm, read_csv, read_msh,
                              read_pvd, read_summary, read_vtu, results)
 
 DYNAMIC = {**BAR, "Scene": "dynamic", "Mesh/Scale": "0.5", "Material/Density": "10",
@@ -156,6 +156,21 @@ class Outputs(SceneTest):
         self.assertEqual(results(self.solve({**exact, "Material/region 1/Poisson's ratio": "0.45"},
                                             output="a")),
                          results(self.solve(exact, output="b")))
+
+    def test_every_column_and_key_is_in_the_manual(self):
+        manual = set(re.findall(r"`([\w.]+)`", (REPOSITORY / "doc/output.md").read_text()))
+        dynamic = {**BAR, "Scene": "dynamic", "Time/Step": "0.01", "Time/End": "0.02", "Loads/Names": "tip",
+                   "Loads/tip/Select": "boundary 2", "Examples/Pose functions": "1.1*x; y; z"}
+        for scene in (dynamic, {**dynamic, "Examples/Weights per region": "true"}):
+            output = self.solve(scene)
+            for column in read_csv(output)[0]:
+                general = re.sub(r"_[yz]$", "_x", column).replace("_left_", "_NAME_")
+                for pattern, name in ((r"^weight_\d+$", "weight_I"), (r"^weight_\d+_\d+$", "weight_R_I"),
+                                      (r"^multiplier_\d+$", "multiplier_R")):
+                    general = re.sub(pattern, name, general)
+                self.assertIn(general, manual)
+            for key in read_summary(output):
+                self.assertIn(key, manual)
 
     def test_final_pose_keeps_numbers_and_tags(self):
         self.write("hand.msh", HAND_WRITTEN)

@@ -43,6 +43,25 @@ class Physics(SceneTest):
             self.assertAlmostEqual(row[name], value, delta=relative * (abs(value) or scale),
                                    msg=name)
 
+    def test_free_spin(self):
+        """A stiff body that spins freely loses angular momentum by the law of implicit Euler alone.
+
+        L_(n+1) = L_n + h sum v_(n+1) x M v_n (doc/method.md) says of a rigid body that turns by the angle a_n in a
+        step: tan a_(n+1) = sin a_n / (2 - cos a_n) and L_n = J sin a_n / h, first tan a_1 = h omega.
+        """
+        h, omega = 0.02, 6.
+        scene = {**BLOCK, "Scene": "dynamic", "Material/Young's modulus": "1e10", "Time/Step": str(h),
+                 "Time/End": "2", "Initial/Velocity": f"0; {-omega}*z; {omega}*y"}
+        for method in ("newton", "quasi newton"):
+            with self.subTest(method):
+                rows = read_csv(self.solve({**scene, "Solver/Method": method}))
+                moments = [row["angular_momentum_x"] / rows[0]["angular_momentum_x"] for row in rows]
+                angle = math.atan(h * omega)
+                for n, moment in enumerate(moments[1:], 1):
+                    self.assertAlmostEqual(moment, math.sin(angle) / (h * omega), delta=2e-4, msg=n)
+                    angle = math.atan(math.sin(angle) / (2 - math.cos(angle)))
+                self.assertLess(moments[-1], 0.8)
+
     def test_free_fall(self):
         rest = self.write_box(BLOCK, "rest.msh").nodes
         for mass in ("consistent", "lumped"):

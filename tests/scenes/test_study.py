@@ -17,8 +17,9 @@ DYNAMIC = {**BAR, "Scene": "dynamic", "Material/Young's modulus": "1e4", "Time/S
 FREE_FALL = {**DYNAMIC, "Handles/Names": None, "Handles/left/Select": None, "Time/End": "1"}
 
 MEASURES = ["status", "error_position_l2", "error_position_max", "error_energy", "seconds_median",
-            "seconds_min", "steps", "iterations", "residual", "kkt_residual", "condition_matrix", "condition_schur", "min_det_F", "energy_growth",
-            "max_displacement", "exit_status", "run", "message"]
+            "seconds_min", "steps", "iterations", "factorizations", "residual", "kkt_residual",
+            "condition_matrix", "condition_schur", "min_det_F", "energy_growth",
+            "bound_excess", "max_displacement", "peak_memory_mib", "exit_status", "run", "message"]
 
 
 def state_and_parent(identity):
@@ -54,7 +55,8 @@ class Studies(SceneTest):
             return list(csv.DictReader(file))
 
     def timeless(self):
-        return [{name: value for name, value in row.items() if not name.startswith("seconds_")}
+        return [{name: value for name, value in row.items()
+                 if not name.startswith("seconds_") and name != "peak_memory_mib"}
                 for row in self.rows()]
 
     def report(self):
@@ -130,6 +132,21 @@ class Studies(SceneTest):
             self.assertEqual(lines[0][4].strip(), "")
             for line in lines[1:]:
                 self.assertAlmostEqual(float(line[4]), order, delta=0.02 * order)
+
+    def test_columns_and_probe(self):
+        self.prepare(FREE_FALL, "Time/Step: 0.1 0.05", Columns="momentum_z, angle", Probe="9, 9, 9")
+        rows = self.study()
+        for row in rows:
+            run = self.directory / "out/runs" / row["run"]
+            with open(run / "statistics.csv", newline="") as file:
+                last = list(csv.DictReader(file))[-1]
+            self.assertEqual(row["momentum_z"], last["momentum_z"])
+            self.assertEqual(row["angle"], "")
+            fall = (1 + float(row["Time/Step"])) / 2  # in a second, by gravity 1
+            self.assertAlmostEqual(float(row["probe_z"]), -fall, delta=1e-9)
+            self.assertAlmostEqual(float(row["probe_x"]), 0, delta=1e-9)
+        self.assertIn("No run has a value in the column angle.", self.run_of_study.stderr)
+        self.assertIn("| probe_z |", self.report())
 
     def test_refined_meshes_are_compared_at_common_nodes(self):
         self.prepare(BAR, "Mesh/Box cells: 2, 1, 1; 4, 2, 2; 3, 1, 1",

@@ -86,6 +86,41 @@ namespace Exemplar::Testing
                 (Values{ { "2, 1, 1" }, { "4, 2, 2" } }));
     }
 
+    TEST_F(StudyFile, Probe)
+    {
+      EXPECT_FALSE(study("A/B: 1 2").probe);
+      EXPECT_EQ(*study("A/B: 1 2", "set Probe = 1, -2.5, 3e-1\n").probe,
+                dealii::Point<3>(1., -2.5, .3));
+      for (const std::string wrong : { "1, 2", "1, 2, x", "1 2 3" })
+        expect_refusal({ "Probe", wrong, "three numbers" }, "A/B: 1 2",
+                       "set Probe = " + wrong + "\n");
+    }
+
+    TEST_F(StudyFile, ExtraColumns)
+    {
+      const Study both = study("A/B: 1 2", "set Columns = weight_1, reaction_x\nset Probe = 0, 0, 0\n");
+      EXPECT_EQ(extra_columns_of(both),
+                (std::vector<std::string>{ "weight_1", "reaction_x", "probe_x", "probe_y",
+                                           "probe_z" }));
+      check_extra_columns(both);
+      expect_refusal({ "Columns", "weight_1 is there twice" }, "A/B: 1 2",
+                     "set Columns = weight_1, weight_1\n");
+      expect_refusal({ "Columns", "empty" }, "A/B: 1 2", "set Columns = weight_1,, x\n");
+      for (const std::string taken : { "status", "iterations", "A/B" })
+        EXPECT_THROW(check_extra_columns(study("A/B: 1 2", "set Columns = " + taken + "\n")),
+                     UserError);
+    }
+
+    TEST_F(StudyFile, LastValues)
+    {
+      const auto values = read_last_values(
+          write_file("statistics.csv", "step,status,a,b\n0,initial,1,2\n1,converged,3,\n"),
+          { "a", "b", "status", "c" });
+      EXPECT_EQ(values[0], 3.);
+      for (const unsigned int i : { 1, 2, 3 })
+        EXPECT_TRUE(std::isnan(values[i])) << i;
+    }
+
     TEST_F(StudyFile, KeysThatChangeTogether)
     {
       const StudyAxis both = axis("Solver/Method + Time / Step: one pass + 0.1, newton + 0.2");
@@ -176,6 +211,24 @@ namespace Exemplar::Testing
       EXPECT_EQ(run.energy, 12.);
       EXPECT_EQ(run.energy_growth, (12. - 2. - 4.) / 4.);
       EXPECT_TRUE(std::isnan(read_run_statistics(directory / "absent.csv").steps));
+    }
+
+    TEST_F(StudyFile, BoundOfImplicitEuler)
+    {
+      const std::string   head = "step,status,energy_elastic,energy_kinetic,energy_inertia,"
+                                 "work_handles,work_gravity\n";
+      const RunStatistics run
+          = read_run_statistics(write_file("statistics.csv", head
+                                                                 + "0,initial,1,3,0,0,0\n"
+                                                                   "1,converged,2,9,0.25,0,1\n"
+                                                                   "2,converged,90,0,9,5,1\n"
+                                                                   "3,converged,89,0,1.5,5,1\n"));
+      // 2 + 0.25 - 1 - 4 in the first step, a handle moves in the second, 89 + 1.5 - 90
+      EXPECT_DOUBLE_EQ(run.bound_excess, 0.5 / 6.);
+      EXPECT_TRUE(std::isnan(
+          read_run_statistics(
+              write_file("statistics.csv", head + "0,initial,1,3,0,0,0\n1,one pass,2,9,9,0,1\n"))
+              .bound_excess));
     }
 
     class StudyPoses : public InTemporaryDirectory
