@@ -146,7 +146,7 @@ namespace Exemplar
   void
   Assembler::build_mass_values()
   {
-    mass_values.assign(pattern.row.size(), 0.);
+    mass_values.assign(pattern.n_values(), 0.);
     const dealii::SparseMatrix<double> &mass = inertia->nodal_mass();
     for (const unsigned int dof : free_dofs.list())
       for (auto entry = mass.begin(dof / 3); entry != mass.end(dof / 3); ++entry)
