@@ -41,25 +41,23 @@ namespace Exemplar
         return true;
       }
 
+      /// A cell of the row; empty if it is absent.
+      std::string
+      cell(const std::string &column) const
+      {
+        const auto found = std::find(columns.begin(), columns.end(), column);
+        const auto index = static_cast<std::size_t>(found - columns.begin());
+        return index < columns.size() && index < cells.size() ? cells[index] : "";
+      }
+
       /// A number of the row, or what stands for a cell that is absent or holds none.
       double
       number(const std::string &column, const double absent) const
       {
-        const auto found = std::find(columns.begin(), columns.end(), column);
-        const auto index = static_cast<std::size_t>(found - columns.begin());
-        if (index >= columns.size() || index >= cells.size() || cells[index].empty())
-          return absent;
-        char        *end   = nullptr;
-        const double value = std::strtod(cells[index].c_str(), &end);
-        return *end == '\0' ? value : absent;
-      }
-
-      bool
-      has(const std::string &column, const std::string &value) const
-      {
-        const auto found = std::find(columns.begin(), columns.end(), column);
-        const auto index = static_cast<std::size_t>(found - columns.begin());
-        return index < columns.size() && index < cells.size() && cells[index] == value;
+        const std::string text  = cell(column);
+        char             *end   = nullptr;
+        const double      value = std::strtod(text.c_str(), &end);
+        return !text.empty() && *end == '\0' ? value : absent;
       }
 
     private:
@@ -93,7 +91,7 @@ namespace Exemplar
       {
         const double handles = row.number("work_handles", 0.);
         const double before  = bound - work;
-        const bool   at_rest = handles == handles_before && !row.has("status", "one pass");
+        const bool   at_rest = handles == handles_before && row.cell("status") != "one pass";
         handles_before       = handles;
         work                 = row.number("work_gravity", 0.) + row.number("work_loads", 0.);
         bound                = total_energy(row);

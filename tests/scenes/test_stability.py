@@ -14,6 +14,7 @@ MORE_FAILURES = 3  # than in doc/studies: next to the limit of iterations roundi
 # of what was there at first and was done as work; Newton's tolerance leaves less, and steps to a
 # thousandth of the displacement that much of the energy in them
 MOST_ENERGY_FROM_NOWHERE = 1e-3
+MOST_ABOVE_BOUND = 1e-6  # of the same scale; 6e-10 measured
 REMEDY = re.compile(r"\b([Ss]et|[Tt]ake|[Uu]se|[Rr]emove|[Gg]ive|[Cc]heck|[Tt]ry|smaller|coarser|[Hh]old|improve|raise)\b")
 
 
@@ -35,7 +36,7 @@ class Stability(SceneTest):
         self.check_files(row)
         if is_dynamic:  # work over the increments of a static path is known by its trapezoids only
             self.assertLess(float(row["energy_growth"] or 0), MOST_ENERGY_FROM_NOWHERE)
-            self.assertLess(float(row["bound_excess"] or 0), MOST_ENERGY_FROM_NOWHERE)
+            self.assertLess(float(row["bound_excess"] or 0), MOST_ABOVE_BOUND)
         if row["exit_status"] == "0":
             self.assertTrue(math.isfinite(float(row["max_displacement"])))
             return
