@@ -5,7 +5,7 @@
 Usage, from the top folder: python3 doc/measure_parts.py [PROGRAM]
 
 Runs the cat of prm/studies/scenes/cat.prm as several kinds of scene under `perf record` (Debian: linux-perf) on one thread
-and writes doc/studies/parts.csv, which `python3 doc/study_tables.py --write` puts into doc/results.md. Half a minute.
+and writes doc/studies/parts.csv, which `python3 doc/study_tables.py --write` puts into doc/results.md. A minute.
 Times are processor time by the functions that were running, memory is what the parts themselves count (memory_mib of
 summary.json); both are of the program as it is, without changes for measuring.
 """
@@ -24,17 +24,17 @@ FREQUENCY = 1000
 PLAIN = {"Output/Every": "0", "Output/Checkpoint minutes": "60"}
 EXAMPLES = {"Examples/Weights": "simplex"}
 NONE = {"Examples/Importance": "0"}
+STATIC = {**NONE, "Scene": "static", "Time/Increments": "20"}
+PAPER = {"Solver/Method": "one pass", "Model/Gradient": "frozen", "Time/Mass damping": "0", "Time/End": "2"}
 KINDS = {
-    "static": {**NONE, "Scene": "static", "Time/Increments": "20"},
-    "static, iterative": {**NONE, "Scene": "static", "Time/Increments": "20", "Solver/Linear solver": "iterative"},
+    "static": STATIC,
+    "static, iterative": {**STATIC, "Solver/Linear solver": "iterative"},
     "interpolation": {"Scene": "interpolation", "Examples/Importance": "1", "Examples/Weights": "prescribed",
                       "Examples/Prescribed weights": "1-t; t; 0", "Time/Increments": "20"},
     "dynamic": {**NONE, "Time/End": "2"},
     "dynamic, examples": {**EXAMPLES, "Time/End": "2"},
-    "the paper's one pass": {"Solver/Method": "one pass", "Model/Gradient": "frozen", "Time/Mass damping": "0",
-                             "Time/End": "2"},
-    "the same with frames": {"Solver/Method": "one pass", "Model/Gradient": "frozen", "Time/Mass damping": "0",
-                             "Time/End": "2", "Output/Every": "1"},
+    "the paper's one pass": PAPER,
+    "the same with frames": {**PAPER, "Output/Every": "1"},
     "newton, bdf2, damped": {**EXAMPLES, "Solver/Method": "newton", "Time/Scheme": "bdf2",
                              "Time/Stiffness damping": "0.001", "Time/End": "0.6"},
 }
@@ -92,9 +92,9 @@ def measure(program, keys):
     """Milliseconds a step and MiB of each part."""
     with tempfile.TemporaryDirectory() as folder:
         Path(f"{folder}/scene.prm").write_text(scene_text(keys))
-        subprocess.run(["perf", "record", "-q", "-e", "cpu-clock", "-F", str(FREQUENCY), "--call-graph", "dwarf,16384", "-o", f"{folder}/perf", program,
-                        f"{folder}/scene.prm", *settings(keys), "--threads", "1", "--quiet", "--output", f"{folder}/out"],
-                       check=True)
+        run = [program, f"{folder}/scene.prm", *settings(keys), "--threads", "1", "--quiet", "--output", f"{folder}/out"]
+        subprocess.run(["perf", "record", "-q", "-e", "cpu-clock", "-F", str(FREQUENCY), "--call-graph", "dwarf,16384",
+                        "-o", f"{folder}/perf", *run], check=True)
         summary = json.loads(Path(f"{folder}/out/summary.json").read_text())
         milliseconds = dict.fromkeys([part for part, _, _ in PARTS] + [OTHER], 0.)
         for functions in samples(f"{folder}/perf"):

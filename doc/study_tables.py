@@ -32,7 +32,7 @@ FILES, FIGURES = TOP / "doc/studies", TOP / "doc/figures"
 STUDIES = {file.stem: file for folder in ("prm/studies", "prm/tutorial") for file in sorted((TOP / folder).glob("*.prm"))
            if re.search(r"^\s*set Vary", file.read_text(), re.MULTILINE)}
 BOUNDS = (1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5)
-COMMENT = re.compile(r"(<!-- (\w+): ([\w*]+)(?: where ([^:]*))?(?:: (.*?))? -->\n).*?(<!-- end table -->)", re.DOTALL)
+COMMENT = re.compile(r"(<!-- (\w+): (\w+)(?: where ([^:]*))?(?:: (.*?))? -->\n).*?(<!-- end table -->)", re.DOTALL)
 
 
 def read(name):
@@ -115,13 +115,14 @@ def orders(name, where, wishes):
 
 
 def cost(name, where, axis):
+    axis = axis.strip()
     rows = [row for row in chosen(name, where) if error(row) == error(row)]
-    methods = [value for (value,) in values_of(rows, [axis.strip()])]
+    methods = [value for (value,) in values_of(rows, [axis])]
     body = []
     for bound in BOUNDS:
         cheapest = {}
         for row in rows:
-            method = row[axis.strip()]
+            method = row[axis]
             if error(row) <= bound and float(row["seconds_median"]) < cheapest.get(method, (math.inf,))[0]:
                 cheapest[method] = (float(row["seconds_median"]), row)
         if not cheapest:
@@ -130,7 +131,7 @@ def cost(name, where, axis):
         line = [f"{bound:g}"]
         for method in methods:
             seconds, row = cheapest.get(method, (None, None))
-            how = row and ", ".join(row[key] for key in axes(rows) if key != axis.strip())
+            how = row and ", ".join(row[key] for key in axes(rows) if key != axis)
             mark = "**" if seconds == best else ""
             line.append(f"{mark}{short(seconds)} s{mark} ({how})" if row else "–")
         body.append(line)

@@ -91,12 +91,9 @@ namespace Exemplar
       return 0.;
     }
 
-    /// Of the matrix and its factor, or what stands for one, in bytes; 0 if it is not known.
+    /// Of the matrix and its factor, or what stands for one, in bytes.
     virtual std::size_t
-    memory_consumption() const
-    {
-      return 0;
-    }
+    memory_consumption() const = 0;
 
     /// Where the nodes are in the state of which the next matrix is the tangent. Operators
     /// that ask nothing of it ignore it.
