@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/environment.h>
-#include <exemplar/problem.h>
+#include <exemplar/base/environment.h>
+#include <exemplar/run/problem.h>
 
 #include <deal.II/base/multithread_info.h>
 

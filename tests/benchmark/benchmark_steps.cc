@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/environment.h>
-#include <exemplar/errors.h>
-#include <exemplar/problem.h>
+#include <exemplar/base/environment.h>
+#include <exemplar/base/errors.h>
+#include <exemplar/run/problem.h>
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/multithread_info.h>

@@ -2,12 +2,12 @@
 #ifndef exemplar_tests_body_h
 #define exemplar_tests_body_h
 
-#include <exemplar/assembler.h>
-#include <exemplar/example_poses.h>
-#include <exemplar/fe_space.h>
-#include <exemplar/inertia.h>
-#include <exemplar/material.h>
-#include <exemplar/mesh.h>
+#include <exemplar/body/example_poses.h>
+#include <exemplar/body/fe_space.h>
+#include <exemplar/body/material.h>
+#include <exemplar/mesh/mesh.h>
+#include <exemplar/potential/assembler.h>
+#include <exemplar/potential/inertia.h>
 
 #include <memory>
 #include <random>

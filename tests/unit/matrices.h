@@ -2,7 +2,7 @@
 #ifndef exemplar_tests_matrices_h
 #define exemplar_tests_matrices_h
 
-#include <exemplar/matrix3.h>
+#include <exemplar/kernels/matrix3.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #ifndef exemplar_tests_scene_h
 #define exemplar_tests_scene_h
 
-#include <exemplar/verification_scene.h>
+#include <exemplar/verification/verification_scene.h>
 
 #include <string>
 

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_cell_batches_h
+#define exemplar_cell_batches_h
+
+#include <exemplar/body/fe_space.h>
+#include <exemplar/body/material.h>
+#include <exemplar/kernels/cell_kernels.h>
+
+#include <deal.II/base/aligned_vector.h>
+
+namespace Exemplar
+{
+  /// The cells as the kernels want them, and the rotation of each.
+  class CellBatches
+  {
+  public:
+    CellBatches(const FESpace &fe_space, const Material &material);
+
+    /// For a model with that strain and p_0 of Eq. (16).
+    CellArrays
+    arrays(StrainMeasure strain, double guard_bound);
+
+    Matrix3<double>
+    rotation(const unsigned int cell) const
+    {
+      Matrix3<double> R;
+      for (unsigned int k = 0; k < 9; ++k)
+        R[k / 3][k % 3] = rotations[batch_index(cell, 9, k)];
+      return R;
+    }
+
+    /// Node a of a cell in ascending order of their numbers, which is the order of all
+    /// arrays.
+    unsigned int
+    node(const unsigned int cell, const unsigned int a) const
+    {
+      return nodes[batch_index(cell, 4, a)];
+    }
+
+    /// In bytes.
+    std::size_t
+    memory_consumption() const;
+
+  private:
+    const std::size_t             n_cells;
+    std::vector<int>              nodes;
+    dealii::AlignedVector<double> gradients;
+    dealii::AlignedVector<double> volumes;
+    dealii::AlignedVector<double> lame;
+    dealii::AlignedVector<double> rotations;
+  };
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_handles_h
+#define exemplar_handles_h
+
+#include <exemplar/body/time_axis.h>
+#include <exemplar/mesh/rigid_motion.h>
+#include <exemplar/mesh/selection.h>
+#include <exemplar/prm/expression.h>
+
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/lac/vector.h>
+
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace Exemplar
+{
+  /// A subsection of Handles.
+  struct HandleParameters
+  {
+    std::string name;
+    Selection   select;
+    std::string motion     = "0; 0; 0";
+    std::string components = "x, y, z";
+    std::string follow_pose; ///< a file; empty: `motion` says where the nodes go
+    std::string progress = "t";
+
+    void
+    declare(dealii::ParameterHandler &prm);
+
+    /// Throws UserError if both a motion and a pose to follow are given, or a
+    /// progress without a pose.
+    void
+    check() const;
+  };
+
+  /// A turn of points of which each moves on a straight line, so that they are crushed
+  /// towards the axis on the way.
+  struct StraightTurn
+  {
+    double angle;      ///< [rad], 0 if there is no such turn
+    double least_size; ///< relative to that at the nearer end of the way
+  };
+
+  /// Look for a straight turn in the places that points take one after the other,
+  /// starting at `rest`; each of `places` has as many as `rest`.
+  StraightTurn
+  find_straight_turn(const std::vector<dealii::Point<3>>              &rest,
+                     const std::vector<std::vector<dealii::Point<3>>> &places);
+
+  /// Nodes held at places that move in time: hard constraints.
+  class Handles
+  {
+  public:
+    /// Throws UserError for a selection without nodes, a formula that is not
+    /// understood, a pose that is none of the mesh, and for handles that overlap and
+    /// disagree in any step.
+    Handles(const std::vector<HandleParameters> &parameters,
+            const Mesh                          &mesh,
+            const TimeAxis                      &axis);
+
+    /// Degrees of freedom 3 i + c that are held, ascending, each once.
+    std::vector<unsigned int>
+    held_dofs() const;
+
+    /// Put the held degrees of freedom where they are at time t [s].
+    void
+    move(double time, dealii::Vector<double> &positions) const;
+
+    unsigned int
+    size() const
+    {
+      return handles.size();
+    }
+
+    const std::string &
+    name(const unsigned int handle) const
+    {
+      return handles[handle].name;
+    }
+
+    /// Sum over a handle's held degrees of freedom of a nodal field, by component.
+    dealii::Tensor<1, 3>
+    sum_over(unsigned int handle, const dealii::Vector<double> &field) const;
+
+    /// Warnings to show the user: handles that are crushed as they turn.
+    const std::vector<std::string> &
+    get_warnings() const
+    {
+      return warnings;
+    }
+
+  private:
+    struct Handle
+    {
+      std::string               name;
+      std::vector<unsigned int> nodes;
+      std::vector<unsigned int> components;
+      Expression                motion;
+      Expression                progress; ///< on the path, if there is one
+      std::optional<RigidPath>  path;     ///< to the pose that is followed
+
+      /// Of a point of `nodes` that is at `rest` at rest, at time t [s].
+      dealii::Tensor<1, 3>
+      displacement(unsigned int point, const dealii::Point<3> &rest, double time) const;
+    };
+
+    Handle
+    make_handle(const HandleParameters &parameters) const;
+
+    std::vector<dealii::Point<3>>
+    rest_positions(const Handle &handle) const;
+
+    /// Nodes that more than one handle holds.
+    std::set<unsigned int>
+    shared_nodes() const;
+
+    void
+    check_agreement(const std::set<unsigned int> &shared, double time) const;
+
+    /// Fill `warnings`.
+    void
+    look_for_straight_turns(const TimeAxis &axis);
+
+    const Mesh              &mesh;
+    std::vector<Handle>      handles;
+    std::vector<std::string> warnings;
+  };
+} // namespace Exemplar
+
+#endif

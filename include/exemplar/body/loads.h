@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_loads_h
+#define exemplar_loads_h
+
+#include <exemplar/body/fe_space.h>
+#include <exemplar/body/material.h>
+#include <exemplar/mesh/selection.h>
+#include <exemplar/prm/expression.h>
+
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/lac/vector.h>
+
+#include <string>
+#include <vector>
+
+namespace Exemplar
+{
+  /// A subsection of Loads.
+  struct LoadParameters
+  {
+    std::string name;
+    Selection   select;
+    std::string force = "0; 0; 0";
+
+    void
+    declare(dealii::ParameterHandler &prm);
+  };
+
+  /// Gravity and dead forces.
+  class Loads
+  {
+  public:
+    /// Throws UserError for a load that selects nothing or that is not understood.
+    Loads(const dealii::Tensor<1, 3>        &gravity,
+          const std::vector<LoadParameters> &parameters,
+          const Mesh                        &mesh,
+          const FESpace                     &fe_space,
+          const Material                    &material);
+
+    bool
+    has_gravity() const
+    {
+      return gravity_force.size() > 0;
+    }
+
+    bool
+    has_named_loads() const
+    {
+      return !loads.empty();
+    }
+
+    /// Nodal forces of gravity [N]; empty without gravity.
+    const dealii::Vector<double> &
+    gravity() const
+    {
+      return gravity_force;
+    }
+
+    /// Sum of the nodal forces of the named loads at time t [s] into `force` [N].
+    void
+    named_loads(double time, dealii::Vector<double> &force) const;
+
+  private:
+    struct Load
+    {
+      std::vector<unsigned int> nodes;
+      std::vector<double>       shares; ///< of each node; they sum to one
+      Expression                force;
+    };
+
+    dealii::Vector<double> gravity_force;
+    std::vector<Load>      loads;
+  };
+} // namespace Exemplar
+
+#endif

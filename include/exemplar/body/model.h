@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_model_h
+#define exemplar_model_h
+
+#include <exemplar/kernels/cell_model.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+namespace Exemplar
+{
+  enum class GradientKind
+  {
+    consistent,
+    frozen
+  };
+
+  /// Subsection Model.
+  struct ModelParameters
+  {
+    StrainMeasure strain   = StrainMeasure::corotational;
+    GradientKind  gradient = GradientKind::consistent;
+
+    void
+    declare(dealii::ParameterHandler &prm);
+
+    /// Whether forces are the paper's, which hold the rotations fixed. Only corotation has
+    /// rotations to hold.
+    bool
+    is_frozen() const
+    {
+      return strain == StrainMeasure::corotational && gradient == GradientKind::frozen;
+    }
+  };
+} // namespace Exemplar
+
+#endif

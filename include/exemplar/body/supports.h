@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_supports_h
+#define exemplar_supports_h
+
+#include <exemplar/mesh/mesh.h>
+
+#include <deal.II/lac/vector.h>
+
+#include <array>
+#include <vector>
+
+namespace Exemplar
+{
+  /// Number of the six rigid motions that the held degrees of freedom (3 i + c)
+  /// leave free.
+  unsigned int
+  n_free_rigid_motions(const Mesh &mesh, const std::vector<unsigned int> &held_dofs);
+
+  /// Six degrees of freedom of one cell that hold a body against rigid motion and
+  /// nothing else: three of its first node, two of the second, one of the third.
+  struct StaticallyDeterminateSupport
+  {
+    unsigned int                cell;
+    std::array<unsigned int, 3> nodes;
+    std::vector<unsigned int>   held_dofs; ///< ascending
+  };
+
+  /// The support in the cell nearest to the centroid of the nodes.
+  StaticallyDeterminateSupport
+  support_near_centroid(const Mesh &mesh);
+
+  /// Turn `positions` so that the supported cell stands as it does at rest, unless it
+  /// deviates from that by less than `angle` [rad]. The support was chosen for that
+  /// orientation and is a poor one in others. Returns whether they were turned.
+  bool
+  turn_to_support(const Mesh                         &mesh,
+                  const StaticallyDeterminateSupport &support,
+                  double                              angle,
+                  dealii::Vector<double>             &positions);
+
+  /// Take the best-fitting infinitesimal rigid motion (translation and rotation, least
+  /// squares over the nodes) out of a displacement [m] of `positions`.
+  void
+  remove_rigid_motion(const dealii::Vector<double> &positions,
+                      dealii::Vector<double>       &displacement);
+
+  /// Move `positions` rigidly so that it comes nearest to `reference` in the
+  /// least-squares sense over the nodes (Kabsch 1976), Eq. (15).
+  void
+  align(const dealii::Vector<double> &reference, dealii::Vector<double> &positions);
+} // namespace Exemplar
+
+#endif

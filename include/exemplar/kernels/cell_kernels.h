@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_cell_kernels_h
+#define exemplar_cell_kernels_h
+
+#include <exemplar/kernels/cell_model.h>
+#include <exemplar/kernels/simd.h>
+
+#include <limits>
+#include <string>
+#include <vector>
+
+// The loops over the cells, compiled for several instruction sets; the best that the CPU
+// has is chosen when the program runs. Everything is stored by batches of `batch_size`
+// cells: entry e of cell c of a quantity with n entries is at (c/8 n + e) 8 + c%8. No
+// deal.II header here: see matrix3.h.
+
+namespace Exemplar
+{
+  /// What the loops know of the cells. The last batch is filled with copies of the last
+  /// cell that have no volume.
+  struct CellArrays
+  {
+    std::size_t   n_cells;
+    const int    *nodes;     ///< 4; ascending in each cell
+    const double *gradients; ///< 9: g_a of the last three of those nodes [1/m]
+    const double *volumes;   ///< 1 [m^3]
+    const double *lame;      ///< 2: lambda and mu [Pa]
+    double       *rotations; ///< 9: R by rows
+    StrainMeasure strain;
+    double        guard_bound; ///< p_0 of Eq. (16)
+
+    std::size_t
+    n_batches() const
+    {
+      return (n_cells + batch_size - 1) / batch_size;
+    }
+  };
+
+  /// How much of a region's weights acts in a cell.
+  struct RegionShare
+  {
+    unsigned int region; ///< its number, in ascending order of material ids
+    double       value;
+  };
+
+  /// The examples that have a strain, which the rest pose has not.
+  struct ExampleArrays
+  {
+    unsigned int       n           = 0; ///< of them
+    unsigned int       first       = 0; ///< number of the first among all examples
+    unsigned int       n_all       = 0; ///< of all
+    unsigned int       n_weights   = 0;
+    double             importance  = 0.;      ///< eta
+    const double      *strains     = nullptr; ///< 6 n: xx, yy, zz, yz, xz, xy of each
+    const std::size_t *share_start = nullptr; ///< of a cell's shares; null: weights are global
+    const RegionShare *shares      = nullptr;
+  };
+
+  /// Stiffness damping: s(e - e_past) is added to the strain's stress.
+  struct DampingArrays
+  {
+    const double *factors = nullptr; ///< 1: s [-]; null: no damping
+    const double *strains = nullptr; ///< 6: e_past
+  };
+
+  /// Whether a loop over the cells takes their rotations as they are, or finds those of the
+  /// positions that it sees; to store them takes as much memory traffic as all the rest.
+  enum class Rotations
+  {
+    keep,
+    update,
+    find_and_forget
+  };
+
+  /// A loop's input.
+  struct CellTask
+  {
+    CellArrays    cells;
+    ExampleArrays examples; ///< n_weights = 0: none
+    DampingArrays damping;
+    const double *positions        = nullptr; ///< four numbers a node, the fourth unused [m]
+    const double *weights          = nullptr;
+    Rotations     use_of_rotations = Rotations::keep;
+    bool          weights_are_free = false; ///< whether derivatives by them are wanted
+  };
+
+  /// What a loop sums over its cells.
+  struct CellSums
+  {
+    double       energy         = 0.; ///< without the penalty [J]
+    double       energy_elastic = 0.; ///< sum V/2 e:C:e [J]
+    double       energy_damping = 0.; ///< [J]
+    double       stress_square  = 0.; ///< sum V (|C:e| + eta |C:E(w)|)^2
+    double       min_det_F      = std::numeric_limits<double>::max();
+    unsigned int inverted_cells = 0;
+    unsigned int guarded_cells  = 0;
+
+    CellSums &
+    operator+=(const CellSums &other)
+    {
+      energy += other.energy;
+      energy_elastic += other.energy_elastic;
+      energy_damping += other.energy_damping;
+      stress_square += other.stress_square;
+      min_det_F = other.min_det_F >= min_det_F ? min_det_F : other.min_det_F; // NaN is the least
+      inverted_cells += other.inverted_cells;
+      guarded_cells += other.guarded_cells;
+      return *this;
+    }
+  };
+
+  /// Columns of the 10 blocks (a,b), b <= a, of a cell's matrix: three each.
+  constexpr std::size_t n_block_columns = 30;
+
+  /// Where the cells' matrices go. Column j of block (a,b) is added to three consecutive
+  /// values, rows 0 to 2; a zero where it is above the diagonal, and to the value behind.
+  struct TangentTask
+  {
+    bool       convex    = false;   ///< make Green's tangent so
+    const int *positions = nullptr; ///< 30 a cell from the first batch on; -1: left out
+    double    *values    = nullptr;
+  };
+
+  /// The loops, over batches begin to end - 1.
+  struct CellKernels
+  {
+    const char *name; ///< of the instruction set
+
+    void (*update_rotations)(const CellTask &, std::size_t begin, std::size_t end);
+
+    /// Add the rotations of the cells to the sums of their nodes, twelve numbers a node of
+    /// which nine count.
+    void (*add_rotations)(const CellTask &, std::size_t begin, std::size_t end, float *nodal_sums);
+
+    /// The rotations closest to n such sums, nine numbers each.
+    void (*closest_rotations)(std::size_t n, const float *sums, float *rotations);
+
+    /// Energies; the forces and force scales [N] are added to `nodal_sums`, four numbers a node
+    /// of the mesh, and -dPsi/dw_i to the batch of lanes `weight_sums` + 8 i.
+    void (*evaluate)(const CellTask &,
+                     std::size_t begin,
+                     std::size_t end,
+                     double     *nodal_sums,
+                     double     *weight_sums,
+                     CellSums &);
+
+    /// c_i with dPsi/dw = H w - c, into lanes as above.
+    void (*weight_target)(const CellTask &,
+                          std::size_t begin,
+                          std::size_t end,
+                          double     *weight_sums);
+
+    /// Add R K R^T.
+    void (*add_rotated_stiffness)(const CellTask &,
+                                  const TangentTask &,
+                                  std::size_t begin,
+                                  std::size_t end);
+
+    /// Add the exact tangent, or a convex one.
+    void (*add_tangent)(const CellTask &, const TangentTask &, std::size_t begin, std::size_t end);
+
+    /// The forces that a unit of each example's weight takes away: `forces` holds 12 entries an
+    /// example for each cell of one batch. `rotated` is as for R K R^T.
+    void (*coupling)(
+        const CellTask &, const TangentTask &, bool rotated, std::size_t batch, double *forces);
+  };
+
+  /// The kernels for the best instruction set that this CPU has.
+  const CellKernels &
+  best_kernels();
+
+  /// All that this CPU can run; the first is the scalar one, for comparison.
+  std::vector<const CellKernels *>
+  all_kernels();
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_corotational_consistent_h
+#define exemplar_corotational_consistent_h
+
+#include <exemplar/kernels/corotational.h>
+
+#include <limits>
+
+// The corotational model with the force that is the gradient of its energy, and the exact
+// tangent. A cell's energy density is a function of S, the symmetric factor of F = R S,
+// through the strain e = S - I, and of the target strain D = eta E(w):
+//
+//   psi = 1/2 (e - D) : C : (e - D) + 2 mu (1 - phi) S : dev D,      Eq. (16)
+//
+// where the guard phi is 1 but in badly inverted cells. No deal.II header here: see
+// matrix3.h.
+
+namespace Exemplar
+{
+  constexpr double default_guard_bound = 0.8; ///< p_0 of guard()
+  constexpr double no_guard            = std::numeric_limits<double>::lowest();
+
+  /// Vector a of the skew matrix W, W b = a x b.
+  template <typename Number>
+  Vector3<Number>
+  axial_vector(const Matrix3<Number> &W)
+  {
+    return { { W[2][1], W[0][2], W[1][0] } };
+  }
+
+  template <typename Number>
+  Matrix3<Number>
+  skew_matrix(const Vector3<Number> &a)
+  {
+    const Number zero = Number(0.);
+    return { { { zero, -a[2], a[1] }, { a[2], zero, -a[0] }, { -a[1], a[0], zero } } };
+  }
+
+  template <typename Number>
+  Matrix3<Number>
+  commutator(const Matrix3<Number> &A, const Matrix3<Number> &B)
+  {
+    const Matrix3<Number> AB = A * B, BA = B * A;
+    Matrix3<Number>       C;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        C[i][j] = AB[i][j] - BA[i][j];
+    return C;
+  }
+
+  /// A - tr(A)/3 I.
+  template <typename Number>
+  Matrix3<Number>
+  deviator(Matrix3<Number> A)
+  {
+    const Number third = trace(A) / Number(3.);
+    for (int i = 0; i < 3; ++i)
+      A[i][i] -= third;
+    return A;
+  }
+
+  /// phi = z^2 (3 - 2 z), z = clamp(p/p_0, 0, 1), and its derivative by p. The product
+  /// p = (s_1+s_2)(s_2+s_3)(s_3+s_1) of the singular values, s_3 < 0 in a mirrored cell, is
+  /// 8 at rest and 0 where the rotation is ambiguous and the energy with an example would jump.
+  template <typename Number>
+  struct Guard
+  {
+    Number phi;
+    Number derivative;
+  };
+
+  template <typename Number>
+  Guard<Number>
+  guard(const Number &p, const Number &p_0)
+  {
+    const Number z         = max(p / p_0, Number(0.));
+    const auto   is_beyond = p >= p_0;
+    return { select(is_beyond, Number(1.), z * z * (Number(3.) - Number(2.) * z)),
+             select(is_beyond, Number(0.), Number(6.) * z * (Number(1.) - z) / p_0) };
+  }
+
+  /// Inverse of the symmetric positive semidefinite matrix B = tr(S) I - S with its
+  /// eigenvalues s_i + s_j held above `least`.
+  template <typename Number>
+  Matrix3<Number>
+  bounded_inverse(const Matrix3<Number> &B, const Number &least)
+  {
+    return spectral_function(B, [&least](const Number &eigenvalue)
+                             { return Number(1.) / max(eigenvalue, least); });
+  }
+
+  /// A deformed cell; what every model of cell_model.h offers. Forces and their changes are
+  /// in the frame of the rotation: R^T P for the first Piola-Kirchhoff stress P.
+  template <typename Number>
+  class CorotationalCell
+  {
+  public:
+    /// `p_0` is the bound below which the guard acts.
+    CorotationalCell(const Lame<Number>    &lame,
+                     const Matrix3<Number> &rotation,
+                     const Matrix3<Number> &deformation_gradient,
+                     const double           p_0)
+        : lame(lame), S(symmetric_part(transpose_times(rotation, deformation_gradient)))
+    {
+      e = S;
+      for (int i = 0; i < 3; ++i)
+        e[i][i] -= Number(1.);
+      if (p_0 == no_guard)
+        return; // frozen forces, which need nothing of what follows
+      B = combine(Number(-1.), S, Number(0.), S);
+      for (int i = 0; i < 3; ++i)
+        B[i][i] += trace(S);
+      const Guard<Number> g = guard(determinant(B), Number(p_0));
+      phi                   = g.phi;
+      phi_derivative        = g.derivative;
+    }
+
+    /// Whether the guard acts, for each lane.
+    auto
+    is_guarded() const
+    {
+      return phi < Number(1.);
+    }
+
+    /// e = S - I, Eq. (2).
+    const Matrix3<Number> &
+    strain() const
+    {
+      return e;
+    }
+
+    /// At most this times the stress C:e is the force.
+    Number
+    force_factor() const
+    {
+      return Number(1.);
+    }
+
+    /// psi for the target strain D, in the residual form: near an example the expanded
+    /// one cancels.
+    Number
+    energy(const Matrix3<Number> &D) const
+    {
+      const Matrix3<Number> deviation = combine(Number(1.), e, Number(-1.), D);
+      const Number          psi       = Number(0.5) * contract(stress(lame, deviation), deviation);
+      if (!any(is_guarded()))
+        return psi;
+      return psi + Number(2.) * lame.mu * (Number(1.) - phi) * contract(S, deviator(D));
+    }
+
+    /// -d psi / dD: contracted with E_i, the derivative by a weight less the factor -eta.
+    Matrix3<Number>
+    weight_stress(const Matrix3<Number> &D) const
+    {
+      const Matrix3<Number> T_D = stress(lame, combine(Number(1.), e, Number(-1.), D));
+      if (!any(is_guarded()))
+        return T_D;
+      return combine(Number(1.), T_D, Number(-2.) * lame.mu * (Number(1.) - phi), deviator(S));
+    }
+
+    /// R^T P without a target.
+    Matrix3<Number>
+    elastic_force() const
+    {
+      return stress(lame, e);
+    }
+
+    /// Prepare force() and the responses for the target strain D.
+    void
+    set_target(const Matrix3<Number> &D)
+    {
+      T = combine(Number(1.), stress(lame, combine(Number(1.), e, Number(-1.), D)),
+                  Number(2.) * lame.mu * (Number(1.) - phi), deviator(D));
+      // the force divides by s_i + s_j only what the guard makes vanish faster
+      bound_inverse(Number(1e-8));
+      W           = skew_matrix(B_inverse * axial_vector(commutator(S, T)));
+      guard_force = Number(-2.) * lame.mu * phi_derivative * contract(S, deviator(D));
+      if (any(is_guarded()))
+        bound_inverse(Number(1e-2));
+    }
+
+    /// R^T P = T + W + guard, Eq. (17), with P the derivative of psi by F.
+    Matrix3<Number>
+    force() const
+    {
+      Matrix3<Number> P = combine(Number(1.), T, Number(1.), W);
+      if (any(is_guarded()))
+        P = combine(Number(1.), P, guard_force, p_derivative());
+      return P;
+    }
+
+    /// R^T dP for R^T dF = M, Eq. (18); symmetric in M. In guarded cells the derivative of
+    /// the guard is left out and denominators are bounded.
+    Matrix3<Number>
+    response(const Matrix3<Number> &M) const
+    {
+      Matrix3<Number> difference;
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+          difference[i][j] = M[i][j] - M[j][i];
+      const Matrix3<Number> Omega = skew_matrix(B_inverse * axial_vector(difference));
+      const Matrix3<Number> dS    = symmetric_part(combine(Number(1.), M, Number(-1.), Omega * S));
+      const Matrix3<Number> dT    = stress(lame, dS);
+      const Matrix3<Number> right
+          = combine(Number(1.), commutator(dS, T), Number(1.), commutator(S, dT));
+      const Matrix3<Number> dS_W = dS * W, W_dS = W * dS;
+      Matrix3<Number>       skew;
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+          skew[i][j] = right[i][j] - dS_W[i][j] - W_dS[i][j];
+      const Matrix3<Number> dW = skew_matrix(B_inverse * axial_vector(skew));
+      return combine(Number(1.), Omega * combine(Number(1.), T, Number(1.), W), Number(1.),
+                     combine(Number(1.), dT, Number(1.), dW));
+    }
+
+    /// R^T dP for a unit change of the target by -E, a column of the coupling less the
+    /// factor eta.
+    Matrix3<Number>
+    example_response(const Matrix3<Number> &E) const
+    {
+      const Matrix3<Number> dT = combine(Number(1.), stress(lame, E),
+                                         Number(-2.) * lame.mu * (Number(1.) - phi), deviator(E));
+      return combine(Number(1.), dT, Number(1.),
+                     skew_matrix(B_inverse * axial_vector(commutator(S, dT))));
+    }
+
+  private:
+    /// B^-1; where the guard acts, with the eigenvalues of B held above `least`.
+    void
+    bound_inverse(const Number &least)
+    {
+      B_inverse           = cofactors(B); // symmetric, so cofactors need no transpose
+      const Number factor = Number(1.) / determinant(B);
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+          B_inverse[i][j] *= factor;
+      if (any(is_guarded()))
+        B_inverse = select_matrix(is_guarded(), bounded_inverse(B, least), B_inverse);
+    }
+
+    /// dp/dS = I_2 I + I_1 (I_1 I - S) - cof S.
+    Matrix3<Number>
+    p_derivative() const
+    {
+      const Number    I_1 = trace(S);
+      const Number    I_2 = Number(0.5) * (I_1 * I_1 - contract(S, S));
+      Matrix3<Number> D   = combine(Number(-1.) * I_1, S, Number(-1.), cofactors(S));
+      for (int i = 0; i < 3; ++i)
+        D[i][i] += I_2 + I_1 * I_1;
+      return D;
+    }
+
+    Lame<Number>    lame;
+    Matrix3<Number> S;
+    Matrix3<Number> e; ///< S - I
+    Matrix3<Number> B; ///< tr(S) I - S
+    Number          phi            = Number(1.);
+    Number          phi_derivative = Number(0.);
+    Matrix3<Number> T;
+    Matrix3<Number> W;
+    Matrix3<Number> B_inverse;
+    Number          guard_force;
+  };
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_green_h
+#define exemplar_green_h
+
+#include <exemplar/kernels/quadratic_cell.h>
+
+// Green's strain e = 1/2 (F^T F - I) with the energy density 1/2 (e - D) : C : (e - D), the
+// material of example-based elasticity in Martin et al. 2011 and, with incompatible
+// example strains as here, Schumacher et al. 2012. It cannot tell a cell from its mirror
+// image. No deal.II header here: see matrix3.h.
+
+namespace Exemplar
+{
+  /// 1/2 (F^T F - I).
+  template <typename Number>
+  Matrix3<Number>
+  green_strain(const Matrix3<Number> &deformation_gradient)
+  {
+    Matrix3<Number> strain = transpose_times(deformation_gradient, deformation_gradient);
+    for (int i = 0; i < 3; ++i)
+    {
+      strain[i][i] -= Number(1.);
+      for (int j = 0; j < 3; ++j)
+        strain[i][j] *= Number(0.5);
+    }
+    return strain;
+  }
+
+  /// A deformed cell; see CorotationalCell, of which the rotation is I.
+  template <typename Number>
+  class GreenCell : public QuadraticCell<Number>
+  {
+  public:
+    GreenCell(const Lame<Number> &lame,
+              const Matrix3<Number> & /*rotation*/,
+              const Matrix3<Number> &deformation_gradient,
+              double /*p_0*/)
+        : QuadraticCell<Number>(lame, green_strain(deformation_gradient)), F(deformation_gradient)
+    {
+    }
+
+    /// |F T| <= |F| |T|, of which |F|^2 = 3 at rest.
+    Number
+    force_factor() const
+    {
+      return sqrt(contract(F, F) / Number(3.));
+    }
+
+    Matrix3<Number>
+    elastic_force() const
+    {
+      return F * stress(this->lame, this->e);
+    }
+
+    /// P = F T with the second Piola-Kirchhoff stress T = C:(e - D), Eq. (19).
+    Matrix3<Number>
+    force() const
+    {
+      return F * this->T;
+    }
+
+    /// dP = dF T + F C:sym(F^T dF), Eq. (19).
+    Matrix3<Number>
+    response(const Matrix3<Number> &dF) const
+    {
+      return combine(Number(1.), dF * this->T, Number(1.),
+                     F * stress(this->lame, symmetric_part(transpose_times(F, dF))));
+    }
+
+    /// From now on response() keeps the positive part of T only: it is never negative, and
+    /// together with the columns example_response() the Hessian of a convex function of F
+    /// and the weights.
+    void
+    make_convex()
+    {
+      this->T = spectral_function(this->T, [](const Number &eigenvalue)
+                                  { return max(eigenvalue, Number(0.)); });
+    }
+
+    Matrix3<Number>
+    example_response(const Matrix3<Number> &E) const
+    {
+      return F * stress(this->lame, E);
+    }
+
+  private:
+    Matrix3<Number> F;
+  };
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_linear_h
+#define exemplar_linear_h
+
+#include <exemplar/kernels/quadratic_cell.h>
+
+// The linear model: the strain e = sym(F) - I, as if no cell ever turned. It shows what
+// corotation is for. Its tangent is the frozen one with R = I. No deal.II header here: see
+// matrix3.h.
+
+namespace Exemplar
+{
+  /// A deformed cell; see CorotationalCell, of which the rotation is I.
+  template <typename Number>
+  class LinearCell : public QuadraticCell<Number>
+  {
+  public:
+    LinearCell(const Lame<Number> &lame,
+               const Matrix3<Number> & /*rotation*/,
+               const Matrix3<Number> &deformation_gradient,
+               double /*p_0*/)
+        : QuadraticCell<Number>(lame,
+                                corotated_strain(identity_matrix<Number>(), deformation_gradient))
+    {
+    }
+
+    Number
+    force_factor() const
+    {
+      return Number(1.);
+    }
+
+    Matrix3<Number>
+    elastic_force() const
+    {
+      return stress(this->lame, this->e);
+    }
+
+    const Matrix3<Number> &
+    force() const
+    {
+      return this->T;
+    }
+  };
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_quadratic_cell_h
+#define exemplar_quadratic_cell_h
+
+#include <exemplar/kernels/corotational.h>
+
+// What the models without rotations share. No deal.II header here: see matrix3.h.
+
+namespace Exemplar
+{
+  /// A deformed cell of energy density 1/2 (e - D) : C : (e - D) with a strain e that is a
+  /// function of F alone; the members are those of CorotationalCell.
+  template <typename Number>
+  class QuadraticCell
+  {
+  public:
+    auto
+    is_guarded() const
+    {
+      return Number(0.) > Number(1.); // nowhere, for each lane
+    }
+
+    const Matrix3<Number> &
+    strain() const
+    {
+      return e;
+    }
+
+    Number
+    energy(const Matrix3<Number> &D) const
+    {
+      const Matrix3<Number> deviation = combine(Number(1.), e, Number(-1.), D);
+      return Number(0.5) * contract(stress(lame, deviation), deviation);
+    }
+
+    Matrix3<Number>
+    weight_stress(const Matrix3<Number> &D) const
+    {
+      return stress(lame, combine(Number(1.), e, Number(-1.), D));
+    }
+
+    void
+    set_target(const Matrix3<Number> &D)
+    {
+      T = weight_stress(D);
+    }
+
+  protected:
+    QuadraticCell(const Lame<Number> &lame, const Matrix3<Number> &strain)
+        : lame(lame), e(strain), T(strain)
+    {
+    }
+
+    Lame<Number>    lame;
+    Matrix3<Number> e;
+    Matrix3<Number> T; ///< C:(e - D), once the target is set
+  };
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_mesh_checks_h
+#define exemplar_mesh_checks_h
+
+#include <exemplar/mesh/msh_file.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace Exemplar
+{
+  /// What is wrong with a mesh, found on plain arrays and said with the numbers of
+  /// its file. All checks throw UserError. In the order below each may rely on
+  /// the ones before.
+
+  /// The tetrahedra of a file, in its order.
+  struct Tetrahedra
+  {
+    std::vector<std::array<unsigned int, 4>> nodes;           ///< indices
+    std::vector<unsigned int>                material_ids;    ///< |physical tag|
+    std::vector<std::size_t>                 element_numbers; ///< the file's
+  };
+
+  /// A face of one tetrahedron.
+  struct CellFace
+  {
+    std::array<unsigned int, 3> nodes; ///< ascending
+    unsigned int                cell;
+    unsigned int                opposite; ///< the cell's other node
+  };
+
+  /// "3, 7, 9, 12, 15 and 4 more"
+  std::string
+  list_numbers(const std::vector<std::size_t> &numbers);
+
+  /// Take the tetrahedra out of the file. Refuses none at all, and volume or
+  /// surface elements of any other kind than linear tetrahedra and triangles.
+  Tetrahedra
+  extract_tetrahedra(const MshFile &contents, const std::string &name);
+
+  /// Swap two nodes of every tetrahedron of negative volume; returns their element
+  /// numbers. Refuses flat tetrahedra: volume <= 1e-12 (longest edge)^3, which for
+  /// the regular one is 0.12.
+  std::vector<std::size_t>
+  orient_tetrahedra(const MshFile &contents, const std::string &name, Tetrahedra &tetrahedra);
+
+  /// Refuse nodes that belong to no tetrahedron: they would have no stiffness.
+  void
+  check_orphan_nodes(const MshFile     &contents,
+                     const std::string &name,
+                     const Tetrahedra  &tetrahedra);
+
+  /// All faces of all cells, sorted by their nodes, so that neighbours follow one
+  /// another.
+  std::vector<CellFace>
+  sorted_faces(const Tetrahedra &tetrahedra);
+
+  /// Refuse two tetrahedra with the same nodes and faces of more than two.
+  void
+  check_faces(const MshFile               &contents,
+              const std::string           &name,
+              const Tetrahedra            &tetrahedra,
+              const std::vector<CellFace> &faces);
+
+  /// Refuse a mesh of several bodies: cells must hang together through faces.
+  void
+  check_connected(const MshFile               &contents,
+                  const std::string           &name,
+                  const Tetrahedra            &tetrahedra,
+                  const std::vector<CellFace> &faces);
+} // namespace Exemplar
+
+#endif

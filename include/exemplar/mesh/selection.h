@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_selection_h
+#define exemplar_selection_h
+
+#include <exemplar/mesh/mesh.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace Exemplar
+{
+  /// A set of nodes named in a scene: box x0 y0 z0 x1 y1 z1 | sphere x y z r |
+  /// boundary ID | region ID | nodes FILE.
+  struct Selection
+  {
+    std::string text; ///< as the scene has it; the FILE absolute
+
+    void
+    declare(dealii::ParameterHandler &prm, const std::string &what);
+
+    /// Make the file of "nodes FILE" absolute; other selections stay.
+    static std::string
+    absolute(const std::string &text, const std::filesystem::path &directory);
+
+    bool
+    is_boundary() const;
+
+    /// The selected nodes in ascending order. Throws UserError, calling the
+    /// selection `key`, if it is misspelt or selects nothing.
+    std::vector<unsigned int>
+    nodes(const Mesh &mesh, const std::string &key) const;
+
+    /// The faces of "boundary ID".
+    std::vector<BoundaryFace>
+    faces(const Mesh &mesh, const std::string &key) const;
+  };
+} // namespace Exemplar
+
+#endif

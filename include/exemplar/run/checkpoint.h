@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_checkpoint_h
+#define exemplar_checkpoint_h
+
+#include <exemplar/body/state.h>
+#include <exemplar/run/diagnostics.h>
+#include <exemplar/solvers/quasi_newton_memory.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+
+namespace Exemplar
+{
+  /// Totals over all steps, for the summary.
+  struct RunTotals
+  {
+    unsigned int iterations     = 0;
+    unsigned int factorizations = 0;
+    double       worst_residual = 0.;
+    PartSeconds  seconds{};
+  };
+
+  /// What a resumed run needs to end in the same bytes as one never stopped. The
+  /// rotations and the factor are functions of the state and are computed anew.
+  struct Checkpoint
+  {
+    std::map<std::string, std::string> parameters;    ///< key path -> value
+    std::map<std::string, std::string> input_digests; ///< input file -> SHA-256
+    State                              state;
+    QuasiNewtonMemory                  memory;
+    Work                               work;
+    RunTotals                          totals;
+    std::uintmax_t                     statistics_bytes = 0; ///< of statistics.csv at this state
+  };
+
+  /// Atomic: a kill at any moment leaves the checkpoint before or the new one.
+  void
+  save_checkpoint(const Checkpoint &checkpoint, const std::filesystem::path &file);
+
+  /// Throws UserError if there is none or it cannot be read.
+  Checkpoint
+  load_checkpoint(const std::filesystem::path &file);
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_problem_h
+#define exemplar_problem_h
+
+#include <exemplar/algebra/bordered_solver.h>
+#include <exemplar/algebra/free_dofs.h>
+#include <exemplar/base/step_clock.h>
+#include <exemplar/body/example_poses.h>
+#include <exemplar/body/fe_space.h>
+#include <exemplar/body/handles.h>
+#include <exemplar/body/loads.h>
+#include <exemplar/body/material.h>
+#include <exemplar/body/state.h>
+#include <exemplar/body/supports.h>
+#include <exemplar/body/time_axis.h>
+#include <exemplar/mesh/mesh.h>
+#include <exemplar/potential/assembler.h>
+#include <exemplar/potential/inertia.h>
+#include <exemplar/run/diagnostics.h>
+#include <exemplar/run/parameters.h>
+#include <exemplar/solvers/equilibrium.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace Exemplar
+{
+  /// A scene made of its parts, in order of dependency. A part that the scene does
+  /// not need is not there.
+  class Problem
+  {
+  public:
+    /// Reads every input and checks it; writes nothing. Throws UserError.
+    explicit Problem(const Parameters &parameters);
+
+    /// Solve the next step from `state`, which is replaced if the solve succeeds.
+    SolveReport
+    advance();
+
+    /// Go on from a state of an earlier run.
+    void
+    resume_from(const State &earlier, const QuasiNewtonMemory &memory = {});
+
+    /// Names of the parts that are there, or of those that are not.
+    std::vector<std::string>
+    parts(bool present) const;
+
+    /// What each kind of part holds at present, in bytes; 0 for what is not there. UMFPACK does
+    /// not tell, so there is no linear solver with it.
+    std::vector<std::pair<std::string, std::size_t>>
+    memory_of_parts() const;
+
+    /// Warnings of all parts.
+    std::vector<std::string>
+    warnings() const;
+
+    /// What looks wrong in the state that the last step has led to.
+    std::vector<std::string>
+    warnings_at_end() const;
+
+    const Parameters &parameters;
+    StepClock         clock;
+
+    const TimeAxis                                    time_axis;
+    const Mesh                                        mesh;
+    const Material                                    material;
+    const FESpace                                     fe_space;
+    const std::unique_ptr<Handles>                    handles; ///< null without handles
+    const std::optional<StaticallyDeterminateSupport> support; ///< of an interpolation
+    const FreeDofs                                    free_dofs;
+    const std::unique_ptr<Loads>                      loads;    ///< null without loads
+    const std::unique_ptr<ExamplePoses>               examples; ///< null without examples
+    const std::unique_ptr<Inertia>                    inertia;  ///< null unless dynamic
+    Assembler                                         assembler;
+    const std::unique_ptr<BorderedSolver>             linear_solver;
+    Equilibrium                                       equilibrium;
+    Diagnostics                                       diagnostics;
+    State                                             state;
+
+  private:
+    std::vector<unsigned int>
+    held_dofs() const;
+
+    void
+    check_supports() const;
+
+    /// Whether the energy bound of doc/method.md, Eq. (12), holds where handles rest.
+    bool
+    energy_is_bounded() const;
+
+    /// Whether nothing acts on the body that the rest pose could not bear without strain.
+    bool
+    is_unloaded() const;
+
+    /// Whether a rotation leaves the energy as it is.
+    bool
+    turns_freely() const;
+
+    void
+    start_interpolation();
+  };
+} // namespace Exemplar
+
+#endif

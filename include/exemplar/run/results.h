@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_results_h
+#define exemplar_results_h
+
+#include <exemplar/base/background_writer.h>
+#include <exemplar/run/checkpoint.h>
+#include <exemplar/run/problem.h>
+#include <exemplar/run/run_directory.h>
+#include <exemplar/run/statistics_file.h>
+#include <exemplar/run/vtu_writer.h>
+
+#include <chrono>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace Exemplar
+{
+  /// Everything that a run of a problem leaves on disk. With more than one thread, frames
+  /// are written while the next step is computed; what begin(), add_step() and finish()
+  /// throw may then be the error of an earlier frame. Checkpoints and what finish()
+  /// writes wait for all frames before them.
+  class Results
+  {
+  public:
+    explicit Results(Problem &problem);
+
+    /// Begin a new run: check and clear the directory, write the scene and the
+    /// initial state. Throws UserError, with nothing written.
+    void
+    begin();
+
+    /// Go on from the checkpoint in the directory, which sets the problem's state.
+    /// Throws UserError, with nothing changed, if the scene is another one.
+    void
+    resume();
+
+    /// Write what follows a solve: the frame, the row of statistics, and a checkpoint
+    /// when its time has come.
+    void
+    add_step(const SolveReport &report);
+
+    /// Write final.msh, the animation, a checkpoint and the summary.
+    void
+    finish(const std::string &status);
+
+    const RunTotals &
+    get_totals() const
+    {
+      return totals;
+    }
+
+  private:
+    /// Every so many steps, and the last.
+    bool
+    is_frame(unsigned int step) const;
+
+    void
+    write_original() const;
+
+    /// Take what the next step changes and have it written.
+    void
+    write_frame();
+
+    void
+    write_final_pose() const;
+
+    void
+    write_animation() const;
+
+    void
+    save();
+
+    /// From now on what no part claims, such as moving the handles, is evaluation.
+    void
+    end_reading();
+
+    /// Seconds by part since the last call.
+    PartSeconds
+    lap();
+
+    Problem                                 &problem;
+    const RunDirectory                       directory;
+    const std::map<std::string, std::string> input_digests; ///< SHA-256 of the files read
+    std::optional<StatisticsFile>            statistics;
+    RunTotals                                totals;
+    std::uintmax_t accepted_bytes         = 0; ///< of statistics.csv, less a failed row
+    unsigned int   earlier_factorizations = 0; ///< before a resume
+    PartSeconds    last_lap{};
+    std::chrono::steady_clock::time_point  last_checkpoint;
+    const std::unique_ptr<const VtuWriter> vtu_writer; ///< null without frames
+    BackgroundWriter                       background; ///< last, as its jobs use the others
+  };
+} // namespace Exemplar
+
+#endif

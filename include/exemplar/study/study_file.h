@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_study_file_h
+#define exemplar_study_file_h
+
+#include <exemplar/prm/prm_tools.h>
+
+#include <deal.II/base/point.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace Exemplar
+{
+  /// Keys that change together, and the values that they take.
+  struct StudyAxis
+  {
+    std::vector<std::string>              keys;   ///< "Section/Key"
+    std::vector<std::vector<std::string>> values; ///< in each a value a key
+
+    /// The keys, or the values of one choice, in one piece of text.
+    std::string
+    name() const;
+    std::string
+    text(unsigned int choice) const;
+  };
+
+  /// What a study file says: a scene, and the settings with which it is run.
+  struct Study
+  {
+    /// Read the file and check what can be told without the scene. Throws UserError.
+    explicit Study(const std::filesystem::path &file);
+
+    /// The choices on the axes of every run, the first axis slowest.
+    std::vector<std::vector<unsigned int>>
+    choices() const;
+
+    /// What a run sets beyond the scene.
+    std::vector<Assignment>
+    assignments(const std::vector<unsigned int> &choice) const;
+
+    /// The same of the reference run.
+    std::vector<Assignment>
+    reference_assignments() const;
+
+    std::filesystem::path   file;
+    std::string             text;  ///< of the file, byte for byte
+    std::filesystem::path   scene; ///< absolute
+    std::vector<Assignment> base;
+    std::vector<Assignment> reference; ///< empty: there is none
+    std::vector<StudyAxis>  axes;
+    std::string             vary_place;
+    unsigned int            repeats = 3;
+    double                  timeout = 0.; ///< [s], 0: none
+    unsigned int            threads = 1;
+    /// Of statistics.csv; their values at the end are columns of the table.
+    std::vector<std::string> columns;
+    /// Where the displacement at the end is a column [m].
+    std::optional<dealii::Point<3>> probe;
+  };
+
+  /// All keys of a study file, for the reference.
+  std::vector<DeclaredKey>
+  study_keys();
+
+  /// Whether a .prm is a study: it sets Vary. Throws UserError if it cannot be read.
+  bool
+  is_study(const std::filesystem::path &file);
+} // namespace Exemplar
+
+#endif

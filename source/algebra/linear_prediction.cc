@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/dense_cholesky.h>
+#include <exemplar/algebra/linear_prediction.h>
+#include <exemplar/algebra/long_vectors.h>
+
+namespace Exemplar
+{
+  namespace
+  {
+    /// Of the trace of the normal equations; so little that it only decides where they are
+    /// singular.
+    constexpr double ridge = 1e-10;
+  } // namespace
+
+  void
+  LinearPrediction::multiply_out(const std::size_t i)
+  {
+    for (std::size_t j = i; j < history.size(); ++j)
+      products[i][j] = dot(history[i], history[j]);
+  }
+
+  void
+  LinearPrediction::add(std::vector<double> vector)
+  {
+    if (history.size() == most_vectors)
+      history.pop_back();
+    history.push_front(std::move(vector));
+    for (std::size_t i = history.size() - 1; i > 0; --i)
+      for (std::size_t j = i; j < history.size(); ++j)
+        products[i][j] = products[i - 1][j - 1];
+    multiply_out(0);
+  }
+
+  std::vector<double>
+  LinearPrediction::next() const
+  {
+    const unsigned int m = history.size() - 1;
+    if (m == 0)
+      return history[0];
+    dealii::FullMatrix<double> gram(m, m);
+    std::vector<double>        coefficients(m);
+    for (unsigned int i = 0; i < m; ++i)
+    {
+      coefficients[i] = products[0][i + 1];
+      for (unsigned int j = 0; j <= i; ++j)
+        gram(i, j) = products[j + 1][i + 1];
+    }
+    const double trace = gram.trace();
+    for (unsigned int i = 0; i < m; ++i)
+      gram(i, i) += ridge * trace;
+    if (!solve_by_cholesky(gram, coefficients))
+      return history[0]; // at rest
+    std::vector<double> next(history[0].size(), 0.);
+    for (unsigned int j = 0; j < m; ++j)
+      Exemplar::add(next, coefficients[j], history[j]);
+    return next;
+  }
+} // namespace Exemplar

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/environment.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <dlfcn.h>
+#include <omp.h>
+#include <sstream>
+#include <sys/resource.h>
+#include <unistd.h>
+
+namespace Exemplar
+{
+  namespace
+  {
+    /// A function of the BLAS library, if it has one of this name.
+    template <typename Function>
+    Function *
+    find_function(const char *name)
+    {
+      return reinterpret_cast<Function *>(dlsym(RTLD_DEFAULT, name));
+    }
+
+    /// The best core type of OpenBLAS for this CPU, by its instruction sets.
+    const char *
+    right_core_type()
+    {
+#ifdef __x86_64__
+      if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq")
+          && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl"))
+        return "SKYLAKEX";
+      if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+        return "HASWELL";
+#endif
+      return nullptr;
+    }
+
+    bool
+    is_old_core(const std::string &core)
+    {
+      for (const char *old : { "Prescott", "Core2", "Katmai", "Coppermine", "Northwood", "Banias",
+                               "Penryn", "Dunnington", "Nehalem", "Atom", "Opteron", "Barcelona" })
+        if (core == old)
+          return true;
+      return false;
+    }
+
+    unsigned int &
+    thread_count()
+    {
+      static unsigned int n = std::max(1, omp_get_num_procs());
+      return n;
+    }
+  } // namespace
+
+  BlasInfo
+  blas_info()
+  {
+    BlasInfo info{ "unknown", "", "an unknown library", 1 };
+    if (const auto config = find_function<char *()>("openblas_get_config"))
+    {
+      std::istringstream words(config());
+      std::string        name, version;
+      words >> name >> version;
+      info.library = name + " " + version;
+    }
+    if (const auto core = find_function<char *()>("openblas_get_corename"))
+      info.core = core();
+    if (const auto threads = find_function<int()>("openblas_get_num_threads"))
+      info.threads = threads();
+    Dl_info where;
+    if (dladdr(dlsym(RTLD_DEFAULT, "dgemm_"), &where) != 0)
+      info.file = where.dli_fname;
+    return info;
+  }
+
+  std::string
+  blas_warning()
+  {
+    const BlasInfo info = blas_info();
+    if (info.library != "unknown")
+      return "";
+    return "BLAS is not OpenBLAS but " + info.file
+           + ". If that is the reference BLAS, factorisations take four to five times as long as "
+             "they need. Install OpenBLAS; on Debian: apt-get install libopenblas0-pthread, or if "
+             "it is there choose it by update-alternatives.";
+  }
+
+  unsigned int
+  n_threads()
+  {
+    return thread_count();
+  }
+
+  void
+  set_n_threads(const unsigned int n)
+  {
+    thread_count() = std::max(1u, n);
+  }
+
+  ParallelRegion::ParallelRegion()
+  {
+    omp_set_max_active_levels(1);
+  }
+
+  ParallelRegion::~ParallelRegion()
+  {
+    omp_set_max_active_levels(0);
+  }
+
+  void
+  use_one_blas_thread()
+  {
+    if (const auto set_threads = find_function<void(int)>("openblas_set_num_threads"))
+      set_threads(1);
+    omp_set_max_active_levels(0);
+  }
+
+  void
+  restart_with_right_core_type(char *argv[])
+  {
+    const char *variable = "OPENBLAS_CORETYPE";
+    const char *core     = right_core_type();
+    if (std::getenv(variable) != nullptr || core == nullptr || !is_old_core(blas_info().core))
+      return;
+    setenv(variable, core, 1);
+    execv("/proc/self/exe", argv); // if it fails we go on, only slower
+  }
+
+  double
+  peak_memory_mib()
+  {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<double>(usage.ru_maxrss) / 1024.;
+  }
+} // namespace Exemplar

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/number_text.h>
+#include <exemplar/body/handles.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Exemplar
+{
+  namespace
+  {
+    using Points = std::vector<dealii::Point<3>>;
+    using Arms   = std::vector<dealii::Tensor<1, 3>>;
+
+    const double degree      = std::acos(-1.) / 180.;
+    const double least_angle = 20. * degree;
+
+    /// From the centroid to the points.
+    Arms
+    arms(const Points &points)
+    {
+      const dealii::Point<3> center = centroid(points);
+      Arms                   result;
+      for (const dealii::Point<3> &x : points)
+        result.push_back(x - center);
+      return result;
+    }
+
+    /// a + factor b.
+    Arms
+    sum(const Arms &a, const double factor, const Arms &b)
+    {
+      Arms result = a;
+      for (std::size_t i = 0; i < a.size(); ++i)
+        result[i] += factor * b[i];
+      return result;
+    }
+
+    double
+    product(const Arms &a, const Arms &b)
+    {
+      double value = 0.;
+      for (std::size_t i = 0; i < a.size(); ++i)
+        value += a[i] * b[i];
+      return value;
+    }
+
+    /// The parts at a right angle to the axis.
+    Arms
+    across(const dealii::Tensor<1, 3> &axis, Arms all)
+    {
+      for (auto &arm : all)
+        arm -= (arm * axis) * axis;
+      return all;
+    }
+
+    /// Whether all points are on the way from `start` by `way` times one and the same
+    /// number, in all of `places`, and really between the ends once.
+    bool
+    lies_on_straight_lines(const Arms                &start,
+                           const Arms                &way,
+                           const std::vector<Points> &places,
+                           const std::size_t          n_places)
+    {
+      bool is_between = false;
+      for (std::size_t k = 0; k < n_places; ++k)
+      {
+        const Arms   moved    = sum(arms(places[k]), -1., start);
+        const double progress = product(moved, way) / product(way, way);
+        const Arms   rest     = sum(moved, -progress, way);
+        if (product(rest, rest) > 1e-6 * product(way, way))
+          return false;
+        is_between = is_between || (progress > 0.05 && progress < 0.95);
+      }
+      return is_between;
+    }
+
+    /// Least size on the straight way, relative to the smaller one of its ends'.
+    double
+    least_relative_size(const Arms &start, const Arms &way)
+    {
+      const double at_start = product(start, start), length = product(way, way);
+      const double mixed    = product(start, way);
+      const double at_end   = at_start + 2. * mixed + length;
+      const double progress = length > 0. ? std::clamp(-mixed / length, 0., 1.) : 0.;
+      const double least    = at_start + progress * (2. * mixed + progress * length);
+      const double smaller  = std::min(at_start, at_end);
+      return smaller > 0. ? std::sqrt(std::max(least, 0.) / smaller) : 1.;
+    }
+
+    std::string
+    rounded(const double value)
+    {
+      return std::to_string(std::lround(value));
+    }
+  } // namespace
+
+  // Points that turn by the angle a while each of them goes straight are, half way, crushed
+  // to cos(a/2) of their distance from the axis. So this is a straight turn:
+  // - the rigid motion nearest to the way from rest to the place that is turned most has an
+  //   angle of 20 degrees or more (below, cos(a/2) is within 1.5 % of 1);
+  // - relative to their centroid, all points are on the straight lines between these two, by
+  //   the same fraction, in all places in between (to 1e-3; a true rotation by 20 degrees
+  //   leaves its chord by 4e-2), of which there is one at least;
+  // - the way shrinks them across the axis by half of what cos(a/2) does, or more: a shear
+  //   turns without doing so.
+  // A turn by several straight pieces is not found, nor are translations, true rotations,
+  // or jumps without a place in between.
+  StraightTurn
+  find_straight_turn(const std::vector<dealii::Point<3>>              &rest,
+                     const std::vector<std::vector<dealii::Point<3>>> &places)
+  {
+    const StraightTurn none{ 0., 1. };
+    AxisAngle          turn{ {}, 0. };
+    std::size_t        most_turned = 0;
+    for (std::size_t k = 0; k < places.size(); ++k)
+    {
+      const AxisAngle now = axis_and_angle(best_rigid_motion(rest, places[k]).rotation);
+      if (now.angle > turn.angle)
+      {
+        turn        = now;
+        most_turned = k;
+      }
+    }
+    if (turn.angle < least_angle || are_collinear(rest))
+      return none;
+
+    const Arms start = arms(rest);
+    const Arms way   = sum(arms(places[most_turned]), -1., start);
+    if (!lies_on_straight_lines(start, way, places, most_turned))
+      return none;
+    const double size = least_relative_size(across(turn.axis, start), across(turn.axis, way));
+    return 1. - size < 0.5 * (1. - std::cos(0.5 * turn.angle)) ? none
+                                                               : StraightTurn{ turn.angle, size };
+  }
+
+  void
+  Handles::look_for_straight_turns(const TimeAxis &axis)
+  {
+    for (const Handle &handle : handles)
+    {
+      // a fit to fewer components would say nothing, and few points cannot be crushed
+      if (handle.path || handle.components.size() < 3 || handle.nodes.size() < 3)
+        continue;
+      // long runs of large handles: not in all steps, to stay below a tenth of a second
+      const std::size_t   most_samples = std::max<std::size_t>(20, 100000 / handle.nodes.size());
+      const std::size_t   n_samples    = std::min<std::size_t>(axis.n_steps(), most_samples);
+      std::vector<Points> places;
+      for (std::size_t k = 0; k <= n_samples; ++k)
+      {
+        places.push_back(rest_positions(handle));
+        const double time = axis.time(static_cast<unsigned int>(k * axis.n_steps() / n_samples));
+        for (unsigned int point = 0; point < handle.nodes.size(); ++point)
+          places.back()[point] += handle.displacement(point, places.back()[point], time);
+      }
+      const StraightTurn turn = find_straight_turn(rest_positions(handle), places);
+      const std::string  key  = "Handles/" + handle.name;
+      if (turn.angle > 0.)
+        warnings.push_back(
+            key + "/Motion turns the held nodes by " + rounded(turn.angle / degree)
+            + " degrees while each of them moves on a straight line: on the way the handle is "
+              "crushed to "
+            + rounded(100. * turn.least_size) + " % of its width. Set " + key
+            + "/Follow pose instead, or write Motion with cos and sin of the angle.");
+    }
+  }
+} // namespace Exemplar

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/body/model.h>
+#include <exemplar/prm/prm_tools.h>
+
+namespace Exemplar
+{
+  namespace
+  {
+    const EnumTable<StrainMeasure> strain_measures
+        = { { StrainMeasure::corotational, "corotational" },
+            { StrainMeasure::linear, "linear" },
+            { StrainMeasure::green, "green" } };
+    const EnumTable<GradientKind> gradient_kinds
+        = { { GradientKind::consistent, "consistent" }, { GradientKind::frozen, "frozen" } };
+  } // namespace
+
+  void
+  ModelParameters::declare(dealii::ParameterHandler &prm)
+  {
+    prm.enter_subsection("Model");
+    declare_enum(
+        prm, "Strain", strain, strain_measures,
+        "corotational: S - I, the deformation freed of the cell's rotation; linear: sym(F) "
+        "- I, for comparison, wrong where cells turn; green: (F^T F - I)/2, that of "
+        "nonlinear example-based materials. Example strains are of the same measure.");
+    declare_enum(
+        prm, "Gradient", gradient, gradient_kinds,
+        "consistent: the force is the gradient of the energy; frozen: the paper's force R T, "
+        "which holds the rotation fixed while it differentiates the energy. The linear and green "
+        "strains have no rotations and always use their gradient.");
+    prm.leave_subsection();
+  }
+} // namespace Exemplar

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/spd_operator.h>
+#include <exemplar/body/region_shares.h>
+
+#include <algorithm>
+#include <set>
+
+namespace Exemplar
+{
+  namespace
+  {
+    constexpr double negligible_share = 1e-4;
+
+    /// Lower triangle of a nodal matrix.
+    SymmetricPattern
+    lower_pattern(const dealii::SparsityPattern &nodal)
+    {
+      SymmetricPattern pattern;
+      pattern.column_start.push_back(0);
+      for (unsigned int node = 0; node < nodal.n_rows(); ++node)
+      {
+        const auto begin = pattern.row.size();
+        for (auto entry = nodal.begin(node); entry != nodal.end(node); ++entry)
+          if (entry->column() >= node)
+            pattern.row.push_back(static_cast<int>(entry->column()));
+        std::sort(pattern.row.begin() + static_cast<std::ptrdiff_t>(begin), pattern.row.end());
+        pattern.column_start.push_back(static_cast<int>(pattern.row.size()));
+      }
+      return pattern;
+    }
+
+    /// Lumped mass and l^2 times the stiffness of Laplace's equation.
+    void
+    assemble_filter(const FESpace          &fe_space,
+                    const double            l_square,
+                    SpdOperator            &filter,
+                    const SymmetricPattern &pattern)
+    {
+      std::vector<double> &values = filter.values();
+      std::fill(values.begin(), values.end(), 0.);
+      for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
+      {
+        const Tetrahedron<double> &tet = fe_space.tetrahedron(cell);
+        for (unsigned int a = 0; a < 4; ++a)
+          for (unsigned int b = 0; b < 4; ++b)
+          {
+            const auto row    = static_cast<int>(fe_space.nodes(cell)[a]);
+            const auto column = static_cast<int>(fe_space.nodes(cell)[b]);
+            if (row >= column)
+              values[pattern.position(row, column)]
+                  += tet.volume
+                     * (l_square * dot(tet.shape_gradient[a], tet.shape_gradient[b])
+                        + (a == b ? 0.25 : 0.));
+          }
+      }
+    }
+  } // namespace
+
+  RegionShares::RegionShares(const FESpace                   &fe_space,
+                             const std::vector<unsigned int> &material_ids,
+                             const double                     blend_length)
+  {
+    const std::set<unsigned int> sorted(material_ids.begin(), material_ids.end());
+    ids.assign(sorted.begin(), sorted.end());
+    for (const unsigned int id : material_ids)
+    {
+      const auto own = std::lower_bound(ids.begin(), ids.end(), id);
+      start.push_back(shares.size());
+      shares.push_back({ static_cast<unsigned int>(own - ids.begin()), 1. });
+    }
+    start.push_back(shares.size());
+    if (blend_length > 0. && n_regions() > 1)
+      blend(fe_space, blend_length);
+  }
+
+  void
+  RegionShares::blend(const FESpace &fe_space, const double length)
+  {
+    const SymmetricPattern pattern = lower_pattern(fe_space.nodal_pattern());
+    const auto             filter  = make_cholmod_operator();
+    filter->reinit(pattern);
+    assemble_filter(fe_space, length * length / 12., *filter, pattern);
+    filter->factorize();
+
+    const std::size_t   n = fe_space.n_nodes();
+    std::vector<double> columns(n * n_regions());
+    for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
+      for (const unsigned int node : fe_space.nodes(cell))
+        columns[shares[cell].region * n + node] += 0.25 * fe_space.tetrahedron(cell).volume;
+    filter->solve(columns);
+
+    const std::vector<RegionShare> own_shares = std::move(shares);
+    shares.clear();
+    start.clear();
+    for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
+    {
+      const unsigned int  own = own_shares[cell].region;
+      std::vector<double> value(n_regions());
+      double              sum = 0.;
+      for (unsigned int region = 0; region < n_regions(); ++region)
+      {
+        for (const unsigned int node : fe_space.nodes(cell))
+          value[region] += 0.25 * columns[region * n + node];
+        // obtuse cells can push a share a little below zero; far regions do not matter
+        if (region != own && value[region] < negligible_share)
+          value[region] = 0.;
+        sum += value[region];
+      }
+      start.push_back(shares.size());
+      for (unsigned int region = 0; region < n_regions(); ++region)
+        if (value[region] > 0.)
+          shares.push_back({ region, value[region] / sum });
+    }
+    start.push_back(shares.size());
+  }
+} // namespace Exemplar

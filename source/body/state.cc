@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
+#include <exemplar/body/state.h>
+#include <exemplar/prm/prm_tools.h>
+
+namespace Exemplar
+{
+  void
+  InitialParameters::declare(dealii::ParameterHandler &prm)
+  {
+    prm.enter_subsection("Initial");
+    declare_input_file(
+        prm, "Pose", pose,
+        "Pose at t = 0, a .msh file with the nodes and tetrahedra of the mesh; empty: "
+        "the rest pose.");
+    prm.add_parameter("Pose function", pose_function,
+                      "Pose at t = 0 instead: x'; y'; z' as functions of the rest position x, y, z "
+                      "[m].");
+    prm.add_parameter("Velocity", velocity,
+                      "Velocity [m/s] at t = 0 of a dynamic scene: three functions of the rest "
+                      "position x, y, z [m].");
+    prm.leave_subsection();
+  }
+
+  State
+  initial_state(const InitialParameters &parameters,
+                const Mesh              &mesh,
+                const FESpace           &fe_space,
+                const ExamplePoses      *examples,
+                const bool               dynamic)
+  {
+    if (!parameters.pose.empty() && !parameters.pose_function.empty())
+      throw UserError("Initial/Pose and Initial/Pose function are both given. Keep one of them.");
+
+    State state;
+    state.positions           = fe_space.rest_positions();
+    const auto set_node_field = [&](const Expression &expression, dealii::Vector<double> &field)
+    {
+      for (unsigned int node = 0; node < mesh.n_nodes(); ++node)
+      {
+        const dealii::Tensor<1, 3> value = expression.vector(mesh.get_nodes()[node], 0.);
+        for (unsigned int c = 0; c < 3; ++c)
+          field[3 * node + c] = value[c];
+      }
+    };
+    if (!parameters.pose.empty())
+    {
+      const auto nodes = mesh.read_pose(parameters.pose);
+      for (unsigned int dof = 0; dof < fe_space.n_dofs(); ++dof)
+        state.positions[dof] = nodes[dof / 3][dof % 3];
+    }
+    else if (!parameters.pose_function.empty())
+      set_node_field(Expression("Initial/Pose function", parameters.pose_function, "xyz", 3),
+                     state.positions);
+    if (dynamic)
+    {
+      state.velocities.reinit(fe_space.n_dofs());
+      set_node_field(Expression("Initial/Velocity", parameters.velocity, "xyz", 3),
+                     state.velocities);
+    }
+    if (examples != nullptr && examples->weights_are_prescribed())
+      state.weights = examples->prescribed_weights(0.);
+    else if (examples != nullptr)
+    {
+      state.weights.assign(examples->n_weights(), 0.);
+      for (unsigned int region = 0; region < examples->n_regions(); ++region)
+        state.weights[region * examples->size()] = 1.;
+      state.multipliers.assign(examples->n_regions(), 0.);
+    }
+    return state;
+  }
+} // namespace Exemplar

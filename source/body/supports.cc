@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/body/supports.h>
+#include <exemplar/mesh/rigid_motion.h>
+
+#include <deal.II/lac/full_matrix.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace Exemplar
+{
+  namespace
+  {
+    std::vector<dealii::Point<3>>
+    nodes_of(const dealii::Vector<double> &positions)
+    {
+      std::vector<dealii::Point<3>> nodes;
+      for (unsigned int dof = 0; dof < positions.size(); dof += 3)
+        nodes.emplace_back(positions[dof], positions[dof + 1], positions[dof + 2]);
+      return nodes;
+    }
+
+    void
+    move_rigidly(const RigidMotion &motion, dealii::Vector<double> &positions)
+    {
+      const std::vector<dealii::Point<3>> nodes = nodes_of(positions);
+      for (unsigned int node = 0; node < nodes.size(); ++node)
+      {
+        const dealii::Point<3> moved = motion(nodes[node]);
+        for (unsigned int c = 0; c < 3; ++c)
+          positions[3 * node + c] = moved[c];
+      }
+    }
+
+    unsigned int
+    greatest_component(const dealii::Tensor<1, 3> &v)
+    {
+      unsigned int greatest = 0;
+      for (unsigned int d = 1; d < 3; ++d)
+        if (std::abs(v[d]) > std::abs(v[greatest]))
+          greatest = d;
+      return greatest;
+    }
+
+    unsigned int
+    cell_nearest_to(const dealii::Point<3> &center, const Mesh &mesh)
+    {
+      unsigned int nearest          = 0;
+      double       nearest_distance = std::numeric_limits<double>::max();
+      for (unsigned int cell = 0; cell < mesh.n_cells(); ++cell)
+      {
+        dealii::Point<3> middle;
+        for (const unsigned int node : mesh.get_cells()[cell])
+          middle += mesh.get_nodes()[node] / 4.;
+        if (const double distance = middle.distance(center); distance < nearest_distance)
+        {
+          nearest          = cell;
+          nearest_distance = distance;
+        }
+      }
+      return nearest;
+    }
+  } // namespace
+
+  unsigned int
+  n_free_rigid_motions(const Mesh &mesh, const std::vector<unsigned int> &held_dofs)
+  {
+    // rows: the six rigid motions at a held degree of freedom, lengths in diameters;
+    // their rank by Gauss elimination with complete pivoting
+    const dealii::Point<3>             center   = centroid(mesh.get_nodes());
+    const double                       diameter = mesh.diameter();
+    std::vector<std::array<double, 6>> rows;
+    for (const unsigned int dof : held_dofs)
+    {
+      const dealii::Tensor<1, 3> r = (mesh.get_nodes()[dof / 3] - center) / diameter;
+      const unsigned int         c = dof % 3, d = (c + 1) % 3, e = (c + 2) % 3;
+      std::array<double, 6>      row{};
+      row[c]     = 1.;
+      row[3 + d] = r[e]; // (omega x r)_c = omega_d r_e - omega_e r_d
+      row[3 + e] = -r[d];
+      rows.push_back(row);
+    }
+    unsigned int rank = 0;
+    for (; rank < 6 && rank < rows.size(); ++rank)
+    {
+      unsigned int pivot_row = rank, pivot_column = 0;
+      for (unsigned int i = rank; i < rows.size(); ++i)
+        for (unsigned int j = 0; j < 6; ++j)
+          if (std::abs(rows[i][j]) > std::abs(rows[pivot_row][pivot_column]))
+          {
+            pivot_row    = i;
+            pivot_column = j;
+          }
+      if (std::abs(rows[pivot_row][pivot_column]) < 1e-8)
+        break;
+      std::swap(rows[rank], rows[pivot_row]);
+      for (unsigned int i = rank + 1; i < rows.size(); ++i)
+      {
+        const double factor = rows[i][pivot_column] / rows[rank][pivot_column];
+        for (unsigned int j = 0; j < 6; ++j)
+          rows[i][j] -= factor * rows[rank][j];
+        rows[i][pivot_column] = 0.;
+      }
+    }
+    return 6 - rank;
+  }
+
+  StaticallyDeterminateSupport
+  support_near_centroid(const Mesh &mesh)
+  {
+    const auto        &x       = mesh.get_nodes();
+    const unsigned int nearest = cell_nearest_to(centroid(x), mesh);
+    const auto        &cell    = mesh.get_cells()[nearest];
+    const auto         a = cell[0], b = cell[1], c = cell[2];
+
+    // b may move along the dominant direction of ab only, c within the plane abc
+    const unsigned int along = greatest_component(x[b] - x[a]);
+    const unsigned int normal
+        = greatest_component(dealii::cross_product_3d(x[b] - x[a], x[c] - x[a]));
+    std::vector<unsigned int> held = { 3 * a, 3 * a + 1, 3 * a + 2, 3 * c + normal };
+    for (unsigned int d = 0; d < 3; ++d)
+      if (d != along)
+        held.push_back(3 * b + d);
+    std::sort(held.begin(), held.end());
+    return { nearest, { { a, b, c } }, held };
+  }
+
+  bool
+  turn_to_support(const Mesh                         &mesh,
+                  const StaticallyDeterminateSupport &support,
+                  const double                        angle,
+                  dealii::Vector<double>             &positions)
+  {
+    const std::vector<dealii::Point<3>> nodes = nodes_of(positions);
+    std::vector<dealii::Point<3>>       rest, current;
+    for (const unsigned int node : mesh.get_cells()[support.cell])
+    {
+      rest.push_back(mesh.get_nodes()[node]);
+      current.push_back(nodes[node]);
+    }
+    const RigidMotion motion = best_rigid_motion(current, rest);
+    if (axis_and_angle(motion.rotation).angle < angle)
+      return false;
+    move_rigidly(motion, positions);
+    return true;
+  }
+
+  void
+  remove_rigid_motion(const dealii::Vector<double> &positions, dealii::Vector<double> &displacement)
+  {
+    const std::vector<dealii::Point<3>> x = nodes_of(positions), u = nodes_of(displacement);
+    const dealii::Point<3>              center = centroid(x), shift = centroid(u);
+    dealii::Tensor<2, 3>                inertia;
+    dealii::Tensor<1, 3>                moment;
+    for (unsigned int node = 0; node < x.size(); ++node)
+    {
+      const dealii::Tensor<1, 3> arm = x[node] - center;
+      moment += dealii::cross_product_3d(arm, u[node] - shift);
+      inertia += arm.norm_square() * dealii::unit_symmetric_tensor<3>() - outer_product(arm, arm);
+    }
+    // points on a line have no inertia about it: then only the translation is taken out
+    const bool has_volume = determinant(inertia) > 1e-12 * std::pow(trace(inertia), 3);
+    const dealii::Tensor<1, 3> rotation
+        = has_volume ? invert(inertia) * moment : dealii::Tensor<1, 3>();
+    for (unsigned int node = 0; node < x.size(); ++node)
+    {
+      const dealii::Tensor<1, 3> rigid
+          = shift + dealii::cross_product_3d(rotation, x[node] - center);
+      for (unsigned int c = 0; c < 3; ++c)
+        displacement[3 * node + c] -= rigid[c];
+    }
+  }
+
+  void
+  align(const dealii::Vector<double> &reference, dealii::Vector<double> &positions)
+  {
+    move_rigidly(best_rigid_motion(nodes_of(positions), nodes_of(reference)), positions);
+  }
+} // namespace Exemplar

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The loops over the cells for CPUs with AVX2.
+#include <exemplar/kernels/cell_kernels_loops.h>
+
+#include <xsimd/xsimd.hpp>
+
+namespace Exemplar
+{
+  CellKernels
+  cell_kernels_avx2()
+  {
+    return CellLoops<xsimd::batch<double, xsimd::fma3<xsimd::avx2>>>::kernels("avx2");
+  }
+} // namespace Exemplar

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The loops over the cells for CPUs with AVX512.
+#include <exemplar/kernels/cell_kernels_loops.h>
+
+#include <xsimd/xsimd.hpp>
+
+namespace Exemplar
+{
+  CellKernels
+  cell_kernels_avx512()
+  {
+    return CellLoops<xsimd::batch<double, xsimd::avx512dq>>::kernels("avx512");
+  }
+} // namespace Exemplar

@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
+#include <exemplar/mesh/mesh.h>
+#include <exemplar/mesh/mesh_checks.h>
+#include <exemplar/mesh/mesh_generation.h>
+#include <exemplar/prm/prm_tools.h>
+
+#include <deal.II/grid/tria_accessor.h>
+#include <deal.II/grid/tria_iterator.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace Exemplar
+{
+  namespace
+  {
+    const EnumTable<MeshGenerator> generator_names{ { MeshGenerator::none, "none" },
+                                                    { MeshGenerator::box, "box" } };
+
+    std::filesystem::path
+    msh_of(const std::string &file)
+    {
+      const std::filesystem::path path(file);
+      return path.extension() == ".geo" ? mesh_geo_file(path) : path;
+    }
+
+    MshFile
+    load(const MeshParameters &parameters)
+    {
+      const bool has_file = !parameters.file.empty();
+      const bool has_box  = parameters.generator == MeshGenerator::box;
+      if (has_file == has_box)
+        throw UserError(std::string("Mesh: ")
+                        + (has_file ? "both File and Generator are given" : "no mesh is given")
+                        + ". Set Mesh/File to a .msh or .geo file, or set Mesh/Generator = box; "
+                          "exactly one of them.");
+      if (!(parameters.scale > 0.))
+        throw UserError("Mesh/Scale: must be positive, found " + std::to_string(parameters.scale)
+                        + ". Leave it at 1 if the mesh is in metres.");
+
+      MshFile contents = has_box ? generate_box(parameters.box_size, parameters.box_cells)
+                                 : read_msh(msh_of(parameters.file));
+      for (auto &node : contents.nodes)
+        node *= parameters.scale;
+      return contents;
+    }
+
+    /// The corners opposite to each corner of a positive tetrahedron,
+    /// counterclockwise seen from outside.
+    constexpr unsigned int outward_faces[4][3]
+        = { { 1, 2, 3 }, { 0, 3, 2 }, { 0, 1, 3 }, { 0, 2, 1 } };
+
+    std::array<unsigned int, 3>
+    outward_nodes(const CellFace &face, const std::array<unsigned int, 4> &cell)
+    {
+      const auto corner = static_cast<std::size_t>(
+          std::find(cell.begin(), cell.end(), face.opposite) - cell.begin());
+      std::array<unsigned int, 3> nodes;
+      for (unsigned int v = 0; v < 3; ++v)
+        nodes[v] = cell[outward_faces[corner][v]];
+      return nodes;
+    }
+
+    /// The faces of one cell only, in the order of `faces`.
+    std::vector<CellFace>
+    extract_boundary(const std::vector<CellFace> &faces)
+    {
+      std::vector<CellFace> boundary;
+      for (std::size_t i = 0; i < faces.size(); ++i)
+        if (i + 1 < faces.size() && faces[i + 1].nodes == faces[i].nodes)
+          ++i; // internal: skip both sides
+        else
+          boundary.push_back(faces[i]);
+      return boundary;
+    }
+
+    /// Position of the face with these nodes in a sorted list, or its size.
+    std::size_t
+    find_face(const std::vector<CellFace> &faces, const std::array<unsigned int, 3> &nodes)
+    {
+      const auto face = std::lower_bound(faces.begin(), faces.end(), nodes,
+                                         [](const CellFace &a, const std::array<unsigned int, 3> &b)
+                                         { return a.nodes < b; });
+      return (face != faces.end() && face->nodes == nodes)
+                 ? static_cast<std::size_t>(face - faces.begin())
+                 : faces.size();
+    }
+
+    std::array<unsigned int, 3>
+    ascending_nodes(const MshElement &triangle)
+    {
+      std::array<unsigned int, 3> nodes;
+      for (unsigned int v = 0; v < 3; ++v)
+        nodes[v] = static_cast<unsigned int>(triangle.nodes[v]);
+      std::sort(nodes.begin(), nodes.end());
+      return nodes;
+    }
+
+    /// Boundary ids of the faces of one cell, from the file's physical triangles.
+    class BoundaryIds
+    {
+    public:
+      explicit BoundaryIds(const std::vector<CellFace> &all_faces)
+          : faces(all_faces), boundary(extract_boundary(all_faces)), ids(boundary.size(), 0)
+      {
+      }
+
+      void
+      add(const MshElement &triangle)
+      {
+        const auto        nodes = ascending_nodes(triangle);
+        const auto        id    = static_cast<unsigned int>(std::abs(triangle.physical));
+        const std::size_t face  = find_face(boundary, nodes);
+        if (face < boundary.size())
+        {
+          if (ids[face] != 0 && ids[face] != id)
+            repeated.push_back(triangle.number);
+          else
+            ids[face] = id;
+        }
+        else if (find_face(faces, nodes) < faces.size())
+          internal.push_back(triangle.number);
+        else
+          stray.push_back(triangle.number);
+      }
+
+      void
+      report(const std::string &name, std::vector<std::string> &warnings) const
+      {
+        if (!stray.empty())
+          throw UserError(name + ": physical triangles that are no face of a tetrahedron: element "
+                          + list_numbers(stray)
+                          + ". Take surfaces that bound no volume out of the Physical Surfaces, or "
+                            "mesh surfaces and volumes together.");
+        if (!internal.empty())
+          warnings.push_back(name + ": " + std::to_string(internal.size())
+                             + " physical triangles between two tetrahedra have no boundary id: "
+                               "element "
+                             + list_numbers(internal) + ".");
+        if (!repeated.empty())
+          warnings.push_back(name + ": " + std::to_string(repeated.size())
+                             + " boundary triangles appear again with another physical tag; the "
+                               "first tag counts, not that of element "
+                             + list_numbers(repeated) + ".");
+      }
+
+      std::vector<BoundaryFace>
+      boundary_faces(const std::vector<std::array<unsigned int, 4>> &cells) const
+      {
+        std::vector<BoundaryFace> result;
+        for (std::size_t i = 0; i < boundary.size(); ++i)
+          result.push_back({ outward_nodes(boundary[i], cells[boundary[i].cell]), ids[i] });
+        return result;
+      }
+
+    private:
+      const std::vector<CellFace> &faces;
+      std::vector<CellFace>        boundary;
+      std::vector<unsigned int>    ids;
+      std::vector<std::size_t>     stray;
+      std::vector<std::size_t>     internal;
+      std::vector<std::size_t>     repeated;
+    };
+
+    dealii::SubCellData
+    boundary_data(const std::vector<BoundaryFace> &faces)
+    {
+      dealii::SubCellData data;
+      for (const BoundaryFace &face : faces)
+        if (face.boundary_id != 0) // deal.II's own default
+        {
+          dealii::CellData<2> triangle(3);
+          std::copy(face.nodes.begin(), face.nodes.end(), triangle.vertices.begin());
+          triangle.boundary_id = face.boundary_id;
+          data.boundary_quads.push_back(triangle);
+        }
+      return data;
+    }
+  } // namespace
+
+  void
+  MeshParameters::declare(dealii::ParameterHandler &prm)
+  {
+    using namespace dealii::Patterns;
+    prm.enter_subsection("Mesh");
+    declare_input_file(prm, "File", file,
+                       "The tetrahedral rest mesh: a gmsh .msh file of version 2.2 or 4.1, ASCII "
+                       "or binary, or a .geo file, which gmsh meshes (the result is kept in "
+                       "~/.cache/exemplar). Physical Volumes give material ids, Physical "
+                       "Surfaces boundary ids. Leave it empty if Generator = box.");
+    declare_enum(prm, "Generator", generator, generator_names,
+                 "box: generate a box instead of reading a file. It spans 0..Lx, -Ly/2..Ly/2, "
+                 "-Lz/2..Lz/2, in bricks of 6 tetrahedra each; nodes are numbered from 1, x "
+                 "fastest; boundary ids are 1, 2, 3, 4, 5, 6 for x-, x+, y-, y+, z-, z+; the "
+                 "material id is 1.");
+    prm.add_parameter(
+        "Box size", box_size,
+        "Lengths Lx, Ly, Lz of the generated box [m before Scale], each > 0. It goes from x = "
+        "0 to Lx and lies symmetric to y = 0 and z = 0.",
+        List(Double(0.), 3, 3));
+    prm.add_parameter("Box cells", box_cells,
+                      "Numbers of bricks of the generated box along x, y, z, each >= 1; every "
+                      "brick has 6 tetrahedra.",
+                      List(Integer(1), 3, 3));
+    prm.add_parameter("Scale", scale,
+                      "Factor > 0 that makes metres of the coordinates of the mesh and of its "
+                      "poses, e.g. 0.001 for millimetres. All other lengths are in metres; poses "
+                      "are written in the mesh's own unit.",
+                      Double(0.));
+    prm.leave_subsection();
+  }
+
+  Mesh::Mesh(const MeshParameters &parameters)
+      : contents(load(parameters)),
+        name(parameters.generator == MeshGenerator::box ? "box" : parameters.file),
+        scale(parameters.scale)
+  {
+    build();
+  }
+
+  Mesh::Mesh(MshFile file_contents, const std::string &file_name)
+      : contents(std::move(file_contents)), name(file_name)
+  {
+    build();
+  }
+
+  void
+  Mesh::build()
+  {
+    Tetrahedra tetrahedra = extract_tetrahedra(contents, name);
+    const auto swapped    = orient_tetrahedra(contents, name, tetrahedra);
+    if (!swapped.empty())
+      warnings.push_back(name + ": " + std::to_string(swapped.size())
+                         + " tetrahedra of negative volume were re-oriented: element "
+                         + list_numbers(swapped) + ".");
+    check_orphan_nodes(contents, name, tetrahedra);
+    const std::vector<CellFace> faces = sorted_faces(tetrahedra);
+    check_faces(contents, name, tetrahedra, faces);
+    check_connected(contents, name, tetrahedra, faces);
+
+    BoundaryIds boundary_ids(faces);
+    for (const MshElement &element : contents.elements)
+      if (element.type == MshElementType::triangle && element.physical != 0)
+        boundary_ids.add(element);
+    boundary_ids.report(name, warnings);
+
+    cells          = std::move(tetrahedra.nodes);
+    material_ids   = std::move(tetrahedra.material_ids);
+    boundary_faces = boundary_ids.boundary_faces(cells);
+    build_triangulation();
+  }
+
+  void
+  Mesh::build_triangulation()
+  {
+    std::vector<dealii::CellData<3>> cell_data(cells.size(), dealii::CellData<3>(4));
+    for (std::size_t c = 0; c < cells.size(); ++c)
+    {
+      std::copy(cells[c].begin(), cells[c].end(), cell_data[c].vertices.begin());
+      cell_data[c].material_id = material_ids[c];
+    }
+    triangulation.create_triangulation(contents.nodes, cell_data, boundary_data(boundary_faces));
+
+    // Everything else relies on deal.II's numbers being the file's: 9.5 has begun
+    // to remove unused vertices when reading, so do not take it for granted.
+    bool same = triangulation.n_active_cells() == cells.size()
+                && triangulation.get_vertices() == contents.nodes;
+    for (const auto &cell : triangulation.active_cell_iterators())
+      for (const unsigned int v : cell->vertex_indices())
+        same = same && cell->vertex_index(v) == cells[cell->active_cell_index()][v];
+    AssertThrow(same, dealii::ExcMessage("deal.II numbers nodes or cells in another order."));
+  }
+
+  double
+  Mesh::diameter() const
+  {
+    dealii::Point<3> lower = contents.nodes.front();
+    dealii::Point<3> upper = lower;
+    for (const auto &node : contents.nodes)
+      for (unsigned int d = 0; d < 3; ++d)
+      {
+        lower[d] = std::min(lower[d], node[d]);
+        upper[d] = std::max(upper[d], node[d]);
+      }
+    return lower.distance(upper);
+  }
+
+  std::size_t
+  Mesh::memory_consumption() const
+  {
+    std::size_t bytes
+        = triangulation.memory_consumption() + contents.nodes.capacity() * sizeof(contents.nodes[0])
+          + contents.node_numbers.capacity() * sizeof(contents.node_numbers[0])
+          + cells.capacity() * sizeof(cells[0]) + material_ids.capacity() * sizeof(material_ids[0])
+          + boundary_faces.capacity() * sizeof(boundary_faces[0]);
+    for (const MshElement &element : contents.elements)
+      bytes += sizeof(element) + element.nodes.capacity() * sizeof(element.nodes[0]);
+    return bytes;
+  }
+} // namespace Exemplar

@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
+#include <exemplar/mesh/mesh_checks.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numeric>
+#include <optional>
+#include <tuple>
+
+namespace Exemplar
+{
+  namespace
+  {
+    constexpr double flat_tolerance = 1e-12;
+
+    std::string
+    in_words(const std::size_t n, const std::string &noun)
+    {
+      return std::to_string(n) + " " + noun + (n == 1 ? "" : "s");
+    }
+
+    void
+    check_element_kinds(const MshFile &contents, const std::string &name)
+    {
+      std::vector<std::size_t> refused;
+      unsigned int             refused_type = 0;
+      for (const MshElement &element : contents.elements)
+      {
+        const MshElementKind *const kind   = find_msh_element_kind(element.type);
+        const bool                  usable = element.type == MshElementType::tetrahedron
+                            || element.type == MshElementType::triangle
+                            || (kind != nullptr && kind->dimension < 2);
+        if (usable)
+          continue;
+        if (refused.empty())
+          refused_type = element.type;
+        refused.push_back(element.number);
+      }
+      if (refused.empty())
+        return;
+      const MshElementKind *const kind = find_msh_element_kind(refused_type);
+      throw UserError(name + ": element " + std::to_string(refused.front()) + " is a "
+                      + (kind != nullptr ? kind->name : "element of unknown type")
+                      + "; only 4-node tetrahedra and 3-node triangles are supported ("
+                      + in_words(refused.size(), "element")
+                      + " of other kinds: " + list_numbers(refused)
+                      + "). Mesh with tetrahedra of first order: Mesh.ElementOrder = 1, no "
+                        "Recombine, no Transfinite Volume with Recombine.");
+    }
+
+    double
+    squared_longest_edge(const std::array<dealii::Point<3>, 4> &corners)
+    {
+      double longest = 0.;
+      for (unsigned int a = 0; a < 4; ++a)
+        for (unsigned int b = a + 1; b < 4; ++b)
+          longest = std::max(longest, corners[a].distance_square(corners[b]));
+      return longest;
+    }
+
+    double
+    signed_volume(const std::array<dealii::Point<3>, 4> &corners)
+    {
+      const auto a = corners[1] - corners[0];
+      const auto b = corners[2] - corners[0];
+      const auto c = corners[3] - corners[0];
+      return (a * dealii::cross_product_3d(b, c)) / 6.;
+    }
+
+    /// Parts of the mesh that hang together through faces (union by smaller root).
+    class Components
+    {
+    public:
+      explicit Components(const std::size_t n_cells) : parents(n_cells)
+      {
+        std::iota(parents.begin(), parents.end(), 0U);
+      }
+
+      unsigned int
+      root(unsigned int cell)
+      {
+        while (parents[cell] != cell)
+          cell = parents[cell] = parents[parents[cell]];
+        return cell;
+      }
+
+      void
+      join(const unsigned int a, const unsigned int b)
+      {
+        const auto [low, high] = std::minmax({ root(a), root(b) }); // braces: by value
+        parents[high]          = low;
+      }
+
+    private:
+      std::vector<unsigned int> parents;
+    };
+
+    /// Nodes that cells of different components have in common.
+    std::vector<bool>
+    find_shared_nodes(const std::size_t n_nodes, const Tetrahedra &tetrahedra, Components &parts)
+    {
+      std::vector<bool>                        shared(n_nodes, false);
+      std::vector<std::optional<unsigned int>> part_of(n_nodes);
+      for (unsigned int cell = 0; cell < tetrahedra.nodes.size(); ++cell)
+        for (const unsigned int node : tetrahedra.nodes[cell])
+        {
+          if (!part_of[node])
+            part_of[node] = parts.root(cell);
+          if (*part_of[node] != parts.root(cell))
+            shared[node] = true;
+        }
+      return shared;
+    }
+
+    /// Whether an edge belongs to cells of different components.
+    bool
+    share_an_edge(const std::vector<bool> &shared, const Tetrahedra &tetrahedra, Components &parts)
+    {
+      std::vector<std::array<unsigned int, 3>> edges; // nodes, component
+      for (unsigned int cell = 0; cell < tetrahedra.nodes.size(); ++cell)
+        for (const unsigned int a : tetrahedra.nodes[cell])
+          for (const unsigned int b : tetrahedra.nodes[cell])
+            if (a < b && shared[a] && shared[b])
+              edges.push_back({ { a, b, parts.root(cell) } });
+      std::sort(edges.begin(), edges.end());
+      for (std::size_t i = 1; i < edges.size(); ++i)
+        if (edges[i][0] == edges[i - 1][0] && edges[i][1] == edges[i - 1][1]
+            && edges[i][2] != edges[i - 1][2])
+          return true;
+      return false;
+    }
+
+    std::string
+    describe_contact(const MshFile &contents, const Tetrahedra &tetrahedra, Components &parts)
+    {
+      const std::vector<bool>  shared = find_shared_nodes(contents.nodes.size(), tetrahedra, parts);
+      std::vector<std::size_t> numbers;
+      for (std::size_t node = 0; node < shared.size(); ++node)
+        if (shared[node])
+          numbers.push_back(contents.node_numbers[node]);
+      if (numbers.empty())
+        return "They have no node in common.";
+      return std::string("Parts touch only at ")
+             + (share_an_edge(shared, tetrahedra, parts) ? "an edge" : "a node")
+             + ", like a hinge: node " + list_numbers(numbers) + ".";
+    }
+  } // namespace
+
+  std::string
+  list_numbers(const std::vector<std::size_t> &numbers)
+  {
+    constexpr std::size_t n_listed = 5;
+    std::string           text;
+    for (std::size_t i = 0; i < std::min(n_listed, numbers.size()); ++i)
+      text += (i == 0 ? "" : ", ") + std::to_string(numbers[i]);
+    if (numbers.size() > n_listed)
+      text += " and " + std::to_string(numbers.size() - n_listed) + " more";
+    return text;
+  }
+
+  Tetrahedra
+  extract_tetrahedra(const MshFile &contents, const std::string &name)
+  {
+    check_element_kinds(contents, name);
+    Tetrahedra tetrahedra;
+    tetrahedra.nodes.reserve(contents.elements.size());
+    tetrahedra.material_ids.reserve(contents.elements.size());
+    for (const MshElement &element : contents.elements)
+      if (element.type == MshElementType::tetrahedron)
+      {
+        std::array<unsigned int, 4> nodes;
+        for (unsigned int v = 0; v < 4; ++v)
+          nodes[v] = static_cast<unsigned int>(element.nodes[v]);
+        tetrahedra.nodes.push_back(nodes);
+        tetrahedra.material_ids.push_back(static_cast<unsigned int>(std::abs(element.physical)));
+        tetrahedra.element_numbers.push_back(element.number);
+      }
+    if (tetrahedra.nodes.empty())
+      throw UserError(name
+                      + ": has no tetrahedra. Mesh in three dimensions (gmsh -3) and, if "
+                        "there are Physical groups, give the volume one as well: gmsh saves "
+                        "only elements in Physical groups.");
+    return tetrahedra;
+  }
+
+  std::vector<std::size_t>
+  orient_tetrahedra(const MshFile &contents, const std::string &name, Tetrahedra &tetrahedra)
+  {
+    std::vector<std::size_t> flat;
+    std::vector<std::size_t> swapped;
+    for (std::size_t cell = 0; cell < tetrahedra.nodes.size(); ++cell)
+    {
+      auto                           &nodes = tetrahedra.nodes[cell];
+      std::array<dealii::Point<3>, 4> corners;
+      for (unsigned int v = 0; v < 4; ++v)
+        corners[v] = contents.nodes[nodes[v]];
+      const double volume  = signed_volume(corners);
+      const double longest = std::sqrt(squared_longest_edge(corners));
+      // Written so that an overflow to NaN is refused, too.
+      if (!(std::abs(volume) > flat_tolerance * longest * longest * longest))
+        flat.push_back(tetrahedra.element_numbers[cell]);
+      else if (volume < 0.)
+      {
+        std::swap(nodes[2], nodes[3]);
+        swapped.push_back(tetrahedra.element_numbers[cell]);
+      }
+    }
+    if (!flat.empty())
+      throw UserError(name + ": " + in_words(flat.size(), "tetrahedron")
+                      + " without volume (at "
+                        "most 1e-12 of the cube of the longest edge): element "
+                      + list_numbers(flat)
+                      + ". Remesh, e.g. with Mesh.OptimizeNetgen = 1, or coarser.");
+    return swapped;
+  }
+
+  void
+  check_orphan_nodes(const MshFile &contents, const std::string &name, const Tetrahedra &tetrahedra)
+  {
+    std::vector<bool> used(contents.nodes.size(), false);
+    for (const auto &nodes : tetrahedra.nodes)
+      for (const unsigned int node : nodes)
+        used[node] = true;
+    std::vector<std::size_t> orphans;
+    for (std::size_t node = 0; node < used.size(); ++node)
+      if (!used[node])
+        orphans.push_back(contents.node_numbers[node]);
+    if (!orphans.empty())
+      throw UserError(name + ": " + in_words(orphans.size(), "node") + " in no tetrahedron: node "
+                      + list_numbers(orphans)
+                      + ". Remove construction points and surfaces that bound no volume from the "
+                        "geometry, put every volume in a Physical Volume, and save the mesh anew.");
+  }
+
+  std::vector<CellFace>
+  sorted_faces(const Tetrahedra &tetrahedra)
+  {
+    std::vector<CellFace> faces;
+    faces.reserve(4 * tetrahedra.nodes.size());
+    for (unsigned int cell = 0; cell < tetrahedra.nodes.size(); ++cell)
+    {
+      std::array<unsigned int, 4> nodes = tetrahedra.nodes[cell];
+      std::sort(nodes.begin(), nodes.end());
+      faces.push_back({ { { nodes[1], nodes[2], nodes[3] } }, cell, nodes[0] });
+      faces.push_back({ { { nodes[0], nodes[2], nodes[3] } }, cell, nodes[1] });
+      faces.push_back({ { { nodes[0], nodes[1], nodes[3] } }, cell, nodes[2] });
+      faces.push_back({ { { nodes[0], nodes[1], nodes[2] } }, cell, nodes[3] });
+    }
+    std::sort(
+        faces.begin(), faces.end(),
+        [](const CellFace &a, const CellFace &b)
+        { return std::tie(a.nodes, a.opposite, a.cell) < std::tie(b.nodes, b.opposite, b.cell); });
+    return faces;
+  }
+
+  void
+  check_faces(const MshFile               &contents,
+              const std::string           &name,
+              const Tetrahedra            &tetrahedra,
+              const std::vector<CellFace> &faces)
+  {
+    const auto &numbers = tetrahedra.element_numbers;
+    for (std::size_t i = 1; i < faces.size(); ++i)
+      if (faces[i].nodes == faces[i - 1].nodes && faces[i].opposite == faces[i - 1].opposite)
+        throw UserError(name + ": tetrahedra " + std::to_string(numbers[faces[i - 1].cell])
+                        + " and " + std::to_string(numbers[faces[i].cell])
+                        + " have the same nodes. Mesh every volume once, and put it in one "
+                          "Physical Volume only: MSH 2.2 repeats the elements for each.");
+
+    for (std::size_t begin = 0, end = 0; begin < faces.size(); begin = end)
+    {
+      std::vector<std::size_t> cells;
+      for (end = begin; end < faces.size() && faces[end].nodes == faces[begin].nodes; ++end)
+        cells.push_back(numbers[faces[end].cell]);
+      if (cells.size() <= 2)
+        continue;
+      std::vector<std::size_t> corners;
+      for (const unsigned int node : faces[begin].nodes)
+        corners.push_back(contents.node_numbers[node]);
+      throw UserError(name + ": the face with the nodes " + list_numbers(corners)
+                      + " belongs to more than two tetrahedra: element " + list_numbers(cells)
+                      + ". Volumes overlap: remove one, or join them in the geometry "
+                        "(BooleanUnion, BooleanFragments).");
+    }
+  }
+
+  void
+  check_connected(const MshFile               &contents,
+                  const std::string           &name,
+                  const Tetrahedra            &tetrahedra,
+                  const std::vector<CellFace> &faces)
+  {
+    const auto n_cells = static_cast<unsigned int>(tetrahedra.nodes.size());
+    Components parts(n_cells);
+    for (std::size_t i = 1; i < faces.size(); ++i)
+      if (faces[i].nodes == faces[i - 1].nodes)
+        parts.join(faces[i].cell, faces[i - 1].cell);
+
+    std::vector<std::size_t> first_elements; // one a part
+    for (unsigned int cell = 0; cell < n_cells; ++cell)
+      if (parts.root(cell) == cell)
+        first_elements.push_back(tetrahedra.element_numbers[cell]);
+    if (first_elements.size() == 1)
+      return;
+    throw UserError(name + ": has " + std::to_string(first_elements.size())
+                    + " parts that no common face connects, beginning with element "
+                    + list_numbers(first_elements) + ". "
+                    + describe_contact(contents, tetrahedra, parts)
+                    + " A body must be in one piece: join the volumes in the geometry "
+                      "(BooleanUnion, or BooleanFragments and Coherence), or keep one of them.");
+  }
+} // namespace Exemplar

@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/digest.h>
+#include <exemplar/base/errors.h>
+#include <exemplar/mesh/mesh_generation.h>
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <limits>
+#include <regex>
+#include <sstream>
+#include <utility>
+
+extern char **environ;
+
+namespace Exemplar
+{
+  namespace
+  {
+    using Triple = std::array<unsigned int, 3>;
+
+    /// Node indices of the box, x fastest.
+    class BoxNodes
+    {
+    public:
+      explicit BoxNodes(const Triple &n_bricks) : n_cells(n_bricks) {}
+
+      std::size_t
+      index(const Triple &at) const
+      {
+        return at[0]
+               + (n_cells[0] + std::size_t(1)) * (at[1] + (n_cells[1] + std::size_t(1)) * at[2]);
+      }
+
+      /// Call `visit` with every lattice point below `end`, x fastest.
+      template <typename Visit>
+      static void
+      for_each(const Triple &end, const Visit &visit)
+      {
+        for (unsigned int k = 0; k < end[2]; ++k)
+          for (unsigned int j = 0; j < end[1]; ++j)
+            for (unsigned int i = 0; i < end[0]; ++i)
+              visit(Triple{ { i, j, k } });
+      }
+
+    private:
+      Triple n_cells;
+    };
+
+    void
+    add_element(MshFile                        &box,
+                const unsigned int              type,
+                const unsigned int              tag,
+                const std::vector<std::size_t> &nodes)
+    {
+      const int id = static_cast<int>(tag);
+      box.elements.push_back({ box.elements.size() + 1, type, id, id, nodes });
+    }
+
+    /// The two triangles of a brick's side, facing outwards. They share the side's
+    /// diagonal from its lowest to its highest corner, as the tetrahedra have it.
+    void
+    add_side(MshFile           &box,
+             const BoxNodes    &nodes,
+             const Triple      &lowest,
+             const unsigned int axis,
+             const bool         upper)
+    {
+      Triple b = lowest;
+      Triple c = lowest;
+      Triple d = lowest;
+      b[(axis + 1) % 3] += 1;
+      c[(axis + 2) % 3] += 1;
+      d[(axis + 1) % 3] += 1;
+      d[(axis + 2) % 3] += 1;
+      const unsigned int tag = 2 * axis + (upper ? 2 : 1);
+      for (const auto &[from, to] : { std::pair(b, d), std::pair(d, c) })
+      {
+        std::vector<std::size_t> triangle{ nodes.index(lowest), nodes.index(from),
+                                           nodes.index(to) };
+        if (!upper)
+          std::swap(triangle[1], triangle[2]);
+        add_element(box, MshElementType::triangle, tag, triangle);
+      }
+    }
+
+    void
+    add_boundary(MshFile &box, const BoxNodes &nodes, const Triple &n_cells)
+    {
+      for (unsigned int axis = 0; axis < 3; ++axis)
+        for (const bool upper : { false, true })
+        {
+          Triple end = n_cells;
+          end[axis]  = 1;
+          BoxNodes::for_each(end,
+                             [&](Triple lowest)
+                             {
+                               lowest[axis] = upper ? n_cells[axis] : 0;
+                               add_side(box, nodes, lowest, axis, upper);
+                             });
+        }
+    }
+
+    /// Kuhn's subdivision: each order of the three axes is a way along the edges
+    /// from the lowest to the highest corner, and its 4 corners are a tetrahedron.
+    void
+    add_brick(MshFile &box, const BoxNodes &nodes, const Triple &lowest)
+    {
+      Triple axes{ { 0, 1, 2 } };
+      do
+      {
+        Triple                   at = lowest;
+        std::vector<std::size_t> tetrahedron{ nodes.index(at) };
+        for (const unsigned int axis : axes)
+        {
+          at[axis] += 1;
+          tetrahedron.push_back(nodes.index(at));
+        }
+        const bool even = (axes[1] == (axes[0] + 1) % 3);
+        if (!even)
+          std::swap(tetrahedron[2], tetrahedron[3]);
+        add_element(box, MshElementType::tetrahedron, 1, tetrahedron);
+      } while (std::next_permutation(axes.begin(), axes.end()));
+    }
+
+    void
+    check_box(const std::array<double, 3> &size, const Triple &n_cells)
+    {
+      double n_tetrahedra = 6.;
+      for (unsigned int d = 0; d < 3; ++d)
+      {
+        if (!(size[d] > 0.) || size[d] > std::numeric_limits<double>::max())
+          throw UserError("Mesh/Box size: the three lengths must be positive, found "
+                          + std::to_string(size[d]) + ". Give them as e.g. 4, 1, 1.");
+        if (n_cells[d] == 0)
+          throw UserError("Mesh/Box cells: the three counts must be at least 1, found 0. Give "
+                          "them as e.g. 16, 4, 4.");
+        n_tetrahedra *= n_cells[d];
+      }
+      if (n_tetrahedra > 1e9)
+        throw UserError("Mesh/Box cells: these are more than 1e9 tetrahedra (6 a brick), which no "
+                        "machine would hold. Give smaller counts.");
+    }
+
+    /// What a finished program said on both its channels.
+    struct ProgramResult
+    {
+      bool        found;
+      bool        success;
+      std::string output;
+    };
+
+    std::string
+    read_until_closed(const int descriptor)
+    {
+      std::string            text;
+      std::array<char, 4096> buffer;
+      while (true)
+      {
+        const ssize_t n = ::read(descriptor, buffer.data(), buffer.size());
+        if (n > 0)
+          text.append(buffer.data(), static_cast<std::size_t>(n));
+        else if (n == 0 || errno != EINTR)
+          return text;
+      }
+    }
+
+    /// Run a program without a shell, so that no file name needs quoting.
+    ProgramResult
+    run_program(std::vector<std::string> arguments)
+    {
+      std::vector<char *> argv;
+      for (auto &argument : arguments)
+        argv.push_back(argument.data());
+      argv.push_back(nullptr);
+
+      int pipe_ends[2];
+      if (::pipe2(pipe_ends, O_CLOEXEC) != 0)
+        throw std::runtime_error(std::string("Cannot open a pipe: ") + std::strerror(errno) + ".");
+      posix_spawn_file_actions_t actions;
+      posix_spawn_file_actions_init(&actions);
+      posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
+      posix_spawn_file_actions_adddup2(&actions, pipe_ends[1], 1);
+      posix_spawn_file_actions_adddup2(&actions, pipe_ends[1], 2);
+      pid_t     child = 0;
+      const int error = posix_spawnp(&child, argv[0], &actions, nullptr, argv.data(), environ);
+      posix_spawn_file_actions_destroy(&actions);
+      ::close(pipe_ends[1]);
+
+      ProgramResult result{ error == 0, false, "" };
+      if (result.found)
+      {
+        result.output = read_until_closed(pipe_ends[0]);
+        int status    = 0;
+        while (::waitpid(child, &status, 0) < 0 && errno == EINTR)
+        {
+        }
+        result.success = WIFEXITED(status) && WEXITSTATUS(status) == 0;
+      }
+      ::close(pipe_ends[0]);
+      return result;
+    }
+
+    /// gmsh's errors, or else the last lines that it wrote.
+    std::string
+    telling_lines(const std::string &output)
+    {
+      std::vector<std::string> lines, errors;
+      std::istringstream       in(output);
+      for (std::string line; std::getline(in, line);)
+      {
+        lines.push_back(line);
+        if (line.rfind("Error", 0) == 0)
+          errors.push_back(line);
+      }
+      const auto       &shown = errors.empty() ? lines : errors;
+      const std::size_t n     = std::min<std::size_t>(shown.size(), 5);
+      std::string       text;
+      for (std::size_t i = shown.size() - n; i < shown.size(); ++i)
+        text += "\n  " + shown[i];
+      return text;
+    }
+
+    std::filesystem::path
+    cache_directory()
+    {
+      const char *const cache = std::getenv("XDG_CACHE_HOME");
+      if (cache != nullptr && cache[0] == '/') // the XDG standard ignores relative ones
+        return std::filesystem::path(cache) / "exemplar";
+      const char *const home = std::getenv("HOME");
+      if (home != nullptr && home[0] != '\0')
+        return std::filesystem::path(home) / ".cache" / "exemplar";
+      throw UserError("There is no place to keep the mesh that gmsh makes: neither XDG_CACHE_HOME "
+                      "nor HOME is set. Set one of them to a directory.");
+    }
+
+    std::string
+    gmsh_version(const std::filesystem::path &geo)
+    {
+      const ProgramResult result = run_program({ "gmsh", "--version" });
+      if (!result.found)
+        throw UserError(geo.string()
+                        + ": meshing it needs gmsh, which cannot be started. Install "
+                          "the package gmsh, or mesh it elsewhere and set Mesh/File "
+                          "to the .msh.");
+      return result.output;
+    }
+
+    std::string
+    read_text(const std::filesystem::path &file)
+    {
+      errno = 0;
+      std::ifstream in(file, std::ios::binary);
+      if (!in || std::filesystem::is_directory(file))
+        throw UserError("Mesh/File: " + file.string() + " cannot be opened ("
+                        + (errno != 0 ? std::strerror(errno) : "is it a directory?")
+                        + "). Give a .msh or .geo file; relative names start from the .prm.");
+      std::ostringstream text;
+      text << in.rdbuf();
+      return text.str();
+    }
+
+    void
+    run_gmsh(const std::filesystem::path &geo, const std::filesystem::path &msh)
+    {
+      // Absolute, so that no name is taken for an option. The temporary is this
+      // process's own: several runs may mesh the same file at once.
+      const std::string   temporary = msh.string() + "." + std::to_string(::getpid()) + ".tmp";
+      const ProgramResult result
+          = run_program({ "gmsh", "-3", std::filesystem::absolute(geo).string(), "-format", "msh22",
+                          "-o", temporary });
+      const bool no_error = (result.output.find("Error ") == std::string::npos);
+      if (result.success && no_error && std::filesystem::exists(temporary))
+        return std::filesystem::rename(temporary, msh);
+      std::error_code ignored;
+      std::filesystem::remove(temporary, ignored);
+      throw UserError(geo.string() + ": gmsh could not mesh it:" + telling_lines(result.output)
+                      + "\nTry it with: gmsh -3 " + geo.string());
+    }
+  } // namespace
+
+  MshFile
+  generate_box(const std::array<double, 3> &size, const Triple &n_cells)
+  {
+    check_box(size, n_cells);
+    MshFile           box;
+    const BoxNodes    nodes(n_cells);
+    const std::size_t x = n_cells[0], y = n_cells[1], z = n_cells[2];
+    box.elements.reserve(6 * x * y * z + 4 * (x * y + y * z + z * x));
+    BoxNodes::for_each({ { n_cells[0] + 1, n_cells[1] + 1, n_cells[2] + 1 } },
+                       [&](const Triple &at)
+                       {
+                         dealii::Point<3> point;
+                         point[0] = size[0] * at[0] / n_cells[0];
+                         for (unsigned int d = 1; d < 3; ++d) // exactly symmetric about 0
+                           point[d] = size[d] * (2. * at[d] - n_cells[d]) / (2. * n_cells[d]);
+                         box.nodes.push_back(point);
+                         box.node_numbers.push_back(box.nodes.size());
+                       });
+    add_boundary(box, nodes, n_cells);
+    BoxNodes::for_each(n_cells, [&](const Triple &lowest) { add_brick(box, nodes, lowest); });
+
+    for (const auto &[tag, name] :
+         { std::pair(1, "x-"), { 2, "x+" }, { 3, "y-" }, { 4, "y+" }, { 5, "z-" }, { 6, "z+" } })
+      box.physical_names[std::pair(2, tag)] = name;
+    box.physical_names[std::pair(3, 1)] = "box";
+    return box;
+  }
+
+  std::filesystem::path
+  mesh_geo_file(const std::filesystem::path &geo)
+  {
+    const std::string           text = read_text(geo); // first: a missing file needs no gmsh
+    const std::string           key  = sha256_of_text(text + "\n" + gmsh_version(geo));
+    const std::filesystem::path msh  = cache_directory() / (key + ".msh");
+    // what a file includes or merges is not in the key, so such meshes are made anew
+    static const std::regex others("Include|Merge");
+    if (!std::filesystem::exists(msh) || std::regex_search(text, others))
+    {
+      std::error_code error;
+      std::filesystem::create_directories(msh.parent_path(), error);
+      if (error)
+        throw UserError(msh.parent_path().string() + ": cannot be made (" + error.message()
+                        + "), but is where meshes made by gmsh are kept. Set XDG_CACHE_HOME to a "
+                          "directory that can be written.");
+      run_gmsh(geo, msh);
+    }
+    return msh;
+  }
+} // namespace Exemplar

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
+#include <exemplar/mesh/mesh.h>
+#include <exemplar/mesh/mesh_checks.h>
+
+namespace Exemplar
+{
+  namespace
+  {
+    const char *const pose_remedy
+        = " A pose must be a final.msh that exemplar wrote for this same mesh.";
+
+    void
+    compare_node_numbers(const MshFile &mesh, const MshFile &pose, const std::string &prefix)
+    {
+      if (pose.nodes.size() != mesh.nodes.size())
+        throw UserError(prefix + "has " + std::to_string(pose.nodes.size())
+                        + " nodes, the mesh has " + std::to_string(mesh.nodes.size()) + "."
+                        + pose_remedy);
+      for (std::size_t i = 0; i < mesh.nodes.size(); ++i)
+        if (pose.node_numbers[i] != mesh.node_numbers[i])
+          throw UserError(prefix + "the node at position " + std::to_string(i + 1)
+                          + " has the number " + std::to_string(pose.node_numbers[i])
+                          + ", in the mesh " + std::to_string(mesh.node_numbers[i]) + "."
+                          + pose_remedy);
+    }
+
+    std::vector<const MshElement *>
+    tetrahedra_of(const MshFile &msh)
+    {
+      std::vector<const MshElement *> tetrahedra;
+      for (const MshElement &element : msh.elements)
+        if (element.type == MshElementType::tetrahedron)
+          tetrahedra.push_back(&element);
+      return tetrahedra;
+    }
+
+    std::string
+    node_list(const MshFile &msh, const MshElement &element)
+    {
+      std::vector<std::size_t> numbers;
+      for (const std::size_t node : element.nodes)
+        numbers.push_back(msh.node_numbers[node]);
+      return list_numbers(numbers);
+    }
+
+    void
+    compare_tetrahedra(const MshFile &mesh, const MshFile &pose, const std::string &prefix)
+    {
+      const auto expected = tetrahedra_of(mesh);
+      const auto found    = tetrahedra_of(pose);
+      if (found.size() != expected.size())
+        throw UserError(prefix + "has " + std::to_string(found.size())
+                        + " tetrahedra, the mesh has " + std::to_string(expected.size()) + "."
+                        + pose_remedy);
+      for (std::size_t i = 0; i < expected.size(); ++i)
+        if (found[i]->nodes != expected[i]->nodes)
+          throw UserError(prefix + "tetrahedron " + std::to_string(i + 1) + " (element "
+                          + std::to_string(found[i]->number) + ") has the nodes "
+                          + node_list(pose, *found[i]) + ", in the mesh (element "
+                          + std::to_string(expected[i]->number) + ") "
+                          + node_list(mesh, *expected[i]) + "." + pose_remedy);
+    }
+  } // namespace
+
+  std::vector<dealii::Point<3>>
+  Mesh::read_pose(const std::filesystem::path &file) const
+  {
+    MshFile           pose   = read_msh(file);
+    const std::string prefix = file.string() + " is no pose of " + name + ": ";
+    compare_node_numbers(contents, pose, prefix);
+    compare_tetrahedra(contents, pose, prefix);
+    for (auto &node : pose.nodes)
+      node *= scale;
+    return std::move(pose.nodes);
+  }
+
+  void
+  Mesh::write_pose(const std::vector<dealii::Point<3>> &positions,
+                   const std::filesystem::path         &file) const
+  {
+    AssertDimension(positions.size(), contents.nodes.size());
+    MshFile pose = contents;
+    for (std::size_t i = 0; i < positions.size(); ++i)
+      pose.nodes[i] = positions[i] / scale;
+    write_msh(pose, file);
+  }
+} // namespace Exemplar

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/atomic_file.h>
+#include <exemplar/mesh/msh_file.h>
+
+#include <array>
+#include <charconv>
+
+namespace Exemplar
+{
+  namespace
+  {
+    /// Lines of numbers, formatted without the locale and fast: a pose of a million
+    /// cells has 9 million of them.
+    class LineWriter
+    {
+    public:
+      explicit LineWriter(std::ostream &stream) : out(stream) {}
+
+      template <typename Integer>
+      void
+      integer(const Integer value)
+      {
+        begin_number();
+        end = std::to_chars(end, buffer.data() + buffer.size(), value).ptr;
+      }
+
+      /// 17 significant digits give every double back.
+      void
+      real(const double value)
+      {
+        begin_number();
+        char *const limit = buffer.data() + buffer.size();
+        end               = std::to_chars(end, limit, value, std::chars_format::general, 17).ptr;
+      }
+
+      void
+      end_line()
+      {
+        *end++        = '\n';
+        at_line_start = true;
+      }
+
+      void
+      flush()
+      {
+        out.write(buffer.data(), end - buffer.data());
+        end = buffer.data();
+      }
+
+    private:
+      void
+      begin_number()
+      {
+        // No number has more than 24 characters.
+        if (buffer.data() + buffer.size() - end < 32)
+          flush();
+        if (!at_line_start)
+          *end++ = ' ';
+        at_line_start = false;
+      }
+
+      std::ostream          &out;
+      std::array<char, 4096> buffer;
+      char                  *end           = buffer.data();
+      bool                   at_line_start = true;
+    };
+
+    void
+    write_physical_names(const MshFile &msh, std::ostream &out)
+    {
+      if (msh.physical_names.empty())
+        return;
+      out << "$PhysicalNames\n" << std::to_string(msh.physical_names.size()) << '\n';
+      for (const auto &[key, name] : msh.physical_names)
+        out << std::to_string(key.first) << ' ' << std::to_string(key.second) << " \"" << name
+            << "\"\n";
+      out << "$EndPhysicalNames\n";
+    }
+
+    void
+    write_nodes(const MshFile &msh, std::ostream &out)
+    {
+      out << "$Nodes\n" << std::to_string(msh.nodes.size()) << '\n';
+      LineWriter line(out);
+      for (std::size_t i = 0; i < msh.nodes.size(); ++i)
+      {
+        line.integer(msh.node_numbers[i]);
+        for (unsigned int d = 0; d < 3; ++d)
+          line.real(msh.nodes[i][d]);
+        line.end_line();
+      }
+      line.flush();
+      out << "$EndNodes\n";
+    }
+
+    void
+    write_elements(const MshFile &msh, std::ostream &out)
+    {
+      out << "$Elements\n" << std::to_string(msh.elements.size()) << '\n';
+      LineWriter line(out);
+      for (const MshElement &element : msh.elements)
+      {
+        line.integer(element.number);
+        line.integer(element.type);
+        line.integer(2); // tags
+        line.integer(element.physical);
+        line.integer(element.elementary);
+        for (const std::size_t node : element.nodes)
+          line.integer(msh.node_numbers[node]);
+        line.end_line();
+      }
+      line.flush();
+      out << "$EndElements\n";
+    }
+  } // namespace
+
+  void
+  write_msh(const MshFile &msh, const std::filesystem::path &file)
+  {
+    AtomicFile    atomic_file(file);
+    std::ostream &out = atomic_file.stream();
+    out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
+    write_physical_names(msh, out);
+    write_nodes(msh, out);
+    write_elements(msh, out);
+    atomic_file.commit();
+  }
+} // namespace Exemplar

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
+#include <exemplar/mesh/selection.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <set>
+#include <sstream>
+#include <unordered_map>
+
+namespace Exemplar
+{
+  namespace
+  {
+    const std::string forms = "box x0 y0 z0 x1 y1 z1 | sphere x y z r | boundary ID | region ID | "
+                              "nodes FILE";
+
+    struct Words
+    {
+      std::string kind;
+      std::string rest;
+    };
+
+    Words
+    split(const std::string &text)
+    {
+      std::istringstream in(text);
+      Words              words;
+      in >> words.kind >> std::ws;
+      std::getline(in, words.rest);
+      return words;
+    }
+
+    std::vector<double>
+    numbers(const Words &words, const unsigned int n, const std::string &key)
+    {
+      std::istringstream  in(words.rest);
+      std::vector<double> values;
+      for (double value; in >> value;)
+        values.push_back(value);
+      if (!in.eof() || values.size() != n)
+        throw UserError(key + "/Select = '" + words.kind + " " + words.rest + "': '" + words.kind
+                        + "' takes " + std::to_string(n) + " numbers. Allowed: " + forms + ".");
+      return values;
+    }
+
+    unsigned int
+    id_number(const Words &words, const std::string &key)
+    {
+      const double value = numbers(words, 1, key)[0];
+      if (value < 0 || value > std::numeric_limits<unsigned int>::max()
+          || value != std::floor(value))
+        throw UserError(key + "/Select = '" + words.kind + " " + words.rest
+                        + "': an id is a whole number from 0 on.");
+      return static_cast<unsigned int>(value);
+    }
+
+    std::string
+    list(const std::set<unsigned int> &ids)
+    {
+      std::string text;
+      for (const unsigned int id : ids)
+        text += (text.empty() ? "" : ", ") + std::to_string(id);
+      return text;
+    }
+
+    template <typename Predicate>
+    std::vector<unsigned int>
+    nodes_where(const Mesh &mesh, const Predicate &selected)
+    {
+      std::vector<unsigned int> nodes;
+      for (unsigned int node = 0; node < mesh.n_nodes(); ++node)
+        if (selected(mesh.get_nodes()[node]))
+          nodes.push_back(node);
+      return nodes;
+    }
+
+    std::vector<unsigned int>
+    nodes_in_box(const Mesh &mesh, const std::vector<double> &box)
+    {
+      return nodes_where(mesh,
+                         [&](const dealii::Point<3> &x)
+                         {
+                           bool inside = true;
+                           for (unsigned int d = 0; d < 3; ++d)
+                             inside = inside && x[d] >= std::min(box[d], box[d + 3])
+                                      && x[d] <= std::max(box[d], box[d + 3]);
+                           return inside;
+                         });
+    }
+
+    std::vector<unsigned int>
+    nodes_in_sphere(const Mesh &mesh, const std::vector<double> &sphere)
+    {
+      const dealii::Point<3> center(sphere[0], sphere[1], sphere[2]);
+      return nodes_where(mesh, [&](const dealii::Point<3> &x)
+                         { return x.distance(center) <= sphere[3]; });
+    }
+
+    std::vector<unsigned int>
+    nodes_of_region(const Mesh &mesh, const unsigned int id, const std::string &key)
+    {
+      const auto            &ids = mesh.get_material_ids();
+      std::set<unsigned int> nodes;
+      for (unsigned int cell = 0; cell < mesh.n_cells(); ++cell)
+        if (ids[cell] == id)
+          nodes.insert(mesh.get_cells()[cell].begin(), mesh.get_cells()[cell].end());
+      if (nodes.empty())
+        throw UserError(key + ": region " + std::to_string(id) + " has no cells in "
+                        + mesh.get_name()
+                        + " (present: " + list(std::set<unsigned int>(ids.begin(), ids.end()))
+                        + "). Give a Physical Volume that tag, or change " + key + "/Select.");
+      return { nodes.begin(), nodes.end() };
+    }
+
+    std::vector<unsigned int>
+    nodes_in_file(const Mesh &mesh, const std::string &file, const std::string &key)
+    {
+      std::ifstream in(file);
+      if (!in || std::filesystem::is_directory(file))
+        throw UserError(key + "/Select: the file of nodes " + file
+                        + " cannot be read. It lists node numbers of the mesh file, one a line.");
+      std::unordered_map<std::size_t, unsigned int> index;
+      const auto                                   &node_numbers = mesh.get_contents().node_numbers;
+      for (unsigned int node = 0; node < mesh.n_nodes(); ++node)
+        index[node_numbers[node]] = node;
+      std::set<unsigned int> nodes;
+      for (std::string word; in >> word;)
+      {
+        std::size_t        number = 0;
+        std::istringstream digits(word);
+        if (!(digits >> number) || !digits.eof() || index.count(number) == 0)
+          throw UserError(key + "/Select: '" + word + "' in " + file + " is no node number of "
+                          + mesh.get_name() + ". List node numbers of the mesh file, one a line.");
+        nodes.insert(index.at(number));
+      }
+      if (nodes.empty())
+        throw UserError(key + "/Select: " + file
+                        + " holds no node number. List node numbers of the "
+                          "mesh file, one a line.");
+      return { nodes.begin(), nodes.end() };
+    }
+
+    [[noreturn]] void
+    fail_empty(const Mesh &mesh, const std::string &key, const std::string &text)
+    {
+      dealii::Point<3> low = mesh.get_nodes()[0], high = low;
+      for (const dealii::Point<3> &x : mesh.get_nodes())
+        for (unsigned int d = 0; d < 3; ++d)
+        {
+          low[d]  = std::min(low[d], x[d]);
+          high[d] = std::max(high[d], x[d]);
+        }
+      std::ostringstream message;
+      message << key << "/Select = '" << text << "' selects no node. The mesh " << mesh.get_name()
+              << " lies in the box " << low << "  " << high << "; enlarge or move the selection.";
+      throw UserError(message.str());
+    }
+  } // namespace
+
+  void
+  Selection::declare(dealii::ParameterHandler &prm, const std::string &what)
+  {
+    prm.add_parameter("Select", text,
+                      what + ": " + forms
+                          + ". Boxes (inclusive) and spheres select by rest position [m]; a FILE "
+                            "lists node numbers of the mesh file.");
+  }
+
+  std::string
+  Selection::absolute(const std::string &text, const std::filesystem::path &directory)
+  {
+    const Words words = split(text);
+    if (words.kind != "nodes")
+      return text;
+    return "nodes " + std::filesystem::absolute(directory / words.rest).lexically_normal().string();
+  }
+
+  bool
+  Selection::is_boundary() const
+  {
+    return split(text).kind == "boundary";
+  }
+
+  std::vector<BoundaryFace>
+  Selection::faces(const Mesh &mesh, const std::string &key) const
+  {
+    const unsigned int        id = id_number(split(text), key);
+    std::vector<BoundaryFace> selected;
+    std::set<unsigned int>    present;
+    for (const BoundaryFace &face : mesh.get_boundary_faces())
+    {
+      present.insert(face.boundary_id);
+      if (face.boundary_id == id)
+        selected.push_back(face);
+    }
+    if (selected.empty())
+      throw UserError(key + ": boundary id " + std::to_string(id) + " has no faces in "
+                      + mesh.get_name() + " (present: " + list(present)
+                      + "). Give a Physical Surface the tag " + std::to_string(id) + ", or change "
+                      + key + "/Select.");
+    return selected;
+  }
+
+  std::vector<unsigned int>
+  Selection::nodes(const Mesh &mesh, const std::string &key) const
+  {
+    const Words               words = split(text);
+    std::vector<unsigned int> nodes;
+    if (words.kind == "box")
+      nodes = nodes_in_box(mesh, numbers(words, 6, key));
+    else if (words.kind == "sphere")
+      nodes = nodes_in_sphere(mesh, numbers(words, 4, key));
+    else if (words.kind == "region")
+      nodes = nodes_of_region(mesh, id_number(words, key), key);
+    else if (words.kind == "nodes")
+      nodes = nodes_in_file(mesh, words.rest, key);
+    else if (words.kind == "boundary")
+    {
+      std::set<unsigned int> on_faces;
+      for (const BoundaryFace &face : faces(mesh, key))
+        on_faces.insert(face.nodes.begin(), face.nodes.end());
+      nodes.assign(on_faces.begin(), on_faces.end());
+    }
+    else if (words.kind.empty())
+      throw UserError(key + "/Select is not set. Allowed: " + forms + ".");
+    else
+      throw UserError(key + "/Select = '" + text + "' is not understood. Allowed: " + forms + ".");
+
+    if (nodes.empty())
+      fail_empty(mesh, key, text);
+    return nodes;
+  }
+} // namespace Exemplar

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/prm/prm_tools.h>
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+// Scene files as text: what is assigned where.
+
+namespace Exemplar
+{
+  namespace
+  {
+    /// Runs of blanks within a name count as one.
+    std::string
+    single_blanks(const std::string &text)
+    {
+      std::istringstream words(text);
+      std::string        result, word;
+      while (words >> word)
+        result += (result.empty() ? "" : " ") + word;
+      return result;
+    }
+
+    bool
+    starts_with_word(const std::string &line, const std::string &word)
+    {
+      return line.compare(0, word.size(), word) == 0
+             && (line.size() == word.size()
+                 || std::isspace(static_cast<unsigned char>(line[word.size()])));
+    }
+
+    /// Reads the text of a .prm line by line and keeps track of the subsection it is in.
+    class AssignmentReader
+    {
+    public:
+      explicit AssignmentReader(const std::string &file) : file(file) {}
+
+      std::vector<Assignment>
+      read(const std::string &text)
+      {
+        std::istringstream in(text);
+        for (std::string line; std::getline(in, line);)
+        {
+          ++line_number;
+          line = trim(line.substr(0, line.find('#')));
+          if (!line.empty() && line.back() == '\\')
+            pending += line.substr(0, line.size() - 1) + " ";
+          else
+          {
+            const std::string whole = trim(pending + line);
+            pending.clear();
+            if (!whole.empty())
+              read_line(whole);
+          }
+        }
+        if (!pending.empty())
+          fail("the file ends in a backslash, which joins a line to the next. Remove it.");
+        if (!subsections.empty())
+          fail("the file ends within subsection '" + subsections.back()
+               + "'. Close it with a line 'end'.");
+        return std::move(assignments);
+      }
+
+    private:
+      [[noreturn]] void
+      fail(const std::string &what) const
+      {
+        throw UserError(place() + ": " + what);
+      }
+
+      std::string
+      place() const
+      {
+        return file + ":" + std::to_string(line_number);
+      }
+
+      void
+      read_line(const std::string &line)
+      {
+        if (starts_with_word(line, "subsection"))
+          subsections.push_back(single_blanks(line.substr(10)));
+        else if (line == "end")
+        {
+          if (subsections.empty())
+            fail("'end' without an open subsection. Remove the line.");
+          subsections.pop_back();
+        }
+        else if (starts_with_word(line, "set"))
+          read_assignment(line.substr(3));
+        else
+          fail("'" + line
+               + "' is not understood. A line is 'set KEY = VALUE', "
+                 "'subsection NAME', 'end' or a comment starting with #.");
+      }
+
+      void
+      read_assignment(const std::string &text)
+      {
+        const auto equals = text.find('=');
+        if (equals == std::string::npos)
+          fail("'set" + text + "' has no '='. Write 'set KEY = VALUE'.");
+        Assignment assignment{ subsections, single_blanks(text.substr(0, equals)),
+                               trim(text.substr(equals + 1)), place() };
+        const auto [first, is_new] = places.emplace(assignment.path(), place());
+        if (!is_new)
+          fail(assignment.path() + " is set twice; first at " + first->second
+               + ". Keep one of the two lines.");
+        assignments.push_back(std::move(assignment));
+      }
+
+      const std::string                  file;
+      unsigned int                       line_number = 0;
+      std::string                        pending; ///< lines that ended in a backslash
+      std::vector<std::string>           subsections;
+      std::vector<Assignment>            assignments;
+      std::map<std::string, std::string> places;
+    };
+  } // namespace
+
+  std::string
+  trim(const std::string &text)
+  {
+    const auto first = text.find_first_not_of(" \t\r\n");
+    if (first == std::string::npos)
+      return "";
+    return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
+  }
+
+  std::string
+  Assignment::path() const
+  {
+    std::string path;
+    for (const std::string &subsection : subsections)
+      path += subsection + "/";
+    return path + key;
+  }
+
+  std::vector<std::string>
+  split_trimmed(const std::string &text, const char separator)
+  {
+    std::vector<std::string> parts;
+    if (trim(text).empty())
+      return parts;
+    std::istringstream in(text);
+    for (std::string part; std::getline(in, part, separator);)
+      parts.push_back(trim(part));
+    if (text.back() == separator)
+      parts.emplace_back();
+    return parts;
+  }
+
+  std::string
+  read_prm(const std::filesystem::path &file)
+  {
+    std::ifstream in(file, std::ios::binary);
+    if (!in || std::filesystem::is_directory(file))
+      throw UserError(file.string() + ": cannot be read. Give the name of an existing .prm file.");
+    std::ostringstream bytes;
+    bytes << in.rdbuf();
+    return bytes.str();
+  }
+
+  std::vector<Assignment>
+  read_assignments(const std::string &prm_text, const std::string &file)
+  {
+    return AssignmentReader(file).read(prm_text);
+  }
+
+  Assignment
+  parse_assignment(const std::string &text, const std::string &place)
+  {
+    const std::string remedy = " Write 'Section/Key=value'.";
+    const auto        equals = text.find('=');
+    if (equals == std::string::npos)
+      throw UserError(place + " '" + text + "' has no '='." + remedy);
+    std::vector<std::string> path = split_trimmed(text.substr(0, equals), '/');
+    if (path.empty() || path.back().empty())
+      throw UserError(place + " '" + text + "' names no key." + remedy);
+    const std::string key = path.back();
+    path.pop_back();
+    return { path, key, trim(text.substr(equals + 1)), place };
+  }
+
+  Assignment
+  parse_override(const std::string &text)
+  {
+    return parse_assignment(text, "--set");
+  }
+
+  const Assignment *
+  find_assignment(const std::vector<Assignment> &assignments, const std::string &path)
+  {
+    const auto last = std::find_if(assignments.rbegin(), assignments.rend(),
+                                   [&](const auto &a) { return a.path() == path; });
+    return last == assignments.rend() ? nullptr : &*last;
+  }
+} // namespace Exemplar

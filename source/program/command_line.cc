@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/environment.h>
+#include <exemplar/base/errors.h>
+#include <exemplar/base/version.h>
+#include <exemplar/program/command_line.h>
+#include <exemplar/run/drivers.h>
+#include <exemplar/study/study.h>
+#include <exemplar/study/study_file.h>
+#include <exemplar/verification/verification.h>
+
+#include <CLI/CLI.hpp>
+
+namespace Exemplar
+{
+  namespace
+  {
+    /// What the command line can say.
+    struct Arguments
+    {
+      RunOptions   run;
+      std::string  output;
+      bool         validate = false, print = false;
+      unsigned int threads = n_threads();
+
+      StudyOptions study;
+      bool         print_study = false;
+
+      std::vector<std::string> cases;
+      bool                     list_cases = false;
+    };
+
+    void
+    declare_scene(CLI::App &app, Arguments &arguments)
+    {
+      app.add_option("SCENE", arguments.run.scene_file, "scene file (.prm)");
+      app.add_option("--set", arguments.run.overrides,
+                     "'Section/Key=value' instead of the scene's; repeatable")
+          ->allow_extra_args(false);
+      app.add_option("--output", arguments.output,
+                     "directory of the results instead of Output/Directory");
+      app.add_flag("--resume", arguments.run.resume,
+                   "go on from the checkpoint in the output directory");
+      app.add_option("--threads", arguments.threads,
+                     "threads instead of one a core; results do not depend on it")
+          ->check(CLI::Range(1, 1024));
+      app.add_flag("--quiet", arguments.run.quiet, "print warnings and errors only");
+      app.add_flag("--verbose", arguments.run.verbose, "print a line an iteration");
+      app.add_flag("--validate", arguments.validate,
+                   "check the scene or study and its files, compute nothing");
+      app.add_flag("--print-parameters", arguments.print,
+                   "every parameter, its default, range and meaning");
+    }
+
+    /// A command with options of its own, and none of those of scenes.
+    CLI::App &
+    add_command(CLI::App &app, const std::string &name, const std::string &description)
+    {
+      CLI::App *command = app.add_subcommand(name, description);
+      for (CLI::Option *of_scenes : app.get_options())
+        command->excludes(of_scenes);
+      return *command;
+    }
+
+    CLI::App &
+    declare_study(CLI::App &app, Arguments &arguments)
+    {
+      CLI::App &command
+          = add_command(app, "study", "run a scene with many settings: error against run time");
+      command.add_option("STUDY", arguments.study.file, "study file (.prm)");
+      command.add_option("--output", arguments.study.output, "directory of the results");
+      command.add_flag("--quiet", arguments.study.quiet, "print warnings and errors only");
+      command.add_flag("--print-parameters", arguments.print_study,
+                       "every key of a study file, its default, range and meaning");
+      return command;
+    }
+
+    CLI::App &
+    declare_verify(CLI::App &app, Arguments &arguments)
+    {
+      CLI::App &command = add_command(
+          app, "verify", "compute the reference cases and compare: pass or fail, a line a number");
+      command.add_option("NAME", arguments.cases, "cases to compute instead of all");
+      command.add_flag("--list", arguments.list_cases,
+                       "names, contents and sources of the cases; computes nothing");
+      return command;
+    }
+
+    int
+    do_verify(const Arguments &arguments)
+    {
+      if (!arguments.list_cases)
+        return verify(arguments.cases);
+      list_verification_cases();
+      return 0;
+    }
+
+    void
+    do_study(const Arguments &arguments)
+    {
+      if (arguments.print_study)
+        print_study_parameters();
+      else
+        run_study(arguments.study);
+    }
+
+    void
+    do_scene(const Arguments &arguments)
+    {
+      const auto &file = arguments.run.scene_file;
+      if (arguments.print)
+        print_parameters();
+      else if (is_study(file))
+      {
+        if (!arguments.validate)
+          throw UserError(file.string() + " is a study. Run it by: exemplar study "
+                          + file.string());
+        validate_study(file);
+      }
+      else if (arguments.validate)
+        validate_scene(arguments.run);
+      else
+        run_scene(arguments.run);
+    }
+  } // namespace
+
+  int
+  run_command_line(const int argc, char *argv[])
+  {
+    Arguments arguments;
+    CLI::App  app("exemplar: elastic solids that deform the way their examples say");
+    app.set_version_flag("--version", "exemplar " EXEMPLAR_VERSION " (" EXEMPLAR_GIT_REVISION ")");
+    declare_scene(app, arguments);
+    const CLI::App &study_command  = declare_study(app, arguments);
+    const CLI::App &verify_command = declare_verify(app, arguments);
+    try
+    {
+      app.parse(argc, argv);
+      const bool is_scene = !study_command && !verify_command;
+      if (is_scene && !arguments.print && arguments.run.scene_file.empty())
+        throw CLI::RequiredError("SCENE");
+      if (study_command && !arguments.print_study && arguments.study.file.empty())
+        throw CLI::RequiredError("STUDY");
+    }
+    catch (const CLI::Success &request) // --help or --version
+    {
+      return app.exit(request);
+    }
+    catch (const CLI::ParseError &error)
+    {
+      throw UserError(std::string(error.what()) + ". exemplar --help lists what is allowed.");
+    }
+    set_n_threads(arguments.threads);
+    if (!arguments.output.empty())
+      arguments.run.overrides.push_back("Output/Directory=" + arguments.output);
+
+    if (verify_command)
+      return do_verify(arguments);
+    if (study_command)
+      do_study(arguments);
+    else
+      do_scene(arguments);
+    return 0;
+  }
+} // namespace Exemplar

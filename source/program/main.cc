@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/environment.h>
+#include <exemplar/base/errors.h>
+#include <exemplar/program/command_line.h>
+
+#include <deal.II/base/exceptions.h>
+#include <deal.II/base/multithread_info.h>
+
+#include <csignal>
+#include <iostream>
+
+int
+main(int argc, char *argv[])
+{
+  Exemplar::restart_with_right_core_type(argv);
+  Exemplar::use_one_blas_thread();
+  dealii::MultithreadInfo::set_thread_limit(1);
+  std::signal(SIGXFSZ, SIG_IGN); // a write beyond ulimit -f then fails like any other
+  dealii::deal_II_exceptions::disable_abort_on_exception();
+  const auto report = [](const std::string &message, const int status)
+  {
+    std::cerr << "exemplar: " << message << std::endl;
+    return status;
+  };
+  try
+  {
+    return Exemplar::run_command_line(argc, argv);
+  }
+  catch (const Exemplar::UserError &error)
+  {
+    return report(error.what(), 1);
+  }
+  catch (const Exemplar::Interrupted &interruption)
+  {
+    return report(interruption.what(), 130);
+  }
+  catch (const std::exception &error)
+  {
+    return report(error.what(), 2);
+  }
+}

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/atomic_file.h>
+#include <exemplar/base/errors.h>
+#include <exemplar/run/checkpoint.h>
+
+#include <boost/archive/binary_iarchive.hpp>
+#include <boost/archive/binary_oarchive.hpp>
+#include <boost/serialization/array.hpp>
+#include <boost/serialization/deque.hpp>
+#include <boost/serialization/map.hpp>
+#include <boost/serialization/string.hpp>
+#include <boost/serialization/vector.hpp>
+
+#include <fstream>
+#include <new>
+#include <stdexcept>
+
+namespace Exemplar
+{
+  namespace
+  {
+    const std::string format = "exemplar checkpoint 3";
+
+    template <typename Archive>
+    void
+    transfer(Archive &archive, Checkpoint &checkpoint)
+    {
+      State     &state  = checkpoint.state;
+      Work      &work   = checkpoint.work;
+      RunTotals &totals = checkpoint.totals;
+      archive &checkpoint.parameters &checkpoint.input_digests;
+      archive &state.step &state.time &state.positions &state.velocities &state
+          .previous_positions &state.previous_velocities &state.previous_step &state
+          .linearized_positions &state.linearized_weights &state.weights &state.multipliers;
+      archive &work.handles &work.gravity &work.loads;
+      archive &totals.iterations &totals.factorizations &totals.worst_residual;
+      for (double &seconds : totals.seconds)
+        archive &seconds;
+      archive &checkpoint.memory &checkpoint.statistics_bytes;
+    }
+  } // namespace
+
+  void
+  save_checkpoint(const Checkpoint &checkpoint, const std::filesystem::path &file)
+  {
+    AtomicFile atomic_file(file);
+    {
+      boost::archive::binary_oarchive archive(atomic_file.stream());
+      archive                        &format;
+      transfer(archive, const_cast<Checkpoint &>(checkpoint)); // saving does not change it
+    }
+    atomic_file.commit();
+  }
+
+  Checkpoint
+  load_checkpoint(const std::filesystem::path &file)
+  {
+    std::ifstream in(file, std::ios::binary);
+    if (!in)
+      throw UserError(file.string()
+                      + ": there is no checkpoint to resume from. Run the scene "
+                        "without --resume.");
+    const std::string broken
+        = file.string() + " cannot be read as a checkpoint. Run the scene without --resume.";
+    try
+    {
+      boost::archive::binary_iarchive archive(in);
+      std::string                     found;
+      archive                        &found;
+      if (found != format)
+        throw UserError(file.string()
+                        + " is no checkpoint of this version of exemplar. Run the "
+                          "scene without --resume.");
+      Checkpoint checkpoint;
+      transfer(archive, checkpoint);
+      return checkpoint;
+    }
+    catch (const boost::archive::archive_exception &)
+    {
+      throw UserError(broken);
+    }
+    catch (const std::length_error &) // wrong bytes, taken for the size of a vector
+    {
+      throw UserError(broken);
+    }
+    catch (const std::bad_alloc &) // the same
+    {
+      throw UserError(broken);
+    }
+  }
+} // namespace Exemplar

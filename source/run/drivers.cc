@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/environment.h>
+#include <exemplar/base/errors.h>
+#include <exemplar/base/interrupt.h>
+#include <exemplar/base/progress.h>
+#include <exemplar/run/drivers.h>
+#include <exemplar/run/problem.h>
+#include <exemplar/run/results.h>
+
+#include <iomanip>
+#include <iostream>
+#include <memory>
+#include <numeric>
+#include <sstream>
+
+namespace Exemplar
+{
+  namespace
+  {
+    void
+    warn(const std::string &warning)
+    {
+      std::cerr << "Warning: " << warning << std::endl;
+    }
+
+    /// Whatever fails while the parts are built, the input is to blame: nothing has
+    /// been solved yet.
+    std::unique_ptr<Problem>
+    make_problem(const Parameters &parameters)
+    {
+      try
+      {
+        auto problem = std::make_unique<Problem>(parameters);
+        for (const std::string &warning : problem->warnings())
+          warn(warning);
+        return problem;
+      }
+      catch (const SolverFailure &failure)
+      {
+        throw UserError(failure.what());
+      }
+    }
+
+    void
+    print_header(const Problem &problem)
+    {
+      const BlasInfo blas = blas_info();
+      std::cout << "Scene     " << problem.parameters.scene_file.string() << '\n'
+                << "Mesh      " << problem.mesh.get_name() << ": " << problem.mesh.n_cells()
+                << " cells, " << problem.mesh.n_nodes() << " nodes, " << problem.free_dofs.size()
+                << " of " << problem.fe_space.n_dofs() << " dofs free\n"
+                << "Examples  ";
+      if (problem.examples != nullptr)
+        std::cout << problem.examples->size() << ", importance " << problem.examples->importance()
+                  << '\n';
+      else
+        std::cout << "none\n";
+      std::cout << "Solver    " << method_name(problem.parameters.solver.method) << ", "
+                << problem.linear_solver->name() << ", " << problem.time_axis.n_steps()
+                << " steps; " << n_threads() << (n_threads() == 1 ? " thread" : " threads")
+                << "; BLAS " << blas.library << ' ' << blas.core << '\n';
+      std::cout << "Output    " << problem.parameters.output.directory << std::endl;
+    }
+
+    void
+    print_times(const RunTotals &totals)
+    {
+      const PartSeconds &seconds = totals.seconds;
+      const double       total   = std::accumulate(seconds.begin(), seconds.end(), 0.);
+      std::cout << "\nWhere the time went\n" << std::fixed;
+      for (unsigned int part = 0; part < n_parts; ++part)
+        std::cout << "  " << std::left << std::setw(12) << part_names[part] << std::right
+                  << std::setw(9) << std::setprecision(3) << seconds[part] << " s " << std::setw(5)
+                  << std::setprecision(1) << 100. * seconds[part] / total << " %\n";
+      std::cout << "  " << std::left << std::setw(12) << "total" << std::right << std::setw(9)
+                << std::setprecision(3) << total << " s\n"
+                << totals.iterations << " iterations, " << totals.factorizations
+                << " factorisations" << std::endl;
+    }
+
+    std::string
+    note(const SolveReport &report)
+    {
+      std::ostringstream text;
+      text << report.iterations << (report.iterations == 1 ? " iteration" : " iterations")
+           << ", residual " << std::setprecision(2) << report.residual;
+      return text.str();
+    }
+
+    /// A line for what an iteration has come to.
+    void
+    print_iteration(const Problem &problem, const SolveReport &report)
+    {
+      std::ostringstream line;
+      line << "step " << problem.state.step + 1 << ", iteration " << report.iterations
+           << std::scientific << std::setprecision(2) << ": residual " << report.residual;
+      if (!problem.state.multipliers.empty())
+        line << ", weights' " << report.kkt_residual;
+      if (report.step_length < 1.)
+        line << ", step halved to " << report.step_length;
+      if (report.convexity > 0.)
+        line << ", tangent convex by " << report.convexity;
+      std::cout << line.str() << std::endl;
+    }
+
+    [[noreturn]] void
+    fail(const Problem &problem, const SolveReport &report)
+    {
+      const std::string step = std::to_string(problem.state.step + 1);
+      if (report.status == SolveStatus::failed || report.status == SolveStatus::indefinite)
+        throw SolverFailure(
+            "Step " + step
+            + (report.status == SolveStatus::failed ? " failed: " : " has no descent: ")
+            + report.failure);
+      std::ostringstream message;
+      const bool         lacks_derivative
+          = problem.parameters.solver.method == Method::fixed_point && problem.examples != nullptr
+            && problem.parameters.model.strain == StrainMeasure::corotational
+            && !problem.parameters.model.is_frozen();
+      message << "Step " << step
+              << (report.status == SolveStatus::stalled ? " stalled"
+                                                        : " stopped at its iteration limit")
+              << ": residual " << report.residual << " after " << report.iterations
+              << " iterations, tolerance " << problem.parameters.solver.tolerance
+              << (lacks_derivative
+                      ? ". The matrix of a fixed point lacks a part of the consistent force's "
+                        "derivative, so it may never converge: set Solver/Method = newton, "
+                        "or Model/Gradient = frozen."
+                      : ". Take smaller steps (Time/Step or Time/Increments), or change "
+                        "Solver/Tolerance or Solver/Maximum iterations.");
+      throw SolverFailure(message.str());
+    }
+
+    void
+    run_steps(Problem &problem, Results &results, Progress &progress)
+    {
+      while (problem.state.step < problem.time_axis.n_steps())
+      {
+        check_interrupt();
+        const SolveReport report = problem.advance();
+        results.add_step(report);
+        if (!is_success(report.status))
+        {
+          results.finish(status_name(report.status));
+          progress.finish();
+          fail(problem, report);
+        }
+        StepClock::Scope scope(problem.clock, Part::output);
+        progress.update(problem.state.step, note(report));
+      }
+    }
+  } // namespace
+
+  void
+  run_scene(const RunOptions &options)
+  {
+    const Parameters parameters(options.scene_file, options.overrides);
+    const auto       problem = make_problem(parameters);
+    Results          results(*problem);
+    try
+    {
+      if (options.resume)
+        results.resume();
+      else
+        results.begin();
+    }
+    catch (const std::filesystem::filesystem_error &error)
+    {
+      throw UserError(std::string("The output directory cannot be used: ") + error.what()
+                      + ". Give another one by --output or Output/Directory.");
+    }
+    note_interrupts();
+    if (const std::string warning = blas_warning(); !warning.empty())
+      warn(warning);
+    if (!options.quiet)
+    {
+      StepClock::Scope scope(problem->clock, Part::output);
+      print_header(*problem);
+    }
+
+    if (options.verbose)
+      problem->equilibrium.observe_iteration
+          = [&problem](const SolveReport &report) { print_iteration(*problem, report); };
+    Progress progress(std::cout, options.quiet || options.verbose, problem->state.step,
+                      problem->time_axis.n_steps());
+    try
+    {
+      run_steps(*problem, results, progress);
+    }
+    catch (const Interrupted &)
+    {
+      progress.finish();
+      results.finish("interrupted");
+      throw Interrupted("Interrupted after step " + std::to_string(problem->state.step)
+                        + ". Go on with --resume.");
+    }
+    progress.finish();
+    results.finish(status_name(parameters.solver.method == Method::one_pass
+                                   ? SolveStatus::one_pass
+                                   : SolveStatus::converged));
+    for (const std::string &warning : problem->warnings_at_end())
+      warn(warning);
+    if (!options.quiet)
+      print_times(results.get_totals());
+  }
+
+  void
+  validate_scene(const RunOptions &options)
+  {
+    const Parameters parameters(options.scene_file, options.overrides);
+    const auto       problem = make_problem(parameters);
+    std::cout << options.scene_file.string() << ": valid; " << problem->mesh.n_cells() << " cells, "
+              << problem->mesh.n_nodes() << " nodes, " << problem->time_axis.n_steps() << " steps"
+              << std::endl;
+  }
+
+  void
+  check_parts(const Parameters &parameters)
+  {
+    make_problem(parameters);
+  }
+
+  void
+  print_parameters()
+  {
+    std::cout << "# All parameters of exemplar with their defaults.\n"
+              << "# Subsections NAME and region N stand for as many as a scene names.\n\n";
+    print_keys(std::cout, Parameters().keys(), true);
+  }
+} // namespace Exemplar

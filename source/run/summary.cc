@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/atomic_file.h>
+#include <exemplar/base/environment.h>
+#include <exemplar/base/version.h>
+#include <exemplar/run/summary.h>
+
+#include <deal.II/base/config.h>
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <numeric>
+
+namespace Exemplar
+{
+  namespace
+  {
+    using Json = nlohmann::ordered_json;
+
+    Json
+    support_nodes(const Problem &problem)
+    {
+      Json numbers = Json::array();
+      for (const unsigned int node : problem.support->nodes)
+        numbers.push_back(problem.mesh.get_contents().node_numbers[node]);
+      return numbers;
+    }
+
+    Json
+    seconds_of(const PartSeconds &seconds)
+    {
+      Json json;
+      json["total"] = std::accumulate(seconds.begin(), seconds.end(), 0.);
+      for (unsigned int part = 0; part < n_parts; ++part)
+        json[part_names[part]] = seconds[part];
+      return json;
+    }
+    Json
+    memory_of(const Problem &problem)
+    {
+      Json json;
+      for (const auto &[part, bytes] : problem.memory_of_parts())
+        json[part] = std::round(static_cast<double>(bytes) / 1048.576) / 1000.;
+      return json;
+    }
+  } // namespace
+
+  void
+  write_summary(Problem                     &problem,
+                const RunTotals             &totals,
+                const std::string           &mesh_sha256,
+                const std::string           &status,
+                const std::filesystem::path &file)
+  {
+    const Parameters &parameters = problem.parameters;
+    const BlasInfo    blas       = blas_info();
+
+    Json json;
+    json["program"]          = "exemplar";
+    json["version"]          = EXEMPLAR_VERSION;
+    json["git"]              = EXEMPLAR_GIT_REVISION;
+    json["deal_ii"]          = DEAL_II_PACKAGE_VERSION;
+    json["blas"]             = blas.library;
+    json["blas_core"]        = blas.core;
+    json["blas_threads"]     = blas.threads;
+    json["threads"]          = n_threads();
+    json["scene"]            = parameters.scene_file.string();
+    json["mesh"]             = problem.mesh.get_name();
+    json["mesh_sha256"]      = mesh_sha256;
+    json["cells"]            = problem.mesh.n_cells();
+    json["nodes"]            = problem.mesh.n_nodes();
+    json["dofs"]             = problem.fe_space.n_dofs();
+    json["constrained_dofs"] = problem.fe_space.n_dofs() - problem.free_dofs.size();
+    if (problem.support)
+      json["support_nodes"] = support_nodes(problem);
+    json["linear_solver"]           = problem.linear_solver->name();
+    json["examples"]                = problem.examples != nullptr ? problem.examples->size() : 0;
+    json["steps"]                   = problem.state.step;
+    json["iterations"]              = totals.iterations;
+    json["factorizations"]          = totals.factorizations;
+    json["status"]                  = status;
+    json["worst_residual"]          = totals.worst_residual;
+    const Conditioning conditioning = problem.equilibrium.conditioning();
+    if (conditioning.matrix > 0.)
+      json["condition_matrix"] = conditioning.matrix; // null: not definite
+    if (conditioning.schur > 0.)
+      json["condition_schur"] = conditioning.schur;
+    json["seconds"]         = seconds_of(totals.seconds);
+    json["peak_memory_mib"] = peak_memory_mib();
+    json["bytes_per_cell"]  = std::round(1048576. * peak_memory_mib() / problem.mesh.n_cells());
+    json["memory_mib"]      = memory_of(problem);
+    json["used"]            = problem.parts(true);
+    json["left_out"]        = problem.parts(false);
+
+    AtomicFile atomic_file(file);
+    atomic_file.stream() << json.dump(2) << '\n';
+    atomic_file.commit();
+  }
+} // namespace Exemplar

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/atomic_file.h>
+#include <exemplar/run/vtu_writer.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <cstdint>
+#include <cstring>
+#include <iomanip>
+#include <ostream>
+#include <sstream>
+#include <stdexcept>
+#include <zlib.h>
+
+namespace Exemplar
+{
+  namespace
+  {
+    /// VTK's "binary" encoding: a header [blocks, block size, size of the last block,
+    /// compressed size] and the compressed block, each in base64.
+    std::string
+    encode(const void *data, const std::size_t size)
+    {
+      uLongf                     compressed_size = compressBound(size);
+      std::vector<unsigned char> compressed(compressed_size);
+      if (compress2(compressed.data(), &compressed_size, static_cast<const Bytef *>(data), size,
+                    Z_BEST_SPEED)
+          != Z_OK)
+        throw std::runtime_error("zlib cannot compress a frame");
+      compressed.resize(compressed_size);
+
+      const std::uint64_t        header[4] = { 1, size, size, compressed_size };
+      std::vector<unsigned char> header_bytes(sizeof(header));
+      std::memcpy(header_bytes.data(), header, sizeof(header));
+      return dealii::Utilities::encode_base64(header_bytes)
+             + dealii::Utilities::encode_base64(compressed);
+    }
+
+    template <typename Number>
+    void
+    write_array(std::ostream      &out,
+                const std::string &type,
+                const std::string &name,
+                const int          n_components,
+                const Number      *data,
+                const std::size_t  size)
+    {
+      out << "<DataArray type=\"" << type << "\" Name=\"" << name << "\" NumberOfComponents=\""
+          << n_components << "\" format=\"binary\">" << encode(data, size * sizeof(Number))
+          << "</DataArray>\n";
+    }
+
+    std::string
+    head_of(const Mesh &mesh)
+    {
+      std::ostringstream out;
+      out << "<?xml version=\"1.0\"?>\n"
+          << "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
+             "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n"
+          << "<UnstructuredGrid>\n<Piece NumberOfPoints=\"" << mesh.n_nodes()
+          << "\" NumberOfCells=\"" << mesh.n_cells() << "\">\n";
+      return out.str();
+    }
+
+    std::string
+    cells_of(const Mesh &mesh)
+    {
+      std::vector<std::int32_t> connectivity, offsets;
+      connectivity.reserve(4 * mesh.n_cells());
+      offsets.reserve(mesh.n_cells());
+      for (const auto &cell : mesh.get_cells())
+      {
+        connectivity.insert(connectivity.end(), cell.begin(), cell.end());
+        offsets.push_back(static_cast<std::int32_t>(connectivity.size()));
+      }
+      const std::vector<std::uint8_t> types(mesh.n_cells(), 10); // VTK_TETRA
+      std::ostringstream              out;
+      out << "<Cells>\n";
+      write_array(out, "Int32", "connectivity", 1, connectivity.data(), connectivity.size());
+      write_array(out, "Int32", "offsets", 1, offsets.data(), offsets.size());
+      write_array(out, "UInt8", "types", 1, types.data(), types.size());
+      out << "</Cells>\n";
+      return out.str();
+    }
+
+    std::string
+    regions_of(const Mesh &mesh)
+    {
+      const std::vector<std::int32_t> region(mesh.get_material_ids().begin(),
+                                             mesh.get_material_ids().end());
+      std::ostringstream              out;
+      write_array(out, "Int32", "region", 1, region.data(), region.size());
+      return out.str();
+    }
+  } // namespace
+
+  VtuWriter::VtuWriter(const Mesh &mesh)
+      : head(head_of(mesh)), cells(cells_of(mesh)), regions(regions_of(mesh))
+  {
+  }
+
+  void
+  VtuWriter::write(const std::filesystem::path  &file,
+                   const dealii::Vector<double> &positions,
+                   const VtuFields              &fields) const
+  {
+    AtomicFile    atomic_file(file);
+    std::ostream &out = atomic_file.stream();
+    out << head << "<Points>\n";
+    write_array(out, "Float64", "Points", 3, positions.begin(), positions.size());
+    out << "</Points>\n" << cells << "<PointData>\n";
+    for (const auto &[name, values] : fields.point_vectors)
+      write_array(out, "Float64", name, 3, values->begin(), values->size());
+    out << "</PointData>\n<CellData>\n";
+    for (const auto &[name, values] : fields.cell_scalars)
+      write_array(out, "Float64", name, 1, values->data(), values->size());
+    out << regions << "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+    atomic_file.commit_without_sync();
+  }
+
+  void
+  write_pvd(const std::filesystem::path                       &file,
+            const std::vector<std::pair<double, std::string>> &frames)
+  {
+    AtomicFile    atomic_file(file);
+    std::ostream &out = atomic_file.stream();
+    out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n"
+        << std::setprecision(12);
+    for (const auto &[time, name] : frames)
+      out << "<DataSet timestep=\"" << time << "\" file=\"" << name << "\"/>\n";
+    out << "</Collection>\n</VTKFile>\n";
+    atomic_file.commit();
+  }
+} // namespace Exemplar

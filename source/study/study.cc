@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
+#include <exemplar/base/interrupt.h>
+#include <exemplar/base/number_text.h>
+#include <exemplar/base/progress.h>
+#include <exemplar/mesh/mesh.h>
+#include <exemplar/run/parameters.h>
+#include <exemplar/run/run_directory.h>
+#include <exemplar/study/study.h>
+#include <exemplar/study/study_directory.h>
+#include <exemplar/study/study_plan.h>
+#include <exemplar/study/study_plot.h>
+#include <exemplar/study/study_report.h>
+#include <exemplar/study/study_runs.h>
+#include <exemplar/study/study_table.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <map>
+#include <memory>
+
+namespace Exemplar
+{
+  namespace
+  {
+    namespace fs = std::filesystem;
+
+    double
+    median(std::vector<double> values)
+    {
+      std::sort(values.begin(), values.end());
+      const std::size_t half = values.size() / 2;
+      return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2.;
+    }
+
+    /// The final poses of runs. A mesh is read once for all runs that have it.
+    class FinalPoses
+    {
+    public:
+      FinalPoses(const Study &study, const std::string &scene_text)
+          : study(study), scene_text(scene_text)
+      {
+      }
+
+      FinalPose
+      read(const PlannedRun &run, const fs::path &directory)
+      {
+        const Parameters parameters(study.scene, scene_text, run.assignments);
+        std::string      key;
+        for (const DeclaredKey &declared : parameters.keys())
+          if (declared.subsections == std::vector<std::string>{ "Mesh" })
+            key += declared.value + "\n";
+        std::unique_ptr<const Mesh> &mesh = meshes[key];
+        if (mesh == nullptr)
+          mesh = std::make_unique<const Mesh>(parameters.mesh);
+        return { *mesh, RunDirectory(directory).final_pose() };
+      }
+
+    private:
+      const Study                                       &study;
+      const std::string                                 &scene_text;
+      std::map<std::string, std::unique_ptr<const Mesh>> meshes;
+    };
+
+    /// Fills rows from what the runs have left.
+    class RowMaker
+    {
+    public:
+      RowMaker(const StudyPlan &plan, const StudyRuns &runs)
+          : runs(runs), poses(plan.study, plan.scene_text), columns(plan.study.columns),
+            probe(plan.study.probe)
+      {
+        if (!plan.reference || !runs.record(plan.reference->name).succeeded())
+          return;
+        const fs::path directory = runs.path(plan.reference->name);
+        reference = std::make_unique<const FinalPose>(poses.read(*plan.reference, directory));
+        reference_energy = read_run_statistics(RunDirectory(directory).statistics()).energy;
+      }
+
+      StudyRow
+      make(const PlannedRun &planned)
+      {
+        const StudyRecord &record    = runs.record(planned.name);
+        const fs::path     directory = runs.path(planned.name);
+        StudyRow           row;
+        row.choice      = planned.choice;
+        row.status      = record.status;
+        row.exit_status = record.exit_status;
+        row.message     = record.message;
+        row.run         = planned.name;
+        row.statistics  = read_run_statistics(RunDirectory(directory).statistics());
+        row.summary     = read_run_summary(RunDirectory(directory).summary());
+        row.extra       = read_last_values(RunDirectory(directory).statistics(), columns);
+        if (record.status != "refused")
+        {
+          row.seconds_median = median(record.seconds);
+          row.seconds_min    = *std::min_element(record.seconds.begin(), record.seconds.end());
+        }
+        row.extra.resize(columns.size() + (probe ? 3 : 0), std::nan(""));
+        if (record.succeeded())
+          compare(planned, row);
+        return row;
+      }
+
+    private:
+      void
+      compare(const PlannedRun &planned, StudyRow &row)
+      {
+        const FinalPose pose = poses.read(planned, runs.path(planned.name));
+        row.max_displacement = pose.max_displacement();
+        for (unsigned int c = 0; probe && c < 3; ++c)
+          row.extra[columns.size() + c] = pose.displacement_near(*probe)[c];
+        if (reference == nullptr)
+          return;
+        row.errors = pose_errors(pose, *reference);
+        if (reference_energy != 0.)
+          row.error_energy
+              = std::abs(row.statistics.energy - reference_energy) / std::abs(reference_energy);
+      }
+
+      const StudyRuns                       &runs;
+      FinalPoses                             poses;
+      const std::vector<std::string>        &columns;
+      const std::optional<dealii::Point<3>> &probe;
+      std::unique_ptr<const FinalPose>       reference; ///< null if there is none
+      double                                 reference_energy = 0.;
+    };
+
+    std::string
+    values_text(const Study &study, const std::vector<unsigned int> &choice)
+    {
+      std::string text;
+      for (unsigned int a = 0; a < choice.size(); ++a)
+        text += (a == 0 ? "" : ", ") + study.axes[a].text(choice[a]);
+      return text.empty() ? "reference" : text;
+    }
+
+    unsigned int
+    count_done(const StudyPlan &plan, const StudyRuns &runs)
+    {
+      unsigned int n = plan.reference && runs.is_done(plan.reference->name, 1) ? 1 : 0;
+      for (const PlannedRun &run : plan.runs)
+        for (unsigned int repeat = 1; repeat <= plan.study.repeats; ++repeat)
+          n += runs.is_done(run.name, repeat) ? 1 : 0;
+      return n;
+    }
+
+    /// The reference, then the first repeat of all runs, then the second: what slows the
+    /// machine down for a while shall not meet all repeats of one run.
+    void
+    make_runs(const StudyPlan &plan, StudyRuns &runs, const bool quiet)
+    {
+      Progress   progress(std::cout, quiet, count_done(plan, runs), plan.n_repeats(), "run");
+      const auto make = [&](const PlannedRun &run, const unsigned int repeat)
+      {
+        if (runs.is_done(run.name, repeat))
+          return;
+        check_interrupt();
+        const StudyRecord &record = runs.run(run);
+        progress.update(count_done(plan, runs),
+                        values_text(plan.study, run.choice) + ": " + record.status);
+      };
+      try
+      {
+        if (plan.reference)
+          make(*plan.reference, 1);
+        for (unsigned int repeat = 1; repeat <= plan.study.repeats; ++repeat)
+          for (const PlannedRun &run : plan.runs)
+            make(run, repeat);
+      }
+      catch (const Interrupted &)
+      {
+        progress.finish();
+        throw Interrupted("Interrupted after " + std::to_string(count_done(plan, runs)) + " of "
+                          + std::to_string(plan.n_repeats())
+                          + " runs. The same command goes on with the others.");
+      }
+      progress.finish();
+    }
+
+    void
+    print_header(const StudyPlan &plan, const StudyRuns &runs, const StudyDirectory &directory)
+    {
+      const unsigned int n_done   = count_done(plan, runs);
+      const std::size_t  n_others = runs.others(plan.names()).size();
+      std::cout << "Study     " << plan.study.file.string() << '\n'
+                << "Scene     " << plan.study.scene.string() << '\n'
+                << "Runs      " << plan.runs.size() << " combinations, " << plan.n_repeats()
+                << " runs with repeats" << (plan.reference ? " and the reference" : "") << '\n';
+      if (n_done > 0)
+        std::cout << "          " << n_done << " of them are there from an earlier call\n";
+      if (n_others > 0)
+        std::cout << "          " << n_others
+                  << " others are there, of other settings, inputs or another program: they are "
+                     "not used, and removed at the end\n";
+      std::cout << "Output    " << directory.get_path().string() << std::endl;
+    }
+
+    void
+    warn(const std::string &warning)
+    {
+      if (!warning.empty())
+        std::cerr << "Warning: " << warning << std::endl;
+    }
+
+    void
+    warn_of_empty_columns(const StudyTable &table)
+    {
+      for (unsigned int i = 0; i < table.extra_columns.size(); ++i)
+        if (std::all_of(table.rows.begin(), table.rows.end(),
+                        [&](const StudyRow &row) { return std::isnan(row.extra[i]); }))
+          warn("No run has a value in the column " + table.extra_columns[i]
+               + ". The first line of a run's statistics.csv names those that there are.");
+    }
+
+    StudyTable
+    make_table(const StudyPlan &plan, const StudyRuns &runs)
+    {
+      if (plan.reference && !runs.record(plan.reference->name).succeeded())
+        warn("The reference run has ended with the status "
+             + runs.record(plan.reference->name).status + ", so there are no errors. "
+             + runs.record(plan.reference->name).message);
+      StudyTable table{
+        plan.study.axes, {}, plan.reference.has_value(), extra_columns_of(plan.study)
+      };
+      RowMaker rows(plan, runs);
+      for (const PlannedRun &run : plan.runs)
+        table.rows.push_back(rows.make(run));
+      warn_of_empty_columns(table);
+      return table;
+    }
+
+    void
+    print_end(const StudyTable &table, const StudyDirectory &directory)
+    {
+      std::map<std::string, unsigned int> counts;
+      for (const StudyRow &row : table.rows)
+        ++counts[row.status];
+      std::cout << '\n';
+      for (const auto &[status, count] : counts)
+        std::cout << count << ' ' << status << '\n';
+      std::cout << "The tables are in " << directory.markdown().string() << " and "
+                << directory.csv().string();
+      if (fs::exists(directory.svg()))
+        std::cout << ", the figure in " << directory.svg().string();
+      std::cout << std::endl;
+    }
+  } // namespace
+
+  void
+  run_study(const StudyOptions &options)
+  {
+    const Study          study(options.file);
+    const StudyPlan      plan(study);
+    const StudyDirectory directory(options.output.empty() ? fs::path("output") / options.file.stem()
+                                                          : options.output);
+    directory.check(options.file);
+    directory.make();
+    const FileLock lock = directory.lock();
+    directory.write_study(study.text);
+
+    StudyRuns runs(directory.runs(), study);
+    if (!options.quiet)
+      print_header(plan, runs, directory);
+    note_interrupts();
+    directory.remove_results();
+    make_runs(plan, runs, options.quiet);
+
+    const StudyTable table = make_table(plan, runs);
+    write_study_csv(table, directory.csv());
+    write_study_report(study, table, directory.markdown());
+    warn(plot_study(table, options.file.stem().string(), directory));
+    for (const fs::path &other : runs.others(plan.names()))
+      fs::remove_all(other);
+    if (!options.quiet)
+      print_end(table, directory);
+  }
+
+  void
+  validate_study(const fs::path &file)
+  {
+    const Study     study(file);
+    const StudyPlan plan(study);
+    std::cout << file.string() << ": valid; " << plan.runs.size() << " combinations, "
+              << plan.n_repeats() << " runs with repeats"
+              << (plan.reference ? " and the reference" : "") << std::endl;
+  }
+
+  void
+  print_study_parameters()
+  {
+    std::cout << "# All keys of a study with their defaults.\n\n";
+    print_keys(std::cout, study_keys(), true);
+  }
+} // namespace Exemplar

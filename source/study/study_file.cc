@@ -1,0 +1,356 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/study/study_file.h>
+
+#include <algorithm>
+#include <set>
+
+namespace Exemplar
+{
+  namespace
+  {
+    /// The keys of a study file as text.
+    struct Entries
+    {
+      std::string  scene, base, reference, vary;
+      unsigned int repeats = 3;
+      double       timeout = 0.;
+      unsigned int threads = 1;
+      std::string  columns, probe;
+
+      void
+      declare(dealii::ParameterHandler &prm)
+      {
+        declare_input_file(prm, "Scene", scene, "The scene that is run. To be set in every study.");
+        prm.add_parameter("Base", base,
+                          "Keys of all runs on top of the scene's: Section/Key=value, separated by "
+                          "';'. Input files are relative to the scene. Frames are only written if "
+                          "Output/Every is set here.");
+        prm.add_parameter("Reference", reference,
+                          "Keys of the reference run on top of Base. Empty: no reference, and no "
+                          "errors.");
+        prm.add_parameter(
+            "Vary", vary,
+            "Axes separated by '|', each Section/Key: values; the runs are all combinations. "
+            "Values "
+            "are separated by ';', without one by commas, without these by blanks. Keys that "
+            "change "
+            "together are joined by '+', and so are their values. Values that hold separators are "
+            "put "
+            "in double quotes, here and in Base. To be set in every study.");
+        prm.add_parameter("Repeats", repeats,
+                          "How often each combination is run, for the median of the seconds.",
+                          dealii::Patterns::Integer(1));
+        prm.add_parameter("Timeout", timeout,
+                          "Seconds after which a run is ended, with the status timeout; 0: never.",
+                          dealii::Patterns::Double(0.));
+        prm.add_parameter("Threads", threads, "Threads of each run.",
+                          dealii::Patterns::Integer(1, 1024));
+        prm.add_parameter("Columns", columns,
+                          "Columns of statistics.csv whose values at the end are columns of the "
+                          "study's tables, separated by commas: weight_0, reaction_tip_z.");
+        prm.add_parameter("Probe", probe,
+                          "Rest position x, y, z [m], separated by commas, whose displacement at "
+                          "the end is in the columns probe_x, probe_y and probe_z [m]: that of the "
+                          "nearest node. Empty: no such columns.");
+      }
+    };
+
+    std::size_t
+    find_unquoted(const std::string &text, const char separator, std::size_t from = 0)
+    {
+      bool is_quoted = std::count(text.begin(), text.begin() + from, '"') % 2 == 1;
+      for (; from < text.size(); ++from)
+        if (text[from] == '"')
+          is_quoted = !is_quoted;
+        else if (text[from] == separator && !is_quoted)
+          return from;
+      return std::string::npos;
+    }
+
+    /// As split_trimmed(), but quoted separators do not count.
+    std::vector<std::string>
+    split_unquoted(const std::string &text, const char separator)
+    {
+      std::vector<std::string> parts;
+      std::size_t              begin = 0;
+      if (trim(text).empty())
+        return parts;
+      for (std::size_t end; (end = find_unquoted(text, separator, begin)) != std::string::npos;
+           begin = end + 1)
+        parts.push_back(trim(text.substr(begin, end - begin)));
+      parts.push_back(trim(text.substr(begin)));
+      return parts;
+    }
+
+    std::string
+    without_quotes(const std::string &value)
+    {
+      const bool is_quoted = value.size() > 1 && value.front() == '"' && value.back() == '"';
+      return is_quoted ? value.substr(1, value.size() - 2) : value;
+    }
+
+    void
+    require_closed_quotes(const std::string &text, const std::string &place)
+    {
+      if (std::count(text.begin(), text.end(), '"') % 2 == 1)
+        throw UserError(place
+                        + ": a quotation mark is not closed. Put '\"' around values that "
+                          "hold ';', '|', ',' or blanks.");
+    }
+
+    std::string
+    joined(const std::vector<std::string> &parts)
+    {
+      std::string text;
+      for (const std::string &part : parts)
+        text += (text.empty() ? "" : " + ") + part;
+      return text;
+    }
+
+    void
+    require_own_key(const Assignment &assignment)
+    {
+      if (assignment.path() == "Output/Directory")
+        throw UserError(assignment.place
+                        + ": Output/Directory is not a study's to set: each of its runs has a "
+                          "directory of its own. Remove it; --output moves the whole study.");
+    }
+
+    /// "Section/Key=value; ..." at a place of the file.
+    std::vector<Assignment>
+    parse_settings(const std::string &text, const std::string &place)
+    {
+      std::vector<Assignment> settings;
+      std::set<std::string>   paths;
+      require_closed_quotes(text, place);
+      for (const std::string &part : split_unquoted(text, ';'))
+        if (!part.empty())
+        {
+          settings.push_back(parse_assignment(part, place));
+          settings.back().value = without_quotes(settings.back().value);
+          require_own_key(settings.back());
+          if (!paths.insert(settings.back().path()).second)
+            throw UserError(place + ": " + settings.back().path() + " is set twice. Keep one.");
+        }
+      return settings;
+    }
+
+    std::vector<std::string>
+    split_at_blanks(const std::string &text)
+    {
+      std::vector<std::string> parts = split_unquoted(text, ' ');
+      parts.erase(std::remove(parts.begin(), parts.end(), ""), parts.end());
+      return parts;
+    }
+
+    std::vector<std::string>
+    split_values(const std::string &text)
+    {
+      for (const char separator : { ';', ',' })
+        if (find_unquoted(text, separator) != std::string::npos)
+        {
+          std::vector<std::string> values = split_unquoted(text, separator);
+          if (values.back().empty()) // "one pass," is a single value
+            values.pop_back();
+          return values;
+        }
+      return split_at_blanks(text);
+    }
+
+    /// "Section/Key: values", or "Key + Key: value + value, ...".
+    StudyAxis
+    parse_axis(const std::string &text, const std::string &place)
+    {
+      const std::string remedy
+          = " Write 'Section/Key: value value ...'; axes are separated by '|'.";
+      const auto colon = text.find(':');
+      if (colon == std::string::npos)
+        throw UserError(place + ": the axis '" + text + "' has no ':'." + remedy);
+      StudyAxis axis;
+      for (const std::string &key : split_trimmed(text.substr(0, colon), '+'))
+        axis.keys.push_back(parse_assignment(key + "=", place).path());
+      if (axis.keys.empty())
+        throw UserError(place + ": the axis '" + text + "' names no key." + remedy);
+      for (const std::string &value : split_values(trim(text.substr(colon + 1))))
+      {
+        axis.values.push_back(axis.keys.size() > 1 ? split_unquoted(value, '+')
+                                                   : std::vector<std::string>{ value });
+        for (std::string &part : axis.values.back())
+          part = without_quotes(part);
+      }
+      if (axis.values.empty())
+        throw UserError(place + ": " + axis.name() + " has no values." + remedy);
+      for (const auto &values : axis.values)
+      {
+        if (values.size() != axis.keys.size()
+            || std::find(values.begin(), values.end(), "") != values.end())
+          throw UserError(place + ": " + axis.name() + " has the value '" + joined(values)
+                          + "', where " + std::to_string(axis.keys.size())
+                          + " are needed, none of them empty." + remedy);
+        if (std::count(axis.values.begin(), axis.values.end(), values) > 1)
+          throw UserError(place + ": " + axis.name() + " lists '" + joined(values)
+                          + "' twice. Keep one.");
+      }
+      return axis;
+    }
+
+    std::vector<StudyAxis>
+    parse_axes(const std::string &text, const std::string &place)
+    {
+      std::vector<StudyAxis> axes;
+      std::set<std::string>  keys;
+      require_closed_quotes(text, place);
+      for (const std::string &part : split_unquoted(text, '|'))
+      {
+        axes.push_back(parse_axis(part, place));
+        for (const std::string &key : axes.back().keys)
+        {
+          require_own_key(parse_assignment(key + "=", place));
+          if (!keys.insert(key).second)
+            throw UserError(place + ": " + key + " is varied twice. Keep one axis.");
+        }
+      }
+      return axes;
+    }
+
+    std::vector<std::string>
+    parse_columns(const std::string &text, const std::string &place)
+    {
+      std::vector<std::string> columns = split_trimmed(text, ',');
+      for (const std::string &column : columns)
+        if (column.empty() || std::count(columns.begin(), columns.end(), column) > 1)
+          throw UserError(place + ": "
+                          + (column.empty() ? "a name is empty." : column + " is there twice.")
+                          + " Name columns of statistics.csv, each once, separated by commas.");
+      return columns;
+    }
+
+    std::optional<dealii::Point<3>>
+    parse_probe(const std::string &text, const std::string &place)
+    {
+      if (text.empty())
+        return std::nullopt;
+      const std::vector<std::string> parts = split_trimmed(text, ',');
+      dealii::Point<3>               point;
+      for (unsigned int c = 0; c < 3; ++c)
+        if (parts.size() != 3 || !dealii::Patterns::Double().match(parts[c]))
+          throw UserError(place + ": '" + text
+                          + "' is no point. Write three numbers separated by commas, the rest "
+                            "position x, y, z in metres.");
+        else
+          point[c] = std::stod(parts[c]);
+      return point;
+    }
+
+    /// What is set for all runs cannot be varied.
+    void
+    check_disjoint(const std::vector<Assignment> &base, const std::vector<StudyAxis> &axes)
+    {
+      for (const StudyAxis &axis : axes)
+        for (const std::string &key : axis.keys)
+          if (const Assignment *both = find_assignment(base, key); both != nullptr)
+            throw UserError(both->place + ": " + key
+                            + " is set for all runs, but Vary varies it. Remove it from Base (the "
+                              "reference's value belongs in Reference), or from Vary.");
+    }
+  } // namespace
+
+  std::string
+  StudyAxis::name() const
+  {
+    return joined(keys);
+  }
+
+  std::string
+  StudyAxis::text(const unsigned int choice) const
+  {
+    return joined(values[choice]);
+  }
+
+  Study::Study(const std::filesystem::path &file) : file(file), text(read_prm(file))
+  {
+    const std::vector<Assignment> given = read_assignments(text, file.string());
+    for (const std::string key : { "Vary", "Scene" })
+      if (const Assignment *found = find_assignment(given, key);
+          found == nullptr || found->value.empty())
+        throw UserError(file.string() + ": " + key
+                        + " is not set. A study has lines 'set Scene = FILE.prm' and 'set Vary = "
+                          "Section/Key: value value ...'.");
+    dealii::ParameterHandler prm;
+    Entries                  entries;
+    entries.declare(prm);
+    apply_assignments(prm, given, std::filesystem::absolute(file).parent_path());
+
+    const auto place = [&](const std::string &key)
+    {
+      const Assignment *assignment = find_assignment(given, key);
+      return (assignment == nullptr ? file.string() : assignment->place) + ", " + key;
+    };
+    scene      = entries.scene;
+    base       = parse_settings(entries.base, place("Base"));
+    reference  = parse_settings(entries.reference, place("Reference"));
+    vary_place = place("Vary");
+    axes       = parse_axes(entries.vary, vary_place);
+    repeats    = entries.repeats;
+    timeout    = entries.timeout;
+    threads    = entries.threads;
+    columns    = parse_columns(entries.columns, place("Columns"));
+    probe      = parse_probe(entries.probe, place("Probe"));
+    check_disjoint(base, axes);
+  }
+
+  std::vector<std::vector<unsigned int>>
+  Study::choices() const
+  {
+    std::vector<std::vector<unsigned int>> all = { {} };
+    for (const StudyAxis &axis : axes)
+    {
+      std::vector<std::vector<unsigned int>> longer;
+      for (const auto &choice : all)
+        for (unsigned int i = 0; i < axis.values.size(); ++i)
+        {
+          longer.push_back(choice);
+          longer.back().push_back(i);
+        }
+      all = std::move(longer);
+    }
+    return all;
+  }
+
+  std::vector<Assignment>
+  Study::assignments(const std::vector<unsigned int> &choice) const
+  {
+    std::vector<Assignment> all = { { { "Output" }, "Every", "0", file.string() } };
+    all.insert(all.end(), base.begin(), base.end());
+    for (unsigned int a = 0; a < choice.size(); ++a)
+      for (unsigned int k = 0; k < axes[a].keys.size(); ++k)
+      {
+        all.push_back(parse_assignment(axes[a].keys[k] + "=", vary_place));
+        all.back().value = axes[a].values[choice[a]][k];
+      }
+    return all;
+  }
+
+  std::vector<Assignment>
+  Study::reference_assignments() const
+  {
+    std::vector<Assignment> all = assignments({});
+    all.insert(all.end(), reference.begin(), reference.end());
+    return all;
+  }
+
+  std::vector<DeclaredKey>
+  study_keys()
+  {
+    dealii::ParameterHandler prm;
+    Entries                  entries;
+    entries.declare(prm);
+    return declared_keys(prm);
+  }
+
+  bool
+  is_study(const std::filesystem::path &file)
+  {
+    return find_assignment(read_assignments(read_prm(file), file.string()), "Vary") != nullptr;
+  }
+} // namespace Exemplar

@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/mesh/mesh.h>
+#include <exemplar/prm/prm_tools.h>
+#include <exemplar/study/study_measures.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <optional>
+
+namespace Exemplar
+{
+  namespace
+  {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+
+    /// The rows of statistics.csv, whose cells hold no commas, one after the other.
+    class StatisticsReader
+    {
+    public:
+      explicit StatisticsReader(const std::filesystem::path &file) : in(file)
+      {
+        next();
+        columns = cells;
+      }
+
+      /// Go to the next row; false if there is none. A last line that a crash has cut
+      /// short is none.
+      bool
+      next()
+      {
+        std::string line;
+        if (!std::getline(in, line) || in.eof())
+          return false;
+        cells = split_trimmed(line, ',');
+        return true;
+      }
+
+      /// A cell of the row; empty if it is absent.
+      std::string
+      cell(const std::string &column) const
+      {
+        const auto found = std::find(columns.begin(), columns.end(), column);
+        const auto index = static_cast<std::size_t>(found - columns.begin());
+        return index < columns.size() && index < cells.size() ? cells[index] : "";
+      }
+
+      /// A number of the row, or what stands for a cell that is absent or holds none.
+      double
+      number(const std::string &column, const double absent) const
+      {
+        const std::string text  = cell(column);
+        char             *end   = nullptr;
+        const double      value = std::strtod(text.c_str(), &end);
+        return !text.empty() && *end == '\0' ? value : absent;
+      }
+
+    private:
+      std::ifstream            in;
+      std::vector<std::string> columns;
+      std::vector<std::string> cells;
+    };
+
+    double
+    total_energy(const StatisticsReader &row)
+    {
+      return row.number("energy_elastic", nan) + row.number("energy_example", 0.)
+             + row.number("energy_kinetic", 0.);
+    }
+
+    double
+    total_work(const StatisticsReader &row)
+    {
+      return row.number("work_handles", 0.) + row.number("work_gravity", 0.)
+             + row.number("work_loads", 0.);
+    }
+
+    /// The bound on the energy after a step of implicit Euler, row by row.
+    class EnergyBound
+    {
+    public:
+      /// How far a step is above it [J]; NaN in the first row, where handles have moved, and
+      /// where it does not hold.
+      double
+      excess_of_step(const StatisticsReader &row)
+      {
+        const double handles = row.number("work_handles", 0.);
+        const double before  = bound - work;
+        const bool   at_rest = handles == handles_before && row.cell("status") != "one pass";
+        handles_before       = handles;
+        work                 = row.number("work_gravity", 0.) + row.number("work_loads", 0.);
+        bound                = total_energy(row);
+        const double left
+            = bound - row.number("energy_kinetic", 0.) + row.number("energy_inertia", nan);
+        return at_rest ? left - work - before : nan;
+      }
+
+    private:
+      double handles_before = nan, bound = nan, work = nan;
+    };
+
+    std::vector<double>
+    nodal_volumes(const Mesh &mesh)
+    {
+      std::vector<double> volumes(mesh.n_nodes());
+      const auto         &nodes = mesh.get_nodes();
+      for (const auto &cell : mesh.get_cells())
+      {
+        const dealii::Tensor<1, 3> normal
+            = cross_product_3d(nodes[cell[1]] - nodes[cell[0]], nodes[cell[2]] - nodes[cell[0]]);
+        const double volume = std::abs(normal * (nodes[cell[3]] - nodes[cell[0]])) / 6.;
+        for (const unsigned int node : cell)
+          volumes[node] += volume / 4.;
+      }
+      return volumes;
+    }
+
+    /// Finds points again whose coordinates differ by rounding only.
+    class PointIndex
+    {
+    public:
+      PointIndex(const std::vector<dealii::Point<3>> &points, const double tolerance)
+          : tolerance(tolerance)
+      {
+        for (unsigned int i = 0; i < points.size(); ++i)
+          indices[box_of(points[i], 0.)] = i;
+      }
+
+      std::optional<unsigned int>
+      find(const dealii::Point<3> &point) const
+      {
+        for (unsigned int corner = 0; corner < 8; ++corner) // the point may lie in the next box
+        {
+          const auto found = indices.find(box_of(point, 0.5, corner));
+          if (found != indices.end())
+            return found->second;
+        }
+        return std::nullopt;
+      }
+
+    private:
+      using Box = std::array<long long, 3>;
+
+      Box
+      box_of(const dealii::Point<3> &point, const double shift, const unsigned int corner = 0) const
+      {
+        Box box;
+        for (unsigned int c = 0; c < 3; ++c)
+          box[c] = static_cast<long long>(
+              std::floor(point[c] / tolerance + ((corner >> c & 1u) != 0 ? shift : -shift)));
+        return box;
+      }
+
+      const double                tolerance;
+      std::map<Box, unsigned int> indices;
+    };
+
+    double
+    extent(const std::vector<dealii::Point<3>> &points)
+    {
+      double greatest = 0.;
+      for (const auto &point : points)
+        greatest = std::max(greatest, point.distance(points[0]));
+      return greatest;
+    }
+
+    /// For each node of `pose` that of the reference; empty if one has none.
+    std::vector<unsigned int>
+    match(const FinalPose &pose, const FinalPose &reference)
+    {
+      const PointIndex          index(reference.rest, 1e-9 * extent(reference.rest));
+      std::vector<unsigned int> matches;
+      for (const auto &point : pose.rest)
+        if (const auto found = index.find(point))
+          matches.push_back(*found);
+        else
+          return {};
+      return matches;
+    }
+  } // namespace
+
+  RunStatistics
+  read_run_statistics(const std::filesystem::path &file)
+  {
+    RunStatistics    run;
+    StatisticsReader row(file);
+    double           first_energy = nan, scale = 0., growth = 0., excess = nan;
+    EnergyBound      bound;
+    while (row.next())
+    {
+      run.iterations      = std::fmax(run.iterations, 0.) + row.number("iterations", 0.);
+      run.residual        = std::fmax(run.residual, row.number("residual", nan));
+      run.kkt             = std::fmax(run.kkt, row.number("kkt_residual", nan));
+      const double energy = total_energy(row);
+      if (std::isnan(energy)) // a step that failed
+        continue;
+      if (std::isnan(first_energy))
+        first_energy = energy;
+      run.steps     = row.number("step", 0.);
+      run.energy    = energy;
+      run.min_det_F = std::fmin(run.min_det_F, row.number("min_det_F", nan));
+      growth        = std::max(growth, energy - first_energy - total_work(row));
+      excess        = std::fmax(excess, bound.excess_of_step(row));
+      scale         = std::max({ scale, std::abs(first_energy), std::abs(total_work(row)) });
+    }
+    if (scale > 0.)
+    {
+      run.energy_growth = growth / scale;
+      run.bound_excess  = excess / scale;
+    }
+    return run;
+  }
+
+  std::vector<double>
+  read_last_values(const std::filesystem::path &file, const std::vector<std::string> &columns)
+  {
+    std::vector<double> values(columns.size(), nan);
+    StatisticsReader    row(file);
+    while (row.next())
+      for (unsigned int i = 0; i < columns.size(); ++i)
+        values[i] = row.number(columns[i], nan);
+    return values;
+  }
+
+  RunSummary
+  read_run_summary(const std::filesystem::path &file)
+  {
+    std::ifstream in(file);
+    if (!in)
+      return {};
+    const auto json   = nlohmann::json::parse(in);
+    const auto number = [&](const char *key)
+    {
+      if (!json.contains(key))
+        return nan;
+      return json[key].is_null() ? std::numeric_limits<double>::infinity()
+                                 : json[key].get<double>();
+    };
+    return { number("factorizations"), number("condition_matrix"), number("condition_schur"),
+             number("peak_memory_mib") };
+  }
+
+  FinalPose::FinalPose(const Mesh &mesh, const std::filesystem::path &final_msh)
+      : rest(mesh.get_nodes()), positions(mesh.read_pose(final_msh)), volumes(nodal_volumes(mesh))
+  {
+  }
+
+  double
+  FinalPose::max_displacement() const
+  {
+    double greatest = 0.;
+    for (unsigned int i = 0; i < rest.size(); ++i)
+      greatest = std::max(greatest, positions[i].distance(rest[i]));
+    return greatest;
+  }
+
+  dealii::Tensor<1, 3>
+  FinalPose::displacement_near(const dealii::Point<3> &point) const
+  {
+    const auto nearest
+        = std::min_element(rest.begin(), rest.end(),
+                           [&](const auto &a, const auto &b)
+                           { return a.distance_square(point) < b.distance_square(point); });
+    return positions[nearest - rest.begin()] - *nearest;
+  }
+
+  PoseErrors
+  pose_errors(const FinalPose &pose, const FinalPose &reference)
+  {
+    PoseErrors                      errors;
+    const std::vector<unsigned int> matches = match(pose, reference);
+    double difference = 0., displacement = 0., max_difference = 0., max_displacement = 0.;
+    for (unsigned int i = 0; i < matches.size(); ++i)
+    {
+      const unsigned int j     = matches[i];
+      const double       error = pose.positions[i].distance(reference.positions[j]);
+      const double       scale = reference.positions[j].distance(reference.rest[j]);
+      difference += pose.volumes[i] * error * error;
+      displacement += pose.volumes[i] * scale * scale;
+      max_difference   = std::max(max_difference, error);
+      max_displacement = std::max(max_displacement, scale);
+    }
+    if (max_displacement > 0.)
+    {
+      errors.l2  = std::sqrt(difference / displacement);
+      errors.max = max_difference / max_displacement;
+    }
+    return errors;
+  }
+} // namespace Exemplar

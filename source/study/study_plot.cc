@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/atomic_file.h>
+#include <exemplar/base/child_process.h>
+#include <exemplar/base/number_text.h>
+#include <exemplar/study/study_plot.h>
+
+#include <algorithm>
+
+namespace Exemplar
+{
+  namespace
+  {
+    using Points = std::vector<std::pair<double, double>>;
+
+    /// Seconds and errors of the rows that have both.
+    Points
+    points_of(const StudyLine &line)
+    {
+      Points points;
+      for (const StudyRow *row : line.rows)
+        if (row->seconds_median > 0. && row->errors.l2 > 0.) // as the axes are logarithmic
+          points.emplace_back(row->seconds_median, row->errors.l2);
+      return points;
+    }
+
+    /// gnuplot's string constant; in single quotes only the quote itself is special.
+    std::string
+    quoted(const std::string &text)
+    {
+      std::string result = "'";
+      for (const char c : text)
+        result += c == '\'' ? "''" : std::string(1, c);
+      return result + "'";
+    }
+
+    void
+    write_data(std::ostream &out, const std::string &name, const Points &points)
+    {
+      out << '$' << name << " << EOD\n";
+      for (const auto &[seconds, error] : points)
+        out << shortest_text(seconds) << ' ' << shortest_text(error) << '\n';
+      out << "EOD\n";
+    }
+
+    void
+    write_script(std::ostream &out, const std::vector<StudyLine> &lines, const std::string &title)
+    {
+      out << "# Drawn by exemplar; to draw it anew: gnuplot study.gnuplot\n"
+          << "set terminal svg noenhanced size 800,560 font 'sans-serif,14' background 'white'\n"
+          << "set output 'study.svg'\n"
+          << "set title " << quoted(title) << "\n"
+          << "set logscale xy\nset format '%g'\nset grid\n"
+          << "set key outside right top\n"
+          << "set xlabel 'seconds of time stepping'\n"
+          << "set ylabel 'position error at the end (L2, relative)'\n";
+      Points      all;
+      std::string plots;
+      for (unsigned int l = 0; l < lines.size(); ++l)
+        if (const Points points = points_of(lines[l]); !points.empty())
+        {
+          const std::string name = "line" + std::to_string(l);
+          write_data(out, name, points);
+          plots += (plots.empty() ? "" : ", \\\n  ") + ("$" + name)
+                   + " with linespoints lw 2 pt 7 ps 0.7 title "
+                   + quoted(lines[l].title.empty() ? "error" : lines[l].title);
+          all.insert(all.end(), points.begin(), points.end());
+        }
+      write_data(out, "front", pareto_front(all));
+      out << "plot " << plots
+          << ", \\\n  $front with points pt 6 ps 1.8 lw 2 lc 'black' title 'Pareto front'\n";
+    }
+  } // namespace
+
+  std::vector<std::pair<double, double>>
+  pareto_front(std::vector<std::pair<double, double>> points)
+  {
+    std::sort(points.begin(), points.end());
+    Points front;
+    for (const auto &point : points)
+      if (front.empty() || point.second < front.back().second)
+        front.push_back(point);
+    return front;
+  }
+
+  std::string
+  plot_study(const StudyTable &table, const std::string &title, const StudyDirectory &directory)
+  {
+    const std::vector<StudyLine> lines = lines_of(table);
+    if (std::all_of(lines.begin(), lines.end(),
+                    [](const StudyLine &line) { return points_of(line).empty(); }))
+      return "";
+    {
+      AtomicFile script(directory.gnuplot());
+      write_script(script.stream(), lines, title);
+      script.commit();
+    }
+    const std::filesystem::path    log = directory.runs() / "gnuplot.log";
+    const std::vector<std::string> command
+        = { "gnuplot", "-e", "cd " + quoted(directory.get_path()), directory.gnuplot().filename() };
+    const ChildEnd end = run_child(command, log, 60.);
+    if (end.exit_status == no_such_program)
+      return "There is no gnuplot, so " + directory.svg().string()
+             + " is not drawn. Install it (Debian: apt-get install gnuplot-nox) and call the study "
+               "again; what has been run is not run anew.";
+    if (end.exit_status != 0)
+      return "gnuplot could not draw " + directory.svg().string() + "; what it says is in "
+             + log.string() + ".";
+    std::filesystem::remove(log);
+    return "";
+  }
+} // namespace Exemplar

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/atomic_file.h>
+#include <exemplar/base/version.h>
+#include <exemplar/study/study_report.h>
+
+#include <cmath>
+#include <functional>
+#include <iomanip>
+#include <map>
+#include <sstream>
+
+namespace Exemplar
+{
+  namespace
+  {
+    /// Three digits tell all that a table is read for.
+    std::string
+    rounded(const double value, const int digits = 3)
+    {
+      if (!std::isfinite(value))
+        return "";
+      std::ostringstream text;
+      text << std::setprecision(digits) << value;
+      return text.str();
+    }
+
+    std::string
+    cell(const std::string &text)
+    {
+      std::string escaped;
+      for (const char c : text)
+        escaped += c == '|' ? "\\|" : std::string(1, c);
+      return escaped;
+    }
+
+    std::string
+    settings_text(const std::vector<Assignment> &assignments)
+    {
+      std::string text;
+      for (const Assignment &a : assignments)
+        text += (text.empty() ? "`" : ", `") + a.path() + " = " + a.value + "`";
+      return text.empty() ? "none" : text;
+    }
+
+    void
+    write_head(std::ostream &out, const Study &study)
+    {
+      out << "# Study " << study.file.stem().string() << "\n\n"
+          << "- Scene: `" << study.scene.filename().string() << "`\n"
+          << "- Set for all runs: " << settings_text(study.base) << '\n'
+          << "- Reference: " << settings_text(study.reference) << '\n'
+          << "- Seconds: the median of " << study.repeats << (study.repeats == 1 ? " run" : " runs")
+          << " on " << study.threads << (study.threads == 1 ? " thread" : " threads")
+          << ", time stepping alone\n"
+          << "- Program: exemplar " << EXEMPLAR_VERSION << " (" << EXEMPLAR_GIT_REVISION << ")\n";
+    }
+
+    /// A column of a table: the error or another number of a row; errors have an order.
+    struct Column
+    {
+      std::string                             title;
+      std::function<double(const StudyRow &)> value;
+      bool                                    has_order;
+    };
+
+    std::vector<Column>
+    columns_of(const StudyTable &table)
+    {
+      const bool          has_reference = table.has_reference;
+      std::vector<Column> columns;
+      if (has_reference)
+        columns
+            = { { "position error, L2", [](const StudyRow &row) { return row.errors.l2; }, true },
+                { "position error, max", [](const StudyRow &row) { return row.errors.max; }, true },
+                { "energy error", [](const StudyRow &row) { return row.error_energy; }, true } };
+      columns.insert(
+          columns.end(),
+          { { "seconds", [](const StudyRow &row) { return row.seconds_median; }, false },
+            { "steps", [](const StudyRow &row) { return row.statistics.steps; }, false },
+            { "iterations", [](const StudyRow &row) { return row.statistics.iterations; }, false },
+            { "factorizations", [](const StudyRow &row) { return row.summary.factorizations; },
+              false },
+            { "residual", [](const StudyRow &row) { return row.statistics.residual; }, false },
+            { "min det F", [](const StudyRow &row) { return row.statistics.min_det_F; }, false } });
+      if (!has_reference)
+        columns.insert(
+            columns.end(),
+            { { "energy growth", [](const StudyRow &row) { return row.statistics.energy_growth; },
+                false },
+              { "max displacement", [](const StudyRow &row) { return row.max_displacement; },
+                false } });
+      for (unsigned int i = 0; i < table.extra_columns.size(); ++i)
+        columns.push_back(
+            { table.extra_columns[i], [i](const StudyRow &row) { return row.extra[i]; }, false });
+      return columns;
+    }
+
+    /// The axes whose values a table lists: the numeric one, or all.
+    std::vector<unsigned int>
+    listed_axes(const std::vector<StudyAxis> &axes)
+    {
+      if (const auto numeric = numeric_axis(axes))
+        return { *numeric };
+      std::vector<unsigned int> all(axes.size());
+      for (unsigned int a = 0; a < axes.size(); ++a)
+        all[a] = a;
+      return all;
+    }
+
+    void
+    write_table_head(std::ostream &out, const StudyTable &table, const std::vector<Column> &columns)
+    {
+      const bool  has_orders = numeric_axis(table.axes).has_value();
+      std::string rule       = "|";
+      const auto  write      = [&](const std::string &title, const char *alignment)
+      {
+        out << " " << cell(title) << " |";
+        rule += alignment;
+      };
+      out << "|";
+      for (const unsigned int a : listed_axes(table.axes))
+        write(table.axes[a].name(), "---|");
+      write("status", "---|");
+      for (const Column &column : columns)
+      {
+        write(column.title, "---:|");
+        if (column.has_order && has_orders)
+          write("order", "---:|");
+      }
+      out << '\n' << rule << '\n';
+    }
+
+    void
+    write_table(std::ostream &out, const StudyTable &table, const StudyLine &line)
+    {
+      const auto                numeric = numeric_axis(table.axes);
+      const std::vector<Column> columns = columns_of(table);
+      write_table_head(out, table, columns);
+      const StudyRow *before = nullptr;
+      for (const StudyRow *row : line.rows)
+      {
+        out << "|";
+        for (const unsigned int a : listed_axes(table.axes))
+          out << " " << cell(table.axes[a].text(row->choice[a])) << " |";
+        out << " " << row->status << " |";
+        for (const Column &column : columns)
+        {
+          out << " " << rounded(column.value(*row)) << " |";
+          if (!column.has_order || !numeric)
+            continue;
+          const StudyAxis &axis = table.axes[*numeric];
+          out << " "
+              << (before == nullptr
+                      ? ""
+                      : rounded(observed_order(column.value(*before), column.value(*row),
+                                               number_of(axis, before->choice[*numeric]),
+                                               number_of(axis, row->choice[*numeric]))))
+              << " |";
+        }
+        out << '\n';
+        before = row;
+      }
+    }
+
+    /// "Section/Key = value, ..." on all axes, or on those that do not change in a line.
+    std::string
+    values_text(const StudyTable &table, const StudyRow &row, const bool of_line)
+    {
+      const auto  numeric = numeric_axis(table.axes);
+      std::string text;
+      for (unsigned int a = 0; a < table.axes.size(); ++a)
+        if (!of_line || (numeric && a != *numeric))
+          text += (text.empty() ? "" : ", ") + table.axes[a].name() + " = "
+                  + table.axes[a].text(row.choice[a]);
+      return text;
+    }
+
+    /// What failed for the same reason, together.
+    void
+    write_failures(std::ostream &out, const StudyTable &table)
+    {
+      std::map<std::string, std::vector<const StudyRow *>> failures;
+      for (const StudyRow &row : table.rows)
+        if (row.exit_status != 0)
+          failures[row.status + ". " + row.message].push_back(&row);
+      if (!failures.empty())
+        out << "\n## What failed\n";
+      for (const auto &[reason, rows] : failures)
+      {
+        out << "\n" << rows.size() << (rows.size() == 1 ? " run: " : " runs: ") << reason << "\n\n";
+        for (const StudyRow *row : rows)
+          out << "- " << values_text(table, *row, false) << '\n';
+      }
+    }
+  } // namespace
+
+  void
+  write_study_report(const Study &study, const StudyTable &table, const std::filesystem::path &file)
+  {
+    AtomicFile    atomic_file(file);
+    std::ostream &out = atomic_file.stream();
+    write_head(out, study);
+    if (table.has_reference)
+      out << "\nErrors are those at the end, over the displacement and the energy of the "
+             "reference.\nAn order is p in error ~ number^p, between a row and the one above.\n";
+    for (const StudyLine &line : lines_of(table))
+    {
+      if (const std::string title = values_text(table, *line.rows[0], true); !title.empty())
+        out << "\n## " << title << "\n";
+      out << '\n';
+      write_table(out, table, line);
+    }
+    write_failures(out, table);
+    atomic_file.commit();
+  }
+} // namespace Exemplar

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/atomic_file.h>
+#include <exemplar/base/child_process.h>
+#include <exemplar/base/digest.h>
+#include <exemplar/base/errors.h>
+#include <exemplar/base/number_text.h>
+#include <exemplar/run/run_directory.h>
+#include <exemplar/study/study_runs.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstring>
+#include <fstream>
+#include <regex>
+#include <sstream>
+
+namespace Exemplar
+{
+  namespace fs = std::filesystem;
+  using Json   = nlohmann::ordered_json;
+
+  namespace
+  {
+    const char *const program = "/proc/self/exe"; // also if the file has been replaced since
+
+    /// Empty if there is none.
+    Json
+    read_json(const fs::path &file)
+    {
+      std::ifstream in(file);
+      return in ? Json::parse(in) : Json::object();
+    }
+
+    fs::path
+    record_file(const fs::path &run)
+    {
+      return run / "record.json";
+    }
+
+    void
+    write_record(const StudyRecord &record, const fs::path &file)
+    {
+      Json json;
+      json["status"]      = record.status;
+      json["exit_status"] = record.exit_status;
+      json["message"]     = record.message;
+      json["seconds"]     = record.seconds;
+      json["timeout"]     = record.timeout;
+      AtomicFile atomic_file(file);
+      atomic_file.stream() << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+      atomic_file.commit();
+    }
+
+    /// What the program says when it fails, in one line; it is the last that it says.
+    std::string
+    message_in(const fs::path &log)
+    {
+      std::ifstream      in(log);
+      std::ostringstream bytes;
+      bytes << in.rdbuf();
+      const std::string text  = "\n" + bytes.str();
+      const std::string start = "\nexemplar: ";
+      const auto        found = text.rfind(start);
+      if (found == std::string::npos)
+        return "";
+      std::string message = trim(text.substr(found + start.size()));
+      std::replace(message.begin(), message.end(), '\n', ' ');
+      return message;
+    }
+
+    std::string
+    seconds_text(const double seconds)
+    {
+      return shortest_text(seconds) + " s";
+    }
+
+    StudyRecord
+    make_record(const ChildEnd &end, const Json &summary, const fs::path &log, const double timeout)
+    {
+      StudyRecord record;
+      record.exit_status = end.exit_status;
+      record.timeout     = timeout;
+      record.message     = end.exit_status == 0 ? "" : message_in(log);
+      if (end.timed_out && end.signal != 0)
+      {
+        record.status  = "timeout";
+        record.message = "Ended after " + seconds_text(timeout) + ", the study's Timeout.";
+      }
+      else if (end.signal != 0)
+      {
+        record.status  = "crash";
+        record.message = "Killed by signal " + std::to_string(end.signal) + " ("
+                         + strsignal(end.signal) + ").";
+      }
+      else if (end.exit_status == 1)
+        record.status = "refused";
+      else if (end.exit_status == 0 || end.exit_status == 2)
+        record.status = summary.value("status", "failed");
+      else
+        record.status = "crash";
+      return record;
+    }
+
+    /// Of the time stepping: reading and setting up is the same for all methods, and writing
+    /// depends on the disk.
+    double
+    seconds_of(const ChildEnd &end, const Json &summary)
+    {
+      if (!summary.contains("seconds"))
+        return end.seconds;
+      const Json &parts = summary.at("seconds");
+      return parts.at("total").get<double>() - parts.at("read").get<double>()
+             - parts.at("output").get<double>();
+    }
+  } // namespace
+
+  RunNames::RunNames(const Study &study, const std::string &scene_text)
+      : common(sha256(program) + "\n" + std::to_string(study.threads) + "\n" + study.scene.string()
+               + "\n" + scene_text)
+  {
+  }
+
+  std::string
+  RunNames::name(const std::vector<Assignment> &assignments,
+                 const std::vector<fs::path>   &input_files)
+  {
+    std::string text = common;
+    for (const Assignment &assignment : assignments)
+      text += "\n" + assignment.path() + "=" + assignment.value;
+    for (const fs::path &file : input_files)
+    {
+      std::string &digest = digests[file.string()];
+      if (digest.empty())
+        digest = fs::is_regular_file(file) ? sha256(file) : "absent";
+      text += "\n" + file.string() + " " + digest;
+    }
+    return sha256_of_text(text).substr(0, 16);
+  }
+
+  StudyRuns::StudyRuns(fs::path path, const Study &study) : directory(std::move(path)), study(study)
+  {
+    if (fs::exists(directory))
+      for (const auto &entry : fs::directory_iterator(directory))
+        load(entry.path().filename().string());
+  }
+
+  void
+  StudyRuns::load(const std::string &name)
+  {
+    StudyRecord record;
+    try
+    {
+      const Json json    = read_json(record_file(path(name)));
+      record.status      = json.at("status");
+      record.exit_status = json.at("exit_status");
+      record.message     = json.at("message");
+      record.seconds     = json.at("seconds").get<std::vector<double>>();
+      record.timeout     = json.at("timeout");
+    }
+    catch (const Json::exception &)
+    {
+      return; // none, or of a version that wrote others
+    }
+    if (record.status == "timeout" && (study.timeout == 0. || study.timeout > record.timeout))
+      return; // now it may take longer
+    records[name] = record;
+  }
+
+  bool
+  StudyRuns::is_done(const std::string &name, const unsigned int repeats) const
+  {
+    const auto found = records.find(name);
+    return found != records.end()
+           && (!found->second.succeeded() || found->second.seconds.size() >= repeats);
+  }
+
+  StudyRecord
+  StudyRuns::run_in_scratch(const PlannedRun &planned) const
+  {
+    std::vector<std::string> command
+        = { program,    study.scene.string(), "--quiet", "--threads", std::to_string(study.threads),
+            "--output", scratch().string() };
+    for (const Assignment &assignment : planned.assignments)
+      command.insert(command.end(), { "--set", assignment.path() + "=" + assignment.value });
+    const fs::path log = directory / "running.log"; // a run wants its directory for itself
+
+    fs::remove_all(scratch());
+    const ChildEnd end = run_child(command, log, study.timeout);
+    if (end.exit_status == 130)
+      throw Interrupted("A run has been interrupted.");
+
+    fs::create_directories(scratch());
+    const RunDirectory run(scratch());
+    fs::rename(log, scratch() / "log.txt");
+    fs::remove(run.checkpoint());
+    const Json  summary = read_json(run.summary());
+    StudyRecord record  = make_record(end, summary, scratch() / "log.txt", study.timeout);
+    record.seconds      = { seconds_of(end, summary) };
+    return record;
+  }
+
+  const StudyRecord &
+  StudyRuns::run(const PlannedRun &planned)
+  {
+    StudyRecord now     = run_in_scratch(planned);
+    const auto  earlier = records.find(planned.name);
+    if (earlier != records.end() && earlier->second.succeeded())
+    {
+      // all else is the same, unless the repeat was killed or took too long
+      if (now.succeeded())
+        earlier->second.seconds.push_back(now.seconds[0]);
+      now = earlier->second;
+      fs::remove_all(scratch());
+    }
+    else
+    {
+      fs::remove_all(path(planned.name));
+      fs::rename(scratch(), path(planned.name));
+    }
+    write_record(now, record_file(path(planned.name)));
+    return records[planned.name] = now;
+  }
+
+  std::vector<fs::path>
+  StudyRuns::others(const std::vector<std::string> &names) const
+  {
+    static const std::regex run("[0-9a-f]{16}");
+    std::vector<fs::path>   found;
+    if (fs::exists(directory))
+      for (const auto &entry : fs::directory_iterator(directory))
+        if (const std::string name = entry.path().filename().string();
+            std::regex_match(name, run) && std::count(names.begin(), names.end(), name) == 0)
+          found.push_back(entry.path());
+    return found;
+  }
+} // namespace Exemplar

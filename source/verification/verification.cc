@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
+#include <exemplar/verification/verification.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <iomanip>
+#include <iostream>
+
+namespace Exemplar
+{
+  namespace Verification
+  {
+    bool
+    Measurement::passes() const
+    {
+      const double error = std::abs(got - expected);
+      switch (comparison) // a NaN passes none
+      {
+      case Comparison::absolute:
+        return error <= tolerance;
+      case Comparison::relative:
+        return error <= tolerance * std::abs(expected);
+      case Comparison::at_most:
+        return got <= expected;
+      case Comparison::at_least:
+        return got >= expected;
+      }
+      return false;
+    }
+
+    namespace
+    {
+      std::vector<Case>
+      all_cases()
+      {
+        std::vector<Case> all;
+        for (const auto &subject : { kernel_cases, derivative_cases, static_cases, beam_cases,
+                                     dynamic_cases, example_cases })
+          for (Case &one : subject())
+            all.push_back(std::move(one));
+        return all;
+      }
+
+      std::vector<Case>
+      select(const std::vector<std::string> &names)
+      {
+        const std::vector<Case> all = all_cases();
+        if (names.empty())
+          return all;
+        std::vector<Case> selected;
+        for (const std::string &name : names)
+        {
+          const auto found = std::find_if(all.begin(), all.end(),
+                                          [&](const Case &one) { return one.name == name; });
+          if (found == all.end())
+          {
+            std::string allowed;
+            for (const Case &one : all)
+              allowed += (allowed.empty() ? "" : ", ") + one.name;
+            throw UserError("verify: there is no case '" + name + "'. Allowed: " + allowed + ".");
+          }
+          selected.push_back(*found);
+        }
+        return selected;
+      }
+
+      std::string
+      six_digits(const double value)
+      {
+        char text[32];
+        std::snprintf(text, sizeof(text), "%.6g", value);
+        return text;
+      }
+
+      std::string
+      tolerance_text(const Measurement &measurement)
+      {
+        switch (measurement.comparison)
+        {
+        case Comparison::absolute:
+          return six_digits(measurement.tolerance) + " absolute";
+        case Comparison::relative:
+          return six_digits(measurement.tolerance) + " relative";
+        case Comparison::at_most:
+          return "at most";
+        case Comparison::at_least:
+          return "at least";
+        }
+        return "";
+      }
+
+      void
+      print_row(const std::string &verdict,
+                const std::string &name,
+                const std::string &expected,
+                const std::string &got,
+                const std::string &tolerance)
+      {
+        std::cout << std::left << std::setw(6) << verdict << std::setw(58) << name << std::setw(13)
+                  << expected << std::setw(13) << got << tolerance << std::endl;
+      }
+
+      /// Print a line for each number. Returns whether all are as expected.
+      bool
+      run(const Case &one)
+      {
+        try
+        {
+          bool passes = true;
+          for (const Measurement &m : one.measure())
+          {
+            print_row(m.passes() ? "PASS" : "FAIL", one.name + " (" + m.what + ")",
+                      six_digits(m.expected), six_digits(m.got), tolerance_text(m));
+            passes = passes && m.passes();
+          }
+          return passes;
+        }
+        catch (const Interrupted &)
+        {
+          throw;
+        }
+        catch (const std::exception &error)
+        {
+          std::cout << "FAIL  " << one.name << ": " << error.what() << std::endl;
+          return false;
+        }
+      }
+    } // namespace
+  }   // namespace Verification
+
+  int
+  verify(const std::vector<std::string> &names)
+  {
+    const std::vector<Verification::Case> cases = Verification::select(names);
+    Verification::print_row("", "case (what)", "expected", "got", "tolerance");
+    std::vector<std::string> failed;
+    for (const Verification::Case &one : cases)
+      if (!Verification::run(one))
+        failed.push_back(one.name);
+    std::cout << cases.size() - failed.size() << " of " << cases.size() << " cases pass";
+    for (std::size_t i = 0; i < failed.size(); ++i)
+      std::cout << (i == 0 ? "; failed: " : ", ") << failed[i];
+    std::cout << std::endl;
+    return failed.empty() ? 0 : 1;
+  }
+
+  void
+  list_verification_cases()
+  {
+    for (const Verification::Case &one : Verification::all_cases())
+      std::cout << std::left << std::setw(32) << one.name << one.description << '\n';
+  }
+} // namespace Exemplar

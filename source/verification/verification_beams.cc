@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/number_text.h>
+#include <exemplar/verification/verification.h>
+#include <exemplar/verification/verification_scene.h>
+
+#include <cmath>
+
+// Beams and Cook's membrane. Linear tetrahedra are too stiff in bending, so no case looks
+// at one mesh: three, each with cells of half the size, give the order and the limit.
+
+namespace Exemplar::Verification
+{
+  namespace
+  {
+    // A beam of height 1 and width 1/4, Poisson's ratio 0. It bends in the plane y = const,
+    // and with nu = 0 nothing moves along y: one cell is enough across, and y is held.
+    constexpr double width = 0.25, E = 1e6, I = width / 12.;
+
+    std::string
+    beam(const double slenderness, const unsigned int cells_of_height)
+    {
+      const auto nx = static_cast<unsigned int>(slenderness) * cells_of_height;
+      return box({ { slenderness, width, 1. } }, { { nx, 1, cells_of_height } })
+             + section("Material", set("Young's modulus", E) + set("Poisson's ratio", 0.));
+    }
+
+    const std::string clamp_and_plane
+        = named_sections("Handles",
+                         { { "end", set("Select", "boundary 1") },
+                           { "front", set("Select", "boundary 3") + set("Components", "y") },
+                           { "back", set("Select", "boundary 4") + set("Components", "y") } });
+
+    /// Mean displacement of the nodes of a boundary.
+    dealii::Tensor<1, 3>
+    mean_displacement(const Problem &p, const State &state, const std::string &boundary)
+    {
+      dealii::Tensor<1, 3> sum;
+      const auto           nodes = Selection{ boundary }.nodes(p.mesh, "verify");
+      for (const unsigned int node : nodes)
+        for (unsigned int c = 0; c < 3; ++c)
+          sum[c] += state.positions[3 * node + c] - p.fe_space.rest_positions()[3 * node + c];
+      return sum / static_cast<double>(nodes.size());
+    }
+
+    std::string
+    increments(const unsigned int n)
+    {
+      return section("Time", set("Increments", std::to_string(n)));
+    }
+
+    dealii::Tensor<1, 3>
+    cantilever_tip(const double slenderness, const unsigned int alpha, const unsigned int cells)
+    {
+      const double force = alpha * E * I / (slenderness * slenderness);
+      Scene        scene(set("Scene", "static") + beam(slenderness, cells) + clamp_and_plane
+                         + named_sections(
+                             "Loads", { { "tip", set("Select", "boundary 2")
+                                                     + set("Force", "0; 0; t*" + shortest_text(force)) } })
+                         + increments((alpha + 2) / 3));
+      return mean_displacement(scene.problem, scene.solve(), "boundary 2") / slenderness;
+    }
+
+    std::vector<Measurement>
+    cantilever(const double       slenderness,
+               const unsigned int alpha,
+               const double       deflection,
+               const double       shortening)
+    {
+      Refinement                        w, u;
+      const std::array<unsigned int, 3> cells = { { 5, 10, 20 } };
+      for (unsigned int mesh = 0; mesh < 3; ++mesh)
+      {
+        const auto tip = cantilever_tip(slenderness, alpha, cells[mesh]);
+        w.values[mesh] = tip[2];
+        u.values[mesh] = -tip[0];
+      }
+      return { { "w/L", deflection, w.smooth_limit(), Comparison::relative, 0.01 },
+               { "u/L", shortening, u.smooth_limit(), Comparison::relative, 0.01 },
+               { "order of w", 2., w.order(), Comparison::absolute, 0.3 },
+               { "order of u", 2., u.order(), Comparison::absolute, 0.3 } };
+    }
+    /// A force that grows with t and turns from x towards z, by an angle at t = 1.
+    std::string
+    turning(const double force, const double angle)
+    {
+      const std::string size = shortest_text(force) + "*t*",
+                        at   = "(" + shortest_text(angle) + "*t)";
+      return size + "cos" + at + "; 0; " + size + "sin" + at;
+    }
+
+    /// Dead forces on single nodes of the face x = L that share sigma(z) = -M z / I as a
+    /// linear traction along the axis as an arc of `angle` t turns it: there they are the
+    /// end moment M t.
+    std::string
+    couple(const Mesh &mesh, const double slenderness, const unsigned int cells, const double angle)
+    {
+      const double                                     moment = E * I * angle / slenderness;
+      const double                                     dz     = 1. / cells;
+      std::vector<std::pair<std::string, std::string>> loads;
+      for (unsigned int node = 0; node < mesh.n_nodes(); ++node)
+      {
+        const dealii::Point<3> &X = mesh.get_nodes()[node];
+        if (std::abs(X[0] - slenderness) > 1e-9)
+          continue;
+        // integral of z N over the two (or, at an edge, one) cells beside z, half the width
+        const bool   edge = std::abs(std::abs(X[2]) - 0.5) < 1e-9;
+        const double first
+            = edge ? dz * (X[2] / 3. + (X[2] - std::copysign(dz, X[2])) / 6.) : dz * X[2];
+        const double force = -moment / I * first * width / 2.;
+        loads.emplace_back("n" + std::to_string(node),
+                           set("Select", "sphere " + shortest_text(X[0]) + " " + shortest_text(X[1])
+                                             + " " + shortest_text(X[2]) + " 1e-6")
+                               + set("Force", turning(force, angle)));
+      }
+      return named_sections("Loads", loads);
+    }
+
+    std::vector<Measurement>
+    pure_bending()
+    {
+      const double                      L = 20., angle = M_PI / 2.;
+      const std::array<unsigned int, 3> cells = { { 5, 10, 20 } };
+      Refinement                        w, u;
+      for (unsigned int mesh = 0; mesh < 3; ++mesh)
+      {
+        const unsigned int n    = cells[mesh];
+        const std::string  text = set("Scene", "static") + beam(L, n) + clamp_and_plane;
+        const Scene        unloaded(text);
+        Scene              scene(text + couple(unloaded.problem.mesh, L, n, angle) + increments(4));
+        const auto         tip = mean_displacement(scene.problem, scene.solve(), "boundary 2") / L;
+        w.values[mesh]         = tip[2];
+        u.values[mesh]         = -tip[0];
+      }
+      return {
+        { "w/L", (1. - std::cos(angle)) / angle, w.smooth_limit(), Comparison::relative, 0.01 },
+        { "u/L", 1. - std::sin(angle) / angle, u.smooth_limit(), Comparison::relative, 0.01 },
+        { "order of w", 2., w.order(), Comparison::absolute, 0.3 },
+        { "order of u", 2., u.order(), Comparison::absolute, 0.3 }
+      };
+    }
+
+    /// Cook's membrane (0,0), (48,44), (48,60), (0,44) in plane strain: the mean displacement
+    /// of the middle of the loaded edge along it, for F = 1.
+    double
+    cook_deflection(const double poisson, const unsigned int cells)
+    {
+      const MovedBox membrane({ { 1., 1., 1. } }, { { cells, cells, 1 } },
+                              [](const dealii::Point<3> &p)
+                              {
+                                const double eta = p[1] + 0.5;
+                                return dealii::Point<3>(
+                                    48. * p[0], 44. * p[0] + eta * (44. - 28. * p[0]), p[2]);
+                              });
+      const double   force = 1e-4; // of the small load, for which the result is linear
+      const auto     plane = set("Components", "z");
+      Scene          scene(
+                   set("Scene", "static") + membrane.section()
+                   + section("Material", set("Young's modulus", 1.) + set("Poisson's ratio", poisson))
+                   + named_sections("Handles", { { "end", set("Select", "boundary 1") },
+                                                 { "back", set("Select", "boundary 5") + plane },
+                                                 { "front", set("Select", "boundary 6") + plane } })
+                   + named_sections(
+                       "Loads", { { "edge", set("Select", "boundary 2") + set("Force", "0; 1e-4*t; 0") } })
+                   + increments(1));
+      return mean_displacement(scene.problem, scene.solve(), "box 47.9 51.9 -1 48.1 52.1 1")[1]
+             / force;
+    }
+
+    std::vector<Measurement>
+    cook(const double poisson, const double expected)
+    {
+      Refinement deflection;
+      for (unsigned int mesh = 0; mesh < 3; ++mesh)
+        deflection.values[mesh] = cook_deflection(poisson, 16u << mesh);
+      return { { "mid-point of the loaded edge", expected, deflection.limit(), Comparison::relative,
+                 0.01 },
+               { "order", 1., deflection.order(), Comparison::at_least } };
+    }
+
+    /// f_1 [Hz] of the stiffness at rest and the mass, by inverse iteration: K y = M x, with the
+    /// Rayleigh quotient y.K y / y.M y.
+    double
+    first_frequency(const double slenderness, const unsigned int cells)
+    {
+      Scene         scene(set("Scene", "static") + beam(slenderness, cells) + clamp_and_plane);
+      Problem      &p    = scene.problem;
+      const auto   &free = p.free_dofs.list();
+      const Inertia inertia(p.fe_space, p.material, MassMatrix::consistent);
+      dealii::Vector<double> mode(p.fe_space.n_dofs());
+      for (const unsigned int dof : free)
+        if (dof % 3 == 2)
+          mode[dof] = std::pow(p.fe_space.rest_positions()[dof - 2], 2);
+      p.assembler.update_rotations(p.fe_space.rest_positions());
+      std::vector<double> no_columns;
+      p.assembler.assemble_tangent(Tangent::exact, p.fe_space.rest_positions(), {},
+                                   p.linear_solver->matrix_values(), no_columns);
+      p.linear_solver->factorize(WeightBlock());
+      double omega_squared = 0.;
+      for (unsigned int iteration = 0; iteration < 8; ++iteration) // f_2/f_1 = 6.3: 36^-8 is left
+      {
+        const auto     right_side = mass_times(inertia, mode);
+        BorderedVector unknowns;
+        for (const unsigned int dof : free)
+          unknowns.positions.push_back(right_side[dof]);
+        p.linear_solver->solve(WeightBlock(), unknowns);
+        for (unsigned int i = 0; i < free.size(); ++i)
+          mode[free[i]] = unknowns.positions[i];
+        const double y_M_y = mode * mass_times(inertia, mode);
+        omega_squared      = (mode * right_side) / y_M_y;
+        mode /= std::sqrt(y_M_y);
+      }
+      return std::sqrt(omega_squared) / (2. * M_PI);
+    }
+
+    std::vector<Measurement>
+    frequency()
+    {
+      const double L = 20., density = 1000.;
+      Refinement   f;
+      for (unsigned int mesh = 0; mesh < 3; ++mesh)
+        f.values[mesh] = first_frequency(L, 4u << mesh);
+      const double expected
+          = std::pow(1.8751, 2) / (2. * M_PI * L * L) * std::sqrt(E * I / (density * width));
+      return { { "f_1", expected, f.smooth_limit(), Comparison::relative, 0.01 },
+               { "order", 2., f.order(), Comparison::absolute, 0.3 } };
+    }
+  } // namespace
+
+  std::vector<Case>
+  beam_cases()
+  {
+    std::vector<Case> cases;
+    const auto        add_cantilever
+        = [&](const unsigned int slenderness, const unsigned int alpha, double w, double u)
+    {
+      cases.push_back({ "cantilever-" + std::to_string(slenderness) + "-a" + std::to_string(alpha),
+                        "dead load P on the end, P L^2 = " + std::to_string(alpha)
+                            + " E I, L/h = " + std::to_string(slenderness)
+                            + "; solid (not beam) by quadratic elements, fine",
+                        [=] { return cantilever(slenderness, alpha, w, u); } });
+    };
+    add_cantilever(10, 1, .30372, .05680);
+    add_cantilever(10, 2, .49727, .16186);
+    add_cantilever(10, 4, .67652, .33171);
+    add_cantilever(10, 10, .82366, .56010);
+    add_cantilever(20, 1, .30222, .05653);
+    add_cantilever(20, 2, .49442, .16095);
+    add_cantilever(20, 4, .67164, .32966);
+    add_cantilever(20, 10, .81394, .55634);
+    cases.push_back(
+        { "pure-bending",
+          "end moment, E I phi / L with phi = 90 degrees, L/h = 20: an arc of a circle; "
+          "differs by O((kappa h)^2)",
+          pure_bending });
+    cases.push_back({ "cook-0.333", "Cook's membrane, plane strain, nu = 1/3, small load",
+                      [] { return cook(1. / 3., 21.524); } });
+    cases.push_back({ "cook-0.3", "Cook's membrane, plane strain, nu = 0.3, small load",
+                      [] { return cook(0.3, 21.945); } });
+    cases.push_back({ "frequency",
+                      "clamped-free beam, L/h = 20: f_1 = 1.8751^2 / (2 pi L^2) sqrt(E I / rho A)",
+                      frequency });
+    return cases;
+  }
+} // namespace Exemplar::Verification

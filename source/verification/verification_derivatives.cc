@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/verification/verification.h>
+#include <exemplar/verification/verification_scene.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+// Forces and tangents of a whole body against differences of its energy and forces.
+
+namespace Exemplar::Verification
+{
+  namespace
+  {
+    // E = 1 and lengths of 1: forces and stiffnesses are numbers about 1, and errors are
+    // relative to 1 + the greatest entry, so that a vanishing force has a scale, too
+    const std::string short_bar
+        = set("Scene", "static") + box({ { 3., 1., 1. } }, { { 3, 1, 1 } })
+          + section("Material", set("Young's modulus", 1.) + set("Poisson's ratio", 0.3))
+          + named_sections("Handles", { { "left", set("Select", "boundary 1") } });
+
+    const std::string mixed_examples
+        = section("Examples",
+                  set("Pose functions", twist(60., 3.) + " | 1.1*x; 0.9*y; z")
+                      + set("Importance", 0.7) + set("Weights", "free"));
+
+    const std::string frozen_forces = section("Model", set("Gradient", "frozen"))
+                                      + section("Solver", set("Method", "fixed point"));
+
+    const std::vector<double> weights = { 0.2, 0.5, 0.3 };
+
+    constexpr double tolerance = 1e-7;
+
+    dealii::Vector<double>
+    perturbed(const dealii::Vector<double> &positions, const double amplitude)
+    {
+      std::mt19937                     generator(3);
+      std::normal_distribution<double> normal;
+      dealii::Vector<double>           result = positions;
+      for (double &x : result)
+        x += amplitude * normal(generator);
+      return result;
+    }
+
+    /// Whether rotations follow the positions or are kept: then the energy is quadratic.
+    enum class Rotations
+    {
+      followed,
+      kept
+    };
+
+    /// Derivatives at a state, by the program and by differences.
+    class Differences
+    {
+    public:
+      Differences(Problem &problem, const dealii::Vector<double> &positions, Rotations rotations)
+          : problem(problem), x(positions), w(problem.examples ? weights : std::vector<double>()),
+            rotations(rotations)
+      {
+        problem.assembler.update_rotations(x);
+        at = evaluate(x, w);
+        problem.assembler.update_rotations(x);
+        matrix.resize(problem.assembler.matrix_pattern().n_values());
+        problem.assembler.assemble_tangent(rotations == Rotations::followed ? Tangent::exact
+                                                                            : Tangent::convex,
+                                           x, w, matrix, columns);
+      }
+
+      /// Greatest error of the forces.
+      double
+      of_gradient() const
+      {
+        double greatest = 0.;
+        for (unsigned int dof = 0; dof < x.size(); ++dof)
+        {
+          const double slope
+              = derivative([&](const double h) { return shifted(unit(dof), h).energy; });
+          greatest = std::max(greatest, std::abs(slope - at.gradient[dof]));
+        }
+        return greatest / (1. + at.gradient.linfty_norm());
+      }
+
+      /// Error of the slope of the energy along the forces themselves: |f|.
+      double
+      along_gradient() const
+      {
+        const double norm = at.gradient.l2_norm();
+        if (norm < 1e-12)
+          return norm; // at rest there is no such direction
+        dealii::Vector<double> direction = at.gradient;
+        direction /= norm;
+        const double slope
+            = derivative([&](const double h) { return shifted(direction, h).energy; });
+        return std::abs(slope - norm) / (1. + norm);
+      }
+
+      /// Greatest error of the entries of the tangent.
+      double
+      of_tangent() const
+      {
+        const auto &free     = problem.free_dofs.list();
+        double      greatest = 0., scale = 1.;
+        for (unsigned int j = 0; j < free.size(); ++j)
+        {
+          const auto column = derivative_of_gradient(unit(free[j]));
+          for (unsigned int i = 0; i < free.size(); ++i)
+          {
+            greatest = std::max(greatest, std::abs(column[free[i]] - entry(i, j)));
+            scale    = std::max(scale, std::abs(entry(i, j)));
+          }
+        }
+        return greatest / scale;
+      }
+
+      /// Greatest error of the derivatives by the weights and of the coupling -G.
+      double
+      of_weights() const
+      {
+        const auto &free     = problem.free_dofs.list();
+        double      greatest = 0.;
+        for (unsigned int k = 0; k < w.size(); ++k)
+        {
+          const auto weight_moved = [&](const double h)
+          {
+            std::vector<double> moved = w;
+            moved[k] += h;
+            return evaluate(x, moved);
+          };
+          const double slope = derivative([&](const double h) { return weight_moved(h).energy; });
+          greatest           = std::max(greatest, std::abs(slope - at.weight_gradient[k]));
+          for (unsigned int i = 0; i < free.size(); ++i)
+          {
+            const double change
+                = derivative([&](const double h) { return weight_moved(h).gradient[free[i]]; });
+            const double entry
+                = problem.examples->is_strained(k)
+                      ? columns[problem.examples->strained_index(k) * free.size() + i]
+                      : 0.;
+            greatest = std::max(greatest, std::abs(change + entry));
+          }
+        }
+        return greatest / (1. + at.gradient.linfty_norm());
+      }
+
+      /// Whether the guard acts: its derivative is left out of the tangent, Eq. (18).
+      bool
+      are_guarded() const
+      {
+        return at.guarded_cells > 0;
+      }
+
+    private:
+      /// Central difference of fourth order at 0.
+      template <typename Function>
+      static double
+      derivative(const Function &f)
+      {
+        const double h = 1e-3;
+        return (8. * (f(h) - f(-h)) - (f(2. * h) - f(-2. * h))) / (12. * h);
+      }
+
+      dealii::Vector<double>
+      derivative_of_gradient(const dealii::Vector<double> &direction) const
+      {
+        const double           h = 1e-3;
+        dealii::Vector<double> sum(x.size());
+        for (const auto &[steps, factor] :
+             { std::pair(1., 8.), std::pair(-1., -8.), std::pair(2., -1.), std::pair(-2., 1.) })
+          sum.add(factor / (12. * h), shifted(direction, steps * h).gradient);
+        return sum;
+      }
+
+      dealii::Vector<double>
+      unit(const unsigned int dof) const
+      {
+        dealii::Vector<double> direction(x.size());
+        direction[dof] = 1.;
+        return direction;
+      }
+
+      Evaluation
+      shifted(const dealii::Vector<double> &direction, const double h) const
+      {
+        dealii::Vector<double> moved = x;
+        moved.add(h, direction);
+        return evaluate(moved, w);
+      }
+
+      Evaluation
+      evaluate(const dealii::Vector<double> &positions, const std::vector<double> &at_weights) const
+      {
+        if (rotations == Rotations::followed)
+          problem.assembler.update_rotations(positions);
+        Evaluation evaluation;
+        problem.assembler.evaluate(positions, at_weights, evaluation);
+        return evaluation;
+      }
+
+      double
+      entry(unsigned int i, unsigned int j) const
+      {
+        if (i < j)
+          std::swap(i, j);
+        const auto &pattern  = problem.assembler.matrix_pattern();
+        const int   position = pattern.position(i, j);
+        const bool  is_there = position < pattern.column_start[j + 1]
+                              && pattern.row[position] == static_cast<int>(i);
+        return is_there ? matrix[position] : 0.;
+      }
+
+      Problem                     &problem;
+      const dealii::Vector<double> x;
+      const std::vector<double>    w;
+      const Rotations              rotations;
+      Evaluation                   at;
+      std::vector<double>          matrix;
+      std::vector<double>          columns;
+    };
+
+    void
+    measure(const Differences &differences, const std::string &with, std::vector<Measurement> &all)
+    {
+      const auto add = [&](const std::string &what, const double error) {
+        all.push_back({ what + with, 0., error, Comparison::absolute, tolerance });
+      };
+      add("forces", differences.of_gradient());
+      add("along the forces", differences.along_gradient());
+      if (!differences.are_guarded())
+        add("tangent", differences.of_tangent());
+    }
+
+    /// At F (X + perturbation), without and with examples.
+    std::vector<Measurement>
+    derivatives_at(const Matrix3<double> &F, const double amplitude, const std::string &model)
+    {
+      std::vector<Measurement> all;
+      Scene                    plain(short_bar + model), with(short_bar + mixed_examples + model);
+      const auto               x
+          = moved_rigidly(perturbed(plain.problem.fe_space.rest_positions(), amplitude), F, {});
+      measure(Differences(plain.problem, x, Rotations::followed), "", all);
+      const Differences differences(with.problem, x, Rotations::followed);
+      measure(differences, ", examples", all);
+      if (!differences.are_guarded())
+        all.push_back({ "weights", 0., differences.of_weights(), Comparison::absolute, tolerance });
+      return all;
+    }
+
+    std::vector<Measurement>
+    frozen_derivatives()
+    {
+      Scene                    scene(short_bar + mixed_examples + frozen_forces);
+      const auto               x = perturbed(scene.problem.fe_space.rest_positions(), 0.15);
+      const Differences        differences(scene.problem, x, Rotations::kept);
+      std::vector<Measurement> all;
+      measure(differences, ", examples", all);
+      all.push_back({ "weights", 0., differences.of_weights(), Comparison::absolute, tolerance });
+      return all;
+    }
+
+    Matrix3<double>
+    diagonal(const double a, const double b, const double c)
+    {
+      return { { { a, 0., 0. }, { 0., b, 0. }, { 0., 0., c } } };
+    }
+
+    Case
+    case_at(const std::string     &name,
+            const std::string     &state,
+            const Matrix3<double> &F,
+            const double           amplitude,
+            const std::string     &model = "")
+    {
+      return { "derivatives-" + name,
+               "central differences, 4th order, " + state + "; doc/method.md, Eqs. (16) to (20)",
+               [=] { return derivatives_at(F, amplitude, model); } };
+    }
+  } // namespace
+
+  std::vector<Case>
+  derivative_cases()
+  {
+    const Matrix3<double> I         = identity_matrix<double>();
+    const Matrix3<double> Q         = rotation_about({ { 1., 2., -1. } }, 0.8);
+    const Matrix3<double> half_turn = rotation_about({ { 3., 1., 1. } }, 179.9 * M_PI / 180.);
+    const Matrix3<double> flat      = Q * diagonal(1.3, 0.8, 0.),
+                          mirrored  = Q * diagonal(1.5, 1.2, -0.4);
+    const std::string green         = section("Model", set("Strain", "green"));
+    const std::string linear        = section("Model", set("Strain", "linear"));
+    return {
+      case_at("rest", "at rest", I, 0.),
+      case_at("random", "at random", I, 0.1),
+      case_at("turned", "turned by 179.9 degrees", half_turn, 0.03),
+      case_at("flat", "flattened into a plane", flat, 0.03),
+      case_at("inverted", "mirrored", mirrored, 0.02),
+      case_at("guarded", "mirrored where the guard acts", Q * diagonal(1.1, 0.7, -0.5), 0.01),
+      case_at("compressed", "compressed", Q * diagonal(0.6, 0.55, 0.5), 0.02),
+      case_at("green-rest", "green strain at rest", I, 0., green),
+      case_at("green-random", "green strain at random", I, 0.1, green),
+      case_at("green-turned", "green strain, turned by 179.9 degrees", half_turn, 0.03, green),
+      case_at("green-flat", "green strain, flattened into a plane", flat, 0.03, green),
+      case_at("green-inverted", "green strain, mirrored", mirrored, 0.02, green),
+      case_at("linear-rest", "linear strain at rest", I, 0., linear),
+      case_at("linear-turned", "linear strain, turned by 179.9 degrees", half_turn, 0.03, linear),
+      case_at("linear-flat", "linear strain, flattened into a plane", flat, 0.03, linear),
+      case_at("linear-random", "linear strain at random", I, 0.1, linear),
+      case_at("linear-inverted", "linear strain, mirrored", mirrored, 0.02, linear),
+      { "derivatives-frozen",
+        "central differences with kept rotations, at random; doc/method.md, Eqs. (6) to (9)",
+        frozen_derivatives }
+    };
+  }
+} // namespace Exemplar::Verification

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
+#include <exemplar/kernels/polar_decomposition.h>
+#include <exemplar/verification/verification.h>
+#include <exemplar/verification/verification_scene.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+// Patch test, Newton's method, and interpolation between poses.
+
+namespace Exemplar::Verification
+{
+  namespace
+  {
+    /// A box of 2 x 1 x 1 whose interior nodes are off their places by up to 0.1.
+    MovedBox
+    irregular_box()
+    {
+      std::mt19937                           generator(1);
+      std::uniform_real_distribution<double> uniform(-0.1, 0.1);
+      const auto                             is_inside = [](const dealii::Point<3> &p)
+      {
+        return p[0] > 1e-9 && p[0] < 2. - 1e-9 && std::abs(p[1]) < 0.5 - 1e-9
+               && std::abs(p[2]) < 0.5 - 1e-9;
+      };
+      return MovedBox({ { 2., 1., 1. } }, { { 4, 3, 3 } },
+                      [&](const dealii::Point<3> &p)
+                      {
+                        dealii::Point<3> moved = p;
+                        if (is_inside(p))
+                          for (unsigned int c = 0; c < 3; ++c)
+                            moved[c] += uniform(generator);
+                        return moved;
+                      });
+    }
+
+    std::vector<Measurement>
+    patch()
+    {
+      const Matrix3<double> F      = { { { 1.3, 0.2, 0. }, { 0.1, 0.8, 0.1 }, { 0., 0.4, 1.1 } } };
+      const std::string     motion = "t*(0.3*x+0.2*y); t*(0.1*x-0.2*y+0.1*z); t*(0.4*y+0.1*z)";
+      std::vector<std::pair<std::string, std::string>> faces;
+      for (unsigned int face = 1; face <= 6; ++face)
+        faces.emplace_back("face " + std::to_string(face),
+                           set("Select", "boundary " + std::to_string(face))
+                               + set("Motion", motion));
+      const MovedBox box = irregular_box();
+      Scene          scene(set("Scene", "static") + box.section() + named_sections("Handles", faces)
+                           + section("Time", set("Increments", "2"))
+                           + section("Solver", set("Tolerance", 1e-13)));
+      const State    state = scene.solve();
+      const auto     field = moved_rigidly(scene.problem.fe_space.rest_positions(), F, {});
+      return { { "inside less affine field", 0., max_difference(state.positions, field),
+                 Comparison::absolute, 1e-12 } };
+    }
+
+    /// One step of Newton's method with the exact tangent; weights are prescribed, loads absent.
+    void
+    newton_step(Problem &p, dealii::Vector<double> &x, const std::vector<double> &weights)
+    {
+      const Evaluation    at = evaluate(p, x, weights);
+      std::vector<double> no_columns;
+      p.assembler.assemble_tangent(Tangent::exact, x, weights, p.linear_solver->matrix_values(),
+                                   no_columns);
+      p.linear_solver->factorize(WeightBlock());
+      BorderedVector unknowns;
+      for (const unsigned int dof : p.free_dofs.list())
+        unknowns.positions.push_back(-at.gradient[dof]);
+      p.linear_solver->solve(WeightBlock(), unknowns);
+      for (unsigned int i = 0; i < p.free_dofs.size(); ++i)
+        x[p.free_dofs.list()[i]] += unknowns.positions[i];
+    }
+
+    /// Half the error leaves a quarter after the step.
+    std::vector<Measurement>
+    newton_quadratic()
+    {
+      Scene scene(
+          set("Scene", "static") + box({ { 4., 1., 1. } }, { { 4, 1, 1 } })
+          + named_sections("Handles", { { "left", set("Select", "boundary 1") },
+                                        { "right", set("Select", "boundary 2")
+                                                       + set("Motion", "0.2*t; 0.6*t; 0.3*t") } })
+          + section("Examples", set("Pose functions", twist(60., 4.)) + set("Weights", "prescribed")
+                                    + set("Prescribed weights", "1-t; t")));
+      Problem                         &p        = scene.problem;
+      const State                      solution = scene.solve();
+      std::mt19937                     generator(2);
+      std::normal_distribution<double> normal;
+      dealii::Vector<double>           direction(solution.positions.size());
+      for (const unsigned int dof : p.free_dofs.list())
+        direction[dof] = normal(generator);
+      auto exact = solution.positions;
+      newton_step(p, exact, solution.weights); // to rounding
+      const auto error_left = [&](const double error)
+      {
+        auto x = exact;
+        x.add(error, direction);
+        newton_step(p, x, solution.weights);
+        return max_difference(x, exact);
+      };
+      return { { "order of a step", 2., std::log2(error_left(1e-3) / error_left(5e-4)),
+                 Comparison::absolute, 0.1 } };
+    }
+
+    /// max |S - I - E_1| over the cells.
+    double
+    strain_error(const Problem &p, const State &state)
+    {
+      double greatest = 0.;
+      for (unsigned int cell = 0; cell < p.mesh.n_cells(); ++cell)
+      {
+        const Matrix3<double> F     = p.fe_space.deformation_gradient(cell, state.positions);
+        const Matrix3<double> error = combine(1., corotated_strain(closest_rotation(F), F), -1.,
+                                              p.examples->strain(cell, 1));
+        greatest                    = std::max(greatest, std::sqrt(contract(error, error)));
+      }
+      return greatest;
+    }
+
+    std::vector<Measurement>
+    interpolation(const std::string &pose, const unsigned int increments)
+    {
+      Scene scene(
+          set("Scene", "interpolation") + box({ { 4., 1., 1. } }, { { 16, 4, 4 } })
+          + section("Examples", set("Pose functions", pose) + set("Prescribed weights", "1-t; t"))
+          + section("Time", set("Increments", std::to_string(increments)))
+          + section("Solver", set("Tolerance", 1e-13)));
+      Problem     &p               = scene.problem;
+      unsigned int most_iterations = 0;
+      for (unsigned int step = 0; step < increments; ++step)
+      {
+        const SolveReport report = p.advance();
+        if (!is_success(report.status))
+          throw SolverFailure("increment " + std::to_string(step + 1) + ": "
+                              + status_name(report.status));
+        most_iterations = std::max(most_iterations, report.iterations);
+      }
+      dealii::Vector<double> aligned = p.state.positions;
+      align(p.examples->pose(1), aligned);
+      return { { "|S - I - E|", 1e-12, strain_error(p, p.state), Comparison::at_most },
+               { "distance to the pose", 0., max_difference(aligned, p.examples->pose(1)) / 4.,
+                 Comparison::absolute, 1e-8 },
+               { "iterations an increment", 6., static_cast<double>(most_iterations),
+                 Comparison::at_most } };
+    }
+  } // namespace
+
+  std::vector<Case>
+  static_cases()
+  {
+    return { { "patch", "affine boundary data give the affine field; doc/method.md, closed forms",
+               patch },
+             { "newton-quadratic", "what a step with the tangent (18) leaves of a small error",
+               newton_quadratic },
+             { "interpolation-twist-360", "16x4x4 bar, 10 increments: reaches the pose's strains",
+               [] { return interpolation(twist(360., 4.), 10); } },
+             { "interpolation-twist-720", "16x4x4 bar, 20 increments: reaches the pose's strains",
+               [] { return interpolation(twist(720., 4.), 20); } },
+             { "interpolation-bend-180", "16x4x4 bar, 10 increments: reaches the pose's strains",
+               [] { return interpolation(bend(180., 4.), 10); } } };
+  }
+} // namespace Exemplar::Verification

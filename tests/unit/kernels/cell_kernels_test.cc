@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/body/cell_batches.h>
+
+#include "body.h"
+#include "matrices.h"
+
+#include <gtest/gtest.h>
+
+namespace Exemplar::Testing
+{
+  namespace
+  {
+    /// What the loops over the cells of a body find, by one set of kernels.
+    struct Loops
+    {
+      Loops(const CellKernels  &kernels,
+            const StrainMeasure strain,
+            const double        guard_bound,
+            const bool          per_region)
+      {
+        // 18 cells are no whole number of batches
+        const Body        body(bar_of_two_regions(2., box_mesh(4., 3, 1)));
+        ExampleParameters parameters;
+        parameters.pose_functions     = twist(60.) + " | 1.1*x; 0.9*y; z";
+        parameters.importance         = 0.7;
+        parameters.weights_per_region = per_region;
+        const auto        examples    = body.examples(parameters);
+        CellBatches       batches(body.fe_space, body.material);
+        std::mt19937      generator(5);
+        const auto        x       = body.random_positions(generator, 0.8); // some cells invert
+        const std::size_t n       = body.fe_space.n_cells();
+        const std::size_t n_nodes = body.fe_space.n_nodes();
+        dealii::AlignedVector<double> positions(4 * n_nodes);
+        for (unsigned int dof = 0; dof < x.size(); ++dof)
+          positions[dof / 3 * 4 + dof % 3] = x[dof];
+        dealii::AlignedVector<double> damping(batched_size(n, 1), 0.3);
+        dealii::AlignedVector<double> past(batched_size(n, 6), 0.01);
+        const std::vector<double>     weights(examples->n_weights(), 0.4);
+
+        CellTask task;
+        task.cells                  = batches.arrays(strain, guard_bound);
+        task.examples               = examples->arrays();
+        task.damping                = { damping.data(), past.data() };
+        task.positions              = positions.data();
+        task.weights                = weights.data();
+        task.use_of_rotations       = Rotations::update;
+        task.weights_are_free       = true;
+        const std::size_t n_batches = task.cells.n_batches();
+
+        nodal_sums.resize(4 * n_nodes);
+        weight_sums.resize(batch_size * weights.size());
+        kernels.evaluate(task, 0, n_batches, nodal_sums.data(), weight_sums.data(), sums);
+        target.resize(weight_sums.size());
+        kernels.weight_target(task, 0, n_batches, target.data());
+        rotations.assign(task.cells.rotations, task.cells.rotations + 9 * n);
+
+        std::vector<int> places(n_block_columns * n);
+        for (std::size_t i = 0; i < places.size(); ++i)
+          places[i] = static_cast<int>(3 * i); // each cell's matrix by itself
+        for (std::vector<double> *matrix : { &rotated, &exact })
+          matrix->assign(3 * places.size() + SymmetricPattern::padding, 0.);
+        kernels.add_rotated_stiffness(task, { false, places.data(), rotated.data() }, 0, n_batches);
+        if (guard_bound != no_guard) // frozen forces have no other tangent
+          kernels.add_tangent(task, { true, places.data(), exact.data() }, 0, n_batches);
+        coupling.resize(12 * batch_size * task.examples.n);
+        kernels.coupling(task, {}, guard_bound == no_guard, 1, coupling.data());
+
+        dealii::AlignedVector<float> rotation_sums(12 * n_nodes);
+        kernels.add_rotations(task, 0, n_batches, rotation_sums.data());
+        node_rotations.resize(9 * n_nodes);
+        kernels.closest_rotations(n_nodes, rotation_sums.data(), node_rotations.data());
+      }
+
+      dealii::AlignedVector<double> nodal_sums, weight_sums, target, coupling;
+      std::vector<double>           rotations, rotated, exact;
+      std::vector<float>            node_rotations;
+      CellSums                      sums;
+    };
+
+    template <typename Vector>
+    double
+    difference(const Vector &a, const Vector &b)
+    {
+      double greatest = 0., scale = 1e-300;
+      EXPECT_EQ(a.size(), b.size());
+      for (std::size_t i = 0; i < a.size(); ++i)
+      {
+        greatest = std::max<double>(greatest, std::abs(a[i] - b[i]));
+        scale    = std::max<double>(scale, std::abs(a[i]));
+      }
+      return greatest / scale;
+    }
+
+    class CellKernelsTest : public testing::TestWithParam<std::tuple<StrainMeasure, double, bool>>
+    {
+    };
+
+    TEST_P(CellKernelsTest, AllInstructionSetsAgreeWithTheScalarCode)
+    {
+      const auto [strain, guard_bound, per_region] = GetParam();
+      const auto  all                              = all_kernels();
+      const Loops scalar(*all[0], strain, guard_bound, per_region);
+      EXPECT_GT(scalar.sums.inverted_cells, 0u); // so that guards act, too
+      for (const CellKernels *kernels : all)
+      {
+        SCOPED_TRACE(kernels->name);
+        const Loops  loops(*kernels, strain, guard_bound, per_region);
+        const double tolerance = 1e-10; // near ambiguous rotations rounding grows
+        EXPECT_NEAR(loops.sums.energy / scalar.sums.energy, 1., 1e-12);
+        EXPECT_NEAR(loops.sums.energy_elastic / scalar.sums.energy_elastic, 1., 1e-12);
+        EXPECT_NEAR(loops.sums.energy_damping / scalar.sums.energy_damping, 1., 1e-12);
+        EXPECT_NEAR(loops.sums.stress_square / scalar.sums.stress_square, 1., 1e-12);
+        EXPECT_NEAR(loops.sums.min_det_F, scalar.sums.min_det_F, 1e-12);
+        EXPECT_EQ(loops.sums.inverted_cells, scalar.sums.inverted_cells);
+        EXPECT_EQ(loops.sums.guarded_cells, scalar.sums.guarded_cells);
+        EXPECT_LT(difference(loops.nodal_sums, scalar.nodal_sums), tolerance);
+        EXPECT_LT(difference(loops.weight_sums, scalar.weight_sums), 1e3 * tolerance);
+        EXPECT_LT(difference(loops.rotations, scalar.rotations), tolerance);
+        EXPECT_LT(difference(loops.rotated, scalar.rotated), tolerance);
+        EXPECT_LT(difference(loops.exact, scalar.exact), tolerance);
+        EXPECT_LT(difference(loops.coupling, scalar.coupling), tolerance);
+        EXPECT_LT(difference(loops.node_rotations, scalar.node_rotations), 1e-5);
+        double target = 0., scalar_target = 0.;
+        for (std::size_t i = 0; i < scalar.target.size(); ++i)
+        {
+          target += loops.target[i] * static_cast<double>(1 + i / batch_size);
+          scalar_target += scalar.target[i] * static_cast<double>(1 + i / batch_size);
+        }
+        EXPECT_NEAR(target / scalar_target, 1., 1e-10);
+      }
+    }
+
+    INSTANTIATE_TEST_SUITE_P(
+        ,
+        CellKernelsTest,
+        testing::Values(std::make_tuple(StrainMeasure::corotational, default_guard_bound, false),
+                        std::make_tuple(StrainMeasure::corotational, default_guard_bound, true),
+                        std::make_tuple(StrainMeasure::corotational, no_guard, false),
+                        std::make_tuple(StrainMeasure::linear, default_guard_bound, false),
+                        std::make_tuple(StrainMeasure::green, default_guard_bound, true)));
+  } // namespace
+} // namespace Exemplar::Testing

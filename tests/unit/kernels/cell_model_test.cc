@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/kernels/cell_model.h>
+
+#include "matrices.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace Exemplar::Testing
+{
+  namespace
+  {
+    using Corotational = CorotationalCell<double>;
+    using Green        = GreenCell<double>;
+    using Linear       = LinearCell<double>;
+
+    const Lame<double> lame = { 1.3, 0.7 };
+    const double       p_0  = 0.8;
+
+    template <typename Cell>
+    Matrix3<double>
+    rotation_of(const Matrix3<double> &F)
+    {
+      return std::is_same_v<Cell, Corotational> ? closest_rotation(F) : identity_matrix<double>();
+    }
+
+    template <typename Cell>
+    Cell
+    cell_at(const Matrix3<double> &F)
+    {
+      return Cell(lame, rotation_of<Cell>(F), F, p_0);
+    }
+
+    template <typename Cell>
+    double
+    energy(const Matrix3<double> &F, const Matrix3<double> &D)
+    {
+      return cell_at<Cell>(F).energy(D);
+    }
+
+    /// P.
+    template <typename Cell>
+    Matrix3<double>
+    force(const Matrix3<double> &F, const Matrix3<double> &D)
+    {
+      Cell cell = cell_at<Cell>(F);
+      cell.set_target(D);
+      return rotation_of<Cell>(F) * cell.force();
+    }
+
+    template <typename Cell>
+    Matrix3<double>
+    response(const Matrix3<double> &F, const Matrix3<double> &D, const Matrix3<double> &dF)
+    {
+      const Matrix3<double> R    = rotation_of<Cell>(F);
+      Cell                  cell = cell_at<Cell>(F);
+      cell.set_target(D);
+      return R * cell.response(transpose_times(R, dF));
+    }
+
+    Matrix3<double>
+    moved(const Matrix3<double> &F, const double h, const Matrix3<double> &dF)
+    {
+      return combine(1., F, h, dF);
+    }
+
+    /// Fourth-order central difference of a function of h at 0.
+    template <typename Function>
+    double
+    derivative(const Function &f, const double h)
+    {
+      return (8. * (f(h) - f(-h)) - (f(2. * h) - f(-2. * h))) / (12. * h);
+    }
+
+    std::vector<std::pair<std::string, Matrix3<double>>>
+    states()
+    {
+      std::mt19937          generator(5);
+      const Matrix3<double> I        = identity_matrix<double>();
+      const auto            diagonal = [](double a, double b, double c) {
+        return Matrix3<double>{ { { a, 0., 0. }, { 0., b, 0. }, { 0., 0., c } } };
+      };
+      const Matrix3<double> Q      = rotation_about({ { 1., 2., -1. } }, 0.8);
+      const auto            turned = [&](const Matrix3<double> &D) {
+        return Q * D * rotation_about({ { 0., 1., 3. } }, 2.);
+      };
+      std::vector<std::pair<std::string, Matrix3<double>>> all
+          = { { "rest", I },
+              { "turned by 179.9 degrees",
+                rotation_about({ { 3., 1., 1. } }, 179.9 * M_PI / 180.) },
+              { "flat", turned(diagonal(1.3, 0.8, 0.)) },
+              { "nearly flat", turned(diagonal(1.3, 0.8, 1e-7)) },
+              { "inverted", turned(diagonal(1.5, 1.2, -0.4)) },
+              { "inverted, guarded", turned(diagonal(1.1, 0.7, -0.5)) },
+              { "compressed", turned(diagonal(0.4, 0.3, 0.2)) },
+              { "line", turned(diagonal(1.2, 0.3, 0.1)) } };
+      for (int sample = 0; sample < 6; ++sample)
+        all.emplace_back("random", combine(1., I, 0.4, random_matrix(generator)));
+      return all;
+    }
+
+    /// Target strains: none, and one of an example.
+    std::vector<Matrix3<double>>
+    targets()
+    {
+      std::mt19937          generator(6);
+      const Matrix3<double> E = symmetric_part(random_matrix(generator));
+      return { Matrix3<double>{}, combine(0.3, E, 0., E) };
+    }
+
+    template <typename Cell>
+    void
+    expect_force_is_gradient()
+    {
+      std::mt19937 generator(7);
+      for (const auto &[name, F] : states())
+        for (const Matrix3<double> &D : targets())
+        {
+          const Matrix3<double> P = force<Cell>(F, D);
+          const double scale      = std::sqrt(contract(P, P)) + lame.mu * std::sqrt(contract(F, F));
+          std::vector<Matrix3<double>> directions = { combine(
+              1. / (std::sqrt(contract(P, P)) + 1e-300), P, 0., P) }; // along the gradient, too
+          for (int sample = 0; sample < 4; ++sample)
+            directions.push_back(random_matrix(generator));
+          for (const Matrix3<double> &dF : directions)
+          {
+            const double difference = derivative(
+                [&](const double h) { return energy<Cell>(moved(F, h, dF), D); }, 1e-4);
+            EXPECT_NEAR(contract(P, dF), difference,
+                        1e-7 * scale * (1. + std::sqrt(contract(dF, dF))))
+                << name;
+          }
+        }
+    }
+
+    template <typename Cell>
+    void
+    expect_tangent_is_derivative_of_force()
+    {
+      std::mt19937 generator(8);
+      for (const auto &[name, F] : states())
+        for (const Matrix3<double> &D : targets())
+        {
+          if (cell_at<Cell>(F).is_guarded() && contract(D, D) > 0.)
+            continue; // there the tangent leaves out the derivative of the guard
+          for (int sample = 0; sample < 4; ++sample)
+          {
+            const Matrix3<double> dF = random_matrix(generator), dP = response<Cell>(F, D, dF);
+            const double          scale = std::sqrt(contract(dP, dP)) + 1.;
+            for (int i = 0; i < 3; ++i)
+              for (int j = 0; j < 3; ++j)
+                EXPECT_NEAR(dP[i][j],
+                            derivative([&](const double h)
+                                       { return force<Cell>(moved(F, h, dF), D)[i][j]; },
+                                       1e-4),
+                            1e-7 * scale)
+                    << name;
+          }
+        }
+    }
+
+    template <typename Cell>
+    void
+    expect_derivatives_by_target(const bool with_column)
+    {
+      std::mt19937 generator(10);
+      for (const auto &[name, F] : states())
+      {
+        const Matrix3<double> D    = targets()[1];
+        const Matrix3<double> E    = symmetric_part(random_matrix(generator));
+        Cell                  cell = cell_at<Cell>(F);
+        cell.set_target(D);
+        EXPECT_NEAR(
+            -contract(cell.weight_stress(D), E),
+            derivative([&](const double h) { return energy<Cell>(F, moved(D, h, E)); }, 1e-3), 1e-9)
+            << name;
+        if (cell.is_guarded() || !with_column)
+          continue; // the column leaves out the derivative of the guard
+        if constexpr (!std::is_same_v<Cell, Linear>)
+        {
+          const Matrix3<double> column = rotation_of<Cell>(F) * cell.example_response(E);
+          for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j)
+              EXPECT_NEAR(-column[i][j],
+                          derivative([&](const double h)
+                                     { return force<Cell>(F, moved(D, h, E))[i][j]; },
+                                     1e-3),
+                          1e-9)
+                  << name;
+        }
+      }
+    }
+
+    TEST(ConsistentForce, IsTheGradientOfTheEnergy)
+    {
+      expect_force_is_gradient<Corotational>();
+    }
+
+    TEST(ConsistentForce, TangentIsItsDerivative)
+    {
+      expect_tangent_is_derivative_of_force<Corotational>();
+    }
+
+    TEST(ConsistentForce, DerivativesByTheTarget)
+    {
+      expect_derivatives_by_target<Corotational>(true);
+    }
+
+    TEST(Green, ForceTangentAndColumnsAreDerivatives)
+    {
+      expect_force_is_gradient<Green>();
+      expect_tangent_is_derivative_of_force<Green>();
+      expect_derivatives_by_target<Green>(true);
+    }
+
+    TEST(Green, ConvexTangentIsNeverNegativeTogetherWithTheWeights)
+    {
+      // the quadratic of (dF, dw): dF:convex(dF) - 2 dF:F(C:E) dw + E:C:E dw^2
+      std::mt19937 generator(11);
+      double       least_exact = 0.;
+      for (const auto &[name, F] : states())
+        for (int sample = 0; sample < 50; ++sample)
+        {
+          Green cell = cell_at<Green>(F);
+          cell.set_target(targets()[1]);
+          const Matrix3<double> dF = random_matrix(generator);
+          const Matrix3<double> E  = symmetric_part(random_matrix(generator));
+          least_exact              = std::min(least_exact, contract(dF, cell.response(dF)));
+          cell.make_convex();
+          EXPECT_GE(contract(dF, cell.response(dF)) - 2. * contract(dF, cell.example_response(E))
+                        + contract(E, stress(lame, E)),
+                    -1e-12)
+              << name;
+        }
+      EXPECT_LT(least_exact, -0.1); // else it proves nothing
+    }
+
+    TEST(Green, EnergyOfUniformScaleAndOfRotation)
+    {
+      const double          s = 1.4, e = 0.5 * (s * s - 1.);
+      const Matrix3<double> I = identity_matrix<double>();
+      EXPECT_NEAR(energy<Green>(combine(s, I, 0., I), Matrix3<double>{}),
+                  (3. * lame.mu + 4.5 * lame.lambda) * e * e, 1e-14);
+      EXPECT_NEAR(energy<Green>(rotation_about({ { 1., 2., 3. } }, 2.), Matrix3<double>{}), 0.,
+                  1e-15);
+    }
+
+    TEST(Linear, ForceAndWeightsAreDerivatives)
+    {
+      expect_force_is_gradient<Linear>();
+      expect_derivatives_by_target<Linear>(false);
+    }
+
+    TEST(Linear, TakesARotationForAStrain)
+    {
+      // by 90 degrees about z: e = diag(-1, -1, 0)
+      EXPECT_NEAR(energy<Linear>(rotation_about({ { 0., 0., 1. } }, M_PI / 2.), Matrix3<double>{}),
+                  0.5 * (4. * lame.lambda + 4. * lame.mu), 1e-14);
+    }
+
+    TEST(ConsistentForce, TangentIsSymmetric)
+    {
+      std::mt19937 generator(9);
+      for (const auto &[name, F] : states())
+        for (const Matrix3<double> &D : targets())
+        {
+          const Matrix3<double> a = random_matrix(generator), b = random_matrix(generator);
+          const double          ab = contract(a, response<Corotational>(F, D, b)),
+                       ba          = contract(b, response<Corotational>(F, D, a));
+          EXPECT_NEAR(ab, ba, 1e-11 * (std::abs(ab) + 10.)) << name;
+        }
+    }
+
+    TEST(ConsistentForce, ExertsNoTorqueOnItsCell)
+    {
+      // P F^T is symmetric: angular momentum. The frozen force R T fails here.
+      for (const auto &[name, F] : states())
+        for (const Matrix3<double> &D : targets())
+        {
+          const Matrix3<double> P = force<Corotational>(F, D);
+          Matrix3<double>       torque;
+          for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j)
+              torque[i][j] = P[i][0] * F[j][0] + P[i][1] * F[j][1] + P[i][2] * F[j][2];
+          EXPECT_LT(max_difference(torque, symmetric_part(torque)), 1e-12) << name;
+        }
+    }
+
+    TEST(ConsistentForce, WithoutExampleItIsTheFrozenForce)
+    {
+      for (const auto &[name, F] : states())
+      {
+        const Matrix3<double> R = closest_rotation(F);
+        EXPECT_LT(max_difference(force<Corotational>(F, Matrix3<double>{}),
+                                 R * stress(lame, corotated_strain(R, F))),
+                  1e-12)
+            << name;
+      }
+    }
+
+    TEST(ConsistentForce, StaysBoundedAndContinuousWhereTheRotationIsAmbiguous)
+    {
+      // around sigma_2 + sigma_3 = 0 the rotation turns through all directions
+      const Matrix3<double> D = targets()[1];
+      for (const double angle : { 0., 0.5, 1., 2., 4. })
+        for (const double r : { 1e-3, 1e-6, 1e-12, 0. })
+        {
+          const Matrix3<double> F = { { { 1.2, 0., 0. },
+                                        { 0., 0.6 + r * std::cos(angle), r * std::sin(angle) },
+                                        { 0., r * std::sin(angle), -0.6 } } };
+          const Matrix3<double> P = force<Corotational>(F, D);
+          EXPECT_LT(std::sqrt(contract(P, P)), 20.);
+          if (r < 1e-5)
+          {
+            const Matrix3<double> at = { { { 1.2, 0., 0. }, { 0., 0.6, 0. }, { 0., 0., -0.6 } } };
+            EXPECT_NEAR(energy<Corotational>(F, D), energy<Corotational>(at, D), 1e-4);
+          }
+        }
+    }
+  } // namespace
+} // namespace Exemplar::Testing

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
+#include <exemplar/run/problem.h>
+
+#include "body.h"
+#include "matrices.h"
+#include "scene.h"
+
+#include <gtest/gtest.h>
+
+namespace Exemplar::Testing
+{
+  namespace
+  {
+    const std::string newton = "subsection Model\n set Gradient = consistent\nend\n"
+                               "subsection Solver\n set Method = newton\n set Tolerance = 1e-11\n"
+                               "set Maximum iterations = 50\nend\n";
+
+    const std::string two_poses = "set Pose functions = " + twist(60.) + " | 1.2*x; 0.9*y; z\n";
+
+    TEST(Newton, WithoutExamplesItFindsWhatTheFixedPointFinds)
+    {
+      const std::string text = "set Scene = static\n" + bar + drag;
+      Scene             fixed_point(text
+                                    + "subsection Solver\n set Method = fixed point\n set Tolerance = "
+                                                  "1e-11\nend\n");
+      Scene             by_newton(text + newton);
+      EXPECT_LT(max_difference(fixed_point.solve().positions, by_newton.solve().positions), 1e-9);
+    }
+
+    TEST(Newton, ConvergesQuadratically)
+    {
+      Scene scene("set Scene = static\n" + bar + drag + examples(two_poses + "set Weights = free\n")
+                  + newton + "subsection Time\n set Increments = 1\nend\n");
+      const SolveReport report = scene.problem.advance();
+      ASSERT_EQ(report.status, SolveStatus::converged);
+      // once small, the residual's exponent doubles: r_(k+1) <= C r_k^2. A linear rate of
+      // 0.3, the fixed point's, would fail this from 1e-4 on
+      const auto &r = report.residual_history;
+      for (unsigned int k = 0; k + 1 < r.size(); ++k)
+        if (r[k] < 1e-2 && r[k + 1] > 0.)
+        {
+          EXPECT_LT(r[k + 1], std::max(500. * r[k] * r[k], 1e-11));
+        }
+    }
+
+    TEST(Newton, InterpolatesATwistOf720Degrees)
+    {
+      Scene scene(
+          "set Scene = interpolation\nsubsection Mesh\n set Generator = box\n"
+          "set Box size = 4, 1, 1\n set Box cells = 8, 2, 2\nend\n"
+          + examples("set Pose functions = " + twist(720.) + "\n set Prescribed weights = 1-t; t\n")
+          + newton + "subsection Time\n set Increments = 20\nend\n");
+      State state = scene.solve();
+      align(scene.problem.examples->pose(1), state.positions);
+      EXPECT_LT(max_difference(state.positions, scene.problem.examples->pose(1)), 1e-9);
+    }
+
+    TEST(Newton, InterpolatesFromABodyCollapsedToALine)
+    {
+      for (const std::string start : { "x; 0; 0", "0; 0; 0" })
+      {
+        Scene scene(
+            "set Scene = interpolation\n" + bar
+            + examples("set Pose functions = 1.1*x; y; z\n set Prescribed weights = 1-t; t\n")
+            + "subsection Initial\n set Pose function = " + start
+            + "\nend\nsubsection Time\n set Increments = 1\nend\n");
+        EXPECT_EQ(scene.problem.advance().status, SolveStatus::converged) << start;
+      }
+    }
+
+    TEST(Newton, SimplexWeightsAreNeverNegative)
+    {
+      Scene scene("set Scene = static\n" + bar + drag
+                  + examples(two_poses + "set Weights = simplex\n") + newton);
+      Scene free("set Scene = static\n" + bar + drag + examples(two_poses + "set Weights = free\n")
+                 + newton);
+      const State state = scene.solve(), unbounded = free.solve();
+      double      sum = 0., least_free = 0.;
+      for (unsigned int i = 0; i < 3; ++i)
+      {
+        EXPECT_GE(state.weights[i], 0.);
+        sum += state.weights[i];
+        least_free = std::min(least_free, unbounded.weights[i]);
+      }
+      EXPECT_NEAR(sum, 1., 1e-14);
+      EXPECT_LT(least_free, -1e-3); // else the bound proves nothing
+    }
+
+    TEST(Newton, BlendedEnergyHoldsTheWeightsBack)
+    {
+      // scaled and free, eta w is the same for every eta: the weight undoes it. Blended, not.
+      const auto eta_w = [&](const std::string &eta, const std::string &energy)
+      {
+        Scene scene("set Scene = static\n" + bar + drag
+                    + examples("set Pose functions = " + twist(60.) + "\n set Weights = free\n"
+                               + "set Weight penalty = 0\n set Importance = " + eta
+                               + "\n set Energy = " + energy + "\n")
+                    + newton);
+        return std::stod(eta) * scene.solve().weights[1];
+      };
+      EXPECT_NEAR(eta_w("0.5", "scaled") / eta_w("1", "scaled"), 1., 1e-6);
+      EXPECT_NEAR(eta_w("1", "blended") / eta_w("1", "scaled"), 1., 1e-6);
+      EXPECT_LT(eta_w("0.5", "blended") / eta_w("1", "scaled"), 0.8);
+    }
+
+    TEST(Newton, AngularMomentumLawOfImplicitEuler)
+    {
+      // of a free body: L_(n+1) = L_n + h sum v_(n+1) x M v_n. The frozen force breaks it.
+      const auto defect = [&](const std::string &solver)
+      {
+        Scene    scene("set Scene = dynamic\n" + bar + examples(two_poses + "set Weights = free\n")
+                       + "subsection Initial\n set Pose function = 1.1*x; y+0.05*x*x; z+0.1*y\n"
+                            "set Velocity = -3*y; 3*x; x\nend\n"
+                            "subsection Time\n set Step = 0.02\n set End = 0.2\nend\n"
+                       + solver);
+        Problem &p        = scene.problem;
+        double   greatest = 0.;
+        while (p.state.step < p.time_axis.n_steps())
+        {
+          const State before = p.state;
+          EXPECT_TRUE(is_success(p.advance().status));
+          // M v_n for each component, by the nodal mass matrix
+          const auto          &mass = p.inertia->nodal_mass();
+          dealii::Tensor<1, 3> cross;
+          for (unsigned int a = 0; a < mass.m(); ++a)
+          {
+            dealii::Tensor<1, 3> momentum, velocity;
+            for (unsigned int c = 0; c < 3; ++c)
+            {
+              velocity[c] = p.state.velocities[3 * a + c];
+              for (auto entry = mass.begin(a); entry != mass.end(a); ++entry)
+                momentum[c] += entry->value() * before.velocities[3 * entry->column() + c];
+            }
+            cross += dealii::cross_product_3d(velocity, momentum);
+          }
+          const auto law = p.inertia->motion_sums(before).angular_momentum + 0.02 * cross;
+          const auto now = p.inertia->motion_sums(p.state).angular_momentum;
+          greatest       = std::max(greatest, (now - law).norm() / now.norm());
+        }
+        return greatest;
+      };
+      EXPECT_LT(defect(newton), 1e-9);
+      EXPECT_GT(
+          defect("subsection Model\n set Gradient = frozen\nend\n"
+                 "subsection Solver\n set Method = fixed point\n set Maximum iterations = 500\n"
+                 "set Tolerance = 1e-11\nend\n"),
+          1e-5);
+    }
+
+    TEST(Newton, EnergyBoundOfImplicitEuler)
+    {
+      // with handles at rest: Psi_(n+1) + 1/2 |v_(n+1) - v_n|_M^2 <= Psi_n + 1/2 |v_n|_M^2
+      Scene    scene("set Scene = dynamic\n" + bar + examples(two_poses)
+                     + "subsection Handles\n set Names = left\n" + held_left + "end\n"
+                     + "subsection Initial\n set Velocity = 0; 2*x; -x\nend\n"
+                          "subsection Time\n set Step = 0.05\n set End = 1\nend\n"
+                     + newton);
+      Problem &p = scene.problem;
+      while (p.state.step < p.time_axis.n_steps())
+      {
+        const State  before = p.state;
+        const auto  &e      = p.equilibrium.evaluation();
+        const double bound  = e.energy + p.inertia->motion_sums(before).kinetic_energy;
+        ASSERT_TRUE(is_success(p.advance().status));
+        State change = p.state;
+        change.velocities -= before.velocities;
+        EXPECT_LE(e.energy + p.inertia->motion_sums(change).kinetic_energy, bound * (1. + 1e-12));
+      }
+    }
+
+    TEST(Newton, RecoversFromABodyCrushedIntoAPlane)
+    {
+      Scene       scene("set Scene = static\n" + bar + "subsection Handles\n set Names = left\n"
+                        + held_left + "end\nsubsection Initial\n set Pose function = x; y; 0\nend\n"
+                        + newton);
+      const State state = scene.solve();
+      EXPECT_LT(max_difference(state.positions, scene.problem.fe_space.rest_positions()), 1e-8);
+    }
+
+    TEST(Newton, TheDefaultPenaltyLeavesAnUnloadedBodyAtRest)
+    {
+      Scene       scene("set Scene = static\n" + bar + examples(two_poses)
+                        + "subsection Handles\n set Names = left\n" + held_left + "end\n" + newton);
+      const State state = scene.solve();
+      EXPECT_LT(max_difference(state.positions, scene.problem.fe_space.rest_positions()),
+                1e-6 * 4.);
+      EXPECT_GT(state.weights[0], 1. - 1e-4);
+    }
+
+    TEST(Newton, TheDefaultPenaltyDecidesTies)
+    {
+      Scene       scene("set Scene = static\n" + bar + drag
+                        + examples("set Pose functions = " + twist(60.) + " | " + twist(60.) + "\n")
+                        + newton);
+      const State state = scene.solve();
+      EXPECT_NEAR(state.weights[1], state.weights[2], 1e-6);
+      EXPECT_GT(state.weights[1], 1e-3);
+    }
+
+    TEST(Newton, NeedsAnEnergy)
+    {
+      EXPECT_THROW(Scene("set Scene = static\n" + bar + drag
+                         + "subsection Solver\n set Method = newton\nend\n"
+                           "subsection Model\n set Gradient = frozen\nend\n"),
+                   UserError);
+    }
+  } // namespace
+} // namespace Exemplar::Testing

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/lbfgs.h>
+#include <exemplar/algebra/linear_prediction.h>
+#include <exemplar/algebra/long_vectors.h>
+#include <exemplar/potential/inertia.h>
+#include <exemplar/solvers/turned_factor.h>
+
+#include "body.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace Exemplar::Testing
+{
+  namespace
+  {
+    /// What follows a sequence, the oldest first.
+    std::vector<double>
+    predict(const std::vector<std::vector<double>> &sequence)
+    {
+      LinearPrediction prediction;
+      for (const std::vector<double> &vector : sequence)
+        prediction.add(vector);
+      return prediction.next();
+    }
+
+    /// Samples of t -> (f, g, h), the newest at t = 0.
+    template <typename Function>
+    std::vector<std::vector<double>>
+    samples(const Function &function, const unsigned int n)
+    {
+      std::vector<std::vector<double>> sequence;
+      for (unsigned int i = n; i-- > 0;)
+        sequence.push_back(function(-0.1 * i));
+      return sequence;
+    }
+
+    TEST(LinearPrediction, ContinuesOscillationsAndPolynomials)
+    {
+      const auto damped = [](const double t)
+      {
+        return std::vector<double>{ std::exp(-t) * std::cos(3. * t),
+                                    std::exp(-t) * std::sin(3. * t), 1.,
+                                    0.3 * std::exp(-t) * std::sin(3. * t + 1.) };
+      };
+      const auto parabola = [](const double t) {
+        return std::vector<double>{ 1. + t, t * t, 2. * t - t * t };
+      };
+      // with more samples than are kept, too
+      for (const unsigned int n : { 6, 9 })
+        for (unsigned int i = 0; i < 4; ++i)
+          EXPECT_NEAR(predict(samples(damped, n))[i], damped(0.1)[i], 1e-4);
+      for (unsigned int i = 0; i < 3; ++i)
+        EXPECT_NEAR(predict(samples(parabola, 4))[i], parabola(0.1)[i], 1e-4);
+    }
+
+    TEST(LinearPrediction, NeedsNoHistory)
+    {
+      EXPECT_EQ(predict({ { 1., 2. } }), (std::vector<double>{ 1., 2. }));
+      EXPECT_EQ(predict({ { 0., 0. }, { 0., 0. } }), (std::vector<double>{ 0., 0. }));
+      EXPECT_EQ(predict({ { 0., 0. }, { 3., 1. } }), (std::vector<double>{ 3., 1. }));
+    }
+
+    TEST(Lbfgs, MeetsItsPairs)
+    {
+      // the secant equation: what made a change y of the gradient was s
+      Lbfgs                     lbfgs;
+      const std::vector<double> s = { 1., -2., 0.5 }, y = { 2., -1., 0.3 };
+      lbfgs.add_pair({ 0.1, 0.2, 0.3 }, { 0.2, 0.2, 0.9 });
+      lbfgs.add_pair(s, y);
+      lbfgs.add_pair(s, { -2., 1., -0.3 }); // curves downwards: not taken
+      std::vector<double> vector = y;
+      lbfgs.before(vector);
+      for (double &entry : vector)
+        entry *= 0.7; // any approximate inverse
+      lbfgs.after(vector);
+      for (unsigned int i = 0; i < 3; ++i)
+        EXPECT_NEAR(vector[i], s[i], 1e-14);
+      lbfgs.clear();
+      vector = y;
+      lbfgs.before(vector);
+      lbfgs.after(vector);
+      EXPECT_EQ(vector, y);
+    }
+
+    /// R K R^T + M of a bar of which one end is held, its node 5 partly.
+    struct Factored
+    {
+      explicit Factored(const MeshParameters &mesh, const double degrees)
+          : body(mesh), free_dofs(body.fe_space.n_dofs(), { 0, 1, 2, 3, 4, 5, 16 }),
+            inertia(body.fe_space, body.material, MassMatrix::consistent),
+            assembler(
+                ModelParameters(), body.fe_space, body.material, nullptr, &inertia, free_dofs),
+            matrix(make_cholmod_operator()), positions(body.fe_space.rest_positions())
+      {
+        const double c = std::cos(degrees * M_PI / 180.), s = std::sin(degrees * M_PI / 180.);
+        for (unsigned int node = 0; node < body.fe_space.n_nodes(); ++node)
+        {
+          const double x = positions[3 * node], y = positions[3 * node + 1];
+          positions[3 * node]     = c * x - s * y;
+          positions[3 * node + 1] = s * x + c * y;
+        }
+        State state;
+        state.positions = state.velocities = positions;
+        inertia.begin_step(state, 0.1);
+        matrix->reinit(assembler.matrix_pattern());
+        assembler.update_rotations(positions);
+        std::vector<double> columns;
+        assembler.assemble_tangent(Tangent::convex, positions, {}, matrix->values(), columns);
+        matrix->factorize();
+        assembler.node_rotations(rotations);
+      }
+
+      Body                         body;
+      FreeDofs                     free_dofs;
+      Inertia                      inertia;
+      Assembler                    assembler;
+      std::unique_ptr<SpdOperator> matrix;
+      dealii::Vector<double>       positions;
+      std::vector<float>           rotations;
+    };
+
+    std::vector<double>
+    some_forces(const FreeDofs &free_dofs)
+    {
+      std::vector<double> forces;
+      for (const unsigned int dof : free_dofs.list())
+        forces.push_back(1e-9 * std::sin(1. + 7. * dof)); // small ones, too, must not be lost
+      return forces;
+    }
+
+    double
+    relative_difference(const std::vector<double> &a, const std::vector<double> &b)
+    {
+      std::vector<double> difference = a;
+      add(difference, -1., b);
+      return std::sqrt(dot(difference, difference) / dot(b, b));
+    }
+
+    TEST(SinglePrecisionFactor, SolvesAsTheFactorItself)
+    {
+      // supernodes of all widths, and rows that no register divides
+      for (const unsigned int n : { 1, 2, 3 })
+      {
+        const Factored      now(box_mesh(4., 2 * n + 1, n), 0.);
+        std::vector<double> exact = some_forces(now.free_dofs);
+        for (double &entry : exact)
+          entry *= 1e9;
+        std::vector<float>    vector(exact.begin(), exact.end());
+        SinglePrecisionFactor factor(now.matrix->panels());
+        now.matrix->solve(exact);
+        factor.solve(vector);
+        EXPECT_LT(relative_difference({ vector.begin(), vector.end() }, exact), 1e-4);
+      }
+    }
+
+    TEST(TurnedFactor, IsExactWhereTheBodyTurnsAsAWhole)
+    {
+      // but at the node that is partly held: a component cannot turn
+      const MeshParameters bar = box_mesh(4., 4, 2);
+      const Factored       then(bar, 0.), now(bar, 70.);
+      TurnedFactor         factor(then.free_dofs);
+      factor.reinit(*then.matrix, WeightBlock(), then.rotations);
+      factor.turn(now.rotations);
+      std::vector<double> forces = some_forces(now.free_dofs), exact = forces;
+      now.matrix->solve(exact);
+      factor.turn_back(forces);
+      factor.solve(forces);
+      factor.turn_forth(forces);
+      EXPECT_LT(relative_difference(forces, exact), 0.1);
+      std::vector<double> unturned = some_forces(now.free_dofs);
+      factor.turn(then.rotations);
+      factor.solve(unturned);
+      EXPECT_GT(relative_difference(unturned, exact), 0.5);
+    }
+  } // namespace
+} // namespace Exemplar::Testing
