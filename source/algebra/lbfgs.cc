@@ -7,10 +7,10 @@ namespace Exemplar
   void
   Lbfgs::add_pair(const std::vector<double> &s, const std::vector<double> &y)
   {
-    const double curvature = dot(s, y);
+    const double curvature = exchange->sum(dot(s, y));
     if (!(curvature > 0.))
       return;
-    if (pairs.size() == most_pairs)
+    if (pairs.size() == max_pairs)
       pairs.pop_front();
     pairs.push_back({ s, y, 1. / curvature });
   }
@@ -20,7 +20,7 @@ namespace Exemplar
   {
     for (auto pair = pairs.rbegin(); pair != pairs.rend(); ++pair)
     {
-      pair->alpha = pair->rho * dot(pair->s, vector);
+      pair->alpha = pair->rho * exchange->sum(dot(pair->s, vector));
       add(vector, -pair->alpha, pair->y);
     }
   }
@@ -29,6 +29,6 @@ namespace Exemplar
   Lbfgs::after(std::vector<double> &vector) const
   {
     for (const Pair &pair : pairs)
-      add(vector, pair.alpha - pair.rho * dot(pair.y, vector), pair.s);
+      add(vector, pair.alpha - pair.rho * exchange->sum(dot(pair.y, vector)), pair.s);
   }
 } // namespace Exemplar

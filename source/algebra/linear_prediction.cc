@@ -16,13 +16,13 @@ namespace Exemplar
   LinearPrediction::multiply_out(const std::size_t i)
   {
     for (std::size_t j = i; j < history.size(); ++j)
-      products[i][j] = dot(history[i], history[j]);
+      products[i][j] = exchange->sum(dot(history[i], history[j]));
   }
 
   void
   LinearPrediction::add(std::vector<double> vector)
   {
-    if (history.size() == most_vectors)
+    if (history.size() == max_vectors)
       history.pop_back();
     history.push_front(std::move(vector));
     for (std::size_t i = history.size() - 1; i > 0; --i)

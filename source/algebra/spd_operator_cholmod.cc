@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/single_precision_inverse.h>
 #include <exemplar/algebra/spd_operator.h>
 #include <exemplar/base/errors.h>
 
@@ -34,32 +35,14 @@ namespace Exemplar
         cholmod_finish(&common);
       }
 
-      std::string
-      name() const override
+      OperatorTraits
+      traits() const override
       {
-        return "cholesky";
-      }
-
-      double
-      n_operations() const override
-      {
-        return common.fl;
-      }
-
-      double
-      condition_estimate() override
-      {
-        if (pattern.n() == 0 || factor->xtype == CHOLMOD_PATTERN) // not factorised
-          return 0.;
-        return 1. / cholmod_rcond(factor, &common);
-      }
-
-      std::size_t
-      memory_consumption() const override
-      {
-        return common.memory_inuse
-               + sizeof(int) * (pattern.row.size() + pattern.column_start.size())
-               + sizeof(double) * matrix_values.size();
+        const bool is_factorized = pattern.n() > 0 && factor->xtype != CHOLMOD_PATTERN;
+        return { "cholesky", common.fl, is_factorized ? 1. / cholmod_rcond(factor, &common) : 0.,
+                 common.memory_inuse
+                     + sizeof(int) * (pattern.row.size() + pattern.column_start.size())
+                     + sizeof(double) * matrix_values.size() };
       }
 
       void
@@ -91,7 +74,7 @@ namespace Exemplar
       }
 
       void
-      factorize() override
+      factorize(const Vector & /*positions*/) override
       {
         if (pattern.n() == 0)
           return;
@@ -120,8 +103,15 @@ namespace Exemplar
         std::copy(x, x + columns.size(), columns.begin());
       }
 
+      std::unique_ptr<KeptInverse>
+      keep() const override
+      {
+        return std::make_unique<SinglePrecisionInverse>(panels());
+      }
+
+    private:
       FactorPanels
-      panels() const override
+      panels() const
       {
         const auto *super   = static_cast<const int *>(factor->super);
         const auto *row     = static_cast<const int *>(factor->pi);
@@ -150,7 +140,6 @@ namespace Exemplar
         return panels;
       }
 
-    private:
       void
       check(const std::string &what)
       {
@@ -165,14 +154,14 @@ namespace Exemplar
                               + std::to_string(common.status) + ".");
       }
 
-      cholmod_common      common{};
-      SymmetricPattern    pattern;
-      std::vector<double> matrix_values;
-      cholmod_sparse      matrix{};
-      cholmod_factor     *factor      = nullptr;
-      cholmod_dense      *solution    = nullptr;
-      cholmod_dense      *workspace_y = nullptr;
-      cholmod_dense      *workspace_e = nullptr;
+      mutable cholmod_common common{}; ///< CHOLMOD wants it in all calls
+      SymmetricPattern       pattern;
+      std::vector<double>    matrix_values;
+      cholmod_sparse         matrix{};
+      cholmod_factor        *factor      = nullptr;
+      cholmod_dense         *solution    = nullptr;
+      cholmod_dense         *workspace_y = nullptr;
+      cholmod_dense         *workspace_e = nullptr;
     };
   } // namespace
 

@@ -23,7 +23,6 @@ namespace Exemplar
 {
   namespace
   {
-    using Vector    = dealii::Vector<double>;
     using Multigrid = ML_Epetra::MultiLevelPreconditioner;
 
     constexpr unsigned int most_iterations = 1000;
@@ -104,10 +103,7 @@ namespace Exemplar
     class IterativeOperator : public SpdOperator
     {
     public:
-      IterativeOperator(const FreeDofs &free_dofs,
-                        const Vector   &rest_positions,
-                        const double    tolerance)
-          : tolerance(tolerance)
+      IterativeOperator(const FreeDofs &free_dofs, const double tolerance) : tolerance(tolerance)
       {
         for (const unsigned int dof : free_dofs.list())
         {
@@ -116,23 +112,17 @@ namespace Exemplar
           row_of.push_back(static_cast<int>(3 * (nodes.size() - 1) + dof % 3));
         }
         places.resize(3 * nodes.size());
-        IterativeOperator::place_nodes(rest_positions);
         require_mpi();
       }
 
-      std::string
-      name() const override
-      {
-        return "iterative";
-      }
-
-      std::size_t
-      memory_consumption() const override
+      OperatorTraits
+      traits() const override
       {
         const std::size_t entries
             = matrix == nullptr ? 0 : static_cast<std::size_t>(matrix->NumMyNonzeros());
-        return sizeof(double) * lower_values.size() + (sizeof(int) + sizeof(double)) * entries
-               + multigrid_memory;
+        return { "iterative", 0., 0.,
+                 sizeof(double) * lower_values.size() + (sizeof(int) + sizeof(double)) * entries
+                     + multigrid_memory };
       }
 
       void
@@ -168,18 +158,11 @@ namespace Exemplar
       }
 
       void
-      place_nodes(const Vector &positions) override
-      {
-        for (std::size_t row = 0; row < places.size(); ++row)
-          places[row] = positions[3 * nodes[row / 3] + row % 3];
-        scale_places();
-      }
-
-      void
-      factorize() override
+      factorize(const Vector &positions) override
       {
         if (row_of.empty())
           return;
+        place_nodes(positions);
         fill_matrix();
         // nothing takes as much memory as a hierarchy: give back what has been freed before
         multigrid.reset();
@@ -224,8 +207,8 @@ namespace Exemplar
         }
       }
 
-      FactorPanels
-      panels() const override
+      std::unique_ptr<KeptInverse>
+      keep() const override
       {
         throw SolverFailure("Solver/Linear solver = iterative makes no factor.");
       }
@@ -291,6 +274,14 @@ namespace Exemplar
               value[next[column[entry]]++] = *lower;
           }
         }
+      }
+
+      void
+      place_nodes(const Vector &positions)
+      {
+        for (std::size_t row = 0; row < places.size(); ++row)
+          places[row] = positions[3 * nodes[row / 3] + row % 3];
+        scale_places();
       }
 
       /// Centred and of size one, so that all modes are of the same size.
@@ -374,10 +365,8 @@ namespace Exemplar
   } // namespace
 
   std::unique_ptr<SpdOperator>
-  make_iterative_operator(const FreeDofs &free_dofs,
-                          const Vector   &rest_positions,
-                          const double    tolerance)
+  make_iterative_operator(const FreeDofs &free_dofs, const double tolerance)
   {
-    return std::make_unique<IterativeOperator>(free_dofs, rest_positions, tolerance);
+    return std::make_unique<IterativeOperator>(free_dofs, tolerance);
   }
 } // namespace Exemplar

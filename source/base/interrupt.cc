@@ -28,6 +28,12 @@ namespace Exemplar
     std::signal(SIGTERM, note);
   }
 
+  bool
+  is_interrupted()
+  {
+    return interrupted;
+  }
+
   void
   check_interrupt()
   {

@@ -2,6 +2,7 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
 #include <exemplar/body/example_poses.h>
+#include <exemplar/prm/expression.h>
 #include <exemplar/prm/prm_tools.h>
 
 #include <deal.II/base/memory_consumption.h>
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <sstream>
 
 namespace Exemplar
@@ -18,29 +18,9 @@ namespace Exemplar
   {
     const EnumTable<ExampleEnergy> energies
         = { { ExampleEnergy::scaled, "scaled" }, { ExampleEnergy::blended, "blended" } };
-    const EnumTable<ExampleWeights> weight_kinds = { { ExampleWeights::simplex, "simplex" },
-                                                     { ExampleWeights::free, "free" },
-                                                     { ExampleWeights::prescribed, "prescribed" } };
-
-    /// sigma for "auto" and "paper", in units of sum E V.
-    double
-    default_penalty(const ExampleParameters &parameters)
-    {
-      const bool weak
-          = parameters.weight_penalty == "auto" && parameters.weights == ExampleWeights::simplex;
-      return weak ? 1e-9 : 1e-5;
-    }
-
-    /// The number in `text`, if it is one and not negative.
-    std::optional<double>
-    non_negative_number(const std::string &text)
-    {
-      std::istringstream in(text);
-      double             value = -1.;
-      if (in >> value && (in >> std::ws).eof() && value >= 0. && std::isfinite(value))
-        return value;
-      return {};
-    }
+    const EnumTable<WeightRule> weight_kinds = { { WeightRule::simplex, "simplex" },
+                                                 { WeightRule::free, "free" },
+                                                 { WeightRule::prescribed, "prescribed" } };
 
     /// p of Eq. (16) of a cell in an example: of its stretch I + E.
     double
@@ -101,6 +81,16 @@ namespace Exemplar
     prm.leave_subsection();
   }
 
+  std::optional<double>
+  ExampleParameters::given_penalty() const
+  {
+    std::istringstream in(weight_penalty);
+    double             value = -1.;
+    if (in >> value && (in >> std::ws).eof() && value >= 0. && std::isfinite(value))
+      return value;
+    return {};
+  }
+
   bool
   ExampleParameters::in_use() const
   {
@@ -110,17 +100,16 @@ namespace Exemplar
   void
   ExampleParameters::check() const
   {
-    if (weight_penalty != "auto" && weight_penalty != "paper"
-        && !non_negative_number(weight_penalty))
+    if (weight_penalty != "auto" && weight_penalty != "paper" && !given_penalty())
       throw UserError("Examples/Weight penalty = '" + weight_penalty
                       + "' is not allowed. Allowed: auto, paper or a number not less than 0 [J].");
-    if (weights == ExampleWeights::prescribed && in_use() && prescribed_weights.empty())
+    if (weights == WeightRule::prescribed && in_use() && prescribed_weights.empty())
       throw UserError("Examples/Weights = prescribed, but Examples/Prescribed weights is empty. "
                       "Give one function of t for each example, for instance '1-t; t'.");
     if (region_blend_length > 0. && !weights_per_region)
       throw UserError("Examples/Region blend length is given, but Examples/Weights per region is "
                       "false. Set it to true, or remove the length.");
-    if (weights != ExampleWeights::prescribed && !prescribed_weights.empty())
+    if (weights != WeightRule::prescribed && !prescribed_weights.empty())
       throw UserError("Examples/Prescribed weights is given, but Examples/Weights is not "
                       "'prescribed'. Set it, or remove the weights.");
   }
@@ -151,41 +140,26 @@ namespace Exemplar
                              const StrainMeasure      measure,
                              const Mesh              &mesh,
                              const FESpace           &fe_space,
-                             const Material          &material,
-                             const TimeAxis          &axis)
+                             const Material          &material)
       : fe_space(fe_space), eta(parameters.importance), measure(measure),
         regions(make_regions(parameters, mesh, fe_space)),
-        first_strained(parameters.include_rest_pose ? 1 : 0),
-        bounded(parameters.weights == ExampleWeights::simplex)
+        first_strained(parameters.include_rest_pose ? 1 : 0)
   {
     if (parameters.include_rest_pose)
       add_pose("rest pose", mesh.get_nodes());
     for (const std::string &file : parameters.poses)
       add_pose(file, mesh.read_pose(file));
     add_pose_functions(parameters.pose_functions, mesh);
-    if (parameters.weights == ExampleWeights::prescribed)
-    {
-      read_prescribed_weights(parameters.prescribed_weights);
-      check_prescribed_weights(axis);
-    }
-
     compute_strains();
     compute_gram_matrix(material);
-    compute_weight_matrix(material, parameters);
-    if (!weights_are_prescribed())
-      check_independence(material);
   }
 
-  std::string
-  ExamplePoses::region_name(const std::string &prefix, const unsigned int region) const
+  std::optional<unsigned int>
+  ExamplePoses::material_id(const unsigned int region) const
   {
-    return regions ? prefix + "_" + std::to_string(regions->material_id(region)) : prefix;
-  }
-
-  std::string
-  ExamplePoses::weight_name(const std::string &prefix, const unsigned int weight) const
-  {
-    return region_name(prefix, weight / size()) + "_" + std::to_string(weight % size());
+    if (!regions)
+      return {};
+    return regions->material_id(region);
   }
 
   void
@@ -267,76 +241,18 @@ namespace Exemplar
                       });
   }
 
-  void
-  ExamplePoses::compute_weight_matrix(const Material &material, const ExampleParameters &parameters)
-  {
-    penalty.reinit(n_weights(), n_weights());
-    if (!weights_are_prescribed())
-    {
-      const double sigma
-          = non_negative_number(parameters.weight_penalty)
-                .value_or(default_penalty(parameters) * unit_energy(fe_space, material));
-      // of a region its part of the body, so that equal weights in all regions cost what
-      // global ones do
-      std::vector<double> fraction(n_regions(), regions ? 0. : 1.);
-      for (unsigned int cell = 0; regions && cell < fe_space.n_cells(); ++cell)
-        for (std::size_t s = regions->first(cell); s < regions->last(cell); ++s)
-          fraction[regions->list()[s].region] += regions->list()[s].value
-                                                 * fe_space.tetrahedron(cell).volume
-                                                 / fe_space.total_volume();
-      if (n_regions() == 1)
-        fraction[0] = 1.; // without the sum's rounding
-      for (unsigned int weight = 0; weight < n_weights(); ++weight)
-        penalty(weight, weight) = sigma * fraction[weight / size()];
-    }
-    if (parameters.energy == ExampleEnergy::blended)
-      penalty.add(eta * (1. - eta), gram);
-    H = penalty;
-    H.add(eta * eta, gram);
-  }
-
-  void
-  ExamplePoses::read_prescribed_weights(const std::string &text)
-  {
-    const std::string              key   = "Examples/Prescribed weights";
-    const std::vector<std::string> lists = split_trimmed(text, '|');
-    if (lists.size() != 1 && lists.size() != n_regions())
-      throw UserError(key + " has " + std::to_string(lists.size()) + " lists separated by |, but "
-                      + (regions ? "there are " + std::to_string(n_regions()) + " regions."
-                                 : "Examples/Weights per region is false.")
-                      + " Give one list for all"
-                      + (regions ? " or one for each material id." : "."));
-    for (const std::string &list : lists)
-      prescribed.emplace_back(key, list, "t", size());
-  }
-
   std::vector<double>
-  ExamplePoses::prescribed_weights(const double time) const
+  ExamplePoses::volume_fractions() const
   {
-    std::vector<double> all;
-    for (unsigned int region = 0; region < n_regions(); ++region)
-    {
-      const auto values
-          = prescribed[prescribed.size() == 1 ? 0 : region].values(dealii::Point<3>(), time);
-      all.insert(all.end(), values.begin(), values.end());
-    }
-    return all;
-  }
-
-  void
-  ExamplePoses::check_prescribed_weights(const TimeAxis &axis) const
-  {
-    for (unsigned int step = 0; step <= axis.n_steps(); ++step)
-      for (const Expression &expression : prescribed)
-      {
-        const double time   = axis.time(step);
-        const auto   values = expression.values(dealii::Point<3>(), time);
-        const double sum    = std::accumulate(values.begin(), values.end(), 0.);
-        if (std::abs(sum - 1.) > 1e-10)
-          throw UserError("Examples/Prescribed weights sum to " + shortest_text(sum)
-                          + " at t = " + shortest_text(time)
-                          + ", not to 1. Make the last one 1 minus the others.");
-      }
+    if (n_regions() == 1)
+      return { 1. }; // without the sum's rounding
+    const double        total = fe_space.total_volume();
+    std::vector<double> fraction(n_regions(), 0.);
+    for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
+      for (std::size_t s = regions->first(cell); s < regions->last(cell); ++s)
+        fraction[regions->list()[s].region]
+            += regions->list()[s].value * fe_space.tetrahedron(cell).volume / total;
+    return fraction;
   }
 
   std::size_t
@@ -344,7 +260,6 @@ namespace Exemplar
   {
     using dealii::MemoryConsumption::memory_consumption;
     return memory_consumption(positions) + strains.memory_consumption()
-           + memory_consumption(strain_norms) + gram.memory_consumption()
-           + penalty.memory_consumption() + H.memory_consumption();
+           + memory_consumption(strain_norms) + gram.memory_consumption();
   }
 } // namespace Exemplar

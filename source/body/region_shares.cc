@@ -80,7 +80,7 @@ namespace Exemplar
     const auto             filter  = make_cholmod_operator();
     filter->reinit(pattern);
     assemble_filter(fe_space, length * length / 12., *filter, pattern);
-    filter->factorize();
+    filter->factorize(fe_space.rest_positions());
 
     const std::size_t   n = fe_space.n_nodes();
     std::vector<double> columns(n * n_regions());

@@ -26,7 +26,7 @@ namespace Exemplar
   initial_state(const InitialParameters &parameters,
                 const Mesh              &mesh,
                 const FESpace           &fe_space,
-                const ExamplePoses      *examples,
+                const ExampleWeights    *weights,
                 const bool               dynamic)
   {
     if (!parameters.pose.empty() && !parameters.pose_function.empty())
@@ -58,15 +58,10 @@ namespace Exemplar
       set_node_field(Expression("Initial/Velocity", parameters.velocity, "xyz", 3),
                      state.velocities);
     }
-    if (examples != nullptr && examples->weights_are_prescribed())
-      state.weights = examples->prescribed_weights(0.);
-    else if (examples != nullptr)
-    {
-      state.weights.assign(examples->n_weights(), 0.);
-      for (unsigned int region = 0; region < examples->n_regions(); ++region)
-        state.weights[region * examples->size()] = 1.;
-      state.multipliers.assign(examples->n_regions(), 0.);
-    }
+    if (weights != nullptr)
+      state.weights = weights->initial();
+    if (weights != nullptr && weights->are_unknown())
+      state.multipliers.assign(weights->n_regions(), 0.);
     return state;
   }
 } // namespace Exemplar

@@ -6,7 +6,6 @@
 #include <boost/archive/binary_iarchive.hpp>
 #include <boost/archive/binary_oarchive.hpp>
 #include <boost/serialization/array.hpp>
-#include <boost/serialization/deque.hpp>
 #include <boost/serialization/map.hpp>
 #include <boost/serialization/string.hpp>
 #include <boost/serialization/vector.hpp>
@@ -19,7 +18,7 @@ namespace Exemplar
 {
   namespace
   {
-    const std::string format = "exemplar checkpoint 3";
+    const std::string format = "exemplar checkpoint 4";
 
     template <typename Archive>
     void
@@ -31,12 +30,36 @@ namespace Exemplar
       archive &checkpoint.parameters &checkpoint.input_digests;
       archive &state.step &state.time &state.positions &state.velocities &state
           .previous_positions &state.previous_velocities &state.previous_step &state
-          .linearized_positions &state.linearized_weights &state.weights &state.multipliers;
+          .weights &state.multipliers;
       archive &work.handles &work.gravity &work.loads;
       archive &totals.iterations &totals.factorizations &totals.worst_residual;
       for (double &seconds : totals.seconds)
         archive &seconds;
-      archive &checkpoint.memory &checkpoint.statistics_bytes;
+      archive &checkpoint.solver_memory &checkpoint.statistics_bytes;
+    }
+    /// What `load` returns; a UserError if the bytes of the file are none of a checkpoint.
+    template <typename Load>
+    auto
+    guarded_load(const std::filesystem::path &file, const Load &load)
+    {
+      const UserError broken(
+          file.string() + " cannot be read as a checkpoint. Run the scene without --resume.");
+      try
+      {
+        return load();
+      }
+      catch (const boost::archive::archive_exception &)
+      {
+        throw broken;
+      }
+      catch (const std::length_error &) // wrong bytes, taken for the size of a vector
+      {
+        throw broken;
+      }
+      catch (const std::bad_alloc &) // the same
+      {
+        throw broken;
+      }
     }
   } // namespace
 
@@ -60,32 +83,32 @@ namespace Exemplar
       throw UserError(file.string()
                       + ": there is no checkpoint to resume from. Run the scene "
                         "without --resume.");
-    const std::string broken
-        = file.string() + " cannot be read as a checkpoint. Run the scene without --resume.";
-    try
-    {
-      boost::archive::binary_iarchive archive(in);
-      std::string                     found;
-      archive                        &found;
-      if (found != format)
-        throw UserError(file.string()
-                        + " is no checkpoint of this version of exemplar. Run the "
-                          "scene without --resume.");
-      Checkpoint checkpoint;
-      transfer(archive, checkpoint);
-      return checkpoint;
-    }
-    catch (const boost::archive::archive_exception &)
-    {
-      throw UserError(broken);
-    }
-    catch (const std::length_error &) // wrong bytes, taken for the size of a vector
-    {
-      throw UserError(broken);
-    }
-    catch (const std::bad_alloc &) // the same
-    {
-      throw UserError(broken);
-    }
+    return guarded_load(
+        file,
+        [&]
+        {
+          boost::archive::binary_iarchive archive(in);
+          std::string                     found;
+          archive                        &found;
+          if (found != format)
+            throw UserError(file.string()
+                            + " is no checkpoint of this version of exemplar. Run the "
+                              "scene without --resume.");
+          Checkpoint checkpoint;
+          transfer(archive, checkpoint);
+          return checkpoint;
+        });
+  }
+
+  void
+  restore(const Checkpoint &checkpoint, const std::filesystem::path &file, Problem &problem)
+  {
+    guarded_load(file,
+                 [&]
+                 {
+                   problem.resume_from(checkpoint.state, checkpoint.solver_memory);
+                   return true;
+                 });
+    problem.diagnostics.set_work(checkpoint.work);
   }
 } // namespace Exemplar

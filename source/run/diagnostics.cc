@@ -21,12 +21,12 @@ namespace Exemplar
     }
   } // namespace
 
-  Diagnostics::Diagnostics(const Handles      *handles,
-                           const Loads        *loads,
-                           const ExamplePoses *examples,
-                           const Inertia      *inertia,
-                           const bool          energy_is_bounded)
-      : handles(handles), loads(loads), examples(examples), inertia(inertia),
+  Diagnostics::Diagnostics(const Handles        *handles,
+                           const Loads          *loads,
+                           const ExampleWeights *weights,
+                           const Mass           *mass,
+                           const bool            energy_is_bounded)
+      : handles(handles), loads(loads), weights(weights), mass(mass),
         energy_is_bounded(energy_is_bounded)
   {
   }
@@ -54,35 +54,35 @@ namespace Exemplar
   StatisticsRow
   Diagnostics::row(const State       &state,
                    const SolveReport &report,
-                   const Equilibrium &equilibrium) const
+                   const Evaluation  &evaluation) const
   {
-    const Evaluation &evaluation = equilibrium.evaluation();
-    StatisticsRow     row        = { { "step", std::to_string(state.step) },
-                                     { "time", shortest_text(state.time) },
-                                     { "status", status_name(report.status) },
-                                     { "iterations", std::to_string(report.iterations) } };
+    const ElasticEvaluation &elastic = evaluation.elastic;
+    StatisticsRow            row     = { { "step", std::to_string(state.step) },
+                                         { "time", shortest_text(state.time) },
+                                         { "status", status_name(report.status) },
+                                         { "iterations", std::to_string(report.iterations) } };
     append(row, "residual", report.status == SolveStatus::failed ? std::nan("") : report.residual);
-    append(row, "energy_elastic", evaluation.energy_elastic);
-    if (examples != nullptr)
-      append(row, "energy_example", evaluation.energy_example());
-    const MotionSums sums = inertia != nullptr ? inertia->motion_sums(state) : MotionSums();
-    if (inertia != nullptr)
+    append(row, "energy_elastic", elastic.energy_elastic);
+    if (weights != nullptr)
+      append(row, "energy_example", elastic.energy_example());
+    const MotionSums sums = mass != nullptr ? mass->motion_sums(state) : MotionSums();
+    if (mass != nullptr)
       append(row, "energy_kinetic", sums.kinetic_energy);
     if (energy_is_bounded)
-      append(row, "energy_inertia", equilibrium.energy_of_inertia());
+      append(row, "energy_inertia", evaluation.term_energies.front());
     for (unsigned int i = 0; i < state.weights.size(); ++i)
-      append(row, examples->weight_name("weight", i), state.weights[i]);
-    if (examples != nullptr && !examples->weights_are_prescribed())
+      append(row, weights->weight_name("weight", i), state.weights[i]);
+    if (weights != nullptr && weights->are_unknown())
     {
       for (unsigned int region = 0; region < state.multipliers.size(); ++region)
-        append(row, examples->region_name("multiplier", region), state.multipliers[region]);
+        append(row, weights->region_name("multiplier", region), state.multipliers[region]);
       append(row, "kkt_residual", report.kkt_residual);
     }
-    append(row, "min_det_F", evaluation.min_det_F);
-    row.emplace_back("inverted_cells", std::to_string(evaluation.inverted_cells));
-    if (examples != nullptr)
-      row.emplace_back("guarded_cells", std::to_string(evaluation.guarded_cells));
-    if (inertia != nullptr)
+    append(row, "min_det_F", elastic.min_det_F);
+    row.emplace_back("inverted_cells", std::to_string(elastic.inverted_cells));
+    if (weights != nullptr)
+      row.emplace_back("guarded_cells", std::to_string(elastic.guarded_cells));
+    if (mass != nullptr)
     {
       append(row, "momentum", sums.momentum);
       append(row, "angular_momentum", sums.angular_momentum);
@@ -95,7 +95,7 @@ namespace Exemplar
       append(row, "work_loads", work.loads);
     if (handles != nullptr)
       for (unsigned int h = 0; h < handles->size(); ++h)
-        append(row, "reaction_" + handles->name(h), handles->sum_over(h, equilibrium.gradient()));
+        append(row, "reaction_" + handles->name(h), handles->sum_over(h, evaluation.gradient));
     return row;
   }
 

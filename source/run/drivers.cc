@@ -56,7 +56,7 @@ namespace Exemplar
       else
         std::cout << "none\n";
       std::cout << "Solver    " << method_name(problem.parameters.solver.method) << ", "
-                << problem.linear_solver->name() << ", " << problem.time_axis.n_steps()
+                << problem.system.bordered().traits().name << ", " << problem.time_axis.n_steps()
                 << " steps; " << n_threads() << (n_threads() == 1 ? " thread" : " threads")
                 << "; BLAS " << blas.library << ' ' << blas.core << '\n';
       std::cout << "Output    " << problem.parameters.output.directory << std::endl;
@@ -178,9 +178,12 @@ namespace Exemplar
       print_header(*problem);
     }
 
-    if (options.verbose)
-      problem->equilibrium.observe_iteration
-          = [&problem](const SolveReport &report) { print_iteration(*problem, report); };
+    problem->solver->observe = [&](const SolveReport &report)
+    {
+      if (options.verbose)
+        print_iteration(*problem, report);
+      return !is_interrupted();
+    };
     Progress progress(std::cout, options.quiet || options.verbose, problem->state.step,
                       problem->time_axis.n_steps());
     try

@@ -253,7 +253,7 @@ namespace Exemplar
       set({ "Examples" }, key, value);
     };
     require("Importance", "1", examples.importance == 1.);
-    require("Weights", "prescribed", examples.weights == ExampleWeights::prescribed);
+    require("Weights", "prescribed", examples.weights == WeightRule::prescribed);
     if (!examples.in_use())
       throw UserError("Scene = interpolation needs example poses. Give Examples/Poses or "
                       "Examples/Pose functions.");
@@ -298,7 +298,7 @@ namespace Exemplar
       throw UserError(
           "Solver/Rotations = predicted follows the velocities of a dynamic scene; this "
           "one has none. Set Solver/Rotations = last, or Scene = dynamic.");
-    const bool bounded = examples.in_use() && examples.weights == ExampleWeights::simplex;
+    const bool bounded = examples.in_use() && examples.weights == WeightRule::simplex;
     if (solver.linear_solver == LinearSolver::umfpack && (bounded || descends))
       throw UserError("Solver/Linear solver = umfpack solves linear systems without bounds and "
                       "cannot tell an indefinite one. Set Solver/Method = fixed point and "

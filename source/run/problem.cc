@@ -3,7 +3,10 @@
 #include <exemplar/base/number_text.h>
 #include <exemplar/run/problem.h>
 
+#include <boost/archive/archive_exception.hpp>
+
 #include <algorithm>
+#include <sstream>
 
 namespace Exemplar
 {
@@ -52,22 +55,81 @@ namespace Exemplar
     make_examples(const Parameters &parameters,
                   const Mesh       &mesh,
                   const FESpace    &fe_space,
-                  const Material   &material,
-                  const TimeAxis   &axis)
+                  const Material   &material)
     {
       if (!parameters.examples.in_use())
         return nullptr;
       return std::make_unique<ExamplePoses>(parameters.examples, parameters.model.strain, mesh,
-                                            fe_space, material, axis);
+                                            fe_space, material);
     }
 
-    std::unique_ptr<Inertia>
-    make_inertia(const Parameters &parameters, const FESpace &fe_space, const Material &material)
+    std::unique_ptr<ExampleWeights>
+    make_weights(const Parameters   &parameters,
+                 const ExamplePoses *examples,
+                 const double        energy_of_unit_strain,
+                 const TimeAxis     &axis)
+    {
+      if (examples == nullptr)
+        return nullptr;
+      return std::make_unique<ExampleWeights>(parameters.examples, *examples, energy_of_unit_strain,
+                                              axis);
+    }
+
+    std::unique_ptr<Mass>
+    make_mass(const Parameters &parameters, const FESpace &fe_space, const Material &material)
     {
       if (parameters.scene != SceneKind::dynamic)
         return nullptr;
-      return std::make_unique<Inertia>(fe_space, material, parameters.material.mass_matrix,
-                                       parameters.time);
+      return std::make_unique<Mass>(fe_space, material, parameters.material.mass_matrix);
+    }
+
+    std::unique_ptr<TimeIntegrator>
+    make_integrator(const Parameters &parameters)
+    {
+      if (parameters.scene != SceneKind::dynamic)
+        return nullptr;
+      return std::make_unique<TimeIntegrator>(parameters.time);
+    }
+
+    std::vector<std::unique_ptr<PotentialTerm>>
+    make_terms(const Mass           *mass,
+               const TimeIntegrator *integrator,
+               const Loads          *loads,
+               const FESpace        &fe_space)
+    {
+      std::vector<std::unique_ptr<PotentialTerm>> terms;
+      if (mass != nullptr)
+        terms.push_back(std::make_unique<InertiaTerm>(*mass, *integrator));
+      if (loads != nullptr)
+        terms.push_back(std::make_unique<LoadTerm>(*loads, fe_space.rest_positions()));
+      return terms;
+    }
+
+    std::vector<PotentialTerm *>
+    pointers_to(const std::vector<std::unique_ptr<PotentialTerm>> &terms)
+    {
+      std::vector<PotentialTerm *> pointers;
+      for (const auto &term : terms)
+        pointers.push_back(term.get());
+      return pointers;
+    }
+
+    /// The pattern that cells and terms need together.
+    SymmetricPattern
+    make_common_pattern(const FESpace                                     &fe_space,
+                        const FreeDofs                                    &free_dofs,
+                        const std::vector<std::unique_ptr<PotentialTerm>> &terms)
+    {
+      std::vector<std::pair<unsigned int, unsigned int>> couplings;
+      for (const auto &term : terms)
+      {
+        const auto more = term->couplings();
+        couplings.insert(couplings.end(), more.begin(), more.end());
+      }
+      SymmetricPattern pattern = make_pattern(fe_space, couplings, free_dofs);
+      for (const auto &term : terms)
+        term->attach(pattern, free_dofs);
+      return pattern;
     }
 
     /// Operations of CHOLMOD's factorisation, for each degree of freedom and solve with it,
@@ -78,17 +140,6 @@ namespace Exemplar
     /// correct the rest in their next iteration; one pass has none, and Schur complements
     /// are small differences of what these solves give.
     constexpr double tolerance_of_iterations = 1e-4, tolerance_of_last_word = 1e-8;
-
-    /// Columns of G that are not zero.
-    unsigned int
-    n_coupled(const ExamplePoses *examples)
-    {
-      unsigned int n = 0;
-      if (examples != nullptr && !examples->weights_are_prescribed())
-        for (unsigned int weight = 0; weight < examples->n_weights(); ++weight)
-          n += examples->is_strained(weight);
-      return n;
-    }
 
     /// CHOLMOD for a pattern, unless it is to be chosen and is not worth it.
     std::unique_ptr<SpdOperator>
@@ -111,31 +162,32 @@ namespace Exemplar
           throw;
         return nullptr; // too large for CHOLMOD
       }
-      if (may_choose && matrix->n_operations() > operations_at_crossover * n_columns * pattern.n())
+      if (may_choose
+          && matrix->traits().n_operations > operations_at_crossover * n_columns * pattern.n())
         return nullptr;
       return matrix;
     }
 
-    std::unique_ptr<BorderedSolver>
-    make_linear_solver(const SolverParameters &solver,
-                       const FESpace          &fe_space,
-                       const FreeDofs         &free_dofs,
-                       const ExamplePoses     *examples,
-                       const SymmetricPattern &pattern)
+    std::unique_ptr<BorderedSystem>
+    make_bordered_system(const SolverParameters &solver,
+                         const FreeDofs         &free_dofs,
+                         const ExampleWeights   *weights,
+                         const SymmetricPattern &pattern)
     {
+      const bool        has_weights = weights != nullptr && weights->are_unknown();
+      const WeightForm *form        = has_weights ? &weights->weight_form() : nullptr;
       if (solver.linear_solver == LinearSolver::umfpack)
-        return make_umfpack_solver(pattern);
-      const unsigned int n_examples = n_coupled(examples);
+        return make_umfpack_system(pattern, form);
+      const unsigned int n_examples = has_weights ? form->coupled.size() : 0;
       auto               matrix     = find_cholmod_operator(solver, 1 + n_examples, pattern);
       if (matrix == nullptr)
       {
         const bool is_last_word = solver.method == Method::one_pass || n_examples > 0;
-        matrix                  = make_iterative_operator(free_dofs, fe_space.rest_positions(),
-                                         is_last_word ? tolerance_of_last_word
-                                                                       : tolerance_of_iterations);
+        matrix = make_iterative_operator(free_dofs, is_last_word ? tolerance_of_last_word
+                                                                 : tolerance_of_iterations);
         matrix->reinit(pattern);
       }
-      return make_block_solver(std::move(matrix));
+      return make_block_system(std::move(matrix), form);
     }
   } // namespace
 
@@ -145,27 +197,41 @@ namespace Exemplar
         fe_space(mesh), handles(make_handles(parameters, mesh, time_axis)),
         support(make_support(parameters, mesh)), free_dofs(fe_space.n_dofs(), held_dofs()),
         loads(make_loads(parameters, mesh, fe_space, material)),
-        examples(make_examples(parameters, mesh, fe_space, material, time_axis)),
-        inertia(make_inertia(parameters, fe_space, material)),
-        assembler(parameters.model, fe_space, material, examples.get(), inertia.get(), free_dofs),
-        linear_solver(make_linear_solver(
-            parameters.solver, fe_space, free_dofs, examples.get(), assembler.matrix_pattern())),
-        equilibrium(parameters.solver,
-                    { free_dofs, fe_space.rest_positions(), assembler, *linear_solver, clock,
-                      handles.get(), loads.get(), examples.get(), inertia.get(),
-                      support && turns_freely() && !parameters.model.is_frozen() }),
-        diagnostics(handles.get(), loads.get(), examples.get(), inertia.get(), energy_is_bounded()),
+        examples(make_examples(parameters, mesh, fe_space, material)),
+        weights(
+            make_weights(parameters, examples.get(), unit_energy(fe_space, material), time_axis)),
+        mass(make_mass(parameters, fe_space, material)), integrator(make_integrator(parameters)),
+        terms(make_terms(mass.get(), integrator.get(), loads.get(), fe_space)),
+        pattern(make_common_pattern(fe_space, free_dofs, terms)),
+        elastic({ parameters.model, fe_space, material, examples.get(), weights.get(), free_dofs },
+                pattern),
+        potential(elastic, weights.get(), pointers_to(terms), integrator.get(), free_dofs),
+        system(potential,
+               make_bordered_system(parameters.solver, free_dofs, weights.get(), pattern),
+               clock,
+               support && turns_freely() && !parameters.model.is_frozen()),
+        solver(make_step_solver(parameters.solver, potential, system, handles.get(), clock)),
+        diagnostics(handles.get(), loads.get(), weights.get(), mass.get(), energy_is_bounded()),
         state(initial_state(parameters.initial,
                             mesh,
                             fe_space,
-                            examples.get(),
+                            weights.get(),
                             parameters.scene == SceneKind::dynamic))
   {
     if (parameters.scene == SceneKind::statics)
       check_supports();
     if (parameters.scene == SceneKind::interpolation)
       start_interpolation();
-    equilibrium.start(state);
+    start(state);
+  }
+
+  void
+  Problem::start(State &at)
+  {
+    StepClock::Scope scope(clock, Part::evaluate);
+    potential.leave_step();
+    potential.set_time(at.time, at);
+    potential.evaluate(at, Rotations::update, evaluation);
   }
 
   std::vector<unsigned int>
@@ -223,48 +289,75 @@ namespace Exemplar
         && turn_to_support(mesh, *support, parameters.model.is_frozen() ? 0. : largest_turn,
                            next.positions))
     {
-      next.linearized_positions.reinit(0); // not turned with it
-      equilibrium.start(next);
+      solver->forget(); // what it remembers has not turned with the body
+      start(next);
     }
     const SolveReport report
-        = equilibrium.solve(next, time_axis.time(step), time_axis.step_size(step));
+        = solver->solve(next, evaluation, time_axis.time(step), time_axis.step_size(step));
     if (!is_success(report.status))
-      equilibrium.restore({}); // what it remembers has seen the step that failed
-    else
     {
-      if (inertia != nullptr)
-        inertia->end_step(state, next);
-      if (support && turns_freely())
-      {
-        align(state.positions, next.positions);
-        equilibrium.start(next);
-      }
-      diagnostics.add_work(state.positions, next, equilibrium.gradient());
-      state = std::move(next);
+      solver->forget(); // what it remembers has seen the step that failed
+      return report;
     }
+    if (integrator != nullptr)
+      integrator->end_step(state, next);
+    if (support && turns_freely())
+    {
+      align(state.positions, next.positions);
+      start(next);
+    }
+    diagnostics.add_work(state.positions, next, evaluation.gradient);
+    state = std::move(next);
     return report;
   }
 
   void
-  Problem::resume_from(const State &earlier, const QuasiNewtonMemory &memory)
+  Problem::resume_from(const State &earlier, const std::string &solver_memory)
   {
     state = earlier;
-    equilibrium.forget_factor();
-    equilibrium.restore(memory);
-    equilibrium.start(state);
+    solver->forget();
+    if (!solver_memory.empty())
+    {
+      std::istringstream              bytes(solver_memory);
+      boost::archive::binary_iarchive archive(bytes);
+      solver->load(archive);
+    }
+    start(state);
+  }
+
+  std::string
+  Problem::solver_memory() const
+  {
+    std::ostringstream bytes;
+    {
+      boost::archive::binary_oarchive archive(bytes);
+      solver->save(archive);
+    }
+    return bytes.str();
+  }
+
+  Conditioning
+  Problem::conditioning() const
+  {
+    Conditioning result;
+    result.matrix                           = system.bordered().traits().pivot_ratio;
+    const dealii::FullMatrix<double> &schur = solver->schur_complement();
+    if (schur.m() > 0)
+      result.schur = condition_number(form_of_differences(schur, weights->n_per_region()));
+    return result;
   }
 
   std::vector<std::string>
   Problem::parts(const bool present) const
   {
-    const bool        has_weights = examples != nullptr && !examples->weights_are_prescribed();
-    const std::string solver      = linear_solver->name();
+    const bool        has_weights   = weights != nullptr && weights->are_unknown();
+    const std::string linear_solver = system.bordered().traits().name;
     const std::vector<std::pair<std::string, bool>> all
-        = { { "mass matrix", inertia != nullptr },
+        = { { "mass matrix", mass != nullptr },
             { "second-order time scheme",
-              inertia != nullptr && parameters.time.scheme != TimeScheme::implicit_euler },
-            { "mass damping", inertia != nullptr && parameters.time.mass_damping > 0. },
-            { "stiffness damping", inertia != nullptr && parameters.time.stiffness_damping > 0. },
+              mass != nullptr && parameters.time.scheme != TimeScheme::implicit_euler },
+            { "mass damping", mass != nullptr && parameters.time.mass_damping > 0. },
+            { "stiffness damping", mass != nullptr && parameters.time.stiffness_damping > 0. },
             { "handles", handles != nullptr },
             { "own support of interpolation", support.has_value() },
             { "gravity", loads != nullptr && loads->has_gravity() },
@@ -272,11 +365,11 @@ namespace Exemplar
             { "example poses", examples != nullptr },
             { "weight block", has_weights },
             { "weights per region", examples != nullptr && parameters.examples.weights_per_region },
-            { "Schur complement", has_weights && solver != "umfpack" },
-            { "CHOLMOD", solver == "cholesky" },
-            { "algebraic multigrid", solver == "iterative" },
-            { "UMFPACK", solver == "umfpack" },
-            { "quasi-Newton method", equilibrium.memory_of_quasi_newton() > 0 },
+            { "Schur complement", has_weights && linear_solver != "umfpack" },
+            { "CHOLMOD", linear_solver == "cholesky" },
+            { "algebraic multigrid", linear_solver == "iterative" },
+            { "UMFPACK", linear_solver == "umfpack" },
+            { "quasi-Newton method", quasi_newton_memory() > 0 },
             { "frame writer", parameters.output.every > 0 } };
     std::vector<std::string> names;
     for (const auto &[name, is_there] : all)
@@ -285,18 +378,35 @@ namespace Exemplar
     return names;
   }
 
+  std::size_t
+  Problem::quasi_newton_memory() const
+  {
+    return parameters.solver.method == Method::quasi_newton ? solver->memory_consumption() : 0;
+  }
+
+  std::size_t
+  Problem::mass_memory() const
+  {
+    if (mass == nullptr)
+      return 0;
+    std::size_t bytes = mass->memory_consumption() + integrator->memory_consumption();
+    for (const auto &term : terms)
+      bytes += term->memory_consumption();
+    return bytes;
+  }
+
   std::vector<std::pair<std::string, std::size_t>>
   Problem::memory_of_parts() const
   {
     std::vector<std::pair<std::string, std::size_t>> parts
         = { { "mesh", mesh.memory_consumption() },
-            { "cells", fe_space.memory_consumption() + assembler.memory_consumption() },
-            { "mass matrix", inertia == nullptr ? 0 : inertia->memory_consumption() },
+            { "cells", fe_space.memory_consumption() + elastic.memory_consumption() },
+            { "mass matrix", mass_memory() },
             { "example poses", examples == nullptr ? 0 : examples->memory_consumption() },
-            { "weight block", equilibrium.memory_of_weights() },
-            { "quasi-Newton method", equilibrium.memory_of_quasi_newton() } };
-    if (const SpdOperator *matrix = linear_solver->matrix())
-      parts.emplace_back("linear solver", matrix->memory_consumption());
+            { "weight block", system.memory_of_weights() },
+            { "quasi-Newton method", quasi_newton_memory() } };
+    if (const std::size_t bytes = system.bordered().traits().bytes; bytes > 0)
+      parts.emplace_back("linear solver", bytes);
     return parts;
   }
 
@@ -311,7 +421,10 @@ namespace Exemplar
     if (handles != nullptr)
       all.insert(all.end(), handles->get_warnings().begin(), handles->get_warnings().end());
     if (examples != nullptr)
+    {
       all.insert(all.end(), examples->get_warnings().begin(), examples->get_warnings().end());
+      all.insert(all.end(), weights->get_warnings().begin(), weights->get_warnings().end());
+    }
     return all;
   }
 
@@ -319,16 +432,15 @@ namespace Exemplar
   Problem::energy_is_bounded() const
   {
     const bool has_one_energy
-        = examples == nullptr
-          || (!examples->weights_are_prescribed() && !parameters.model.is_frozen());
-    return inertia != nullptr && inertia->is_undamped_implicit_euler() && has_one_energy;
+        = examples == nullptr || (weights->are_unknown() && !parameters.model.is_frozen());
+    return integrator != nullptr && integrator->is_undamped_implicit_euler() && has_one_energy;
   }
 
   bool
   Problem::is_unloaded() const
   {
     if (parameters.scene != SceneKind::statics || loads != nullptr
-        || (examples != nullptr && examples->weights_are_prescribed()))
+        || (weights != nullptr && !weights->are_unknown()))
       return false;
     dealii::Vector<double> held = fe_space.rest_positions();
     handles->move(state.time, held);
@@ -340,17 +452,17 @@ namespace Exemplar
   Problem::warnings_at_end() const
   {
     std::vector<std::string> all;
-    if (const unsigned int inverted = equilibrium.evaluation().inverted_cells)
+    if (const unsigned int inverted = evaluation.elastic.inverted_cells)
       all.push_back(
           std::to_string(inverted)
           + " cells are inverted at the end. The state is an equilibrium, but there may be "
             "one of less energy: look at the frames, or take smaller steps.");
     // strains of 1e-4 are no accident
-    if (is_unloaded() && equilibrium.evaluation().energy > 1e-8 * unit_energy(fe_space, material))
+    if (is_unloaded() && evaluation.elastic.energy > 1e-8 * unit_energy(fe_space, material))
       all.push_back(
           "Nothing loads the body, but it has come to rest in a local minimum of its energy "
           "at "
-          + shortest_text(equilibrium.evaluation().energy)
+          + shortest_text(evaluation.elastic.energy)
           + " J, where the rest pose has less: Initial/Pose may be too far from it.");
     return all;
   }

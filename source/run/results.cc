@@ -145,7 +145,7 @@ namespace Exemplar
       if (is_frame(0))
         write_frame();
       StatisticsRow row
-          = problem.diagnostics.row(problem.state, SolveReport(), problem.equilibrium);
+          = problem.diagnostics.row(problem.state, SolveReport(), problem.evaluation);
       Diagnostics::append_seconds(row, {});
       statistics->write(row);
       accepted_bytes = statistics->n_bytes();
@@ -179,8 +179,7 @@ namespace Exemplar
                                && state.step % std::max(1, std::stoi(earlier_every->second)) != 0;
     if (was_only_last && !is_frame(state.step)) // the run now ends later
       fs::remove(directory.get_path() / RunDirectory::frame_name(state.step));
-    problem.resume_from(state, checkpoint.memory);
-    problem.diagnostics.set_work(checkpoint.work);
+    restore(checkpoint, directory.checkpoint(), problem);
     accepted_bytes         = checkpoint.statistics_bytes;
     totals                 = checkpoint.totals;
     earlier_factorizations = totals.factorizations;
@@ -225,7 +224,7 @@ namespace Exemplar
     StepClock::Scope scope(problem.clock, Part::output);
 
     totals.iterations += report.iterations;
-    totals.factorizations = earlier_factorizations + problem.equilibrium.n_factorizations();
+    totals.factorizations = earlier_factorizations + problem.system.n_factorizations();
     totals.worst_residual = std::max(totals.worst_residual, report.residual);
 
     if (accepted && is_frame(problem.state.step))
@@ -236,7 +235,7 @@ namespace Exemplar
       ++shown.step;
       shown.time = problem.time_axis.time(shown.step);
     }
-    StatisticsRow row = problem.diagnostics.row(shown, report, problem.equilibrium);
+    StatisticsRow row = problem.diagnostics.row(shown, report, problem.evaluation);
     if (!accepted)
       keep_only_report(row);
     Diagnostics::append_seconds(row, lap());
@@ -280,7 +279,7 @@ namespace Exemplar
     const State &state = problem.state;
     Frame frame = { directory.get_path() / RunDirectory::frame_name(state.step), state.positions,
                     state.positions, state.velocities,
-                    problem.assembler.cell_results(state.positions, state.weights) };
+                    problem.elastic.cell_results(state.positions, state.weights) };
     frame.displacement -= problem.fe_space.rest_positions();
     background.submit([frame = std::move(frame), &writer = *vtu_writer] { write(frame, writer); });
   }
@@ -312,7 +311,7 @@ namespace Exemplar
     background.drain(); // a resumed run writes no frame anew
     last_checkpoint = std::chrono::steady_clock::now();
     save_checkpoint({ values_of(problem.parameters), input_digests, problem.state,
-                      problem.equilibrium.get_memory(), problem.diagnostics.get_work(), totals,
+                      problem.solver_memory(), problem.diagnostics.get_work(), totals,
                       accepted_bytes },
                     directory.checkpoint());
   }

@@ -73,14 +73,14 @@ namespace Exemplar
     json["constrained_dofs"] = problem.fe_space.n_dofs() - problem.free_dofs.size();
     if (problem.support)
       json["support_nodes"] = support_nodes(problem);
-    json["linear_solver"]           = problem.linear_solver->name();
+    json["linear_solver"]           = problem.system.bordered().traits().name;
     json["examples"]                = problem.examples != nullptr ? problem.examples->size() : 0;
     json["steps"]                   = problem.state.step;
     json["iterations"]              = totals.iterations;
     json["factorizations"]          = totals.factorizations;
     json["status"]                  = status;
     json["worst_residual"]          = totals.worst_residual;
-    const Conditioning conditioning = problem.equilibrium.conditioning();
+    const Conditioning conditioning = problem.conditioning();
     if (conditioning.matrix > 0.)
       json["condition_matrix"] = conditioning.matrix; // null: not definite
     if (conditioning.schur > 0.)

@@ -182,30 +182,27 @@ namespace Exemplar::Verification
     double
     first_frequency(const double slenderness, const unsigned int cells)
     {
-      Scene         scene(set("Scene", "static") + beam(slenderness, cells) + clamp_and_plane);
-      Problem      &p    = scene.problem;
-      const auto   &free = p.free_dofs.list();
-      const Inertia inertia(p.fe_space, p.material, MassMatrix::consistent);
+      Scene       scene(set("Scene", "static") + beam(slenderness, cells) + clamp_and_plane);
+      Problem    &p    = scene.problem;
+      const auto &free = p.free_dofs.list();
+      const Mass  mass(p.fe_space, p.material, MassMatrix::consistent);
       dealii::Vector<double> mode(p.fe_space.n_dofs());
       for (const unsigned int dof : free)
         if (dof % 3 == 2)
           mode[dof] = std::pow(p.fe_space.rest_positions()[dof - 2], 2);
-      p.assembler.update_rotations(p.fe_space.rest_positions());
-      std::vector<double> no_columns;
-      p.assembler.assemble_tangent(Tangent::exact, p.fe_space.rest_positions(), {},
-                                   p.linear_solver->matrix_values(), no_columns);
-      p.linear_solver->factorize(WeightBlock());
+      p.elastic.update_rotations(p.fe_space.rest_positions());
+      p.system.factorize(p.fe_space.rest_positions(), {}, 0.);
       double omega_squared = 0.;
       for (unsigned int iteration = 0; iteration < 8; ++iteration) // f_2/f_1 = 6.3: 36^-8 is left
       {
-        const auto     right_side = mass_times(inertia, mode);
+        const auto     right_side = mass_times(mass, mode);
         BorderedVector unknowns;
         for (const unsigned int dof : free)
           unknowns.positions.push_back(right_side[dof]);
-        p.linear_solver->solve(WeightBlock(), unknowns);
+        p.system.bordered().solve(unknowns, {});
         for (unsigned int i = 0; i < free.size(); ++i)
           mode[free[i]] = unknowns.positions[i];
-        const double y_M_y = mode * mass_times(inertia, mode);
+        const double y_M_y = mode * mass_times(mass, mode);
         omega_squared      = (mode * right_side) / y_M_y;
         mode /= std::sqrt(y_M_y);
       }

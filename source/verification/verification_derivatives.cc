@@ -57,13 +57,13 @@ namespace Exemplar::Verification
           : problem(problem), x(positions), w(problem.examples ? weights : std::vector<double>()),
             rotations(rotations)
       {
-        problem.assembler.update_rotations(x);
+        problem.elastic.update_rotations(x);
         at = evaluate(x, w);
-        problem.assembler.update_rotations(x);
-        matrix.resize(problem.assembler.matrix_pattern().n_values());
-        problem.assembler.assemble_tangent(rotations == Rotations::followed ? Tangent::exact
-                                                                            : Tangent::convex,
-                                           x, w, matrix, columns);
+        problem.elastic.update_rotations(x);
+        matrix.resize(problem.pattern.n_values());
+        problem.elastic.assemble_tangent(rotations == Rotations::followed ? Tangent::exact
+                                                                          : Tangent::convex,
+                                         x, w, matrix, columns);
       }
 
       /// Greatest error of the forces.
@@ -178,7 +178,7 @@ namespace Exemplar::Verification
         return direction;
       }
 
-      Evaluation
+      ElasticEvaluation
       shifted(const dealii::Vector<double> &direction, const double h) const
       {
         dealii::Vector<double> moved = x;
@@ -186,13 +186,13 @@ namespace Exemplar::Verification
         return evaluate(moved, w);
       }
 
-      Evaluation
+      ElasticEvaluation
       evaluate(const dealii::Vector<double> &positions, const std::vector<double> &at_weights) const
       {
         if (rotations == Rotations::followed)
-          problem.assembler.update_rotations(positions);
-        Evaluation evaluation;
-        problem.assembler.evaluate(positions, at_weights, evaluation);
+          problem.elastic.update_rotations(positions);
+        ElasticEvaluation evaluation;
+        problem.elastic.evaluate(positions, at_weights, evaluation);
         return evaluation;
       }
 
@@ -201,7 +201,7 @@ namespace Exemplar::Verification
       {
         if (i < j)
           std::swap(i, j);
-        const auto &pattern  = problem.assembler.matrix_pattern();
+        const auto &pattern  = problem.pattern;
         const int   position = pattern.position(i, j);
         const bool  is_there = position < pattern.column_start[j + 1]
                               && pattern.row[position] == static_cast<int>(i);
@@ -212,7 +212,7 @@ namespace Exemplar::Verification
       const dealii::Vector<double> x;
       const std::vector<double>    w;
       const Rotations              rotations;
-      Evaluation                   at;
+      ElasticEvaluation            at;
       std::vector<double>          matrix;
       std::vector<double>          columns;
     };

@@ -181,9 +181,9 @@ namespace Exemplar::Verification
         const State before = p.state;
         advance(p);
         const auto gain
-            = tensor(torque(p.state.velocities, mass_times(*p.inertia, before.velocities)));
-        const auto law = p.inertia->motion_sums(before).angular_momentum + h * gain;
-        const auto now = p.inertia->motion_sums(p.state).angular_momentum;
+            = tensor(torque(p.state.velocities, mass_times(*p.mass, before.velocities)));
+        const auto law = p.mass->motion_sums(before).angular_momentum + h * gain;
+        const auto now = p.mass->motion_sums(p.state).angular_momentum;
         greatest       = std::max(greatest, (now - law).norm() / now.norm());
       }
       return greatest;
@@ -220,12 +220,12 @@ namespace Exemplar::Verification
       {
         const State  before = p.state;
         const double bound
-            = p.equilibrium.evaluation().energy + p.inertia->motion_sums(before).kinetic_energy;
+            = p.evaluation.elastic.energy + p.mass->motion_sums(before).kinetic_energy;
         advance(p);
         State change = p.state;
         change.velocities -= before.velocities;
         const double left
-            = p.equilibrium.evaluation().energy + p.inertia->motion_sums(change).kinetic_energy;
+            = p.evaluation.elastic.energy + p.mass->motion_sums(change).kinetic_energy;
         greatest = std::max(greatest, left / bound - 1.);
       }
       return { { "greatest excess", 1e-12, greatest, Comparison::at_most } };

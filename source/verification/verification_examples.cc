@@ -51,11 +51,12 @@ namespace Exemplar::Verification
                                         { { 5., 5., 5. } });
         start.velocities = 0.;
         std::vector<double> unit(p.examples->size(), 0.);
-        unit[i]                   = 1.;
-        const Evaluation strained = evaluate(p, start.positions, std::vector<double>{ 1., 0., 0. });
-        const Evaluation at       = evaluate(p, start.positions, unit);
-        const double     scale
-            = std::max(strained.force_scale.linfty_norm(), p.assembler.rounding_force() * 1e14);
+        unit[i] = 1.;
+        const ElasticEvaluation strained
+            = evaluate(p, start.positions, std::vector<double>{ 1., 0., 0. });
+        const ElasticEvaluation at = evaluate(p, start.positions, unit);
+        const double            scale
+            = std::max(strained.force_scale.linfty_norm(), p.elastic.rounding_force() * 1e14);
         residual = std::max(residual, at.gradient.linfty_norm() / scale);
         p.resume_from(start);
         if (!is_success(p.advance().status))

@@ -179,11 +179,10 @@ namespace Exemplar::Verification
   }
 
   dealii::Vector<double>
-  mass_times(const Inertia &inertia, const dealii::Vector<double> &field)
+  mass_times(const Mass &mass, const dealii::Vector<double> &field)
   {
     dealii::Vector<double> product(field.size());
-    const auto            &mass = inertia.nodal_mass();
-    for (auto entry = mass.begin(); entry != mass.end(); ++entry)
+    for (auto entry = mass.nodal().begin(); entry != mass.nodal().end(); ++entry)
       for (unsigned int c = 0; c < 3; ++c)
         product[3 * entry->row() + c] += entry->value() * field[3 * entry->column() + c];
     return product;
@@ -197,14 +196,14 @@ namespace Exemplar::Verification
     return difference.linfty_norm();
   }
 
-  Evaluation
+  ElasticEvaluation
   evaluate(Problem                      &problem,
            const dealii::Vector<double> &positions,
            const std::vector<double>    &weights)
   {
-    Evaluation evaluation;
-    problem.assembler.update_rotations(positions);
-    problem.assembler.evaluate(positions, weights, evaluation);
+    ElasticEvaluation evaluation;
+    problem.elastic.update_rotations(positions);
+    problem.elastic.evaluate(positions, weights, evaluation);
     return evaluation;
   }
 

@@ -60,15 +60,12 @@ namespace Exemplar::Verification
     void
     newton_step(Problem &p, dealii::Vector<double> &x, const std::vector<double> &weights)
     {
-      const Evaluation    at = evaluate(p, x, weights);
-      std::vector<double> no_columns;
-      p.assembler.assemble_tangent(Tangent::exact, x, weights, p.linear_solver->matrix_values(),
-                                   no_columns);
-      p.linear_solver->factorize(WeightBlock());
+      const ElasticEvaluation at = evaluate(p, x, weights);
+      p.system.factorize(x, weights, 0.);
       BorderedVector unknowns;
       for (const unsigned int dof : p.free_dofs.list())
         unknowns.positions.push_back(-at.gradient[dof]);
-      p.linear_solver->solve(WeightBlock(), unknowns);
+      p.system.bordered().solve(unknowns, {});
       for (unsigned int i = 0; i < p.free_dofs.size(); ++i)
         x[p.free_dofs.list()[i]] += unknowns.positions[i];
     }

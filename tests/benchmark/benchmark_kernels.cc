@@ -23,7 +23,7 @@ namespace Exemplar
         // strains and turns of some tenths, different in every cell
         for (unsigned int dof = 0; dof < positions.size(); ++dof)
           positions[dof] += 0.02 * std::sin(40. * positions[dof - dof % 3 + (dof + 1) % 3]);
-        problem.assembler.update_rotations(positions);
+        problem.elastic.update_rotations(positions);
         task.cells = batches.arrays(StrainMeasure::corotational, default_guard_bound);
         for (unsigned int dof = 0; dof < positions.size(); ++dof)
           node_positions[dof / 3 * 4 + dof % 3] = positions[dof];
@@ -76,18 +76,18 @@ namespace Exemplar
     void
     evaluation(benchmark::State &state)
     {
-      Evaluation evaluation;
+      ElasticEvaluation evaluation;
       for (auto _ : state)
-        scene->problem.assembler.evaluate(scene->positions, {}, evaluation, Rotations::update);
+        scene->problem.elastic.evaluate(scene->positions, {}, evaluation, Rotations::update);
       report_cells(state);
     }
 
     void
     assembly(benchmark::State &state, const Tangent tangent)
     {
-      std::vector<double> values(scene->problem.assembler.matrix_pattern().n_values()), columns;
+      std::vector<double> values(scene->problem.pattern.n_values()), columns;
       for (auto _ : state)
-        scene->problem.assembler.assemble_tangent(tangent, scene->positions, {}, values, columns);
+        scene->problem.elastic.assemble_tangent(tangent, scene->positions, {}, values, columns);
       report_cells(state);
     }
 
@@ -96,7 +96,7 @@ namespace Exemplar
     {
       std::vector<float> rotations;
       for (auto _ : state)
-        scene->problem.assembler.node_rotations(rotations);
+        scene->problem.elastic.node_rotations(rotations);
       report_cells(state);
     }
 
@@ -104,19 +104,18 @@ namespace Exemplar
     inertia(benchmark::State &state)
     {
       dealii::Vector<double> gradient(scene->positions.size()), scale(scene->positions.size() / 3);
-      scene->problem.inertia->begin_step(scene->problem.state, 0.01);
+      scene->problem.potential.begin_step(scene->problem.state, 0.01);
       for (auto _ : state)
-        scene->problem.inertia->add_gradient(scene->positions, gradient, scale);
+        scene->problem.terms.front()->add(scene->positions, gradient, scale);
     }
 
     std::unique_ptr<SpdOperator>
     make_matrix()
     {
-      auto                matrix = make_cholmod_operator();
-      std::vector<double> columns;
-      matrix->reinit(scene->problem.assembler.matrix_pattern());
-      scene->problem.assembler.assemble_tangent(Tangent::convex, scene->positions, {},
-                                                matrix->values(), columns);
+      auto matrix = make_cholmod_operator();
+      matrix->reinit(scene->problem.pattern);
+      std::vector<double> no_columns;
+      scene->problem.potential.assemble(scene->positions, {}, 1., matrix->values(), no_columns);
       return matrix;
     }
 
@@ -125,14 +124,14 @@ namespace Exemplar
     {
       const auto matrix = make_matrix();
       for (auto _ : state)
-        matrix->factorize();
+        matrix->factorize(scene->positions);
     }
 
     void
     solve(benchmark::State &state)
     {
       const auto matrix = make_matrix();
-      matrix->factorize();
+      matrix->factorize(scene->positions);
       std::vector<double> column(scene->problem.free_dofs.size() * state.range(0), 1.);
       for (auto _ : state)
         matrix->solve(column);
@@ -142,20 +141,20 @@ namespace Exemplar
     solve_in_single_precision(benchmark::State &state)
     {
       const auto matrix = make_matrix();
-      matrix->factorize();
-      SinglePrecisionFactor factor(matrix->panels());
-      std::vector<float>    column(scene->problem.free_dofs.size(), 1.f);
+      matrix->factorize(scene->positions);
+      const auto          inverse = matrix->keep();
+      std::vector<double> column(scene->problem.free_dofs.size(), 1.);
       for (auto _ : state)
-        factor.solve(column);
+        inverse->apply(column);
     }
 
     void
     copy_to_single_precision(benchmark::State &state)
     {
       const auto matrix = make_matrix();
-      matrix->factorize();
+      matrix->factorize(scene->positions);
       for (auto _ : state)
-        SinglePrecisionFactor factor(matrix->panels());
+        matrix->keep();
     }
   } // namespace
 } // namespace Exemplar

@@ -101,7 +101,7 @@ namespace Exemplar
         if (!matrix)
         {
           matrix = make_cholmod_operator();
-          matrix->reinit(problem.assembler.matrix_pattern());
+          matrix->reinit(problem.pattern);
           measure_once(problem); // touches the factor's memory for the first time
         }
         const Sample sample = measure_once(problem);
@@ -132,10 +132,10 @@ namespace Exemplar
         sample.assemble = duration_of(
             [&]
             {
-              problem.assembler.assemble_tangent(Tangent::convex, state.positions, state.weights,
+              problem.potential.assemble(state.positions, state.weights, 1.,
                                                  matrix->values(), coupling);
             });
-        sample.factorize = duration_of([&] { matrix->factorize(); });
+        sample.factorize = duration_of([&] { matrix->factorize(state.positions); });
         column.assign(problem.free_dofs.size(), 1.);
         sample.solve = duration_of([&] { matrix->solve(column); });
         return sample;
@@ -308,7 +308,7 @@ namespace Exemplar
       {
         if (unit.both.empty()) // a step has failed before
         {
-          problem.equilibrium.start(problem.state);
+          problem.resume_from(problem.state);
           measure_between_steps();
         }
         Json json;
@@ -333,7 +333,7 @@ namespace Exemplar
               step_report = problem.advance();
               StepClock::Scope    scope(problem.clock, Part::output);
               const StatisticsRow row
-                  = problem.diagnostics.row(problem.state, step_report, problem.equilibrium);
+                  = problem.diagnostics.row(problem.state, step_report, problem.evaluation);
               written += row.size();
             });
         const PartSeconds after = problem.clock.read();
@@ -400,7 +400,7 @@ namespace Exemplar
         if (!options.no_unit)
           json["units"] = total.cpu / n / median(unit.both).cpu;
         json["iterations"]       = iterations;
-        json["factorizations"]   = problem.equilibrium.n_factorizations();
+        json["factorizations"]   = problem.system.n_factorizations();
         json["cells_per_second"] = n * problem.mesh.n_cells() / total.wall;
       }
 
@@ -437,7 +437,7 @@ namespace Exemplar
         json["blas_core"]   = blas.core;
         if (options.no_unit)
           return;
-        const FactorSize size  = factor_size(problem.assembler.matrix_pattern());
+        const FactorSize size  = factor_size(problem.pattern);
         json["factor_gflop"]   = 1e-9 * size.flops;
         json["factor_mib"]     = size.bytes / 1024. / 1024.;
         json["factor_gflop_s"] = 1e-9 * size.flops / median(unit.factorize).cpu;

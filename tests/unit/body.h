@@ -6,8 +6,7 @@
 #include <exemplar/body/fe_space.h>
 #include <exemplar/body/material.h>
 #include <exemplar/mesh/mesh.h>
-#include <exemplar/potential/assembler.h>
-#include <exemplar/potential/inertia.h>
+#include <exemplar/potential/elastic_potential.h>
 
 #include <memory>
 #include <random>
@@ -49,6 +48,27 @@ namespace Exemplar::Testing
     return contents;
   }
 
+  /// Examples and their weights; none by default.
+  struct Examples
+  {
+    std::unique_ptr<ExamplePoses>   poses;
+    std::unique_ptr<ExampleWeights> weights;
+
+    const ExamplePoses *
+    operator->() const
+    {
+      return poses.get();
+    }
+
+    std::vector<std::string>
+    get_warnings() const
+    {
+      std::vector<std::string> all = poses->get_warnings();
+      all.insert(all.end(), weights->get_warnings().begin(), weights->get_warnings().end());
+      return all;
+    }
+  };
+
   /// An elastic body without anything that holds or solves it.
   struct Body
   {
@@ -65,12 +85,17 @@ namespace Exemplar::Testing
     {
     }
 
-    std::unique_ptr<ExamplePoses>
+    Examples
     examples(const ExampleParameters &parameters,
              const StrainMeasure      measure = StrainMeasure::corotational) const
     {
-      return std::make_unique<ExamplePoses>(parameters, measure, mesh, fe_space, material,
-                                            TimeAxis::of_increments(TimeParameters()));
+      Examples result;
+      result.poses
+          = std::make_unique<ExamplePoses>(parameters, measure, mesh, fe_space, material);
+      result.weights = std::make_unique<ExampleWeights>(
+          parameters, *result.poses, unit_energy(fe_space, material),
+          TimeAxis::of_increments(TimeParameters()));
+      return result;
     }
 
     dealii::Vector<double>
@@ -86,6 +111,28 @@ namespace Exemplar::Testing
     const Mesh     mesh;
     const Material material;
     const FESpace  fe_space;
+  };
+
+  /// The pattern that a potential refers to, made before it.
+  struct MatrixPattern
+  {
+    SymmetricPattern matrix_pattern;
+  };
+
+  /// The elastic potential of a body.
+  class BodyPotential : public MatrixPattern, public ElasticPotential
+  {
+  public:
+    BodyPotential(const Body            &body,
+                  const ModelParameters &model,
+                  const Examples        &examples,
+                  const FreeDofs        &free_dofs)
+        : MatrixPattern{ make_pattern(body.fe_space, {}, free_dofs) },
+          ElasticPotential({ model, body.fe_space, body.material, examples.poses.get(),
+                             examples.weights.get(), free_dofs },
+                           matrix_pattern)
+    {
+    }
   };
 } // namespace Exemplar::Testing
 

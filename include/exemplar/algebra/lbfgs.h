@@ -2,6 +2,8 @@
 #ifndef exemplar_lbfgs_h
 #define exemplar_lbfgs_h
 
+#include <exemplar/algebra/exchange.h>
+
 #include <cstddef>
 #include <deque>
 #include <vector>
@@ -14,7 +16,10 @@ namespace Exemplar
   class Lbfgs
   {
   public:
-    static constexpr std::size_t most_pairs = 5;
+    static constexpr std::size_t max_pairs = 5;
+
+    /// `exchange` must outlive this.
+    explicit Lbfgs(const Exchange &exchange = Exchange::serial()) : exchange(&exchange) {}
 
     void
     clear()
@@ -68,6 +73,7 @@ namespace Exemplar
       }
     };
 
+    const Exchange  *exchange;
     std::deque<Pair> pairs; ///< the oldest first
   };
 } // namespace Exemplar

@@ -2,6 +2,8 @@
 #ifndef exemplar_linear_prediction_h
 #define exemplar_linear_prediction_h
 
+#include <exemplar/algebra/exchange.h>
+
 #include <array>
 #include <cstddef>
 #include <deque>
@@ -15,7 +17,12 @@ namespace Exemplar
   class LinearPrediction
   {
   public:
-    static constexpr std::size_t most_vectors = 6;
+    static constexpr std::size_t max_vectors = 6;
+
+    /// `exchange` must outlive this.
+    explicit LinearPrediction(const Exchange &exchange = Exchange::serial()) : exchange(&exchange)
+    {
+    }
 
     void
     add(std::vector<double> vector);
@@ -50,8 +57,9 @@ namespace Exemplar
     void
     multiply_out(std::size_t i);
 
-    std::deque<std::vector<double>>                            history;    ///< the last first
-    std::array<std::array<double, most_vectors>, most_vectors> products{}; ///< [i][j], i <= j
+    const Exchange                                          *exchange;
+    std::deque<std::vector<double>>                          history;    ///< the last first
+    std::array<std::array<double, max_vectors>, max_vectors> products{}; ///< [i][j], i <= j
   };
 } // namespace Exemplar
 

@@ -3,10 +3,9 @@
 #define exemplar_spd_operator_h
 
 #include <exemplar/algebra/free_dofs.h>
-#include <exemplar/algebra/single_precision_factor.h>
+#include <exemplar/algebra/kept_inverse.h>
+#include <exemplar/algebra/vector.h>
 #include <exemplar/base/errors.h>
-
-#include <deal.II/lac/vector.h>
 
 #include <algorithm>
 #include <memory>
@@ -55,6 +54,16 @@ namespace Exemplar
                          "without support, or cells may be inverted.");
   }
 
+  /// What an operator tells of itself, in the terms of no library.
+  struct OperatorTraits
+  {
+    std::string name;         ///< as Solver/Linear solver names it
+    double n_operations = 0.; ///< floating point operations of a factorisation; 0: nothing is known
+    double pivot_ratio  = 0.; ///< greatest over least pivot of the last factor, which the condition
+                              ///< number is not below; 0: there is none
+    std::size_t bytes = 0;    ///< of matrix and factor; 0: it does not tell
+  };
+
   /// A sparse symmetric positive definite matrix and its factor, or what stands for one.
   /// The pattern is analysed once; values are then written in place and factorised anew.
   class SpdOperator
@@ -62,9 +71,8 @@ namespace Exemplar
   public:
     virtual ~SpdOperator() = default;
 
-    /// As Solver/Linear solver names it.
-    virtual std::string
-    name() const = 0;
+    virtual OperatorTraits
+    traits() const = 0;
 
     /// Throws SolverFailure if the pattern is too large for the library.
     virtual void
@@ -76,35 +84,11 @@ namespace Exemplar
     values()
         = 0;
 
-    /// Floating point operations of factorize() for this pattern; 0 if nothing is known.
-    virtual double
-    n_operations() const
-    {
-      return 0.;
-    }
-
-    /// The ratio of the greatest to the least pivot of the last factor, which the condition
-    /// number is not below; 0 if there is none.
-    virtual double
-    condition_estimate()
-    {
-      return 0.;
-    }
-
-    /// Of the matrix and its factor, or what stands for one, in bytes.
-    virtual std::size_t
-    memory_consumption() const = 0;
-
-    /// Where the nodes are in the state of which the next matrix is the tangent. Operators
-    /// that ask nothing of it ignore it.
+    /// Prepare for solve() with the values as they are. `positions` [m], by degree of freedom,
+    /// are those of the state of which the matrix is the tangent: multigrid takes the rigid
+    /// motions from there. Throws SolverFailure if the matrix is not positive definite.
     virtual void
-    place_nodes(const dealii::Vector<double> & /*positions*/)
-    {
-    }
-
-    /// Throws SolverFailure if the matrix is not positive definite.
-    virtual void
-    factorize()
+    factorize(const Vector &positions)
         = 0;
 
     /// Overwrite the columns (n entries each, one after the other) by A^-1 times them.
@@ -113,9 +97,10 @@ namespace Exemplar
     solve(std::vector<double> &columns)
         = 0;
 
-    /// A copy of the factor in single precision. Throws SolverFailure if there is none.
-    virtual FactorPanels
-    panels() const = 0;
+    /// What serves as inverse when the matrix has changed. Throws SolverFailure if the operator
+    /// has nothing of the kind.
+    virtual std::unique_ptr<KeptInverse>
+    keep() const = 0;
   };
 
   /// CHOLMOD's sparse Cholesky factorisation.
@@ -124,11 +109,9 @@ namespace Exemplar
 
   /// Conjugate gradients to a residual of `tolerance` times the right side, preconditioned
   /// with ML's smoothed aggregation, whose coarse spaces hold the six rigid motions of the
-  /// nodes. Results depend on the matrix, the place of the nodes and the right side alone.
+  /// nodes. Results depend on the matrix, the positions of the nodes and the right side alone.
   std::unique_ptr<SpdOperator>
-  make_iterative_operator(const FreeDofs               &free_dofs,
-                          const dealii::Vector<double> &rest_positions,
-                          double                        tolerance);
+  make_iterative_operator(const FreeDofs &free_dofs, double tolerance);
 } // namespace Exemplar
 
 #endif

@@ -8,6 +8,10 @@ namespace Exemplar
   void
   note_interrupts();
 
+  /// Whether Ctrl-C or SIGTERM has come.
+  bool
+  is_interrupted();
+
   /// Throws Interrupted if Ctrl-C or SIGTERM has come.
   void
   check_interrupt();

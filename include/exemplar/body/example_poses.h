@@ -5,9 +5,7 @@
 #include <exemplar/body/fe_space.h>
 #include <exemplar/body/material.h>
 #include <exemplar/body/region_shares.h>
-#include <exemplar/body/time_axis.h>
 #include <exemplar/kernels/cell_model.h>
-#include <exemplar/prm/expression.h>
 
 #include <deal.II/base/aligned_vector.h>
 #include <deal.II/base/parameter_handler.h>
@@ -25,7 +23,7 @@ namespace Exemplar
     blended
   };
 
-  enum class ExampleWeights
+  enum class WeightRule
   {
     simplex,
     free,
@@ -41,13 +39,17 @@ namespace Exemplar
     double                   importance        = 0.8; ///< eta
     std::string              weight_penalty    = "auto";
     ExampleEnergy            energy            = ExampleEnergy::scaled;
-    ExampleWeights           weights           = ExampleWeights::simplex;
+    WeightRule               weights           = WeightRule::simplex;
     std::string              prescribed_weights;
     bool                     weights_per_region  = false;
     double                   region_blend_length = 0.; ///< [m]
 
     void
     declare(dealii::ParameterHandler &prm);
+
+    /// sigma [J] if Weight penalty is a number that is not negative.
+    std::optional<double>
+    given_penalty() const;
 
     /// Whether any pose is given and its importance is not 0.
     bool
@@ -69,15 +71,12 @@ namespace Exemplar
   class ExamplePoses
   {
   public:
-    /// Reads the pose files. Throws UserError for a pose on another mesh, for
-    /// prescribed weights that do not sum to one in every step, and for free
-    /// weights without penalty if the examples are affinely dependent.
+    /// Reads the pose files. Throws UserError for a pose on another mesh.
     ExamplePoses(const ExampleParameters &parameters,
                  StrainMeasure            measure,
                  const Mesh              &mesh,
                  const FESpace           &fe_space,
-                 const Material          &material,
-                 const TimeAxis          &axis);
+                 const Material          &material);
 
     /// Number of examples.
     unsigned int
@@ -99,29 +98,26 @@ namespace Exemplar
       return n_regions() * size();
     }
 
-    /// Column of statistics.csv: `prefix`_i, or `prefix`_R_i with the material id R.
-    std::string
-    weight_name(const std::string &prefix, unsigned int weight) const;
-
-    /// `prefix`, or `prefix`_R.
-    std::string
-    region_name(const std::string &prefix, unsigned int region) const;
-
     double
     importance() const
     {
       return eta;
     }
 
-    bool
-    weights_are_prescribed() const
-    {
-      return !prescribed.empty();
-    }
+    /// Of a region, as Weights per region numbers them; none if weights are global.
+    std::optional<unsigned int>
+    material_id(unsigned int region) const;
 
-    /// Prescribed weights at time t.
+    /// Volume of each region over that of the body, with shares counted; they sum to one.
     std::vector<double>
-    prescribed_weights(double time) const;
+    volume_fractions() const;
+
+    /// The file or the formula that gives example i, for messages.
+    const std::string &
+    name(const unsigned int i) const
+    {
+      return names[i];
+    }
 
     /// Node positions of example i, by degree of freedom [m].
     const dealii::Vector<double> &
@@ -208,21 +204,6 @@ namespace Exemplar
       return strain_norms[weight];
     }
 
-    /// Whether weights to find must also not be negative.
-    bool
-    weights_are_bounded() const
-    {
-      return bounded;
-    }
-
-    /// The second derivative by the weights of what depends on them alone: the ridge
-    /// and, with the blended energy, eta (1 - eta) sum V E_i : C : E_j [J].
-    const dealii::FullMatrix<double> &
-    penalty_matrix() const
-    {
-      return penalty;
-    }
-
     /// p_0 of Eq. (16): such that the guard leaves every example as it is.
     double
     guard_bound() const
@@ -230,11 +211,11 @@ namespace Exemplar
       return p_0;
     }
 
-    /// H_ij = eta^2 sum V E_i : C : E_j and the penalty matrix, Eq. (9) [J].
+    /// sum V E_i : C : E_j for all pairs of weights [J].
     const dealii::FullMatrix<double> &
-    weight_matrix() const
+    gram_matrix() const
     {
-      return H;
+      return gram;
     }
 
     const std::vector<std::string> &
@@ -266,18 +247,6 @@ namespace Exemplar
     void
     compute_gram_matrix(const Material &material);
 
-    void
-    compute_weight_matrix(const Material &material, const ExampleParameters &parameters);
-
-    void
-    read_prescribed_weights(const std::string &text);
-
-    void
-    check_prescribed_weights(const TimeAxis &axis) const;
-
-    void
-    check_independence(const Material &material);
-
     const FESpace                      &fe_space;
     const double                        eta;
     const StrainMeasure                 measure;
@@ -288,11 +257,7 @@ namespace Exemplar
     dealii::AlignedVector<double>       strains; ///< as ExampleArrays has them
     std::vector<double>                 strain_norms;
     dealii::FullMatrix<double>          gram; ///< sum V E_i : C : E_j
-    dealii::FullMatrix<double>          penalty;
-    dealii::FullMatrix<double>          H;
-    const bool                          bounded;
     double                              p_0 = default_guard_bound;
-    std::vector<Expression>             prescribed; ///< one, or one a region
     std::vector<std::string>            warnings;
   };
 } // namespace Exemplar

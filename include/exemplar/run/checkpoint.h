@@ -3,8 +3,7 @@
 #define exemplar_checkpoint_h
 
 #include <exemplar/body/state.h>
-#include <exemplar/run/diagnostics.h>
-#include <exemplar/solvers/quasi_newton_memory.h>
+#include <exemplar/run/problem.h>
 
 #include <cstdint>
 #include <filesystem>
@@ -29,7 +28,7 @@ namespace Exemplar
     std::map<std::string, std::string> parameters;    ///< key path -> value
     std::map<std::string, std::string> input_digests; ///< input file -> SHA-256
     State                              state;
-    QuasiNewtonMemory                  memory;
+    std::string                        solver_memory; ///< StepSolver::save()
     Work                               work;
     RunTotals                          totals;
     std::uintmax_t                     statistics_bytes = 0; ///< of statistics.csv at this state
@@ -42,6 +41,11 @@ namespace Exemplar
   /// Throws UserError if there is none or it cannot be read.
   Checkpoint
   load_checkpoint(const std::filesystem::path &file);
+
+  /// Put the problem where the checkpoint of that file was saved. Throws UserError if what its
+  /// solver remembered cannot be read.
+  void
+  restore(const Checkpoint &checkpoint, const std::filesystem::path &file, Problem &problem);
 } // namespace Exemplar
 
 #endif

@@ -4,7 +4,12 @@
 
 #include <exemplar/base/number_text.h>
 #include <exemplar/base/step_clock.h>
-#include <exemplar/solvers/equilibrium.h>
+#include <exemplar/body/example_weights.h>
+#include <exemplar/body/handles.h>
+#include <exemplar/body/loads.h>
+#include <exemplar/body/mass.h>
+#include <exemplar/potential/evaluation.h>
+#include <exemplar/solvers/solve_report.h>
 
 #include <optional>
 #include <string>
@@ -31,12 +36,12 @@ namespace Exemplar
   {
   public:
     /// `energy_is_bounded`: steps minimise one energy, the same before and after the step, with
-    /// Inertia::is_undamped_implicit_euler().
-    Diagnostics(const Handles      *handles,
-                const Loads        *loads,
-                const ExamplePoses *examples,
-                const Inertia      *inertia,
-                bool                energy_is_bounded);
+    /// TimeIntegrator::is_undamped_implicit_euler().
+    Diagnostics(const Handles        *handles,
+                const Loads          *loads,
+                const ExampleWeights *weights,
+                const Mass           *mass,
+                bool                  energy_is_bounded);
 
     /// Add the work of the step from `old_positions` to `state`.
     void
@@ -57,19 +62,19 @@ namespace Exemplar
     }
 
     StatisticsRow
-    row(const State &state, const SolveReport &report, const Equilibrium &equilibrium) const;
+    row(const State &state, const SolveReport &report, const Evaluation &evaluation) const;
 
     /// The seconds of a step by part; without values in the row of the initial state.
     static void
     append_seconds(StatisticsRow &row, const std::optional<PartSeconds> &seconds);
 
   private:
-    const Handles      *handles;
-    const Loads        *loads;
-    const ExamplePoses *examples;
-    const Inertia      *inertia;
-    const bool          energy_is_bounded;
-    Work                work;
+    const Handles        *handles;
+    const Loads          *loads;
+    const ExampleWeights *weights;
+    const Mass           *mass;
+    const bool            energy_is_bounded;
+    Work                  work;
   };
 } // namespace Exemplar
 

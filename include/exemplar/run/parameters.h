@@ -9,9 +9,9 @@
 #include <exemplar/body/state.h>
 #include <exemplar/body/time_axis.h>
 #include <exemplar/mesh/mesh.h>
-#include <exemplar/potential/assembler.h>
 #include <exemplar/prm/prm_tools.h>
-#include <exemplar/solvers/equilibrium.h>
+#include <exemplar/body/model.h>
+#include <exemplar/solvers/solver_parameters.h>
 
 #include <deal.II/base/parameter_handler.h>
 

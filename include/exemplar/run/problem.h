@@ -2,23 +2,20 @@
 #ifndef exemplar_problem_h
 #define exemplar_problem_h
 
-#include <exemplar/algebra/bordered_solver.h>
-#include <exemplar/algebra/free_dofs.h>
+#include <exemplar/algebra/conditioning.h>
 #include <exemplar/base/step_clock.h>
-#include <exemplar/body/example_poses.h>
-#include <exemplar/body/fe_space.h>
+#include <exemplar/body/example_weights.h>
 #include <exemplar/body/handles.h>
 #include <exemplar/body/loads.h>
-#include <exemplar/body/material.h>
-#include <exemplar/body/state.h>
+#include <exemplar/body/mass.h>
 #include <exemplar/body/supports.h>
-#include <exemplar/body/time_axis.h>
-#include <exemplar/mesh/mesh.h>
-#include <exemplar/potential/assembler.h>
-#include <exemplar/potential/inertia.h>
+#include <exemplar/body/time_integrator.h>
+#include <exemplar/potential/incremental_potential.h>
+#include <exemplar/potential/inertia_term.h>
+#include <exemplar/potential/load_term.h>
 #include <exemplar/run/diagnostics.h>
 #include <exemplar/run/parameters.h>
-#include <exemplar/solvers/equilibrium.h>
+#include <exemplar/solvers/step_solver.h>
 
 #include <memory>
 #include <optional>
@@ -41,7 +38,15 @@ namespace Exemplar
 
     /// Go on from a state of an earlier run.
     void
-    resume_from(const State &earlier, const QuasiNewtonMemory &memory = {});
+    resume_from(const State &earlier, const std::string &solver_memory = "");
+
+    /// What the solver remembers beside the state, for resume_from().
+    std::string
+    solver_memory() const;
+
+    /// Of the systems that were solved last.
+    Conditioning
+    conditioning() const;
 
     /// Names of the parts that are there, or of those that are not.
     std::vector<std::string>
@@ -70,14 +75,20 @@ namespace Exemplar
     const std::unique_ptr<Handles>                    handles; ///< null without handles
     const std::optional<StaticallyDeterminateSupport> support; ///< of an interpolation
     const FreeDofs                                    free_dofs;
-    const std::unique_ptr<Loads>                      loads;    ///< null without loads
-    const std::unique_ptr<ExamplePoses>               examples; ///< null without examples
-    const std::unique_ptr<Inertia>                    inertia;  ///< null unless dynamic
-    Assembler                                         assembler;
-    const std::unique_ptr<BorderedSolver>             linear_solver;
-    Equilibrium                                       equilibrium;
+    const std::unique_ptr<Loads>                      loads;      ///< null without loads
+    const std::unique_ptr<ExamplePoses>               examples;   ///< null without examples
+    const std::unique_ptr<ExampleWeights>             weights;    ///< null without examples
+    const std::unique_ptr<Mass>                       mass;       ///< null unless dynamic
+    const std::unique_ptr<TimeIntegrator>             integrator; ///< null unless dynamic
+    const std::vector<std::unique_ptr<PotentialTerm>> terms;   ///< beside the cells, in their order
+    const SymmetricPattern                            pattern; ///< of the matrices
+    ElasticPotential                                  elastic;
+    IncrementalPotential                              potential;
+    StepSystem                                        system;
+    const std::unique_ptr<StepSolver>                 solver;
     Diagnostics                                       diagnostics;
     State                                             state;
+    Evaluation                                        evaluation; ///< at the state
 
   private:
     std::vector<unsigned int>
@@ -100,6 +111,16 @@ namespace Exemplar
 
     void
     start_interpolation();
+
+    std::size_t
+    quasi_newton_memory() const;
+
+    std::size_t
+    mass_memory() const;
+
+    /// Evaluate at a state that no step has led to.
+    void
+    start(State &at);
   };
 } // namespace Exemplar
 

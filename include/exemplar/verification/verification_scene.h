@@ -106,13 +106,13 @@ namespace Exemplar::Verification
 
   /// M times a nodal field.
   dealii::Vector<double>
-  mass_times(const Inertia &inertia, const dealii::Vector<double> &field);
+  mass_times(const Mass &mass, const dealii::Vector<double> &field);
 
   double
   max_difference(const dealii::Vector<double> &a, const dealii::Vector<double> &b);
 
   /// Evaluate at positions and weights of one's own, with the rotations of the positions.
-  Evaluation
+  ElasticEvaluation
   evaluate(Problem                      &problem,
            const dealii::Vector<double> &positions,
            const std::vector<double>    &weights = {});

@@ -12,7 +12,7 @@ namespace Exemplar::Testing
     {
       ExampleParameters parameters;
       parameters.pose_functions = poses;
-      return Body().examples(parameters)->get_warnings();
+      return Body().examples(parameters).get_warnings();
     }
 
     TEST(ExampleDependence, IndependentExamplesGiveNoWarning)

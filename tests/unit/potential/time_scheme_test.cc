@@ -38,28 +38,19 @@ namespace Exemplar::Testing
       return combination({ { 1. / h, &values[n] }, { -1. / h, &values[n - 1] } });
     }
 
-    Vector
-    mass_times(const Inertia &inertia, const Vector &field)
-    {
-      Vector product(field.size());
-      for (auto entry = inertia.nodal_mass().begin(); entry != inertia.nodal_mass().end(); ++entry)
-        for (unsigned int c = 0; c < 3; ++c)
-          product[3 * entry->row() + c] += entry->value() * field[3 * entry->column() + c];
-      return product;
-    }
-
     TEST(TimeScheme, StepsSolveTheDampedEquationOfMotion)
     {
       // M a + alpha M v + K (beta v + u) = 0 in the linear model, whose gradient is K u
       const double alpha = 3., beta = 0.004, h = 0.01;
       for (const bool is_bdf2 : { false, true })
       {
-        Scene               scene(swing, { "Model/Strain=linear", "Time/Mass damping=3",
-                                           "Time/Stiffness damping=0.004", "Time/Step=0.01", "Time/End=0.06",
-                                           std::string("Time/Scheme=") + (is_bdf2 ? "bdf2" : "implicit euler") });
-        Problem            &p = scene.problem;
-        Assembler           undamped(p.parameters.model, p.fe_space, p.material, nullptr, nullptr,
-                                     p.free_dofs);
+        Scene            scene(swing, { "Model/Strain=linear", "Time/Mass damping=3",
+                                        "Time/Stiffness damping=0.004", "Time/Step=0.01", "Time/End=0.06",
+                                        std::string("Time/Scheme=") + (is_bdf2 ? "bdf2" : "implicit euler") });
+        Problem         &p = scene.problem;
+        ElasticPotential undamped(
+            { p.parameters.model, p.fe_space, p.material, nullptr, nullptr, p.free_dofs },
+            p.pattern);
         std::vector<Vector> x = { p.state.positions }, v = { p.state.velocities };
         while (p.state.step < p.time_axis.n_steps())
         {
@@ -70,10 +61,9 @@ namespace Exemplar::Testing
           const Vector a        = rate(v, h, is_bdf2);
           Vector       strained = x.back();
           strained.add(beta, v.back());
-          Evaluation evaluation;
+          ElasticEvaluation evaluation;
           undamped.evaluate(strained, {}, evaluation);
-          const Vector inertia
-              = mass_times(*p.inertia, combination({ { 1., &a }, { alpha, &v.back() } }));
+          const Vector inertia = p.mass->times(combination({ { 1., &a }, { alpha, &v.back() } }));
           for (const unsigned int dof : p.free_dofs.list())
             EXPECT_NEAR(inertia[dof] + evaluation.gradient[dof], 0.,
                         1e-9 * evaluation.gradient.linfty_norm());
@@ -86,19 +76,19 @@ namespace Exemplar::Testing
       const Body     body;
       TimeParameters time;
       time.scheme = TimeScheme::bdf2;
-      Inertia      inertia(body.fe_space, body.material, MassMatrix::lumped, time);
-      const Vector a = body.fe_space.rest_positions();
-      const auto   x = [&](const double t) { return combination({ { t * t + 0.3 * t, &a } }); };
-      const auto   v = [&](const double t) { return combination({ { 2. * t + 0.3, &a } }); };
-      State        old, state;
+      TimeIntegrator integrator(time);
+      const Vector   a = body.fe_space.rest_positions();
+      const auto     x = [&](const double t) { return combination({ { t * t + 0.3 * t, &a } }); };
+      const auto     v = [&](const double t) { return combination({ { 2. * t + 0.3, &a } }); };
+      State          old, state;
       old.positions           = x(0.5);
       old.velocities          = v(0.5);
       old.previous_positions  = x(0.2);
       old.previous_velocities = v(0.2);
       old.previous_step       = 0.3;
-      inertia.begin_step(old, 0.17);
+      integrator.begin_step(old, 0.17);
       state.positions = x(0.67);
-      inertia.end_step(old, state);
+      integrator.end_step(old, state);
       EXPECT_LT(max_difference(state.velocities, v(0.67)), 1e-13);
       EXPECT_EQ(state.previous_step, 0.17);
     }
@@ -130,11 +120,11 @@ namespace Exemplar::Testing
         const FreeDofs  free_dofs(body.fe_space.n_dofs(), {});
         ModelParameters model;
         model.strain = strain;
-        Assembler    assembler(model, body.fe_space, body.material, nullptr, nullptr, free_dofs);
-        std::mt19937 generator(1);
-        const Vector past       = body.random_positions(generator, 0.1);
-        Vector       turned     = past;
-        const Matrix3<double> Q = rotation_about({ { 1., 2., 3. } }, 2.5);
+        BodyPotential         elastic(body, model, {}, free_dofs);
+        std::mt19937          generator(1);
+        const Vector          past   = body.random_positions(generator, 0.1);
+        Vector                turned = past;
+        const Matrix3<double> Q      = rotation_about({ { 1., 2., 3. } }, 2.5);
         for (unsigned int node = 0; node < past.size() / 3; ++node)
         {
           const Vector3<double> x
@@ -142,16 +132,16 @@ namespace Exemplar::Testing
           for (int c = 0; c < 3; ++c)
             turned[3 * node + c] = x[c] + 1.;
         }
-        Evaluation damped, undamped, deformed;
-        assembler.update_rotations(turned);
-        assembler.evaluate(turned, {}, undamped);
-        assembler.set_damping(5., { { 1., &past } });
-        assembler.evaluate(turned, {}, damped);
+        ElasticEvaluation damped, undamped, deformed;
+        elastic.update_rotations(turned);
+        elastic.evaluate(turned, {}, undamped);
+        elastic.set_damping(5., { { 1., &past } });
+        elastic.evaluate(turned, {}, damped);
         EXPECT_LT(max_difference(damped.gradient, undamped.gradient),
                   1e-11 * undamped.gradient.linfty_norm());
         EXPECT_LT(damped.energy_damping, 1e-20 * undamped.energy_elastic);
-        assembler.set_damping(5., { { 1., &body.fe_space.rest_positions() } });
-        assembler.evaluate(turned, {}, deformed);
+        elastic.set_damping(5., { { 1., &body.fe_space.rest_positions() } });
+        elastic.evaluate(turned, {}, deformed);
         EXPECT_NEAR(deformed.energy_damping, 5. * undamped.energy_elastic,
                     1e-12 * deformed.energy_damping);
       }
@@ -162,17 +152,16 @@ namespace Exemplar::Testing
       // also where cells are mirrored so that the guard acts
       const Body     body;
       const FreeDofs free_dofs(body.fe_space.n_dofs(), {});
-      Assembler      assembler(ModelParameters(), body.fe_space, body.material, nullptr, nullptr,
-                               free_dofs);
+      BodyPotential  elastic(body, ModelParameters(), {}, free_dofs);
       Vector         x = body.fe_space.rest_positions();
       for (unsigned int node = 0; node < x.size() / 3; ++node)
         x[3 * node] *= -0.9;
-      Evaluation damped, undamped;
-      assembler.update_rotations(x);
-      assembler.evaluate(x, {}, undamped);
+      ElasticEvaluation damped, undamped;
+      elastic.update_rotations(x);
+      elastic.evaluate(x, {}, undamped);
       EXPECT_EQ(undamped.inverted_cells, body.fe_space.n_cells());
-      assembler.set_damping(7., { { 1., &x } });
-      assembler.evaluate(x, {}, damped);
+      elastic.set_damping(7., { { 1., &x } });
+      elastic.evaluate(x, {}, damped);
       EXPECT_LT(max_difference(damped.gradient, undamped.gradient),
                 1e-12 * undamped.gradient.linfty_norm());
     }
@@ -185,9 +174,9 @@ namespace Exemplar::Testing
             "set Scene = dynamic\n" + bar + "subsection Initial\n set Velocity = " + velocity
             + "\nend\nsubsection Time\n set Step = 0.001\n set End = 0.02\n"
               "set Stiffness damping = 0.5\nend\nsubsection Solver\n set Tolerance = 1e-6\nend\n");
-        const auto  before = scene.problem.inertia->motion_sums(scene.problem.state);
+        const auto  before = scene.problem.mass->motion_sums(scene.problem.state);
         const State state  = scene.solve();
-        const auto  after  = scene.problem.inertia->motion_sums(state);
+        const auto  after  = scene.problem.mass->motion_sums(state);
         EXPECT_LT((after.momentum - before.momentum).norm(), 1e-7 * (before.momentum.norm() + 1.));
         EXPECT_NEAR(after.kinetic_energy, before.kinetic_energy, 2e-2 * before.kinetic_energy);
       }

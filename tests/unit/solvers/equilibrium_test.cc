@@ -176,8 +176,8 @@ namespace Exemplar::Testing
             "subsection Solver\n set Tolerance = 1e-12\nend\n");
       const State state = scene.solve();
       const auto &p     = scene.problem;
-      EXPECT_NEAR(p.handles->sum_over(1, p.equilibrium.gradient())[0], 500., 1e-8);
-      EXPECT_NEAR(p.handles->sum_over(0, p.equilibrium.gradient())[0], -500., 1e-8);
+      EXPECT_NEAR(p.handles->sum_over(1, p.evaluation.gradient)[0], 500., 1e-8);
+      EXPECT_NEAR(p.handles->sum_over(0, p.evaluation.gradient)[0], -500., 1e-8);
       for (unsigned int node = 0; node < p.mesh.n_nodes(); ++node)
         EXPECT_NEAR(state.positions[3 * node + 2],
                     -0.5 + 0.85 * (p.mesh.get_nodes()[node][2] + 0.5), 1e-11);

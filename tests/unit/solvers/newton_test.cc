@@ -121,7 +121,7 @@ namespace Exemplar::Testing
           const State before = p.state;
           EXPECT_TRUE(is_success(p.advance().status));
           // M v_n for each component, by the nodal mass matrix
-          const auto          &mass = p.inertia->nodal_mass();
+          const auto          &mass = p.mass->nodal();
           dealii::Tensor<1, 3> cross;
           for (unsigned int a = 0; a < mass.m(); ++a)
           {
@@ -134,8 +134,8 @@ namespace Exemplar::Testing
             }
             cross += dealii::cross_product_3d(velocity, momentum);
           }
-          const auto law = p.inertia->motion_sums(before).angular_momentum + 0.02 * cross;
-          const auto now = p.inertia->motion_sums(p.state).angular_momentum;
+          const auto law = p.mass->motion_sums(before).angular_momentum + 0.02 * cross;
+          const auto now = p.mass->motion_sums(p.state).angular_momentum;
           greatest       = std::max(greatest, (now - law).norm() / now.norm());
         }
         return greatest;
@@ -160,12 +160,12 @@ namespace Exemplar::Testing
       while (p.state.step < p.time_axis.n_steps())
       {
         const State  before = p.state;
-        const auto  &e      = p.equilibrium.evaluation();
-        const double bound  = e.energy + p.inertia->motion_sums(before).kinetic_energy;
+        const auto  &e      = p.evaluation.elastic;
+        const double bound  = e.energy + p.mass->motion_sums(before).kinetic_energy;
         ASSERT_TRUE(is_success(p.advance().status));
         State change = p.state;
         change.velocities -= before.velocities;
-        EXPECT_LE(e.energy + p.inertia->motion_sums(change).kinetic_energy, bound * (1. + 1e-12));
+        EXPECT_LE(e.energy + p.mass->motion_sums(change).kinetic_energy, bound * (1. + 1e-12));
       }
     }
 

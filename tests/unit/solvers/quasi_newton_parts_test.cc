@@ -2,8 +2,8 @@
 #include <exemplar/algebra/lbfgs.h>
 #include <exemplar/algebra/linear_prediction.h>
 #include <exemplar/algebra/long_vectors.h>
-#include <exemplar/potential/inertia.h>
-#include <exemplar/solvers/turned_factor.h>
+#include <exemplar/potential/inertia_term.h>
+#include <exemplar/solvers/rotated_metric.h>
 
 #include "body.h"
 
@@ -89,10 +89,10 @@ namespace Exemplar::Testing
     {
       explicit Factored(const MeshParameters &mesh, const double degrees)
           : body(mesh), free_dofs(body.fe_space.n_dofs(), { 0, 1, 2, 3, 4, 5, 16 }),
-            inertia(body.fe_space, body.material, MassMatrix::consistent),
-            assembler(
-                ModelParameters(), body.fe_space, body.material, nullptr, &inertia, free_dofs),
-            matrix(make_cholmod_operator()), positions(body.fe_space.rest_positions())
+            mass(body.fe_space, body.material, MassMatrix::consistent),
+            integrator(TimeParameters()), inertia(mass, integrator),
+            elastic(body, ModelParameters(), {}, free_dofs),
+            positions(body.fe_space.rest_positions())
       {
         const double c = std::cos(degrees * M_PI / 180.), s = std::sin(degrees * M_PI / 180.);
         for (unsigned int node = 0; node < body.fe_space.n_nodes(); ++node)
@@ -103,22 +103,29 @@ namespace Exemplar::Testing
         }
         State state;
         state.positions = state.velocities = positions;
-        inertia.begin_step(state, 0.1);
-        matrix->reinit(assembler.matrix_pattern());
-        assembler.update_rotations(positions);
+        integrator.begin_step(state, 0.1);
+        inertia.begin_step(state);
+        inertia.attach(elastic.matrix_pattern, free_dofs);
+        auto matrix = make_cholmod_operator();
+        matrix->reinit(elastic.matrix_pattern);
+        system = make_block_system(std::move(matrix), nullptr);
+        inertia.add_tangent(positions, system->matrix_values());
+        elastic.update_rotations(positions);
         std::vector<double> columns;
-        assembler.assemble_tangent(Tangent::convex, positions, {}, matrix->values(), columns);
-        matrix->factorize();
-        assembler.node_rotations(rotations);
+        elastic.assemble_tangent(Tangent::convex, positions, {}, system->matrix_values(), columns);
+        system->factorize(positions);
+        elastic.node_rotations(rotations);
       }
 
-      Body                         body;
-      FreeDofs                     free_dofs;
-      Inertia                      inertia;
-      Assembler                    assembler;
-      std::unique_ptr<SpdOperator> matrix;
-      dealii::Vector<double>       positions;
-      std::vector<float>           rotations;
+      Body                            body;
+      FreeDofs                        free_dofs;
+      Mass                            mass;
+      TimeIntegrator                  integrator;
+      InertiaTerm                     inertia;
+      BodyPotential                   elastic;
+      std::unique_ptr<BorderedSystem> system;
+      dealii::Vector<double>          positions;
+      std::vector<float>              rotations;
     };
 
     std::vector<double>
@@ -138,40 +145,36 @@ namespace Exemplar::Testing
       return std::sqrt(dot(difference, difference) / dot(b, b));
     }
 
-    TEST(SinglePrecisionFactor, SolvesAsTheFactorItself)
+    TEST(SinglePrecisionInverse, SolvesAsTheFactorItself)
     {
       // supernodes of all widths, and rows that no register divides
       for (const unsigned int n : { 1, 2, 3 })
       {
         const Factored      now(box_mesh(4., 2 * n + 1, n), 0.);
-        std::vector<double> exact = some_forces(now.free_dofs);
-        for (double &entry : exact)
-          entry *= 1e9;
-        std::vector<float>    vector(exact.begin(), exact.end());
-        SinglePrecisionFactor factor(now.matrix->panels());
-        now.matrix->solve(exact);
-        factor.solve(vector);
-        EXPECT_LT(relative_difference({ vector.begin(), vector.end() }, exact), 1e-4);
+        std::vector<double> exact = some_forces(now.free_dofs), kept = exact;
+        now.system->apply_inverse(exact);
+        now.system->keep()->apply(kept);
+        EXPECT_LT(relative_difference(kept, exact), 1e-4);
       }
     }
 
-    TEST(TurnedFactor, IsExactWhereTheBodyTurnsAsAWhole)
+    TEST(RotatedMetric, IsExactWhereTheBodyTurnsAsAWhole)
     {
       // but at the node that is partly held: a component cannot turn
       const MeshParameters bar = box_mesh(4., 4, 2);
       const Factored       then(bar, 0.), now(bar, 70.);
-      TurnedFactor         factor(then.free_dofs);
-      factor.reinit(*then.matrix, WeightBlock(), then.rotations);
-      factor.turn(now.rotations);
+      RotatedMetric        metric(then.free_dofs);
+      metric.reinit(*then.system, then.rotations);
+      metric.rotate(now.rotations);
       std::vector<double> forces = some_forces(now.free_dofs), exact = forces;
-      now.matrix->solve(exact);
-      factor.turn_back(forces);
-      factor.solve(forces);
-      factor.turn_forth(forces);
+      now.system->apply_inverse(exact);
+      metric.rotate_back(forces);
+      metric.apply(forces);
+      metric.rotate_forth(forces);
       EXPECT_LT(relative_difference(forces, exact), 0.1);
       std::vector<double> unturned = some_forces(now.free_dofs);
-      factor.turn(then.rotations);
-      factor.solve(unturned);
+      metric.rotate(then.rotations);
+      metric.apply(unturned);
       EXPECT_GT(relative_difference(unturned, exact), 0.5);
     }
   } // namespace

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_example_weights_h
+#define exemplar_example_weights_h
+
+#include <exemplar/algebra/bordered_system.h>
+#include <exemplar/body/example_poses.h>
+#include <exemplar/body/time_axis.h>
+#include <exemplar/prm/expression.h>
+
+#include <string>
+#include <vector>
+
+namespace Exemplar
+{
+  /// How far weights are from the minimum of the energy at given positions, Eq. (13).
+  struct WeightResidual
+  {
+    std::vector<double> multipliers; ///< of each region's sum of weights [J]
+    double deviation = 0.; ///< greatest violation of the conditions of Karush, Kuhn and Tucker [J]
+  };
+
+  /// The rule by which example weights are found: whether they are prescribed functions of time or
+  /// unknowns, their bounds and sums, and the part of the energy that depends on them alone. Weight
+  /// r * n_per_region() + i is that of example i in region r; the weights of a region sum to one.
+  class ExampleWeights
+  {
+  public:
+    /// `unit_energy` is sum E V over the cells [J], `volume_fractions` the part of each region in
+    /// the body. Throws UserError for prescribed weights that do not sum to one in every step, and
+    /// for weights without penalty if the examples are affinely dependent.
+    ExampleWeights(const ExampleParameters &parameters,
+                   const ExamplePoses      &poses,
+                   double                   unit_energy,
+                   const TimeAxis          &axis);
+
+    unsigned int
+    size() const
+    {
+      return form.H.n();
+    }
+
+    unsigned int
+    n_regions() const
+    {
+      return form.N.m();
+    }
+
+    /// As many as there are examples.
+    unsigned int
+    n_per_region() const
+    {
+      return size() / n_regions();
+    }
+
+    /// Whether steps have to find them; else they are prescribed.
+    bool
+    are_unknown() const
+    {
+      return prescribed.empty();
+    }
+
+    /// Prescribed weights at time t.
+    std::vector<double>
+    at(double time) const;
+
+    /// Prescribed weights at t = 0; one on the first example if they are unknown.
+    std::vector<double>
+    initial() const;
+
+    /// Their quadratic form H, Eq. (9), sums and coupled columns, for linear systems.
+    const WeightForm &
+    weight_form() const
+    {
+      return form;
+    }
+
+    /// The second derivative by the weights of what depends on them alone: the ridge
+    /// and, with the blended energy, eta (1 - eta) sum V E_i : C : E_j [J].
+    const dealii::FullMatrix<double> &
+    penalty_matrix() const
+    {
+      return penalty;
+    }
+
+    /// The minimiser of w^T H w / 2 - c^T w under bounds and sums, from `start` near it. Throws
+    /// SolverFailure if it is not determined.
+    std::vector<double>
+    best(const std::vector<double> &c, const std::vector<double> &start) const;
+
+    /// What changes of the weights must not fall below; empty without bounds.
+    std::vector<double>
+    lower_changes(const std::vector<double> &weights) const;
+
+    /// What the sums of each region's weights lack to one.
+    std::vector<double>
+    missing_sums(const std::vector<double> &weights) const;
+
+    /// Add changes, with exact zeros at bounds instead of their rounding.
+    void
+    add(const std::vector<double> &changes, std::vector<double> &weights) const;
+
+    /// From the energy's derivative by them [J].
+    WeightResidual
+    residual(const std::vector<double> &weights, const std::vector<double> &gradient) const;
+
+    /// Column of statistics.csv: `prefix`_i, or `prefix`_R_i with the material id R.
+    std::string
+    weight_name(const std::string &prefix, unsigned int weight) const;
+
+    /// `prefix`, or `prefix`_R.
+    std::string
+    region_name(const std::string &prefix, unsigned int region) const;
+
+    const std::vector<std::string> &
+    get_warnings() const
+    {
+      return warnings;
+    }
+
+    /// In bytes.
+    std::size_t
+    memory_consumption() const;
+
+  private:
+    void
+    compute_form(const ExampleParameters &parameters, double unit_energy);
+
+    void
+    read_prescribed(const std::string &text);
+
+    void
+    check_prescribed(const TimeAxis &axis) const;
+
+    void
+    check_independence(double unit_energy);
+
+    const ExamplePoses        &poses;
+    const bool                 bounded; ///< not below zero
+    WeightForm                 form;
+    dealii::FullMatrix<double> penalty;
+    std::vector<Expression>    prescribed; ///< one, or one a region
+    std::vector<std::string>   warnings;
+  };
+} // namespace Exemplar
+
+#endif

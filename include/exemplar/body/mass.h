@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_mass_h
+#define exemplar_mass_h
+
+#include <exemplar/algebra/vector.h>
+#include <exemplar/body/fe_space.h>
+#include <exemplar/body/material.h>
+#include <exemplar/body/state.h>
+
+#include <deal.II/base/tensor.h>
+#include <deal.II/lac/sparse_matrix.h>
+
+#include <vector>
+
+namespace Exemplar
+{
+  /// Sums over the moving body, with the nodal momenta p = M v.
+  struct MotionSums
+  {
+    double               kinetic_energy = 0.; ///< 1/2 v^T M v [J]
+    dealii::Tensor<1, 3> momentum;            ///< sum p [kg m/s]
+    dealii::Tensor<1, 3> angular_momentum;    ///< sum x times p, about the origin [kg m^2/s]
+  };
+
+  /// The mass matrix of dynamic scenes: the product of a nodal matrix [kg] with I_3.
+  class Mass
+  {
+  public:
+    Mass(const FESpace &fe_space, const Material &material, MassMatrix kind);
+
+    const dealii::SparseMatrix<double> &
+    nodal() const
+    {
+      return matrix;
+    }
+
+    /// M times a field, by degree of freedom.
+    Vector
+    times(const Vector &field) const;
+
+    /// The greatest sum of a row [kg].
+    double
+    max_nodal_mass() const
+    {
+      return max_row_sum;
+    }
+
+    MotionSums
+    motion_sums(const State &state) const;
+
+    /// In bytes.
+    std::size_t
+    memory_consumption() const;
+
+  private:
+    void
+    copy_rows();
+
+    dealii::SparsityPattern      pattern;
+    dealii::SparseMatrix<double> matrix;
+    std::vector<std::size_t>     row_start; ///< the matrix once more: its entries are visited in
+    std::vector<unsigned int>    columns;   ///< every iteration, and deal.II's iterators are slow
+    std::vector<double>          values;
+    double                       max_row_sum = 0.; ///< of the consistent matrix [kg]
+  };
+} // namespace Exemplar
+
+#endif

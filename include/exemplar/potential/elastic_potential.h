@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_elastic_potential_h
+#define exemplar_elastic_potential_h
+
+#include <exemplar/body/example_weights.h>
+#include <exemplar/body/model.h>
+#include <exemplar/potential/cell_scatter.h>
+#include <exemplar/potential/evaluation.h>
+#include <exemplar/potential/strain_damping.h>
+
+#include <array>
+#include <vector>
+
+namespace Exemplar
+{
+  /// What frames show of a cell.
+  struct CellResults
+  {
+    std::vector<double> strain_energy_density; ///< 1/2 e:C:e [J/m^3]
+    std::vector<double> det_F;
+    std::vector<double> von_mises_stress; ///< of the corotated stress C:(e - eta E(w)) [Pa]
+  };
+
+  /// What the cells of a body are: their geometry, material and model, and the examples, both null
+  /// if the scene has none. All must outlive whoever holds this.
+  struct ElasticParts
+  {
+    ModelParameters        model;
+    const FESpace         &fe_space;
+    const Material        &material;
+    const ExamplePoses    *examples;
+    const ExampleWeights  *weights;
+    const FreeDofs        &free_dofs;
+  };
+
+  /// Psi(x, w), Eqs. (5) and (16), with the stiffness damping: sums over the cells of energies and
+  /// forces, the matrix A and the columns G of Eq. (10). Rotations are kept ("frozen") until
+  /// update_rotations() or an evaluation that updates them. Positions, displacements and forces are
+  /// by degree of freedom.
+  class ElasticPotential
+  {
+  public:
+    /// `pattern` must outlive it.
+    ElasticPotential(const ElasticParts &parts, const SymmetricPattern &pattern);
+
+    /// R of every cell from the polar decomposition at these positions. Models other
+    /// than the corotational have none: theirs stay I.
+    void
+    update_rotations(const Vector &positions)
+    {
+      cells.update_rotations(positions);
+    }
+
+    /// About the rotation of each node, the mean of its cells': nine numbers a node, by rows.
+    void
+    node_rotations(std::vector<float> &rotations)
+    {
+      cells.node_rotations(rotations);
+    }
+
+    /// As StrainDamping::set().
+    void
+    set_damping(double s, const std::vector<WeightedPositions> &history);
+
+    /// Energies and their derivatives. If the caller has the weight_linear_term() of these
+    /// positions, the derivatives by the weights are H w - c, and the loop need not sum them.
+    void
+    evaluate(const Vector              &positions,
+             const std::vector<double> &weights,
+             ElasticEvaluation         &evaluation,
+             Rotations                  rotations   = Rotations::keep,
+             const std::vector<double> *linear_term = nullptr);
+
+    /// Add A, Eq. (8) or (18), to the values on the pattern [N/m] and, with weights to
+    /// find, set the coupling G, Eq. (9): a column a strained weight on the free degrees of
+    /// freedom, one after the other [N]. An exact tangent needs the rotations of these positions.
+    void
+    assemble_tangent(Tangent                    tangent,
+                     const Vector              &positions,
+                     const std::vector<double> &weights,
+                     std::vector<double>       &matrix_values,
+                     std::vector<double>       &columns);
+
+    /// Add what `displacement` [m] from `positions`, zero but on held degrees of freedom, changes
+    /// by that tangent in the forces and the weight gradient. Only cells beside held nodes feel it.
+    void
+    add_response(Tangent                    tangent,
+                 const Vector              &displacement,
+                 const Vector              &positions,
+                 const std::vector<double> &weights,
+                 ElasticEvaluation         &evaluation);
+
+    /// c_i with dPsi/dw = H w - c at these positions [J].
+    std::vector<double>
+    weight_linear_term(const Vector &positions, Rotations rotations = Rotations::keep);
+
+    /// A residual force [N] that is nothing but the rounding of the positions.
+    double
+    rounding_force() const
+    {
+      // both strains that damping compares have rounding of their own, the decomposition's, too
+      return (1. + 8. * damping.factor()) * rounding.force;
+    }
+
+    /// The same for the derivative of the energy by any weight [J].
+    double
+    rounding_weight_gradient() const;
+
+    CellResults
+    cell_results(const Vector &positions, const std::vector<double> &weights);
+
+    /// In bytes, its pattern included.
+    std::size_t
+    memory_consumption() const;
+
+  private:
+    /// What the rounding of positions makes of the forces and stresses of the cells.
+    struct Rounding
+    {
+      double force       = 0.; ///< greatest of a node [N]
+      double stress_norm = 0.; ///< (sum V T^2)^(1/2)
+    };
+
+    static Rounding
+    estimate_rounding(const ElasticParts &parts);
+
+    bool
+    has_unknown_weights() const
+    {
+      return parts.weights != nullptr && parts.weights->are_unknown();
+    }
+
+    /// Whether a tangent is R K R^T: always with the linear strain, whose exact one it is.
+    bool
+    is_rotated_stiffness(const Tangent tangent) const
+    {
+      return parts.model.strain == StrainMeasure::linear
+             || (parts.model.strain == StrainMeasure::corotational && tangent == Tangent::convex);
+    }
+
+    CellTask
+    task(const Vector &positions, const std::vector<double> &weights, Rotations rotations);
+
+    /// eta E(w) in a cell; 0 without examples.
+    Matrix3<double>
+    example_strain(unsigned int cell, const std::vector<double> &weights) const;
+
+    /// Sums of the cells' forces at the nodes.
+    void
+    gather_forces(ElasticEvaluation &result) const;
+
+    void
+    add_penalty(const std::vector<double> &weights,
+                double                     stress_norm,
+                ElasticEvaluation         &result) const;
+
+    /// H w - c.
+    void
+    set_weight_gradient(const std::vector<double> &weights,
+                        const std::vector<double> &linear_term,
+                        ElasticEvaluation         &result) const;
+
+    /// The state of a cell at these positions and weights, with the damping.
+    template <typename Cell>
+    Cell
+    cell_state(Tangent                    tangent,
+               unsigned int               cell,
+               const Vector              &positions,
+               const std::vector<double> &weights) const;
+
+    void
+    add_mixed_cells(const CellTask      &task,
+                    TangentTask          tangent,
+                    bool                 rotated,
+                    std::vector<double> &values);
+
+    void
+    assemble_coupling(const CellTask      &task,
+                      const TangentTask   &tangent,
+                      bool                 rotated,
+                      std::vector<double> &columns) const;
+
+    template <typename Cell>
+    void
+    add_cell_responses(Tangent                    tangent,
+                       const Vector              &displacement,
+                       const Vector              &positions,
+                       const std::vector<double> &weights,
+                       ElasticEvaluation         &result) const;
+
+    void
+    add_rotated_responses(const Vector &displacement, ElasticEvaluation &result) const;
+
+    /// Into the gradient: nodal forces of a change of R^T P.
+    void
+    add_force(unsigned int cell, const Matrix3<double> &dP, Vector &gradient) const;
+
+    const ElasticParts            parts;
+    const SymmetricPattern       &pattern;
+    CellField                     cells;
+    const CellScatter             scatter;
+    StrainDamping                 damping;
+    const std::size_t             n_stripes;  ///< in which the cells are summed
+    dealii::AlignedVector<double> nodal_sums; ///< of forces and scales, stripe by stripe
+    const Rounding                rounding;
+  };
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_evaluation_h
+#define exemplar_evaluation_h
+
+#include <exemplar/algebra/vector.h>
+
+#include <vector>
+
+namespace Exemplar
+{
+  /// The matrix with which a step is solved.
+  enum class Tangent
+  {
+    exact, ///< the derivative of the gradient, Eq. (18)
+    convex ///< never indefinite, together with the weights: R K R^T, Eq. (8), or its counterpart
+  };
+
+  /// What a loop over the cells finds at given positions and weights.
+  struct ElasticEvaluation
+  {
+    Vector              gradient;           ///< internal forces dPsi/dx [N], Eq. (6)
+    Vector              force_scale;        ///< a node: sum V (|C:e| + eta |C:E(w)|) |g_a| [N]
+    std::vector<double> weight_gradient;    ///< dPsi/dw_i [J], Eq. (7)
+    double              weight_scale   = 0; ///< of the weight gradient [J]
+    double              energy         = 0; ///< Psi [J], Eq. (5), ridge included
+    double              energy_elastic = 0; ///< sum V/2 e:C:e of it [J]
+    double              energy_damping = 0; ///< whose gradient is the stiffness damping [J]
+    double              min_det_F      = 0;
+    unsigned int        inverted_cells = 0;
+    unsigned int        guarded_cells  = 0; ///< in which the guard of Eq. (16) acts
+
+    /// Psi - energy_elastic [J]; near an example the two almost cancel.
+    double
+    energy_example() const
+    {
+      return energy - energy_elastic;
+    }
+  };
+
+  /// The incremental potential at given positions and weights, and what it is made of.
+  struct Evaluation
+  {
+    ElasticEvaluation   elastic;
+    Vector              gradient;      ///< of the whole [N]; on held components the reaction
+    Vector              force_scale;   ///< a node, of all forces [N]
+    std::vector<double> term_energies; ///< of the terms beside the cells, in their order [J]
+    double              potential = 0; ///< Phi [J], Eq. (22)
+  };
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_incremental_potential_h
+#define exemplar_incremental_potential_h
+
+#include <exemplar/potential/elastic_potential.h>
+#include <exemplar/potential/potential_term.h>
+
+#include <vector>
+
+namespace Exemplar
+{
+  /// What is left of the equations at a state, relative to the forces there, Eq. (13).
+  struct Residual
+  {
+    double              positions = 0.; ///< greatest free force over the greatest force scale
+    double              weights   = 0.; ///< of the weights' conditions
+    std::vector<double> multipliers;    ///< of each region's sum of unknown weights [J]
+  };
+
+  /// What a step minimises over positions and weights: Phi(x, w), Eqs. (5), (12) and (22), the sum
+  /// over the cells and then the terms, in the order given.
+  class IncrementalPotential
+  {
+  public:
+    /// `weights` is null without examples, `integrator` unless the scene is dynamic. All must
+    /// outlive the potential.
+    IncrementalPotential(ElasticPotential            &cells,
+                         const ExampleWeights        *weights,
+                         std::vector<PotentialTerm *> terms,
+                         TimeIntegrator              *integrator,
+                         const FreeDofs              &free_dofs);
+
+    /// A step of length h [s] (of dynamics; not used otherwise) begins at `start`.
+    void
+    begin_step(const State &start, double step_size);
+
+    /// States are evaluated without a step that leads to them: before the first step, after a
+    /// resume, or after a rigid motion.
+    void
+    leave_step();
+
+    /// Loads and prescribed weights of time t [s]. `state` gets the time and, if they are
+    /// prescribed, the weights.
+    void
+    set_time(double time, State &state);
+
+    /// Everything at a state. Throws nothing: whoever needs finite numbers asks residual().
+    void
+    evaluate(const State &at, Rotations rotations, Evaluation &evaluation);
+
+    /// Unknown weights become the best ones for the positions, then as evaluate(). Throws
+    /// SolverFailure if they are not determined.
+    void
+    minimize_over_weights(State &at, Rotations rotations, Evaluation &evaluation);
+
+    /// The cells alone, with their rotations as they are.
+    void
+    evaluate_cells(const State &at, Evaluation &evaluation);
+
+    /// Add to the cells' forces what a displacement of held nodes from these positions changes.
+    void
+    add_response(Tangent       tangent,
+                 const Vector &displacement,
+                 const State  &from,
+                 Evaluation   &evaluation);
+
+    /// Sum cells, as they are in `evaluation`, and terms at these positions.
+    void
+    add_terms(const Vector &positions, Evaluation &evaluation) const;
+
+    /// The matrix A and the columns G: exact for convexity 0, convex for 1, a mixture between.
+    void
+    assemble(const Vector              &positions,
+             const std::vector<double> &weights,
+             double                     convexity,
+             std::vector<double>       &matrix_values,
+             std::vector<double>       &columns);
+
+    /// Throws SolverFailure if it is not finite.
+    Residual
+    residual(const State &at, const Evaluation &evaluation) const;
+
+    /// max |dPhi/dx| over the free degrees of freedom [N].
+    double
+    max_free_gradient(const Evaluation &evaluation) const;
+
+    /// x_hat in a step of dynamics, else null.
+    const Vector *
+    inertial_positions() const
+    {
+      return in_dynamic_step ? &integrator->predicted_positions() : nullptr;
+    }
+
+    /// Whether the cells' forces at the same positions differ from step to step: with prescribed
+    /// weights and with stiffness damping.
+    bool
+    changes_between_steps() const
+    {
+      return (weights != nullptr && !weights->are_unknown())
+             || (in_dynamic_step && integrator->stiffness_damping_factor() > 0.);
+    }
+
+    /// gamma (gamma + a), which multiplies the mass matrix in the tangent [1/s^2]; 0 in statics.
+    double
+    mass_factor() const
+    {
+      return integrator == nullptr ? 0. : integrator->mass_factor();
+    }
+
+    /// Null without weights to find.
+    const ExampleWeights *
+    unknown_weights() const
+    {
+      return weights != nullptr && weights->are_unknown() ? weights : nullptr;
+    }
+
+    const FreeDofs &
+    get_free_dofs() const
+    {
+      return free_dofs;
+    }
+
+    ElasticPotential &
+    get_cells()
+    {
+      return cells;
+    }
+
+  private:
+    void
+    assemble_tangent(Tangent                    tangent,
+                     const Vector              &positions,
+                     const std::vector<double> &weights,
+                     std::vector<double>       &matrix_values,
+                     std::vector<double>       &columns);
+
+    ElasticPotential                  &cells;
+    const ExampleWeights              *weights;
+    const std::vector<PotentialTerm *> terms;
+    TimeIntegrator                    *integrator;
+    const FreeDofs                    &free_dofs;
+    bool                               in_dynamic_step = false;
+  };
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_inertia_term_h
+#define exemplar_inertia_term_h
+
+#include <exemplar/body/mass.h>
+#include <exemplar/body/time_integrator.h>
+#include <exemplar/potential/potential_term.h>
+
+namespace Exemplar
+{
+  /// gamma (gamma + a) / 2 |x - x_hat|^2_M, Eq. (22): inertia and mass damping. Outside of steps it
+  /// is zero.
+  class InertiaTerm : public PotentialTerm
+  {
+  public:
+    /// Both must outlive the term; the integrator's step is begun before the term's.
+    InertiaTerm(const Mass &mass, const TimeIntegrator &integrator);
+
+    void
+    begin_step(const State & /*start*/) override
+    {
+      in_step = true;
+    }
+
+    void
+    leave_step() override
+    {
+      in_step = false;
+    }
+
+    double
+    add(const Vector &positions, Vector &gradient, Vector &force_scale) const override;
+
+    void
+    attach(const SymmetricPattern &pattern, const FreeDofs &free_dofs) override;
+
+    void
+    add_tangent(const Vector &positions, std::vector<double> &values) const override;
+
+    double
+    rounding_force() const override;
+
+    std::size_t
+    memory_consumption() const override;
+
+  private:
+    const Mass           &mass;
+    const TimeIntegrator &integrator;
+    std::vector<double>   mass_values; ///< M on the pattern [kg]
+    bool                  in_step = false;
+  };
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_load_term_h
+#define exemplar_load_term_h
+
+#include <exemplar/body/loads.h>
+#include <exemplar/potential/potential_term.h>
+
+namespace Exemplar
+{
+  /// -f.(x - X): gravity and dead forces, as a potential of the displacements from the rest
+  /// positions X. From positions the work would come with rounding of its own.
+  class LoadTerm : public PotentialTerm
+  {
+  public:
+    /// Both must outlive the term.
+    LoadTerm(const Loads &loads, const Vector &rest_positions);
+
+    void
+    set_time(double time) override;
+
+    double
+    add(const Vector &positions, Vector &gradient, Vector &force_scale) const override;
+
+    std::size_t
+    memory_consumption() const override;
+
+  private:
+    const Loads  &loads;
+    const Vector &rest_positions;
+    Vector        force;       ///< f of the time that is set [N]
+    Vector        force_norms; ///< of each node [N]
+  };
+} // namespace Exemplar
+
+#endif

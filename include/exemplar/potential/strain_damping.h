@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_strain_damping_h
+#define exemplar_strain_damping_h
+
+#include <exemplar/body/time_integrator.h>
+#include <exemplar/potential/cell_field.h>
+
+namespace Exemplar
+{
+  /// Stiffness damping, Eq. (22): the stress s C:(e - sum_m c_m e(x_m)), with s [-] the damping
+  /// time over the time step. It and the elastic energy are two quadratics around a strain in each
+  /// cell, hence one: with C times 1 + s around (D + s e_past) / (1 + s).
+  class StrainDamping
+  {
+  public:
+    /// From now on with this s, 0 for none. Cells that the guard of Eq. (16) had to hold at one of
+    /// the positions x_m are left out: their rotation is ambiguous.
+    void
+    set(double                                s,
+        const std::vector<WeightedPositions> &history,
+        const CellField                      &cells,
+        const FESpace                        &fe_space,
+        const Material                       &material);
+
+    /// s.
+    double
+    factor() const
+    {
+      return s;
+    }
+
+    /// s in a cell: 0 where it is left out.
+    double
+    factor(const unsigned int cell) const
+    {
+      return factors.empty() ? 0. : factors[cell];
+    }
+
+    /// C with the damping in a cell.
+    Lame<double>
+    damped(const unsigned int cell, const Lame<double> &lame) const;
+
+    /// The strain around which the sum of both quadratics stands if the energy's does around D.
+    Matrix3<double>
+    damped(const unsigned int cell, const Matrix3<double> &D) const;
+
+    /// For the loops; without damping there is nothing in them.
+    DampingArrays
+    arrays() const;
+
+    /// The same with no cell left out. What is convex anyway need not leave any out, and a resumed
+    /// run does not know which these were when a factor was made. Lives until the next call.
+    DampingArrays
+    arrays_of_all_cells();
+
+    /// In bytes.
+    std::size_t
+    memory_consumption() const
+    {
+      return factors.memory_consumption() + strains.memory_consumption();
+    }
+
+  private:
+    double                        s = 0.;
+    dealii::AlignedVector<double> factors; ///< in batches; empty without damping
+    dealii::AlignedVector<double> strains; ///< sum_m c_m e(x_m), in batches
+    dealii::AlignedVector<double> whole_factors;
+  };
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_newton_h
+#define exemplar_newton_h
+
+#include <exemplar/solvers/line_search.h>
+#include <exemplar/solvers/step_solver.h>
+
+#include <limits>
+#include <vector>
+
+namespace Exemplar
+{
+  /// Newton's method on the potential as a function of the positions alone: the weights are the
+  /// best ones at every evaluation. Steps come from the exact tangent; where that is indefinite,
+  /// from a mixture with the convex one. A line search makes each a descent. Where a step does not
+  /// converge, handles, loads and prescribed weights go half the way first.
+  class Newton : public StepSolver
+  {
+  public:
+    Newton(const SolverParameters &parameters,
+           IncrementalPotential   &potential,
+           StepSystem             &system,
+           const Handles          *handles,
+           StepClock              &clock);
+
+    SolveReport
+    solve(State &state, Evaluation &evaluation, double time, double step_size) override;
+
+    /// The same in a step that another method has begun, whose report goes on; never interrupted.
+    void
+    take_over(State &state, Evaluation &evaluation, double time, SolveReport &report);
+
+    void
+    forget() override
+    {
+      accepted = {};
+    }
+
+    void
+    save(boost::archive::binary_oarchive &archive) const override;
+
+    void
+    load(boost::archive::binary_iarchive &archive) override;
+
+    const dealii::FullMatrix<double> &
+    schur_complement() const override
+    {
+      return system.bordered().schur_complement();
+    }
+
+    std::size_t
+    memory_consumption() const override;
+
+  private:
+    /// Where the last exact tangent was made. It is next to that of the state that it led to, so
+    /// the next prediction uses its factor.
+    struct Linearization
+    {
+      static constexpr unsigned int not_made = std::numeric_limits<unsigned int>::max();
+
+      Vector              positions; ///< empty: there is none
+      std::vector<double> weights;
+      unsigned int        factor = not_made; ///< its number in StepSystem
+    };
+
+    /// A state on the way to that of the step's end.
+    struct Trial
+    {
+      State         state;
+      Linearization linearization;
+    };
+
+    bool
+    advance(Trial       &start,
+            Evaluation  &evaluation,
+            double       time,
+            unsigned int halvings,
+            SolveReport &report);
+
+    /// Put `trial`, a copy of `start`, near its minimum at `time`.
+    void
+    predict(Trial &start, double time, bool is_whole_step, Trial &trial, Evaluation &evaluation);
+
+    void
+    predict_along_tangent(Trial &start, Trial &trial, Evaluation &evaluation);
+
+    /// The step by which free nodes follow the held ones, with that tangent; false if the matrix
+    /// is indefinite.
+    bool
+    add_tangent_step(Trial        &start,
+                     const Vector &displacement,
+                     Tangent       tangent,
+                     Trial        &trial,
+                     Evaluation   &evaluation);
+
+    /// Have the factor of this linearization in the system; false if there is none.
+    bool
+    find_factor(Linearization &linearization);
+
+    void
+    iterate(Trial &trial, Evaluation &evaluation, SolveReport &report);
+
+    void
+    take_step(Trial &trial, Evaluation &evaluation, SolveReport &report);
+
+    bool
+    find_step(const State      &state,
+              const Evaluation &evaluation,
+              BorderedVector   &step,
+              SolveReport      &report);
+
+    bool
+    search_along(const BorderedVector &step,
+                 State                &state,
+                 Evaluation           &evaluation,
+                 SolveReport          &report);
+
+    /// One more step with the same factor from the new gradient (Shamanskii's method), if it
+    /// halves the gradient.
+    void
+    correct_with_same_factor(State &state, Evaluation &evaluation);
+
+    /// With the best weights.
+    void
+    evaluate(State &state, Evaluation &evaluation);
+
+    bool
+    has_converged(const State &state, const Evaluation &evaluation) const;
+
+    const SolverParameters parameters;
+    IncrementalPotential  &potential;
+    StepSystem            &system;
+    const Handles         *handles;
+    StepClock             &clock;
+    Linearization          accepted;
+    bool                   may_be_interrupted = true;
+  };
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_quasi_newton_h
+#define exemplar_quasi_newton_h
+
+#include <exemplar/algebra/lbfgs.h>
+#include <exemplar/solvers/motion_prediction.h>
+#include <exemplar/solvers/newton.h>
+#include <exemplar/solvers/rotated_metric.h>
+
+#include <vector>
+
+namespace Exemplar
+{
+  /// Steps of dynamics that seldom factorise: the exact gradient, and for the inverse of its
+  /// derivative the inverse of an earlier tangent, rotated with the nodes and corrected by L-BFGS,
+  /// whose pairs are kept in the frame of that inverse and so stay good for many steps. Newton's
+  /// method takes over where that does not converge. doc/method.md, "Steps without a
+  /// factorisation".
+  class QuasiNewton : public StepSolver
+  {
+  public:
+    QuasiNewton(const SolverParameters &parameters,
+                IncrementalPotential   &potential,
+                StepSystem             &system,
+                const Handles          *handles,
+                StepClock              &clock);
+
+    SolveReport
+    solve(State &state, Evaluation &evaluation, double time, double step_size) override;
+
+    void
+    forget() override;
+
+    void
+    save(boost::archive::binary_oarchive &archive) const override;
+
+    void
+    load(boost::archive::binary_iarchive &archive) override;
+
+    const dealii::FullMatrix<double> &
+    schur_complement() const override
+    {
+      return metric.empty() ? system.bordered().schur_complement() : metric.schur_complement();
+    }
+
+    std::size_t
+    memory_consumption() const override;
+
+  private:
+    /// Where the metric was made, and how it has served since.
+    struct MetricHistory
+    {
+      Vector       positions;            ///< [m]; empty: none was made
+      double       mass_factor     = 0.; ///< IncrementalPotential::mass_factor() then
+      unsigned int steps           = 0;  ///< since then
+      unsigned int iterations      = 0;  ///< in these steps
+      unsigned int last_iterations = 0;  ///< in the last of them
+
+      template <typename Archive>
+      void
+      serialize(Archive &archive, unsigned int /*version*/)
+      {
+        archive &positions &mass_factor &steps &iterations &last_iterations;
+      }
+    };
+
+    /// A step of the method, and what has been seen of the steps before it.
+    struct Iteration
+    {
+      std::vector<double> gradient; ///< by free degree of freedom, at the trial
+      std::vector<double> direct;   ///< the displacement
+      std::vector<double> rotated;  ///< the same in the frame of the metric
+      double              last_length      = 0.;
+      double              last_contraction = 0.;
+    };
+
+    void
+    predict(const State &accepted, double step_size, State &trial, Evaluation &evaluation);
+
+    void
+    make_metric(const Vector &positions, const std::vector<double> &weights);
+
+    void
+    renew_metric(const State &trial);
+
+    /// Have a metric for this step: the last, or a new one if that has become slow.
+    void
+    find_metric(const State &trial);
+
+    /// After a resume: rotations are functions of the positions.
+    void
+    rebuild_metric(const State &trial);
+
+    /// Find the step at the trial; returns the slope along it.
+    double
+    find_step(const State &trial, const Evaluation &evaluation, Iteration &iteration);
+
+    /// Go along the step; false, with the trial back at its beginning, if nothing goes downhill.
+    bool
+    take_step(const Iteration &iteration,
+              double           slope,
+              State           &trial,
+              Evaluation      &evaluation,
+              SolveReport     &report);
+
+    /// Keep the pair of the last step and the change of forces that it has made. `change` holds
+    /// the gradient before the step, and is overwritten.
+    void
+    learn(const State               &trial,
+          const std::vector<double> &old_weights,
+          std::vector<double>       &change,
+          double                     step_length,
+          Iteration                 &iteration);
+
+    /// Whether the steps show that the trial is near enough to where they lead.
+    bool
+    has_arrived(const State       &accepted,
+                const State       &trial,
+                const SolveReport &report,
+                double             gradient_ratio,
+                Iteration         &iteration) const;
+
+    void
+    iterate(const State &accepted, State &trial, Evaluation &evaluation, SolveReport &report);
+
+    const SolverParameters parameters;
+    IncrementalPotential  &potential;
+    StepSystem            &system;
+    StepClock             &clock;
+    Newton                 newton; ///< where this method does not converge
+    MotionPrediction       prediction;
+    RotatedMetric          metric;
+    std::vector<float>     node_rotations;
+    Lbfgs                  lbfgs; ///< in the frame of the metric
+    MetricHistory          history;
+  };
+} // namespace Exemplar
+
+#endif

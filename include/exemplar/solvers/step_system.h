@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_step_system_h
+#define exemplar_step_system_h
+
+#include <exemplar/algebra/bordered_system.h>
+#include <exemplar/base/step_clock.h>
+#include <exemplar/potential/incremental_potential.h>
+
+#include <memory>
+#include <vector>
+
+namespace Exemplar
+{
+  /// The linear system of a step, Eq. (10), made of the potential's tangent and solved for changes
+  /// of positions and weights.
+  class StepSystem
+  {
+  public:
+    /// `turns_freely`: the held degrees of freedom only keep A regular, and steps are freed of
+    /// their rigid motion. The potential and the clock must outlive the system.
+    StepSystem(IncrementalPotential           &potential,
+               std::unique_ptr<BorderedSystem> system,
+               StepClock                      &clock,
+               bool                            turns_freely);
+
+    /// Assemble at these positions and weights, with the rotations as they are, and factorise.
+    /// `convexity` as for IncrementalPotential::assemble(). Throws SolverFailure if the matrix is
+    /// not positive definite.
+    void
+    factorize(const Vector &positions, const std::vector<double> &weights, double convexity);
+
+    /// The step that takes the derivatives of `evaluation`, made at `at`, to zero by the last
+    /// factor. Throws SolverFailure if the weights are not determined.
+    BorderedVector
+    solve(const State &at, const Evaluation &evaluation);
+
+    /// Solve for all columns of the weights now, as the first solve() would.
+    void
+    prepare();
+
+    /// Displacements of a step by degree of freedom [m].
+    Vector
+    displacement(const State &at, const BorderedVector &step) const;
+
+    /// Add a step.
+    void
+    add(const BorderedVector &step, State &state) const;
+
+    /// The derivative of the potential along a step at fixed weights [J].
+    double
+    slope(const Evaluation &evaluation, const BorderedVector &step) const;
+
+    /// Factorisations so far. Whoever remembers this number knows whether the factor is still his.
+    unsigned int
+    n_factorizations() const
+    {
+      return factorizations;
+    }
+
+    BorderedSystem &
+    bordered()
+    {
+      return *system;
+    }
+
+    const BorderedSystem &
+    bordered() const
+    {
+      return *system;
+    }
+
+    /// What weights add to the systems: their columns, H and N; in bytes.
+    std::size_t
+    memory_of_weights() const;
+
+  private:
+    IncrementalPotential                 &potential;
+    const std::unique_ptr<BorderedSystem> system;
+    StepClock                            &clock;
+    const bool                            turns_freely;
+    unsigned int                          factorizations = 0;
+  };
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/bordered_system.h>
+#include <exemplar/algebra/weight_qp.h>
+#include <exemplar/base/errors.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace Exemplar
+{
+  dealii::FullMatrix<double>
+  make_schur_complement(const WeightForm          &form,
+                        const std::vector<double> &G,
+                        const double              *Z,
+                        const std::size_t          n)
+  {
+    dealii::FullMatrix<double> schur = form.H;
+    const auto                &index = form.coupled;
+    for (std::size_t i = 0; i < index.size(); ++i)
+      for (std::size_t j = 0; j < index.size(); ++j)
+        schur(index[i], index[j])
+            -= std::inner_product(G.begin() + i * n, G.begin() + (i + 1) * n, Z + j * n, 0.);
+    return schur;
+  }
+
+  namespace
+  {
+    class BlockSystem : public BorderedSystem
+    {
+    public:
+      BlockSystem(std::unique_ptr<SpdOperator> matrix, const WeightForm *form)
+          : BorderedSystem(form), A(std::move(matrix))
+      {
+      }
+
+      OperatorTraits
+      traits() const override
+      {
+        return A->traits();
+      }
+
+      std::vector<double> &
+      matrix_values() override
+      {
+        return A->values();
+      }
+
+      void
+      factorize(const Vector &positions) override
+      {
+        inverse_columns.clear();
+        A->factorize(positions);
+      }
+
+      void
+      solve(BorderedVector &vector, const std::vector<double> &lower) override
+      {
+        const std::size_t n = vector.positions.size();
+        if (inverse_columns.empty())
+          find_columns(vector.positions);
+        else // Z is still that of this factor
+        {
+          A->solve(vector.positions);
+          std::copy(vector.positions.begin(), vector.positions.end(), inverse_columns.begin());
+        }
+        if (form != nullptr)
+          solve_weights(vector, lower);
+        std::copy(inverse_columns.begin(), inverse_columns.begin() + n, vector.positions.begin());
+        for (std::size_t j = 0; form != nullptr && j < form->coupled.size(); ++j)
+        {
+          const double *Z_j = inverse_columns.data() + (1 + j) * n;
+          for (std::size_t i = 0; i < n; ++i)
+            vector.positions[i] += vector.weights[form->coupled[j]] * Z_j[i];
+        }
+      }
+
+      void
+      apply_inverse(std::vector<double> &columns) override
+      {
+        A->solve(columns);
+      }
+
+      void
+      prepare() override
+      {
+        if (form != nullptr && !form->coupled.empty())
+          find_columns(std::vector<double>(G.size() / form->coupled.size(), 0.));
+      }
+
+      std::unique_ptr<KeptInverse>
+      keep() const override
+      {
+        return A->keep();
+      }
+
+    private:
+      /// z = A^-1 r_x and Z = A^-1 G
+      void
+      find_columns(std::vector<double> right_side)
+      {
+        right_side.insert(right_side.end(), G.begin(), G.end());
+        A->solve(right_side); // no columns if this throws
+        inverse_columns = std::move(right_side);
+      }
+
+      /// The quadratic of the Schur complement over the weights, Eq. (11)
+      void
+      solve_weights(BorderedVector &vector, const std::vector<double> &lower)
+      {
+        const std::size_t   n          = vector.positions.size();
+        std::vector<double> right_side = vector.weights;
+        for (std::size_t i = 0; i < form->coupled.size(); ++i)
+          right_side[form->coupled[i]] += std::inner_product(
+              G.begin() + i * n, G.begin() + (i + 1) * n, inverse_columns.begin(), 0.);
+        schur = make_schur_complement(*form, G, inverse_columns.data() + n, n);
+        const WeightQpSolution solution
+            = minimize_over_weights(schur, right_side, vector.multipliers, lower);
+        if (!solution.found)
+          throw SolverFailure("The system for the example weights is not positive definite. Set "
+                              "Examples/Weight penalty to auto, or remove an example that is a "
+                              "combination of the others.");
+        vector.weights     = solution.weights;
+        vector.multipliers = solution.multipliers;
+      }
+
+      const std::unique_ptr<SpdOperator> A;
+      std::vector<double> inverse_columns; ///< z and Z; empty: none since factorize()
+    };
+  } // namespace
+
+  std::unique_ptr<BorderedSystem>
+  make_block_system(std::unique_ptr<SpdOperator> matrix, const WeightForm *form)
+  {
+    return std::make_unique<BlockSystem>(std::move(matrix), form);
+  }
+} // namespace Exemplar

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/weight_qp.h>
+#include <exemplar/base/errors.h>
+#include <exemplar/base/number_text.h>
+#include <exemplar/body/example_weights.h>
+#include <exemplar/prm/prm_tools.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace Exemplar
+{
+  namespace
+  {
+    /// sigma for "auto" and "paper", in units of sum E V.
+    double
+    default_penalty(const ExampleParameters &parameters)
+    {
+      const bool weak
+          = parameters.weight_penalty == "auto" && parameters.weights == WeightRule::simplex;
+      return weak ? 1e-9 : 1e-5;
+    }
+
+    /// The greater of two numbers; a NaN is the greatest, which std::max may pass over.
+    double
+    greater(const double a, const double b)
+    {
+      return a <= b ? b : a;
+    }
+  } // namespace
+
+  ExampleWeights::ExampleWeights(const ExampleParameters &parameters,
+                                 const ExamplePoses      &poses,
+                                 const double             unit_energy,
+                                 const TimeAxis          &axis)
+      : poses(poses), bounded(parameters.weights == WeightRule::simplex)
+  {
+    if (parameters.weights == WeightRule::prescribed)
+    {
+      read_prescribed(parameters.prescribed_weights);
+      check_prescribed(axis);
+    }
+    compute_form(parameters, unit_energy);
+    if (are_unknown())
+      check_independence(unit_energy);
+  }
+
+  void
+  ExampleWeights::compute_form(const ExampleParameters &parameters, const double unit_energy)
+  {
+    const unsigned int n = poses.n_weights();
+    penalty.reinit(n, n);
+    form.N.reinit(poses.n_regions(), n);
+    if (are_unknown())
+    {
+      const double sigma
+          = parameters.given_penalty().value_or(default_penalty(parameters) * unit_energy);
+      // a region has its part of the ridge, so that equal weights in all regions cost what
+      // global ones do
+      const std::vector<double> fraction = poses.volume_fractions();
+      for (unsigned int weight = 0; weight < n; ++weight)
+        penalty(weight, weight) = sigma * fraction[weight / poses.size()];
+    }
+    const double eta = poses.importance();
+    if (parameters.energy == ExampleEnergy::blended)
+      penalty.add(eta * (1. - eta), poses.gram_matrix());
+    form.H = penalty;
+    form.H.add(eta * eta, poses.gram_matrix());
+    for (unsigned int weight = 0; weight < n; ++weight)
+    {
+      form.N(weight / poses.size(), weight) = 1.;
+      if (poses.is_strained(weight))
+        form.coupled.push_back(weight);
+    }
+  }
+
+  void
+  ExampleWeights::read_prescribed(const std::string &text)
+  {
+    const std::string              key            = "Examples/Prescribed weights";
+    const std::vector<std::string> lists          = split_trimmed(text, '|');
+    const unsigned int             n_regions      = poses.n_regions();
+    const bool                     are_per_region = poses.material_id(0).has_value();
+    if (lists.size() != 1 && lists.size() != n_regions)
+      throw UserError(key + " has " + std::to_string(lists.size()) + " lists separated by |, but "
+                      + (are_per_region ? "there are " + std::to_string(n_regions) + " regions."
+                                        : "Examples/Weights per region is false.")
+                      + " Give one list for all"
+                      + (are_per_region ? " or one for each material id." : "."));
+    for (const std::string &list : lists)
+      prescribed.emplace_back(key, list, "t", poses.size());
+  }
+
+  void
+  ExampleWeights::check_prescribed(const TimeAxis &axis) const
+  {
+    for (unsigned int step = 0; step <= axis.n_steps(); ++step)
+      for (const Expression &expression : prescribed)
+      {
+        const double time   = axis.time(step);
+        const auto   values = expression.values(dealii::Point<3>(), time);
+        const double sum    = std::accumulate(values.begin(), values.end(), 0.);
+        if (std::abs(sum - 1.) > 1e-10)
+          throw UserError("Examples/Prescribed weights sum to " + shortest_text(sum)
+                          + " at t = " + shortest_text(time)
+                          + ", not to 1. Make the last one 1 minus the others.");
+      }
+  }
+
+  std::vector<double>
+  ExampleWeights::at(const double time) const
+  {
+    std::vector<double> all;
+    for (unsigned int region = 0; region < n_regions(); ++region)
+    {
+      const auto values
+          = prescribed[prescribed.size() == 1 ? 0 : region].values(dealii::Point<3>(), time);
+      all.insert(all.end(), values.begin(), values.end());
+    }
+    return all;
+  }
+
+  std::vector<double>
+  ExampleWeights::initial() const
+  {
+    if (!are_unknown())
+      return at(0.);
+    std::vector<double> weights(size(), 0.);
+    for (unsigned int region = 0; region < n_regions(); ++region)
+      weights[region * n_per_region()] = 1.;
+    return weights;
+  }
+
+  std::vector<double>
+  ExampleWeights::best(const std::vector<double> &c, const std::vector<double> &start) const
+  {
+    const std::vector<double> lower(bounded ? size() : 0, 0.), sums(n_regions(), 1.);
+    const WeightQpSolution    minimum = minimize_over_weights(form.H, c, sums, lower, start);
+    if (!minimum.found)
+      throw SolverFailure("The example weights are not determined. Set Examples/Weight penalty "
+                          "to auto.");
+    return minimum.weights;
+  }
+
+  std::vector<double>
+  ExampleWeights::lower_changes(const std::vector<double> &weights) const
+  {
+    std::vector<double> lower;
+    for (std::size_t i = 0; bounded && i < weights.size(); ++i)
+      lower.push_back(-weights[i]);
+    return lower;
+  }
+
+  std::vector<double>
+  ExampleWeights::missing_sums(const std::vector<double> &weights) const
+  {
+    std::vector<double> missing;
+    for (auto first = weights.begin(); first != weights.end(); first += n_per_region())
+      missing.push_back(1. - std::accumulate(first, first + n_per_region(), 0.));
+    return missing;
+  }
+
+  void
+  ExampleWeights::add(const std::vector<double> &changes, std::vector<double> &weights) const
+  {
+    for (std::size_t i = 0; i < changes.size(); ++i)
+      weights[i] += changes[i];
+    if (bounded)
+      for (double &weight : weights)
+        weight = std::max(weight, 0.);
+  }
+
+  WeightResidual
+  ExampleWeights::residual(const std::vector<double> &weights,
+                           const std::vector<double> &gradient) const
+  {
+    // the derivatives by a region's weights off their bounds equal -multiplier, others
+    // exceed it
+    const unsigned int k = n_per_region();
+    const auto is_off = [&](const unsigned int weight) { return !bounded || weights[weight] > 0.; };
+    WeightResidual result;
+    for (unsigned int region = 0; region < n_regions(); ++region)
+    {
+      double       sum = 0.;
+      unsigned int n   = 0;
+      for (unsigned int weight = region * k; weight < (region + 1) * k; ++weight)
+        if (is_off(weight))
+        {
+          sum += gradient[weight];
+          ++n;
+        }
+      const double multiplier = -sum / n;
+      result.multipliers.push_back(multiplier);
+      for (unsigned int weight = region * k; weight < (region + 1) * k; ++weight)
+      {
+        const double excess = gradient[weight] + multiplier;
+        result.deviation
+            = greater(is_off(weight) ? std::abs(excess) : std::max(-excess, 0.), result.deviation);
+      }
+    }
+    return result;
+  }
+
+  std::string
+  ExampleWeights::region_name(const std::string &prefix, const unsigned int region) const
+  {
+    const auto id = poses.material_id(region);
+    return id ? prefix + "_" + std::to_string(*id) : prefix;
+  }
+
+  std::string
+  ExampleWeights::weight_name(const std::string &prefix, const unsigned int weight) const
+  {
+    return region_name(prefix, weight / n_per_region()) + "_"
+           + std::to_string(weight % n_per_region());
+  }
+
+  std::size_t
+  ExampleWeights::memory_consumption() const
+  {
+    return form.H.memory_consumption() + form.N.memory_consumption() + penalty.memory_consumption();
+  }
+} // namespace Exemplar

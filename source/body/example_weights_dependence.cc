@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/conditioning.h>
+#include <exemplar/base/errors.h>
+#include <exemplar/body/example_weights.h>
+
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+// Examples that are combinations of others: their weights are not determined.
+
+namespace Exemplar
+{
+  namespace
+  {
+    /// The row at which Cholesky's factorisation finds the least pivot relative to its
+    /// diagonal entry: that depends most on the rows before it.
+    struct LeastPivot
+    {
+      unsigned int row   = 0;
+      double       ratio = 1.;
+    };
+
+    LeastPivot
+    least_pivot(const dealii::FullMatrix<double> &matrix, const double rounding)
+    {
+      const unsigned int         n = matrix.m();
+      dealii::FullMatrix<double> L(n, n);
+      LeastPivot                 least;
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j <= i; ++j)
+        {
+          double value = matrix(i, j);
+          for (unsigned int m = 0; m < j; ++m)
+            value -= L(i, m) * L(j, m);
+          if (i != j)
+          {
+            L(i, j) = value / L(j, j);
+            continue;
+          }
+          const double ratio = value > rounding ? value / matrix(i, i) : 0.;
+          if (ratio < least.ratio)
+            least = { i, ratio };
+          if (ratio < 1e-14)
+            return { i, 0. };
+          L(i, i) = std::sqrt(value);
+        }
+      return least;
+    }
+  } // namespace
+
+  void
+  ExampleWeights::check_independence(const double unit_energy)
+  {
+    const unsigned int               k           = n_per_region();
+    const dealii::FullMatrix<double> differences = form_of_differences(poses.gram_matrix(), k);
+    const auto second = [k](const unsigned int d) { return d + d / (k - 1) + 1; };
+    // strains of 1e-10 are the rounding of a rest pose
+    const LeastPivot least = least_pivot(differences, 1e-20 * unit_energy);
+    if (differences.m() == 0 || least.ratio > 1e-8)
+      return;
+    const unsigned int example = second(least.row) % k;
+    const auto         region  = poses.material_id(second(least.row) / k);
+    const std::string  where   = region ? " in region " + std::to_string(*region) : "";
+    const std::string  which
+        = "Example " + std::to_string(example) + " (" + poses.name(example) + ")" + where;
+    const bool decided = penalty(second(least.row), second(least.row)) > 0.;
+    if (least.ratio < 1e-12 && !decided)
+      throw UserError(which
+                      + " is an affine combination of the examples before it, so their weights "
+                        "are not determined. Remove it from Examples/Poses or Examples/Pose "
+                        "functions, or set Examples/Weight penalty to auto.");
+    const double       condition = least.ratio > 0. ? condition_number(differences)
+                                                    : std::numeric_limits<double>::infinity();
+    std::ostringstream text;
+    text << which << " is " << (least.ratio < 1e-12 ? "" : "nearly ")
+         << "an affine combination of the examples before it (condition number of their Gram "
+            "matrix: "
+         << condition << "). "
+         << (decided ? "The weight penalty decides between them; remove the example if it is there "
+                       "by mistake."
+                     : "Their weights are sensitive; remove the example, or set Examples/Weight "
+                       "penalty to auto.");
+    warnings.push_back(text.str());
+  }
+} // namespace Exemplar

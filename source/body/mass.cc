@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/body/mass.h>
+
+#include <deal.II/base/memory_consumption.h>
+
+#include <cmath>
+
+namespace Exemplar
+{
+  namespace
+  {
+    void
+    lump(dealii::SparseMatrix<double> &mass)
+    {
+      for (unsigned int row = 0; row < mass.m(); ++row)
+      {
+        double sum = 0.;
+        for (auto entry = mass.begin(row); entry != mass.end(row); ++entry)
+        {
+          sum += entry->value();
+          entry->value() = 0.;
+        }
+        mass.set(row, row, sum);
+      }
+    }
+  } // namespace
+
+  Mass::Mass(const FESpace &fe_space, const Material &material, const MassMatrix kind)
+      : pattern(fe_space.nodal_pattern()), matrix(pattern)
+  {
+    std::vector<double> density(fe_space.n_cells());
+    for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
+      density[cell] = material.density(cell);
+    fe_space.compute_mass_matrix(density, matrix);
+    max_row_sum = matrix.linfty_norm();
+    if (kind == MassMatrix::lumped)
+      lump(matrix);
+    copy_rows();
+  }
+
+  void
+  Mass::copy_rows()
+  {
+    row_start.push_back(0);
+    for (unsigned int row = 0; row < matrix.m(); ++row)
+    {
+      for (auto entry = matrix.begin(row); entry != matrix.end(row); ++entry)
+        if (entry->value() != 0.)
+        {
+          columns.push_back(entry->column());
+          values.push_back(entry->value());
+        }
+      row_start.push_back(columns.size());
+    }
+  }
+
+  Vector
+  Mass::times(const Vector &field) const
+  {
+    Vector product(field.size());
+    for (unsigned int row = 0; row + 1 < row_start.size(); ++row)
+    {
+      double sum[3] = { 0., 0., 0. };
+      for (std::size_t entry = row_start[row]; entry < row_start[row + 1]; ++entry)
+      {
+        const double *node = field.begin() + 3 * columns[entry];
+        for (unsigned int c = 0; c < 3; ++c)
+          sum[c] += values[entry] * node[c];
+      }
+      for (unsigned int c = 0; c < 3; ++c)
+        product[3 * row + c] = sum[c];
+    }
+    return product;
+  }
+
+  MotionSums
+  Mass::motion_sums(const State &state) const
+  {
+    const Vector p  = times(state.velocities);
+    const auto   at = [](const Vector &field, const unsigned int node) {
+      return dealii::Tensor<1, 3>({ field[3 * node], field[3 * node + 1], field[3 * node + 2] });
+    };
+    MotionSums sums;
+    sums.kinetic_energy = 0.5 * (state.velocities * p);
+    for (unsigned int node = 0; node < p.size() / 3; ++node)
+    {
+      sums.momentum += at(p, node);
+      sums.angular_momentum += dealii::cross_product_3d(at(state.positions, node), at(p, node));
+    }
+    return sums;
+  }
+
+  std::size_t
+  Mass::memory_consumption() const
+  {
+    using dealii::MemoryConsumption::memory_consumption;
+    return pattern.memory_consumption() + matrix.memory_consumption()
+           + memory_consumption(row_start) + memory_consumption(columns)
+           + memory_consumption(values);
+  }
+} // namespace Exemplar

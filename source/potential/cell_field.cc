@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/potential/cell_field.h>
+
+namespace Exemplar
+{
+  CellField::CellField(const StrainMeasure strain,
+                       const double        guard_bound,
+                       const FESpace      &fe_space,
+                       const Material     &material)
+      : strain(strain), guard_bound(guard_bound), kernels(best_kernels()),
+        batches(fe_space, material), node_positions(4 * fe_space.n_nodes())
+  {
+  }
+
+  CellTask
+  CellField::task(const Vector &positions, const Rotations rotations)
+  {
+    if (rotations == Rotations::keep)
+      refresh_rotations();
+    rotations_are_forgotten = rotations == Rotations::find_and_forget;
+    for (unsigned int node = 0; node < n_nodes(); ++node)
+      for (unsigned int c = 0; c < 3; ++c)
+        node_positions[4 * node + c] = positions[3 * node + c];
+    CellTask task;
+    task.cells            = batches.arrays(strain, guard_bound);
+    task.positions        = node_positions.data();
+    task.use_of_rotations = rotations;
+    return task;
+  }
+
+  void
+  CellField::update_rotations(const Vector &positions)
+  {
+    if (strain != StrainMeasure::corotational)
+      return;
+    const CellTask cells = task(positions, Rotations::update);
+    kernels.update_rotations(cells, 0, cells.cells.n_batches());
+  }
+
+  void
+  CellField::refresh_rotations()
+  {
+    if (!rotations_are_forgotten)
+      return;
+    CellTask last;
+    last.cells     = batches.arrays(strain, guard_bound);
+    last.positions = node_positions.data();
+    kernels.update_rotations(last, 0, last.cells.n_batches());
+    rotations_are_forgotten = false;
+  }
+
+  void
+  CellField::node_rotations(std::vector<float> &rotations)
+  {
+    refresh_rotations();
+    CellTask task;
+    task.cells = batches.arrays(strain, guard_bound);
+    rotation_sums.resize(12 * n_nodes());
+    rotation_sums.fill(0.);
+    rotations.resize(9 * n_nodes());
+    kernels.add_rotations(task, 0, task.cells.n_batches(), rotation_sums.data());
+    kernels.closest_rotations(n_nodes(), rotation_sums.data(), rotations.data());
+  }
+
+  std::size_t
+  CellField::memory_consumption() const
+  {
+    return batches.memory_consumption() + node_positions.memory_consumption()
+           + rotation_sums.memory_consumption();
+  }
+} // namespace Exemplar

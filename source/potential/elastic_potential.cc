@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/environment.h>
+#include <exemplar/potential/elastic_potential.h>
+
+#include <deal.II/base/memory_consumption.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace Exemplar
+{
+  namespace
+  {
+    /// Cells are summed in stripes, each by one thread. How many there are depends on the mesh
+    /// alone, so that the sums do not depend on the number of threads.
+    std::size_t
+    choose_n_stripes(const std::size_t n_cells)
+    {
+      return std::clamp<std::size_t>(n_cells / 50000, 2, 16);
+    }
+
+    /// What the cells of a stripe sum up.
+    struct StripeSums
+    {
+      CellSums                      cells;
+      dealii::AlignedVector<double> weights; ///< lanes of each weight
+    };
+
+    void
+    copy_sums(const CellSums &sums, ElasticEvaluation &result)
+    {
+      result.energy_elastic = sums.energy_elastic;
+      result.energy         = sums.energy;
+      result.energy_damping = sums.energy_damping;
+      result.min_det_F      = sums.min_det_F;
+      result.inverted_cells = sums.inverted_cells;
+      result.guarded_cells  = sums.guarded_cells;
+    }
+
+    std::vector<double>
+    sum_of_lanes(const dealii::AlignedVector<double> &lanes)
+    {
+      std::vector<double> sums(lanes.size() / batch_size, 0.);
+      for (std::size_t i = 0; i < lanes.size(); ++i)
+        sums[i / batch_size] += lanes[i];
+      return sums;
+    }
+  } // namespace
+
+  ElasticPotential::ElasticPotential(const ElasticParts &parts, const SymmetricPattern &pattern)
+      : parts(parts), pattern(pattern),
+        cells(parts.model.strain,
+              parts.model.is_frozen()     ? no_guard
+              : parts.examples == nullptr ? default_guard_bound
+                                          : parts.examples->guard_bound(),
+              parts.fe_space,
+              parts.material),
+        scatter(cells, parts.fe_space.n_cells(), pattern, parts.free_dofs),
+        n_stripes(choose_n_stripes(parts.fe_space.n_cells())),
+        nodal_sums(4 * n_stripes * parts.fe_space.n_nodes()), rounding(estimate_rounding(parts))
+  {
+  }
+
+  ElasticPotential::Rounding
+  ElasticPotential::estimate_rounding(const ElasticParts &parts)
+  {
+    // F of Eq. (1) carries the rounding of the positions, divided by the cell's size
+    const FESpace &fe_space = parts.fe_space;
+    const double   of_positions
+        = 2. * std::numeric_limits<double>::epsilon() * fe_space.rest_positions().linfty_norm();
+    Rounding rounding;
+    Vector   force(fe_space.n_nodes());
+    for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
+    {
+      const Lame<double>        &lame     = parts.material.lame(cell);
+      const Tetrahedron<double> &tet      = fe_space.tetrahedron(cell);
+      double                     norms[4] = {};
+      for (unsigned int a = 0; a < 4; ++a)
+        norms[a] = std::sqrt(dot(tet.shape_gradient[a], tet.shape_gradient[a]));
+      const double strain = of_positions * *std::max_element(norms, norms + 4);
+      const double stress = strain * (std::abs(lame.lambda) + 2. * lame.mu);
+      rounding.stress_norm += tet.volume * stress * stress;
+      for (unsigned int a = 0; a < 4; ++a)
+        force[fe_space.nodes(cell)[a]] += std::pow(tet.volume * stress * norms[a], 2);
+    }
+    rounding.force       = std::sqrt(force.linfty_norm()); // cells round independently
+    rounding.stress_norm = std::sqrt(rounding.stress_norm);
+    return rounding;
+  }
+
+  double
+  ElasticPotential::rounding_weight_gradient() const
+  {
+    double greatest = 0.;
+    for (unsigned int weight = 0; weight < parts.examples->n_weights(); ++weight)
+      greatest = std::max(greatest, parts.examples->importance() * rounding.stress_norm
+                                        * parts.examples->strain_norm(weight));
+    return greatest;
+  }
+
+  void
+  ElasticPotential::set_damping(const double s, const std::vector<WeightedPositions> &history)
+  {
+    damping.set(s, history, cells, parts.fe_space, parts.material);
+  }
+
+  CellTask
+  ElasticPotential::task(const Vector              &positions,
+                         const std::vector<double> &weights,
+                         const Rotations            rotations)
+  {
+    CellTask task = cells.task(positions, rotations);
+    task.damping  = damping.arrays();
+    if (parts.examples != nullptr)
+      task.examples = parts.examples->arrays();
+    task.weights          = weights.data();
+    task.weights_are_free = has_unknown_weights();
+    return task;
+  }
+
+  Matrix3<double>
+  ElasticPotential::example_strain(const unsigned int         cell,
+                                   const std::vector<double> &weights) const
+  {
+    if (parts.examples == nullptr)
+      return Matrix3<double>{};
+    const Matrix3<double> E = parts.examples->strain(cell, weights);
+    return combine(parts.examples->importance(), E, 0., E);
+  }
+
+  void
+  ElasticPotential::add_penalty(const std::vector<double> &weights,
+                                const double               stress_norm,
+                                ElasticEvaluation         &result) const
+  {
+    const ExamplePoses               &examples = *parts.examples;
+    const dealii::FullMatrix<double> &form     = parts.weights->penalty_matrix();
+    for (unsigned int v = 0; v < weights.size(); ++v)
+    {
+      double penalty = 0.;
+      for (unsigned int w = 0; w < weights.size(); ++w)
+        penalty += form(v, w) * weights[w];
+      result.energy += 0.5 * penalty * weights[v];
+      result.weight_gradient[v] += penalty;
+      result.weight_scale = std::max(result.weight_scale,
+                                     examples.importance() * stress_norm * examples.strain_norm(v)
+                                         + std::abs(penalty));
+    }
+  }
+
+  void
+  ElasticPotential::set_weight_gradient(const std::vector<double> &weights,
+                                        const std::vector<double> &linear_term,
+                                        ElasticEvaluation         &result) const
+  {
+    const dealii::FullMatrix<double> &H = parts.weights->weight_form().H;
+    for (unsigned int v = 0; v < weights.size(); ++v)
+    {
+      result.weight_gradient[v] = -linear_term[v];
+      for (unsigned int w = 0; w < weights.size(); ++w)
+        result.weight_gradient[v] += H(v, w) * weights[w];
+    }
+  }
+
+  void
+  ElasticPotential::gather_forces(ElasticEvaluation &result) const
+  {
+    const unsigned int n_nodes = parts.fe_space.n_nodes();
+    result.gradient.reinit(3 * n_nodes, true);
+    result.force_scale.reinit(n_nodes, true);
+    for (unsigned int node = 0; node < n_nodes; ++node)
+    {
+      double sum[4] = {};
+      for (std::size_t stripe = 0; stripe < n_stripes; ++stripe)
+        for (unsigned int c = 0; c < 4; ++c)
+          sum[c] += nodal_sums[4 * (stripe * n_nodes + node) + c];
+      for (unsigned int c = 0; c < 3; ++c)
+        result.gradient[3 * node + c] = sum[c];
+      result.force_scale[node] = sum[3];
+    }
+  }
+
+  void
+  ElasticPotential::evaluate(const Vector              &positions,
+                             const std::vector<double> &weights,
+                             ElasticEvaluation         &result,
+                             const Rotations            rotations,
+                             const std::vector<double> *linear_term)
+  {
+    CellTask cell_task = task(positions, weights, rotations);
+    cell_task.weights_are_free &= linear_term == nullptr;
+    const std::size_t       n_batches = cell_task.cells.n_batches();
+    const std::size_t       n_lanes   = has_unknown_weights() ? batch_size * weights.size() : 0;
+    std::vector<StripeSums> stripes(n_stripes);
+    nodal_sums.fill(0.);
+    const ParallelRegion region;
+    // to start a thread costs as much as a thousand cells
+    const int n_at_once = parts.fe_space.n_cells() < 4000 ? 1 : static_cast<int>(n_threads());
+#pragma omp parallel for num_threads(n_at_once)
+    for (std::size_t stripe = 0; stripe < n_stripes; ++stripe)
+    {
+      stripes[stripe].weights.resize(n_lanes);
+      cells.loops().evaluate(cell_task, stripe * n_batches / n_stripes,
+                             (stripe + 1) * n_batches / n_stripes,
+                             &nodal_sums[4 * stripe * parts.fe_space.n_nodes()],
+                             stripes[stripe].weights.data(), stripes[stripe].cells);
+    }
+    CellSums                      sums;
+    dealii::AlignedVector<double> weight_sums(n_lanes);
+    for (const StripeSums &stripe : stripes)
+    {
+      sums += stripe.cells;
+      for (std::size_t i = 0; i < weight_sums.size(); ++i)
+        weight_sums[i] += stripe.weights[i];
+    }
+    gather_forces(result);
+    copy_sums(sums, result);
+    result.weight_gradient = sum_of_lanes(weight_sums);
+    result.weight_scale    = 0.;
+    if (!has_unknown_weights())
+      return;
+    add_penalty(weights, std::sqrt(sums.stress_square), result);
+    if (linear_term != nullptr)
+      set_weight_gradient(weights, *linear_term, result);
+  }
+
+  std::vector<double>
+  ElasticPotential::weight_linear_term(const Vector &positions, const Rotations rotations)
+  {
+    const CellTask                cell_task = task(positions, {}, rotations);
+    dealii::AlignedVector<double> weight_sums(batch_size * parts.examples->n_weights());
+    cells.loops().weight_target(cell_task, 0, cell_task.cells.n_batches(), weight_sums.data());
+    return sum_of_lanes(weight_sums);
+  }
+
+  CellResults
+  ElasticPotential::cell_results(const Vector &positions, const std::vector<double> &weights)
+  {
+    cells.refresh_rotations();
+    const unsigned int n = parts.fe_space.n_cells();
+    CellResults results{ std::vector<double>(n), std::vector<double>(n), std::vector<double>(n) };
+    for (unsigned int cell = 0; cell < n; ++cell)
+    {
+      const Lame<double>   &lame   = parts.material.lame(cell);
+      const Matrix3<double> F      = parts.fe_space.deformation_gradient(cell, positions);
+      const Matrix3<double> strain = model_strain(parts.model.strain, cells.rotation(cell), F);
+      Matrix3<double>       T      = stress(lame, strain);
+
+      results.strain_energy_density[cell] = 0.5 * contract(T, strain);
+      results.det_F[cell]                 = determinant(F);
+      if (parts.examples != nullptr)
+        T = stress(lame, combine(1., strain, -1., example_strain(cell, weights)));
+      const double third = trace(T) / 3.;
+      for (int i = 0; i < 3; ++i)
+        T[i][i] -= third;
+      results.von_mises_stress[cell] = std::sqrt(1.5 * contract(T, T));
+    }
+    return results;
+  }
+
+  std::size_t
+  ElasticPotential::memory_consumption() const
+  {
+    using dealii::MemoryConsumption::memory_consumption;
+    return cells.memory_consumption() + memory_consumption(pattern.column_start)
+           + memory_consumption(pattern.row) + scatter.memory_consumption()
+           + nodal_sums.memory_consumption() + damping.memory_consumption();
+  }
+} // namespace Exemplar

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/potential/inertia_term.h>
+
+#include <deal.II/base/memory_consumption.h>
+
+#include <cmath>
+#include <limits>
+
+namespace Exemplar
+{
+  InertiaTerm::InertiaTerm(const Mass &mass, const TimeIntegrator &integrator)
+      : mass(mass), integrator(integrator)
+  {
+  }
+
+  double
+  InertiaTerm::add(const Vector &positions, Vector &gradient, Vector &force_scale) const
+  {
+    if (!in_step)
+      return 0.;
+    Vector difference = positions;
+    difference -= integrator.predicted_positions();
+    const Vector product = mass.times(difference);
+    const double factor  = integrator.mass_factor();
+    double       energy  = 0.;
+    for (unsigned int node = 0; node < force_scale.size(); ++node)
+    {
+      double square = 0.;
+      for (unsigned int dof = 3 * node; dof < 3 * node + 3; ++dof)
+      {
+        const double force = factor * product[dof];
+        gradient[dof] += force;
+        square += force * force;
+        energy += 0.5 * force * difference[dof];
+      }
+      force_scale[node] += std::sqrt(square);
+    }
+    return energy;
+  }
+
+  void
+  InertiaTerm::attach(const SymmetricPattern &pattern, const FreeDofs &free_dofs)
+  {
+    mass_values.assign(pattern.n_values(), 0.);
+    const dealii::SparseMatrix<double> &nodal = mass.nodal();
+    for (const unsigned int dof : free_dofs.list())
+      for (auto entry = nodal.begin(dof / 3); entry != nodal.end(dof / 3); ++entry)
+      {
+        const unsigned int other = 3 * entry->column() + dof % 3;
+        if (other >= dof && free_dofs.free_index(other) != FreeDofs::held)
+          mass_values[pattern.position(free_dofs.free_index(other), free_dofs.free_index(dof))]
+              = entry->value();
+      }
+  }
+
+  void
+  InertiaTerm::add_tangent(const Vector & /*positions*/, std::vector<double> &values) const
+  {
+    for (std::size_t i = 0; i < values.size(); ++i)
+      values[i] += integrator.mass_factor() * mass_values[i];
+  }
+
+  double
+  InertiaTerm::rounding_force() const
+  {
+    return in_step ? 4. * std::numeric_limits<double>::epsilon()
+                         * integrator.predicted_positions().linfty_norm() * mass.max_nodal_mass()
+                         * integrator.mass_factor()
+                   : 0.;
+  }
+
+  std::size_t
+  InertiaTerm::memory_consumption() const
+  {
+    return dealii::MemoryConsumption::memory_consumption(mass_values);
+  }
+} // namespace Exemplar

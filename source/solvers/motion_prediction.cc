@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/solvers/motion_prediction.h>
+
+namespace Exemplar
+{
+  MotionPrediction::MotionPrediction(const FreeDofs &free_dofs, const Handles *handles)
+      : free_dofs(free_dofs), handles(handles), velocities(free_dofs.exchange())
+  {
+  }
+
+  void
+  MotionPrediction::predict(const State &accepted, const double step_size, State &trial)
+  {
+    std::vector<double> velocity;
+    free_dofs.gather(accepted.velocities, velocity);
+    velocities.add(std::move(velocity));
+    free_dofs.add(step_size, velocities.next(), trial.positions);
+    if (handles != nullptr)
+      handles->move(trial.time, trial.positions);
+  }
+} // namespace Exemplar

@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
+#include <exemplar/solvers/newton.h>
+
+#include <boost/serialization/vector.hpp>
+#include <deal.II/base/memory_consumption.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Exemplar
+{
+  namespace
+  {
+    constexpr unsigned int max_halvings_of_increment = 6;
+    constexpr unsigned int max_halvings_of_step      = 30;
+    constexpr double       max_step_length           = 64.;
+  } // namespace
+
+  Newton::Newton(const SolverParameters &parameters,
+                 IncrementalPotential   &potential,
+                 StepSystem             &system,
+                 const Handles          *handles,
+                 StepClock              &clock)
+      : parameters(parameters), potential(potential), system(system), handles(handles), clock(clock)
+  {
+  }
+
+  SolveReport
+  Newton::solve(State &state, Evaluation &evaluation, const double time, const double step_size)
+  {
+    SolveReport report;
+    potential.begin_step(state, step_size);
+    Trial trial = { state, accepted };
+    if (advance(trial, evaluation, time, 0, report))
+    {
+      state    = std::move(trial.state);
+      accepted = std::move(trial.linearization);
+    }
+    return report;
+  }
+
+  void
+  Newton::take_over(State &state, Evaluation &evaluation, const double time, SolveReport &report)
+  {
+    may_be_interrupted = false; // the other method's memory would be that of half a step
+    Trial trial        = { state, {} };
+    if (advance(trial, evaluation, time, 0, report))
+      state = std::move(trial.state);
+  }
+
+  bool
+  Newton::advance(Trial             &start,
+                  Evaluation        &evaluation,
+                  const double       time,
+                  const unsigned int halvings,
+                  SolveReport       &report)
+  {
+    Trial trial   = start;
+    report.status = SolveStatus::initial;
+    try
+    {
+      predict(start, time, halvings == 0, trial, evaluation);
+      iterate(trial, evaluation, report);
+    }
+    catch (const SolverFailure &failure)
+    {
+      report.status  = SolveStatus::failed;
+      report.failure = failure.what();
+    }
+    if (report.status == SolveStatus::converged)
+    {
+      start = std::move(trial);
+      return true;
+    }
+    start.linearization = {}; // the factor is that of a failed trial
+    if (halvings == max_halvings_of_increment)
+      return false;
+    // from the same state again, with half the way of handles, loads and weights
+    const double middle = 0.5 * (start.state.time + time);
+    return advance(start, evaluation, middle, halvings + 1, report)
+           && advance(start, evaluation, time, halvings + 1, report);
+  }
+
+  void
+  Newton::predict(Trial       &start,
+                  const double time,
+                  const bool   is_whole_step,
+                  Trial       &trial,
+                  Evaluation  &evaluation)
+  {
+    StepClock::Scope scope(clock, Part::evaluate);
+    potential.set_time(time, trial.state);
+    const Vector *inertial = potential.inertial_positions();
+    if (inertial == nullptr || !is_whole_step)
+    {
+      predict_along_tangent(start, trial, evaluation);
+      return;
+    }
+    // inertia predicts better than any tangent: x + h v
+    for (const unsigned int dof : potential.get_free_dofs().list())
+      trial.state.positions[dof] = (*inertial)[dof];
+    if (handles != nullptr)
+      handles->move(time, trial.state.positions);
+  }
+
+  void
+  Newton::predict_along_tangent(Trial &start, Trial &trial, Evaluation &evaluation)
+  {
+    // so that free nodes move with the handles instead of being crushed by them
+    if (handles != nullptr)
+      handles->move(trial.state.time, trial.state.positions);
+    Vector displacement = trial.state.positions;
+    displacement -= start.state.positions;
+    if (!add_tangent_step(start, displacement, Tangent::exact, trial, evaluation))
+      add_tangent_step(start, displacement, Tangent::convex, trial, evaluation);
+    trial.linearization = start.linearization; // of which the factor may have been made anew
+  }
+
+  bool
+  Newton::add_tangent_step(Trial        &start,
+                           const Vector &displacement,
+                           const Tangent tangent,
+                           Trial        &trial,
+                           Evaluation   &evaluation)
+  {
+    State from   = start.state;
+    from.weights = trial.state.weights; // prescribed ones are those of the new time
+    try
+    {
+      const bool has_factor = tangent == Tangent::exact && find_factor(start.linearization);
+      potential.get_cells().update_rotations(from.positions);
+      potential.evaluate_cells(from, evaluation);
+      potential.add_response(tangent, displacement, from, evaluation);
+      potential.add_terms(from.positions, evaluation);
+      if (!has_factor)
+        system.factorize(from.positions, from.weights, tangent == Tangent::convex ? 1. : 0.);
+      system.add(system.solve(from, evaluation), trial.state);
+      return true;
+    }
+    catch (const SolverFailure &)
+    {
+      return false; // indefinite
+    }
+  }
+
+  bool
+  Newton::find_factor(Linearization &linearization)
+  {
+    if (linearization.positions.size() == 0)
+      return false;
+    if (linearization.factor != system.n_factorizations())
+    {
+      // after a resume
+      potential.get_cells().update_rotations(linearization.positions);
+      system.factorize(linearization.positions, linearization.weights, 0.);
+      system.prepare();
+      linearization.factor = system.n_factorizations();
+    }
+    return true;
+  }
+
+  void
+  Newton::evaluate(State &state, Evaluation &evaluation)
+  {
+    StepClock::Scope scope(clock, Part::evaluate);
+    potential.minimize_over_weights(state, Rotations::update, evaluation);
+  }
+
+  bool
+  Newton::has_converged(const State &state, const Evaluation &evaluation) const
+  {
+    const Residual residual = potential.residual(state, evaluation);
+    return std::max(residual.positions, residual.weights) <= parameters.tolerance;
+  }
+
+  void
+  Newton::iterate(Trial &trial, Evaluation &evaluation, SolveReport &report)
+  {
+    evaluate(trial.state, evaluation);
+    for (unsigned int iteration = 0;; ++iteration)
+    {
+      const bool goes_on = report_iteration(potential, evaluation, trial.state, report);
+      if (has_met(parameters.tolerance, report))
+        report.status = SolveStatus::converged;
+      else if (!goes_on && may_be_interrupted)
+        throw Interrupted("Interrupted.");
+      else if (iteration == parameters.maximum_iterations)
+        report.status = SolveStatus::iteration_limit;
+      else
+        take_step(trial, evaluation, report);
+      if (report.status != SolveStatus::initial)
+        return;
+      ++report.iterations;
+    }
+  }
+
+  void
+  Newton::take_step(Trial &trial, Evaluation &evaluation, SolveReport &report)
+  {
+    Linearization  here = { trial.state.positions, trial.state.weights, Linearization::not_made };
+    BorderedVector step;
+    if (!find_step(trial.state, evaluation, step, report)
+        || !search_along(step, trial.state, evaluation, report))
+      return;
+    if (!has_converged(trial.state, evaluation))
+      correct_with_same_factor(trial.state, evaluation);
+    here.factor = system.n_factorizations();
+    // statics predict with the factor, if it is that of the exact tangent
+    const bool is_used_again = potential.inertial_positions() == nullptr && report.convexity == 0.;
+    trial.linearization      = is_used_again ? std::move(here) : Linearization();
+  }
+
+  bool
+  Newton::find_step(const State      &state,
+                    const Evaluation &evaluation,
+                    BorderedVector   &step,
+                    SolveReport      &report)
+  {
+    // the least part of the convex tangent that makes the mixture definite
+    for (const double convexity : { 0., 0.125, 0.5, 1. })
+    {
+      report.convexity = convexity;
+      try
+      {
+        system.factorize(state.positions, state.weights, convexity);
+        step = system.solve(state, evaluation);
+      }
+      catch (const SolverFailure &failure)
+      {
+        report.failure = failure.what();
+        continue; // indefinite
+      }
+      report.failure.clear();
+      if (system.slope(evaluation, step) < 0.)
+        return true;
+    }
+    report.status = report.failure.empty() ? SolveStatus::stalled : SolveStatus::indefinite;
+    return false;
+  }
+
+  bool
+  Newton::search_along(const BorderedVector &step,
+                       State                &state,
+                       Evaluation           &evaluation,
+                       SolveReport          &report)
+  {
+    const State  start        = state;
+    const Vector displacement = system.displacement(state, step);
+    const double slope        = system.slope(evaluation, step);
+    const Merit  before(potential, evaluation);
+    double      &length     = report.step_length;
+    const auto   try_length = [&](const double new_length)
+    {
+      length = new_length;
+      state  = start;
+      state.positions.add(length, displacement);
+      evaluate(state, evaluation);
+    };
+    for (unsigned int halving = 0; halving < max_halvings_of_step; ++halving)
+    {
+      try_length(std::pow(0.5, halving));
+      if (!is_better({ potential, evaluation }, before, length * slope))
+        continue;
+      // the convex tangent is too stiff near a saddle: go on as long as it goes down
+      double reached = evaluation.potential;
+      while (report.convexity > 0. && length >= 1. && length < max_step_length)
+      {
+        try_length(2. * length);
+        if (!(evaluation.potential < reached))
+        {
+          try_length(0.5 * length);
+          break;
+        }
+        reached = evaluation.potential;
+      }
+      return true;
+    }
+    state = start;
+    evaluate(state, evaluation);
+    report.status = SolveStatus::stalled;
+    return false;
+  }
+
+  void
+  Newton::correct_with_same_factor(State &state, Evaluation &evaluation)
+  {
+    const State    start = state;
+    const Merit    before(potential, evaluation);
+    BorderedVector step;
+    try
+    {
+      step = system.solve(state, evaluation);
+    }
+    catch (const SolverFailure &)
+    {
+      return; // for other active weights the Schur complement may be indefinite
+    }
+    const double slope = system.slope(evaluation, step);
+    state.positions += system.displacement(state, step);
+    evaluate(state, evaluation);
+    const Merit now(potential, evaluation);
+    if (slope < 0. && now.max_free_gradient < 0.5 * before.max_free_gradient
+        && is_better(now, before, slope))
+      return;
+    state = start;
+    evaluate(state, evaluation);
+  }
+
+  void
+  Newton::save(boost::archive::binary_oarchive &archive) const
+  {
+    archive &accepted.positions &accepted.weights;
+  }
+
+  void
+  Newton::load(boost::archive::binary_iarchive &archive)
+  {
+    accepted = {};
+    archive &accepted.positions &accepted.weights;
+  }
+
+  std::size_t
+  Newton::memory_consumption() const
+  {
+    using dealii::MemoryConsumption::memory_consumption;
+    return accepted.positions.memory_consumption() + memory_consumption(accepted.weights);
+  }
+} // namespace Exemplar

@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/long_vectors.h>
+#include <exemplar/base/errors.h>
+#include <exemplar/solvers/quasi_newton.h>
+
+#include <boost/serialization/deque.hpp>
+#include <boost/serialization/vector.hpp>
+#include <deal.II/base/memory_consumption.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Exemplar
+{
+  namespace
+  {
+    constexpr unsigned int max_iterations        = 7; ///< with one metric in a step
+    constexpr unsigned int max_metrics           = 2; ///< that a step may ask for
+    constexpr unsigned int max_halvings          = 5;
+    constexpr double       max_contraction       = 0.9;
+    constexpr double       min_error_over_length = 1.2;
+
+    double
+    max_displacement(const Exchange &exchange, const State &from, const State &to)
+    {
+      double greatest = 0.;
+      for (unsigned int dof = 0; dof < from.positions.size(); ++dof)
+        greatest = std::max(greatest, std::abs(to.positions[dof] - from.positions[dof]));
+      return exchange.max(greatest);
+    }
+  } // namespace
+
+  QuasiNewton::QuasiNewton(const SolverParameters &parameters,
+                           IncrementalPotential   &potential,
+                           StepSystem             &system,
+                           const Handles          *handles,
+                           StepClock              &clock)
+      : parameters(parameters), potential(potential), system(system), clock(clock),
+        newton(parameters, potential, system, handles, clock),
+        prediction(potential.get_free_dofs(), handles), metric(potential.get_free_dofs()),
+        lbfgs(potential.get_free_dofs().exchange())
+  {
+  }
+
+  SolveReport
+  QuasiNewton::solve(State       &state,
+                     Evaluation  &evaluation,
+                     const double time,
+                     const double step_size)
+  {
+    SolveReport report;
+    potential.begin_step(state, step_size);
+    State trial = state;
+    trial.time  = time;
+    try
+    {
+      predict(state, step_size, trial, evaluation);
+      // within a step its memory is that of half a step, so nobody may stop it here
+      report_iteration(potential, evaluation, trial, report);
+      find_metric(trial);
+      iterate(state, trial, evaluation, report);
+    }
+    catch (const SolverFailure &failure)
+    {
+      report.failure = failure.what();
+    }
+    ++history.steps;
+    history.iterations += report.iterations;
+    history.last_iterations = report.iterations;
+    if (report.status == SolveStatus::converged)
+    {
+      std::swap(state, trial);
+      return report;
+    }
+    history.positions.reinit(0);
+    metric.clear();
+    newton.observe = observe;
+    newton.take_over(state, evaluation, time, report);
+    return report;
+  }
+
+  void
+  QuasiNewton::predict(const State &accepted,
+                       const double step_size,
+                       State       &trial,
+                       Evaluation  &evaluation)
+  {
+    StepClock::Scope scope(clock, Part::evaluate);
+    potential.set_time(trial.time, trial);
+    prediction.predict(accepted, step_size, trial);
+    rebuild_metric(trial);
+    potential.minimize_over_weights(trial, Rotations::update, evaluation);
+  }
+
+  void
+  QuasiNewton::make_metric(const Vector &positions, const std::vector<double> &weights)
+  {
+    system.factorize(positions, weights, 1.);
+    StepClock::Scope scope(clock, Part::factorize);
+    potential.get_cells().node_rotations(node_rotations);
+    metric.reinit(system.bordered(), node_rotations);
+    metric.rotate(node_rotations);
+  }
+
+  void
+  QuasiNewton::renew_metric(const State &trial)
+  {
+    make_metric(trial.positions, trial.weights);
+    history = { trial.positions, potential.mass_factor(), 0, 0, 0 };
+    lbfgs.clear();
+  }
+
+  void
+  QuasiNewton::find_metric(const State &trial)
+  {
+    const bool is_slow
+        = history.steps > 0
+          && history.last_iterations
+                 > (metric.cost_in_iterations() + history.iterations) / history.steps;
+    if (history.positions.size() == 0 || history.mass_factor != potential.mass_factor() || is_slow)
+      renew_metric(trial);
+    else
+    {
+      StepClock::Scope scope(clock, Part::solve);
+      potential.get_cells().node_rotations(node_rotations);
+      metric.rotate(node_rotations);
+    }
+  }
+
+  void
+  QuasiNewton::rebuild_metric(const State &trial)
+  {
+    if (history.positions.size() == 0 || !metric.empty()
+        || history.mass_factor != potential.mass_factor())
+      return;
+    potential.get_cells().update_rotations(history.positions);
+    make_metric(history.positions, trial.weights); // R K R^T and its columns know no weights
+  }
+
+  double
+  QuasiNewton::find_step(const State &trial, const Evaluation &evaluation, Iteration &iteration)
+  {
+    StepClock::Scope     scope(clock, Part::solve);
+    std::vector<double> &step = iteration.rotated;
+    step                      = iteration.gradient;
+    for (double &entry : step)
+      entry = -entry;
+    metric.rotate_back(step);
+    if (const ExampleWeights *weights = potential.unknown_weights())
+      metric.add_example_forces(metric.find_weight_changes(step, evaluation.elastic.weight_gradient,
+                                                           weights->lower_changes(trial.weights)),
+                                step);
+    lbfgs.before(step);
+    metric.apply(step);
+    lbfgs.after(step);
+    iteration.direct = step;
+    metric.rotate_forth(iteration.direct);
+    return potential.get_free_dofs().exchange().sum(dot(iteration.direct, iteration.gradient));
+  }
+
+  bool
+  QuasiNewton::take_step(const Iteration &iteration,
+                         const double     slope,
+                         State           &trial,
+                         Evaluation      &evaluation,
+                         SolveReport     &report)
+  {
+    const FreeDofs &free_dofs = potential.get_free_dofs();
+    const Merit     before(potential, evaluation);
+    double         &length = report.step_length;
+    length                 = 1.;
+    free_dofs.add(1., iteration.direct, trial.positions);
+    for (unsigned int halving = 0;; ++halving)
+    {
+      {
+        StepClock::Scope scope(clock, Part::evaluate);
+        potential.minimize_over_weights(trial, Rotations::find_and_forget, evaluation);
+      }
+      if (is_better({ potential, evaluation }, before, length * slope))
+        return true;
+      if (halving == max_halvings)
+      {
+        free_dofs.add(-length, iteration.direct, trial.positions);
+        return false;
+      }
+      length *= 0.5;
+      free_dofs.add(-length, iteration.direct, trial.positions);
+    }
+  }
+
+  void
+  QuasiNewton::learn(const State               &trial,
+                     const std::vector<double> &old_weights,
+                     std::vector<double>       &change,
+                     const double               step_length,
+                     Iteration                 &iteration)
+  {
+    StepClock::Scope scope(clock, Part::solve);
+    for (std::size_t i = 0; i < change.size(); ++i)
+    {
+      change[i] = iteration.gradient[i] - change[i];
+      iteration.rotated[i] *= step_length;
+    }
+    metric.rotate_back(change);
+    if (potential.unknown_weights() != nullptr)
+    {
+      std::vector<double> weight_change(old_weights.size());
+      for (std::size_t i = 0; i < weight_change.size(); ++i)
+        weight_change[i] = trial.weights[i] - old_weights[i];
+      metric.add_example_forces(weight_change, change);
+    }
+    lbfgs.add_pair(iteration.rotated, change);
+  }
+
+  bool
+  QuasiNewton::has_arrived(const State       &accepted,
+                           const State       &trial,
+                           const SolveReport &report,
+                           const double       gradient_ratio,
+                           Iteration         &iteration) const
+  {
+    const Exchange &exchange = potential.get_free_dofs().exchange();
+    const double    length   = report.step_length * exchange.max(greatest_entry(iteration.direct));
+    const double    contraction = std::min(
+           std::max(gradient_ratio, iteration.last_length > 0. ? length / iteration.last_length : 0.),
+           max_contraction);
+    const double slower        = std::max(contraction, iteration.last_contraction); // one alone may
+    iteration.last_length      = length;                                            // be luck
+    iteration.last_contraction = contraction;
+    // the sum of the steps that would follow if they went on shrinking like this
+    const bool is_near = length * std::max(min_error_over_length, slower / (1. - slower))
+                         <= parameters.step_tolerance * max_displacement(exchange, accepted, trial);
+    // of a stiff body, or one that is carried far, small errors of positions are large ones of
+    // forces
+    return is_near && report.residual <= parameters.step_tolerance;
+  }
+
+  void
+  QuasiNewton::iterate(const State &accepted,
+                       State       &trial,
+                       Evaluation  &evaluation,
+                       SolveReport &report)
+  {
+    const FreeDofs     &free_dofs = potential.get_free_dofs();
+    std::vector<double> old_gradient, old_weights;
+    Iteration           iteration;
+    unsigned int        n_metrics = 0, n_with_metric = 0;
+    free_dofs.gather(evaluation.gradient, iteration.gradient);
+    while (!has_met(parameters.tolerance, report))
+    {
+      old_weights             = trial.weights;
+      const double slope      = find_step(trial, evaluation, iteration);
+      const bool   is_descent = n_with_metric < max_iterations && slope < 0.
+                              && take_step(iteration, slope, trial, evaluation, report);
+      if (!is_descent)
+      {
+        if (++n_metrics > max_metrics)
+          return;
+        if (n_with_metric < max_iterations) // the line search gave up, and went back
+        {
+          StepClock::Scope scope(clock, Part::evaluate);
+          potential.minimize_over_weights(trial, Rotations::update, evaluation);
+        }
+        free_dofs.gather(evaluation.gradient, iteration.gradient);
+        renew_metric(trial);
+        n_with_metric = 0;
+        continue;
+      }
+      ++report.iterations;
+      ++n_with_metric;
+      old_gradient.swap(iteration.gradient);
+      free_dofs.gather(evaluation.gradient, iteration.gradient);
+      const auto norm    = [&](const std::vector<double> &vector)
+      { return std::sqrt(free_dofs.exchange().sum(dot(vector, vector))); };
+      const double old_norm = norm(old_gradient);
+      const double ratio    = norm(iteration.gradient) / old_norm;
+      learn(trial, old_weights, old_gradient, report.step_length, iteration);
+      report_iteration(potential, evaluation, trial, report);
+      if (has_arrived(accepted, trial, report, ratio, iteration))
+        break;
+    }
+    report.status = SolveStatus::converged;
+  }
+
+  void
+  QuasiNewton::forget()
+  {
+    newton.forget();
+    prediction.forget();
+    lbfgs.clear();
+    metric.clear();
+    history = {};
+  }
+
+  void
+  QuasiNewton::save(boost::archive::binary_oarchive &archive) const
+  {
+    archive &history &lbfgs &prediction;
+  }
+
+  void
+  QuasiNewton::load(boost::archive::binary_iarchive &archive)
+  {
+    archive &history &lbfgs &prediction;
+    metric.clear();
+  }
+
+  std::size_t
+  QuasiNewton::memory_consumption() const
+  {
+    if (metric.empty())
+      return 0;
+    return metric.memory_consumption() + history.positions.memory_consumption()
+           + lbfgs.memory_consumption() + prediction.memory_consumption()
+           + dealii::MemoryConsumption::memory_consumption(node_rotations);
+  }
+} // namespace Exemplar

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/body/supports.h>
+#include <exemplar/solvers/step_system.h>
+
+#include <deal.II/base/memory_consumption.h>
+
+namespace Exemplar
+{
+  StepSystem::StepSystem(IncrementalPotential           &potential,
+                         std::unique_ptr<BorderedSystem> system,
+                         StepClock                      &clock,
+                         const bool                      turns_freely)
+      : potential(potential), system(std::move(system)), clock(clock), turns_freely(turns_freely)
+  {
+  }
+
+  void
+  StepSystem::factorize(const Vector              &positions,
+                        const std::vector<double> &weights,
+                        const double               convexity)
+  {
+    {
+      StepClock::Scope scope(clock, Part::assemble);
+      potential.assemble(positions, weights, convexity, system->matrix_values(), system->columns());
+    }
+    StepClock::Scope scope(clock, Part::factorize);
+    ++factorizations;
+    system->factorize(positions);
+  }
+
+  BorderedVector
+  StepSystem::solve(const State &at, const Evaluation &evaluation)
+  {
+    StepClock::Scope scope(clock, Part::solve);
+    const auto      &free = potential.get_free_dofs().list();
+    BorderedVector   unknowns;
+    unknowns.positions.reserve(free.size());
+    for (const unsigned int dof : free)
+      unknowns.positions.push_back(-evaluation.gradient[dof]);
+    std::vector<double> lower;
+    if (const ExampleWeights *weights = potential.unknown_weights())
+    {
+      for (const double derivative : evaluation.elastic.weight_gradient)
+        unknowns.weights.push_back(-derivative);
+      unknowns.multipliers = weights->missing_sums(at.weights);
+      lower                = weights->lower_changes(at.weights);
+    }
+    system->solve(unknowns, lower);
+    return unknowns;
+  }
+
+  void
+  StepSystem::prepare()
+  {
+    StepClock::Scope scope(clock, Part::solve);
+    system->prepare();
+  }
+
+  Vector
+  StepSystem::displacement(const State &at, const BorderedVector &step) const
+  {
+    const auto &free = potential.get_free_dofs().list();
+    Vector      displacement(at.positions.size());
+    for (unsigned int i = 0; i < free.size(); ++i)
+      displacement[free[i]] = step.positions[i];
+    // the far ends of a body held at one cell would turn about it, along straight lines
+    if (turns_freely)
+      remove_rigid_motion(at.positions, displacement);
+    return displacement;
+  }
+
+  void
+  StepSystem::add(const BorderedVector &step, State &state) const
+  {
+    state.positions += displacement(state, step);
+    if (const ExampleWeights *weights = potential.unknown_weights())
+      weights->add(step.weights, state.weights);
+  }
+
+  double
+  StepSystem::slope(const Evaluation &evaluation, const BorderedVector &step) const
+  {
+    const auto &free  = potential.get_free_dofs().list();
+    double      slope = 0.;
+    for (unsigned int i = 0; i < free.size(); ++i)
+      slope += evaluation.gradient[free[i]] * step.positions[i];
+    return potential.get_free_dofs().exchange().sum(slope);
+  }
+
+  std::size_t
+  StepSystem::memory_of_weights() const
+  {
+    const WeightForm *form = system->weight_form();
+    if (form == nullptr)
+      return 0;
+    return dealii::MemoryConsumption::memory_consumption(system->columns())
+           + form->H.memory_consumption() + form->N.memory_consumption();
+  }
+} // namespace Exemplar

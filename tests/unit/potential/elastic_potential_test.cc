@@ -1,0 +1,415 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/bordered_system.h>
+#include <exemplar/potential/elastic_potential.h>
+#include <exemplar/potential/inertia_term.h>
+
+#include "body.h"
+#include "matrices.h"
+
+#include <gtest/gtest.h>
+
+namespace Exemplar::Testing
+{
+  namespace
+  {
+    ExampleParameters
+    two_examples()
+    {
+      ExampleParameters parameters;
+      parameters.pose_functions = twist(60.) + " | 1.1*x; 0.9*y; z";
+      parameters.importance     = 0.7;
+      return parameters;
+    }
+
+    ModelParameters
+    frozen_model()
+    {
+      ModelParameters model;
+      model.gradient = GradientKind::frozen;
+      return model;
+    }
+
+    double
+    entry(const SymmetricPattern &pattern, const std::vector<double> &values, int i, int j)
+    {
+      if (i < j)
+        std::swap(i, j);
+      const int position = pattern.position(i, j);
+      return position < pattern.column_start[j + 1] && pattern.row[position] == i ? values[position]
+                                                                                  : 0.;
+    }
+
+    /// Entry of the coupling G on a free degree of freedom.
+    double
+    coupling(const ExamplePoses        &examples,
+             const std::vector<double> &columns,
+             const unsigned int         weight,
+             const unsigned int         i)
+    {
+      const std::size_t n = columns.size() / examples.n_strained_weights();
+      return examples.is_strained(weight) ? columns[examples.strained_index(weight) * n + i] : 0.;
+    }
+
+    TEST(FESpace, TakesTheMeshAsItIs)
+    {
+      const Body body;
+      EXPECT_NEAR(body.fe_space.total_volume(), 4., 1e-13);
+      for (unsigned int cell = 0; cell < body.fe_space.n_cells(); ++cell)
+      {
+        const Matrix3<double> F
+            = body.fe_space.deformation_gradient(cell, body.fe_space.rest_positions());
+        EXPECT_LT(max_difference(F, identity_matrix<double>()), 1e-13);
+      }
+    }
+
+    TEST(FESpace, MassMatrixIsExact)
+    {
+      // rho V / 20 (1 + delta_ab) in each tetrahedron
+      const Body                 body;
+      const Mass                 mass(body.fe_space, body.material, MassMatrix::consistent);
+      dealii::FullMatrix<double> expected(body.fe_space.n_nodes(), body.fe_space.n_nodes());
+      for (unsigned int cell = 0; cell < body.fe_space.n_cells(); ++cell)
+        for (const unsigned int a : body.fe_space.nodes(cell))
+          for (const unsigned int b : body.fe_space.nodes(cell))
+            expected(a, b)
+                += 1000. * body.fe_space.tetrahedron(cell).volume / 20. * (a == b ? 2. : 1.);
+      for (unsigned int a = 0; a < expected.m(); ++a)
+        for (unsigned int b = 0; b < expected.m(); ++b)
+          EXPECT_NEAR(mass.nodal().el(a, b), expected(a, b), 1e-12);
+    }
+
+    TEST(FESpace, LumpedMassIsTheRowSum)
+    {
+      const Body body;
+      const Mass mass(body.fe_space, body.material, MassMatrix::lumped);
+      double     total = 0.;
+      for (unsigned int a = 0; a < body.fe_space.n_nodes(); ++a)
+        for (unsigned int b = 0; b < body.fe_space.n_nodes(); ++b)
+        {
+          total += mass.nodal().el(a, b);
+          EXPECT_TRUE(a == b || mass.nodal().el(a, b) == 0.);
+        }
+      EXPECT_NEAR(total, 4000., 1e-9);
+    }
+
+    // The frozen energy is quadratic in (x, w), so central differences are exact.
+    TEST(ElasticPotential, GradientsAreThoseOfTheFrozenEnergy)
+    {
+      const Body     body;
+      const auto     examples = body.examples(two_examples());
+      const FreeDofs free_dofs(body.fe_space.n_dofs(), {});
+      BodyPotential  elastic(body, frozen_model(), examples, free_dofs);
+      std::mt19937   generator(1);
+      auto           positions = body.random_positions(generator, 0.1);
+      elastic.update_rotations(body.random_positions(generator, 0.3));
+      std::vector<double> weights = { 0.2, 0.5, 0.3 };
+
+      ElasticEvaluation at, above, below;
+      elastic.evaluate(positions, weights, at);
+      const auto energy     = [](const ElasticEvaluation &e) { return e.energy; };
+      const auto difference = [&](double &variable)
+      {
+        const double h = 1e-3, value = variable;
+        variable = value + h;
+        elastic.evaluate(positions, weights, above);
+        variable = value - h;
+        elastic.evaluate(positions, weights, below);
+        variable = value;
+        return (energy(above) - energy(below)) / (2. * h);
+      };
+      const double scale = at.gradient.linfty_norm();
+      for (unsigned int dof = 0; dof < positions.size(); ++dof)
+        EXPECT_NEAR(at.gradient[dof], difference(positions[dof]), 1e-8 * scale);
+      for (unsigned int i = 0; i < weights.size(); ++i)
+        EXPECT_NEAR(at.weight_gradient[i], difference(weights[i]), 1e-8 * at.weight_scale);
+    }
+
+    TEST(ElasticPotential, MatrixAndColumnsAreTheDerivativesOfTheGradient)
+    {
+      const Body     body;
+      const auto     examples = body.examples(two_examples());
+      const FreeDofs free_dofs(body.fe_space.n_dofs(), { 0, 4, 8, 30 });
+      const Mass     mass(body.fe_space, body.material, MassMatrix::consistent);
+      TimeIntegrator integrator{ TimeParameters() };
+      InertiaTerm    inertia(mass, integrator);
+      BodyPotential  elastic(body, frozen_model(), examples, free_dofs);
+      std::mt19937   generator(2);
+      auto           positions = body.random_positions(generator, 0.1);
+      elastic.update_rotations(positions);
+      std::vector<double> weights = { 0.2, 0.5, 0.3 };
+
+      State state;
+      state.positions  = positions;
+      state.velocities = positions;
+      integrator.begin_step(state, 0.1);
+      inertia.begin_step(state);
+      inertia.attach(elastic.matrix_pattern, free_dofs);
+      std::vector<double> matrix(elastic.matrix_pattern.n_values()), columns;
+      inertia.add_tangent(positions, matrix);
+      elastic.assemble_tangent(Tangent::convex, positions, weights, matrix, columns);
+
+      const auto gradient = [&]
+      {
+        ElasticEvaluation evaluation;
+        elastic.evaluate(positions, weights, evaluation);
+        inertia.add(positions, evaluation.gradient, evaluation.force_scale);
+        return evaluation.gradient;
+      };
+      const auto without = gradient();
+      for (unsigned int j = 0; j < free_dofs.size(); ++j)
+      {
+        double      &variable = positions[free_dofs.list()[j]];
+        const double value    = variable;
+        variable += 1.;
+        const auto with = gradient();
+        variable        = value;
+        for (unsigned int i = 0; i < free_dofs.size(); ++i)
+          EXPECT_NEAR(entry(elastic.matrix_pattern, matrix, i, j),
+                      with[free_dofs.list()[i]] - without[free_dofs.list()[i]], 1e-5);
+      }
+      for (unsigned int k = 0; k < weights.size(); ++k)
+      {
+        weights[k] += 1.;
+        const auto with = gradient();
+        weights[k] -= 1.;
+        for (unsigned int i = 0; i < free_dofs.size(); ++i)
+          EXPECT_NEAR(-coupling(*examples.poses, columns, k, i),
+                      with[free_dofs.list()[i]] - without[free_dofs.list()[i]], 1e-6);
+      }
+    }
+
+    struct TangentCase
+    {
+      StrainMeasure strain;
+      bool          per_region;
+      double        damping;
+    };
+
+    /// Gradient, exact tangent and columns by central differences of energy and gradient.
+    void
+    expect_derivatives(const TangentCase &test_case)
+    {
+      const Body        body(bar_of_two_regions(2., box_mesh(4., 4, 1)));
+      ExampleParameters parameters   = two_examples();
+      parameters.weights_per_region  = test_case.per_region;
+      parameters.region_blend_length = 2.;
+      const auto      examples       = body.examples(parameters, test_case.strain);
+      const FreeDofs  free_dofs(body.fe_space.n_dofs(), { 0, 4, 8, 30 });
+      ModelParameters model;
+      model.strain = test_case.strain;
+      BodyPotential elastic(body, model, examples, free_dofs);
+      std::mt19937  generator(4);
+      auto          positions = body.random_positions(generator, 0.05);
+      const auto    past = body.random_positions(generator, 0.05), before = past;
+      elastic.set_damping(test_case.damping, { { 1.5, &past }, { -0.5, &before } });
+      std::vector<double> weights  = test_case.per_region
+                                         ? std::vector<double>{ 0.2, 0.5, 0.3, 0.6, 0.1, 0.3 }
+                                         : std::vector<double>{ 0.2, 0.5, 0.3 };
+      const auto          evaluate = [&]
+      {
+        ElasticEvaluation evaluation;
+        elastic.update_rotations(positions);
+        elastic.evaluate(positions, weights, evaluation);
+        return evaluation;
+      };
+      const auto energy = [](const ElasticEvaluation &e) { return e.energy + e.energy_damping; };
+      const ElasticEvaluation at = evaluate();
+      std::vector<double>     matrix(elastic.matrix_pattern.n_values()), columns;
+      elastic.assemble_tangent(Tangent::exact, positions, weights, matrix, columns);
+      const double h = 1e-6, scale = at.gradient.linfty_norm();
+      for (unsigned int j = 0; j < free_dofs.size(); ++j)
+      {
+        const unsigned int dof        = free_dofs.list()[j];
+        const double       value      = positions[dof];
+        positions[dof]                = value + h;
+        const ElasticEvaluation above = evaluate();
+        positions[dof]                = value - h;
+        const ElasticEvaluation below = evaluate();
+        positions[dof]                = value;
+        EXPECT_NEAR(at.gradient[dof], (energy(above) - energy(below)) / (2. * h), 1e-5 * scale);
+        for (unsigned int i = 0; i < free_dofs.size(); ++i)
+        {
+          const unsigned int other = free_dofs.list()[i];
+          EXPECT_NEAR(entry(elastic.matrix_pattern, matrix, i, j),
+                      (above.gradient[other] - below.gradient[other]) / (2. * h), 1e-7 * 1e7);
+        }
+        for (unsigned int k = 0; k < weights.size(); ++k)
+          EXPECT_NEAR(-coupling(*examples.poses, columns, k, j),
+                      (above.weight_gradient[k] - below.weight_gradient[k]) / (2. * h), 1e-7 * 1e7);
+      }
+      // the weights' gradient by its linear form and by differences
+      elastic.update_rotations(positions);
+      const auto c = elastic.weight_linear_term(positions);
+      for (unsigned int k = 0; k < weights.size(); ++k)
+      {
+        double expected = -c[k];
+        for (unsigned int m = 0; m < weights.size(); ++m)
+          expected += examples.weights->weight_form().H(k, m) * weights[m];
+        EXPECT_NEAR(at.weight_gradient[k], expected, 1e-10 * at.weight_scale);
+        const double value = weights[k];
+        weights[k]         = value + 1e-3;
+        const double above = energy(evaluate());
+        weights[k]         = value - 1e-3;
+        const double below = energy(evaluate());
+        weights[k]         = value;
+        EXPECT_NEAR(at.weight_gradient[k], (above - below) / 2e-3, 1e-8 * at.weight_scale);
+      }
+    }
+
+    TEST(ElasticPotential, TangentsAreDerivativesInEveryModel)
+    {
+      for (const StrainMeasure strain :
+           { StrainMeasure::corotational, StrainMeasure::linear, StrainMeasure::green })
+        expect_derivatives({ strain, false, 0. });
+    }
+
+    TEST(ElasticPotential, TangentsAreDerivativesWithDamping)
+    {
+      for (const StrainMeasure strain :
+           { StrainMeasure::corotational, StrainMeasure::linear, StrainMeasure::green })
+        expect_derivatives({ strain, false, 0.7 });
+    }
+
+    TEST(ElasticPotential, TangentsAreDerivativesWithWeightsPerRegion)
+    {
+      expect_derivatives({ StrainMeasure::corotational, true, 0. });
+      expect_derivatives({ StrainMeasure::green, true, 0.7 });
+    }
+
+    TEST(ElasticPotential, ResponseBesideHeldNodesIsTheDerivativeByThem)
+    {
+      for (const StrainMeasure strain :
+           { StrainMeasure::corotational, StrainMeasure::linear, StrainMeasure::green })
+      {
+        const Body      body;
+        const auto      examples = body.examples(two_examples(), strain);
+        const FreeDofs  free_dofs(body.fe_space.n_dofs(), { 0, 4, 8, 30 });
+        ModelParameters model;
+        model.strain = strain;
+        BodyPotential             elastic(body, model, examples, free_dofs);
+        std::mt19937              generator(5);
+        auto                      positions = body.random_positions(generator, 0.05);
+        const std::vector<double> weights   = { 0.2, 0.5, 0.3 };
+        dealii::Vector<double>    displacement(positions.size());
+        for (const unsigned int dof : { 0, 4, 8, 30 })
+          displacement[dof] = 0.1 + 0.01 * dof;
+        const auto evaluate_at = [&](const double h)
+        {
+          ElasticEvaluation      evaluation;
+          dealii::Vector<double> moved = positions;
+          moved.add(h, displacement);
+          elastic.update_rotations(moved);
+          elastic.evaluate(moved, weights, evaluation);
+          return evaluation;
+        };
+        const ElasticEvaluation above = evaluate_at(1e-6), below = evaluate_at(-1e-6);
+        const ElasticEvaluation at     = evaluate_at(0.);
+        ElasticEvaluation       change = at;
+        elastic.add_response(Tangent::exact, displacement, positions, weights, change);
+        for (unsigned int dof = 0; dof < positions.size(); ++dof)
+          EXPECT_NEAR(change.gradient[dof] - at.gradient[dof],
+                      (above.gradient[dof] - below.gradient[dof]) / 2e-6, 1.);
+        for (unsigned int k = 0; k < weights.size(); ++k)
+          EXPECT_NEAR(change.weight_gradient[k] - at.weight_gradient[k],
+                      (above.weight_gradient[k] - below.weight_gradient[k]) / 2e-6, 1.);
+      }
+    }
+
+    TEST(ElasticPotential, ForcesOfABodySumToZero)
+    {
+      const Body     body;
+      const auto     examples = body.examples(two_examples());
+      const FreeDofs free_dofs(body.fe_space.n_dofs(), {});
+      BodyPotential  elastic(body, frozen_model(), examples, free_dofs);
+      std::mt19937   generator(3);
+      const auto     positions = body.random_positions(generator, 0.2);
+      elastic.update_rotations(positions);
+      ElasticEvaluation evaluation;
+      elastic.evaluate(positions, { 0.2, 0.5, 0.3 }, evaluation);
+      for (unsigned int c = 0; c < 3; ++c)
+      {
+        double sum = 0.;
+        for (unsigned int node = 0; node < body.fe_space.n_nodes(); ++node)
+          sum += evaluation.gradient[3 * node + c];
+        EXPECT_NEAR(sum, 0., 1e-12 * evaluation.force_scale.l1_norm());
+      }
+    }
+
+    TEST(ElasticPotential, ARigidMotionOfAnExampleIsFreeOfForceAtFullImportance)
+    {
+      const Body        body;
+      ExampleParameters parameters   = two_examples();
+      parameters.importance          = 1.;
+      parameters.weight_penalty      = "0";
+      const auto            examples = body.examples(parameters);
+      const FreeDofs        free_dofs(body.fe_space.n_dofs(), {});
+      BodyPotential         elastic(body, frozen_model(), examples, free_dofs);
+      const Matrix3<double> Q         = rotation_about({ { 1., 1., 0. } }, 2.);
+      auto                  positions = examples->pose(1);
+      for (unsigned int node = 0; node < body.fe_space.n_nodes(); ++node)
+      {
+        const Vector3<double> x
+            = { { positions[3 * node], positions[3 * node + 1], positions[3 * node + 2] } };
+        const Vector3<double> turned = Q * x;
+        for (int c = 0; c < 3; ++c)
+          positions[3 * node + c] = turned[c] + 5.;
+      }
+      elastic.update_rotations(positions);
+      ElasticEvaluation evaluation;
+      elastic.evaluate(positions, { 0., 1., 0. }, evaluation);
+      EXPECT_LT(evaluation.gradient.linfty_norm(), 1e-12 * evaluation.force_scale.linfty_norm());
+      for (const double derivative : evaluation.weight_gradient)
+        EXPECT_NEAR(derivative, 0., 1e-12 * evaluation.weight_scale);
+    }
+
+    // doc/method.md, "What is wrong in the print", 2: with q_i on the left and
+    // (1-eta) R K X on the right a body at rest shrinks to (1-eta) X. Our right side
+    // R K X leaves it where it is. Rollers on three faces through the origin hold it.
+    TEST(ElasticPotential, ThePapersLiteralRightSideShrinksABodyAtRest)
+    {
+      MeshParameters    mesh = box_mesh(2., 2, 2);
+      const Body        body(mesh);
+      ExampleParameters parameters; // only the rest pose: q_0 = 0
+      parameters.importance              = 0.5;
+      const auto                examples = body.examples(parameters);
+      std::vector<unsigned int> rollers;
+      for (unsigned int node = 0; node < body.mesh.n_nodes(); ++node)
+      {
+        if (std::abs(body.mesh.get_nodes()[node][0]) < 1e-12)
+          rollers.push_back(3 * node);
+        for (unsigned int c = 1; c < 3; ++c)
+          if (std::abs(body.mesh.get_nodes()[node][c]) < 1e-12)
+            rollers.push_back(3 * node + c);
+      }
+      const FreeDofs free_dofs(body.fe_space.n_dofs(), rollers);
+      BodyPotential  elastic(body, frozen_model(), examples, free_dofs);
+      const auto    &rest = body.fe_space.rest_positions();
+      elastic.update_rotations(rest); // R = I
+
+      // the internal forces at x = 0 are -R K X: strain -I
+      dealii::Vector<double> origin(rest.size());
+      ElasticEvaluation      evaluation;
+      elastic.evaluate(origin, { 1. }, evaluation);
+      auto matrix = make_cholmod_operator();
+      matrix->reinit(elastic.matrix_pattern);
+      const auto          solver = make_block_system(std::move(matrix), nullptr);
+      std::vector<double> columns;
+      elastic.assemble_tangent(Tangent::convex, origin, { 1. }, solver->matrix_values(), columns);
+      solver->factorize(origin);
+      const auto solve = [&](const double factor)
+      {
+        BorderedVector unknowns;
+        for (const unsigned int dof : free_dofs.list())
+          unknowns.positions.push_back(-factor * evaluation.gradient[dof]);
+        solver->solve(unknowns, {});
+        return unknowns.positions;
+      };
+      const auto ours = solve(1.), printed = solve(1. - parameters.importance);
+      for (unsigned int i = 0; i < free_dofs.size(); ++i)
+      {
+        EXPECT_NEAR(ours[i], rest[free_dofs.list()[i]], 1e-12);
+        EXPECT_NEAR(printed[i], 0.5 * rest[free_dofs.list()[i]], 1e-12);
+      }
+    }
+  } // namespace
+} // namespace Exemplar::Testing
