@@ -2,7 +2,7 @@
 #ifndef exemplar_material_h
 #define exemplar_material_h
 
-#include <exemplar/kernels/lame.h>
+#include <exemplar/kernels/elasticity.h>
 
 #include <deal.II/base/parameter_handler.h>
 

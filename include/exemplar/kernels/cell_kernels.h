@@ -3,7 +3,7 @@
 #define exemplar_cell_kernels_h
 
 #include <exemplar/kernels/cell_model.h>
-#include <exemplar/kernels/simd.h>
+#include <exemplar/kernels/lanes.h>
 
 #include <limits>
 #include <string>

@@ -2,9 +2,9 @@
 #ifndef exemplar_cell_model_h
 #define exemplar_cell_model_h
 
-#include <exemplar/kernels/corotational_consistent.h>
-#include <exemplar/kernels/green.h>
-#include <exemplar/kernels/linear.h>
+#include <exemplar/kernels/corotational_cell.h>
+#include <exemplar/kernels/green_cell.h>
+#include <exemplar/kernels/linear_cell.h>
 #include <exemplar/kernels/polar_decomposition.h>
 
 // The models of a cell: CorotationalCell, LinearCell and GreenCell have the same members.

@@ -2,7 +2,7 @@
 #ifndef exemplar_quadratic_cell_h
 #define exemplar_quadratic_cell_h
 
-#include <exemplar/kernels/corotational.h>
+#include <exemplar/kernels/tetrahedron.h>
 
 // What the models without rotations share. No deal.II header here: see matrix3.h.
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef exemplar_simd_h
-#define exemplar_simd_h
+#ifndef exemplar_lanes_h
+#define exemplar_lanes_h
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef exemplar_lame_h
-#define exemplar_lame_h
+#ifndef exemplar_elasticity_h
+#define exemplar_elasticity_h
 
 namespace Exemplar
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/kernels/corotational.h>
 #include <exemplar/kernels/polar_decomposition.h>
+#include <exemplar/kernels/tetrahedron.h>
 
 #include "matrices.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef exemplar_green_h
-#define exemplar_green_h
+#ifndef exemplar_green_cell_h
+#define exemplar_green_cell_h
 
 #include <exemplar/kernels/quadratic_cell.h>
 

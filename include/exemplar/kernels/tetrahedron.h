@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef exemplar_corotational_h
-#define exemplar_corotational_h
+#ifndef exemplar_tetrahedron_h
+#define exemplar_tetrahedron_h
 
-#include <exemplar/kernels/lame.h>
+#include <exemplar/kernels/elasticity.h>
 #include <exemplar/kernels/matrix3.h>
 
 // The corotational model of one linear tetrahedron, as pure functions. Equation

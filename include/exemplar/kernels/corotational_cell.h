@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef exemplar_corotational_consistent_h
-#define exemplar_corotational_consistent_h
+#ifndef exemplar_corotational_cell_h
+#define exemplar_corotational_cell_h
 
-#include <exemplar/kernels/corotational.h>
+#include <exemplar/kernels/tetrahedron.h>
 
 #include <limits>
 
