@@ -161,11 +161,11 @@ namespace Exemplar
   CellTask
   Assembler::task(const dealii::Vector<double> &positions,
                   const std::vector<double>    &weights,
-                  const Rotations               rotations)
+                  const RotationUse             rotations)
   {
-    if (rotations == Rotations::keep)
+    if (rotations == RotationUse::keep)
       refresh_rotations();
-    rotations_are_forgotten = rotations == Rotations::find_and_forget;
+    rotations_are_forgotten = rotations == RotationUse::find_and_forget;
     CellTask task;
     task.cells = batches.arrays(model.strain, guard_bound);
     if (examples != nullptr)
@@ -177,7 +177,7 @@ namespace Exemplar
         node_positions[4 * node + c] = positions[3 * node + c];
     task.positions        = node_positions.data();
     task.weights          = weights.data();
-    task.use_of_rotations = rotations;
+    task.rotation_use     = rotations;
     task.weights_are_free = has_weights();
     return task;
   }
@@ -187,7 +187,7 @@ namespace Exemplar
   {
     if (model.strain == StrainMeasure::corotational)
     {
-      const CellTask cells = task(positions, {}, Rotations::update);
+      const CellTask cells = task(positions, {}, RotationUse::update);
       kernels.update_rotations(cells, 0, cells.cells.n_batches());
     }
   }
@@ -307,11 +307,11 @@ namespace Exemplar
   Assembler::evaluate(const dealii::Vector<double> &positions,
                       const std::vector<double>    &weights,
                       Evaluation                   &result,
-                      const Rotations               rotations,
-                      const std::vector<double>    *weight_target)
+                      const RotationUse             rotations,
+                      const std::vector<double>    *weight_linear_term)
   {
     CellTask cells = task(positions, weights, rotations);
-    cells.weights_are_free &= weight_target == nullptr;
+    cells.weights_are_free &= weight_linear_term == nullptr;
     std::vector<StripeSums> stripes(n_stripes);
     nodal_sums.fill(0.);
     const ParallelRegion region;
@@ -346,21 +346,22 @@ namespace Exemplar
     if (!has_weights())
       return;
     add_penalty(weights, std::sqrt(sums.stress_square), result);
-    if (weight_target != nullptr)
+    if (weight_linear_term != nullptr)
       for (unsigned int v = 0; v < weights.size(); ++v)
       {
-        result.weight_gradient[v] = -(*weight_target)[v];
+        result.weight_gradient[v] = -(*weight_linear_term)[v];
         for (unsigned int w = 0; w < weights.size(); ++w)
           result.weight_gradient[v] += examples->weight_matrix()(v, w) * weights[w];
       }
   }
 
   std::vector<double>
-  Assembler::weight_target(const dealii::Vector<double> &positions, const Rotations rotations)
+  Assembler::weight_linear_term(const dealii::Vector<double> &positions,
+                                const RotationUse             rotations)
   {
     const CellTask                cells = task(positions, {}, rotations);
     dealii::AlignedVector<double> weight_sums(batch_size * examples->n_weights());
-    kernels.weight_target(cells, 0, cells.cells.n_batches(), weight_sums.data());
+    kernels.weight_linear_term(cells, 0, cells.cells.n_batches(), weight_sums.data());
     return sum_of_lanes(weight_sums);
   }
 

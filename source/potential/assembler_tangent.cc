@@ -128,7 +128,7 @@ namespace Exemplar
   {
     start_matrix(matrix_values);
     const bool rotated = is_rotated_stiffness(tangent);
-    CellTask   cells   = task(positions, weights, Rotations::keep);
+    CellTask   cells   = task(positions, weights, RotationUse::keep);
     // what is convex anyway need not know which cells the damping leaves out, and a resumed run
     // does not know which these were when the factor was made
     dealii::AlignedVector<double> whole_damping;

@@ -132,7 +132,7 @@ namespace Exemplar
     dynamic_terms = false;
     update_loads(state.time);
     parts.assembler.set_damping(0., {});
-    evaluate(state, Rotations::update);
+    evaluate(state, RotationUse::update);
   }
 
   void
@@ -165,11 +165,12 @@ namespace Exemplar
 
   void
   Equilibrium::evaluate(const State               &state,
-                        const Rotations            rotations,
-                        const std::vector<double> *weight_target)
+                        const RotationUse          rotations,
+                        const std::vector<double> *weight_linear_term)
   {
     StepClock::Scope scope(parts.clock, Part::evaluate);
-    parts.assembler.evaluate(state.positions, state.weights, current, rotations, weight_target);
+    parts.assembler.evaluate(state.positions, state.weights, current, rotations,
+                             weight_linear_term);
     add_inertia_and_loads(state);
   }
 

@@ -50,13 +50,13 @@ namespace Exemplar
   }
 
   void
-  Equilibrium::evaluate_with_best_weights(State &state, const Rotations rotations)
+  Equilibrium::evaluate_with_best_weights(State &state, const RotationUse rotations)
   {
     StepClock::Scope scope(parts.clock, Part::evaluate);
     if (block.H.m() > 0)
     {
       const std::vector<double> target
-          = parts.assembler.weight_target(state.positions, Rotations::update);
+          = parts.assembler.weight_linear_term(state.positions, RotationUse::update);
       const std::vector<double> lower(
           parts.examples->weights_are_bounded() ? state.weights.size() : 0, 0.);
       const std::vector<double> sums(parts.examples->n_regions(), 1.);
@@ -66,7 +66,7 @@ namespace Exemplar
         throw SolverFailure("The example weights are not determined. Set Examples/Weight penalty "
                             "to auto.");
       state.weights = best.weights;
-      evaluate(state, Rotations::keep, &target);
+      evaluate(state, RotationUse::keep, &target);
     }
     else
       evaluate(state, rotations);

@@ -52,7 +52,7 @@ namespace Exemplar
     if (parts.examples != nullptr && parts.examples->weights_are_prescribed())
       state.weights = parts.examples->prescribed_weights(time);
     predict_positions(accepted, step_size, state);
-    evaluate(state, Rotations::update);
+    evaluate(state, RotationUse::update);
   }
 
   SolveReport
@@ -82,7 +82,7 @@ namespace Exemplar
         add_step(state);
         linearized_at = state.positions;
         ++report.iterations;
-        evaluate(state, Rotations::update);
+        evaluate(state, RotationUse::update);
         measure_iteration(state, report);
         if (parameters.method == Method::one_pass)
           report.status = SolveStatus::one_pass;

@@ -144,7 +144,7 @@ namespace Exemplar
     add_to_free(1., step.direct, trial.positions);
     for (unsigned int halving = 0;; ++halving)
     {
-      evaluate_with_best_weights(trial, Rotations::find_and_forget);
+      evaluate_with_best_weights(trial, RotationUse::find_and_forget);
       if (is_better(current_objective, before, length * slope, greatest_free_gradient(),
                     gradient_norm))
         return true;

@@ -65,7 +65,7 @@ namespace Exemplar
 
   /// Whether a loop over the cells takes their rotations as they are, or finds those of the
   /// positions that it sees; to store them takes as much memory traffic as all the rest.
-  enum class Rotations
+  enum class RotationUse
   {
     keep,
     update,
@@ -80,7 +80,7 @@ namespace Exemplar
     DampingArrays damping;
     const double *positions        = nullptr; ///< four numbers a node, the fourth unused [m]
     const double *weights          = nullptr;
-    Rotations     use_of_rotations = Rotations::keep;
+    RotationUse   rotation_use     = RotationUse::keep;
     bool          weights_are_free = false; ///< whether derivatives by them are wanted
   };
 
@@ -145,10 +145,10 @@ namespace Exemplar
                      CellSums &);
 
     /// c_i with dPsi/dw = H w - c, into lanes as above.
-    void (*weight_target)(const CellTask &,
-                          std::size_t begin,
-                          std::size_t end,
-                          double     *weight_sums);
+    void (*weight_linear_term)(const CellTask &,
+                               std::size_t begin,
+                               std::size_t end,
+                               double     *weight_sums);
 
     /// Add R K R^T.
     void (*add_rotated_stiffness)(const CellTask &,

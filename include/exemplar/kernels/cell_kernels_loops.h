@@ -18,7 +18,7 @@ namespace Exemplar
     static constexpr std::size_t width = Lanes<Number>::n;
 
     /// Cells of a batch that are computed at once.
-    struct Place
+    struct LaneGroup
     {
       std::size_t batch;
       std::size_t lane; ///< the first
@@ -32,48 +32,51 @@ namespace Exemplar
     };
 
     static Number
-    load(const double *from, const Place &place, const std::size_t n, const std::size_t e)
+    load(const double *from, const LaneGroup &group, const std::size_t n, const std::size_t e)
     {
-      return Lanes<Number>::load(from + place.at(n, e));
+      return Lanes<Number>::load(from + group.at(n, e));
     }
 
     static Lame<Number>
-    load_lame(const CellArrays &cells, const Place &place)
+    load_lame(const CellArrays &cells, const LaneGroup &group)
     {
-      return { load(cells.lame, place, 2, 0), load(cells.lame, place, 2, 1) };
+      return { load(cells.lame, group, 2, 0), load(cells.lame, group, 2, 1) };
     }
 
     static Matrix3<Number>
-    load_rotation(const CellArrays &cells, const Place &place)
+    load_rotation(const CellArrays &cells, const LaneGroup &group)
     {
       Matrix3<Number> R;
       for (int k = 0; k < 9; ++k)
-        R[k / 3][k % 3] = load(cells.rotations, place, 9, k);
+        R[k / 3][k % 3] = load(cells.rotations, group, 9, k);
       return R;
     }
 
     /// A symmetric matrix that is entry `i` of n.
     static Matrix3<Number>
-    load_strain(const double *strains, const Place &place, const std::size_t n, const std::size_t i)
+    load_strain(const double     *strains,
+                const LaneGroup  &group,
+                const std::size_t n,
+                const std::size_t i)
     {
       Number E[6];
       for (int k = 0; k < 6; ++k)
-        E[k] = load(strains, place, 6 * n, 6 * i + k);
+        E[k] = load(strains, group, 6 * n, 6 * i + k);
       return { { { E[0], E[5], E[4] }, { E[5], E[1], E[3] }, { E[4], E[3], E[2] } } };
     }
 
     static Tetrahedron<Number>
-    load_tetrahedron(const CellArrays &cells, const Place &place)
+    load_tetrahedron(const CellArrays &cells, const LaneGroup &group)
     {
       Tetrahedron<Number> tet;
       for (int i = 0; i < 3; ++i)
       {
         for (int a = 1; a < 4; ++a)
-          tet.shape_gradient[a][i] = load(cells.gradients, place, 9, 3 * (a - 1) + i);
+          tet.shape_gradient[a][i] = load(cells.gradients, group, 9, 3 * (a - 1) + i);
         tet.shape_gradient[0][i] = -tet.shape_gradient[1][i] - tet.shape_gradient[2][i]
                                    - tet.shape_gradient[3][i]; // shape functions sum to one
       }
-      tet.volume = load(cells.volumes, place, 1, 0);
+      tet.volume = load(cells.volumes, group, 1, 0);
       return tet;
     }
 
@@ -151,11 +154,13 @@ namespace Exemplar
     }
 
     static Matrix3<Number>
-    deformation_gradient(const CellTask &task, const Place &place, const Tetrahedron<Number> &tet)
+    deformation_gradient(const CellTask            &task,
+                         const LaneGroup           &group,
+                         const Tetrahedron<Number> &tet)
     {
       Vector3<Number> x[4];
       for (int a = 0; a < 4; ++a)
-        load_nodes(task.positions, task.cells.nodes + place.at(4, a), x[a]);
+        load_nodes(task.positions, task.cells.nodes + group.at(4, a), x[a]);
       Vector3<Number> edge[4]; // from node 0
       for (int a = 1; a < 4; ++a)
         for (int i = 0; i < 3; ++i)
@@ -168,28 +173,28 @@ namespace Exemplar
       return F;
     }
 
-    /// R of a place, found or loaded as the task says.
+    /// R of a group, found or loaded as the task says.
     static Matrix3<Number>
-    rotation(const CellTask &task, const Place &place, const Matrix3<Number> &F)
+    rotation(const CellTask &task, const LaneGroup &group, const Matrix3<Number> &F)
     {
-      if (task.use_of_rotations == Rotations::keep
+      if (task.rotation_use == RotationUse::keep
           || task.cells.strain != StrainMeasure::corotational)
-        return load_rotation(task.cells, place);
+        return load_rotation(task.cells, group);
       const Matrix3<Number> R = closest_rotation(F);
-      if (task.use_of_rotations == Rotations::update)
+      if (task.rotation_use == RotationUse::update)
         for (int k = 0; k < 9; ++k)
-          Lanes<Number>::store(R[k / 3][k % 3], task.cells.rotations + place.at(9, k));
+          Lanes<Number>::store(R[k / 3][k % 3], task.cells.rotations + group.at(9, k));
       return R;
     }
 
-    /// Call function(place) for all places of the batches.
+    /// Call function(group) for all places of the batches.
     template <typename Function>
     static void
-    for_each_place(const std::size_t begin, const std::size_t end, const Function &function)
+    for_each_group(const std::size_t begin, const std::size_t end, const Function &function)
     {
       for (std::size_t batch = begin; batch < end; ++batch)
         for (std::size_t lane = 0; lane < batch_size; lane += width)
-          function(Place{ batch, lane });
+          function(LaneGroup{ batch, lane });
     }
 
     template <typename Function>
@@ -202,14 +207,14 @@ namespace Exemplar
     static void
     update_rotations(const CellTask &task, const std::size_t begin, const std::size_t end)
     {
-      CellTask updating         = task;
-      updating.use_of_rotations = Rotations::update;
-      for_each_place(begin, end,
-                     [&](const Place &place)
+      CellTask updating     = task;
+      updating.rotation_use = RotationUse::update;
+      for_each_group(begin, end,
+                     [&](const LaneGroup &group)
                      {
                        rotation(
-                           updating, place,
-                           deformation_gradient(task, place, load_tetrahedron(task.cells, place)));
+                           updating, group,
+                           deformation_gradient(task, group, load_tetrahedron(task.cells, group)));
                      });
     }
 
@@ -219,15 +224,15 @@ namespace Exemplar
                   const std::size_t end,
                   float            *nodal_sums)
     {
-      for_each_place(begin, end,
-                     [&](const Place &place)
+      for_each_group(begin, end,
+                     [&](const LaneGroup &group)
                      {
-                       const int *nodes = task.cells.nodes + place.at(4, 0);
+                       const int *nodes = task.cells.nodes + group.at(4, 0);
                        if constexpr (width >= 4)
                          for (std::size_t lane = 0; lane < width; lane += 4)
                          {
                            FourFloats R[4][3];
-                           load_rotations(task.cells, { place.batch, place.lane + lane }, R);
+                           load_rotations(task.cells, { group.batch, group.lane + lane }, R);
                            for (std::size_t l = 0; l < 4; ++l)
                              for (int a = 0; a < 4; ++a)
                                add_to(nodal_sums + 12 * nodes[a * batch_size + lane + l], R[l]);
@@ -238,7 +243,7 @@ namespace Exemplar
                              for (int k = 0; k < 9; ++k)
                                nodal_sums[12 * nodes[a * batch_size + lane] + k]
                                    += static_cast<float>(
-                                       task.cells.rotations[place.at(9, k) + lane]);
+                                       task.cells.rotations[group.at(9, k) + lane]);
                      });
     }
 
@@ -246,13 +251,13 @@ namespace Exemplar
 
     /// R of four cells, each in three vectors of which the last holds one number.
     static void
-    load_rotations(const CellArrays &cells, const Place &place, FourFloats (&R)[4][3])
+    load_rotations(const CellArrays &cells, const LaneGroup &group, FourFloats (&R)[4][3])
     {
       for (int part = 0; part < 3; ++part)
       {
         Four rows[4] = {};
         for (int k = 4 * part; k < std::min(9, 4 * part + 4); ++k)
-          rows[k % 4] = load_four(cells.rotations + place.at(9, k));
+          rows[k % 4] = load_four(cells.rotations + group.at(9, k));
         transpose(rows);
         for (int l = 0; l < 4; ++l)
           R[l][part] = __builtin_convertvector(rows[l], FourFloats);
@@ -292,16 +297,16 @@ namespace Exemplar
       }
     }
 
-    /// The weight of example i in the cells of a place.
+    /// The weight of example i in the cells of a group.
     static Number
-    weight(const CellTask &task, const Place &place, const unsigned int i)
+    weight(const CellTask &task, const LaneGroup &group, const unsigned int i)
     {
       const ExampleArrays &examples = task.examples;
       if (examples.share_start == nullptr)
         return Number(task.weights[examples.first + i]);
       alignas(64) double sum[width] = {};
       for (std::size_t lane = 0; lane < width; ++lane)
-        if (const std::size_t cell = place.batch * batch_size + place.lane + lane;
+        if (const std::size_t cell = group.batch * batch_size + group.lane + lane;
             cell < task.cells.n_cells)
           for (std::size_t s = examples.share_start[cell]; s < examples.share_start[cell + 1]; ++s)
             sum[lane]
@@ -310,9 +315,9 @@ namespace Exemplar
       return Lanes<Number>::load(sum);
     }
 
-    /// eta E(w), of the cells of a place.
+    /// eta E(w), of the cells of a group.
     static Matrix3<Number>
-    target(const CellTask &task, const Place &place)
+    target(const CellTask &task, const LaneGroup &group)
     {
       const ExampleArrays &examples = task.examples;
       Number               sum[6];
@@ -322,9 +327,9 @@ namespace Exemplar
       {
         if (examples.share_start == nullptr && task.weights[examples.first + i] == 0.)
           continue; // most are, of many examples on the simplex
-        const Number w = weight(task, place, i) * Number(examples.importance);
+        const Number w = weight(task, group, i) * Number(examples.importance);
         for (int k = 0; k < 6; ++k)
-          sum[k] += w * load(examples.strains, place, 6 * examples.n, 6 * i + k);
+          sum[k] += w * load(examples.strains, group, 6 * examples.n, 6 * i + k);
       }
       return {
         { { sum[0], sum[5], sum[4] }, { sum[5], sum[1], sum[3] }, { sum[4], sum[3], sum[2] } }
@@ -334,7 +339,7 @@ namespace Exemplar
     /// Add sign eta V T:E_i to the sums of the weights.
     static void
     add_weight_sums(const CellTask        &task,
-                    const Place           &place,
+                    const LaneGroup       &group,
                     const Number          &factor, ///< sign eta V
                     const Matrix3<Number> &T,
                     double                *weight_sums)
@@ -350,20 +355,20 @@ namespace Exemplar
       {
         Number sum = Number(0.);
         for (int k = 0; k < 6; ++k)
-          sum += once[k] * load(examples.strains, place, 6 * examples.n, 6 * i + k);
+          sum += once[k] * load(examples.strains, group, 6 * examples.n, 6 * i + k);
         if (examples.share_start == nullptr)
         {
-          double *to = weight_sums + batch_size * (examples.first + i) + place.lane;
+          double *to = weight_sums + batch_size * (examples.first + i) + group.lane;
           Lanes<Number>::store(Lanes<Number>::load(to) + sum, to);
         }
         else
-          share_out(task, place, i, sum, weight_sums);
+          share_out(task, group, i, sum, weight_sums);
       }
     }
 
     static void
     share_out(const CellTask    &task,
-              const Place       &place,
+              const LaneGroup   &group,
               const unsigned int i,
               const Number      &sum,
               double            *weight_sums)
@@ -372,12 +377,12 @@ namespace Exemplar
       alignas(64) double   of_cell[width];
       Lanes<Number>::store(sum, of_cell);
       for (std::size_t lane = 0; lane < width; ++lane)
-        if (const std::size_t cell = place.batch * batch_size + place.lane + lane;
+        if (const std::size_t cell = group.batch * batch_size + group.lane + lane;
             cell < task.cells.n_cells)
           for (std::size_t s = examples.share_start[cell]; s < examples.share_start[cell + 1]; ++s)
             weight_sums[batch_size
                             * (examples.shares[s].region * examples.n_all + examples.first + i)
-                        + place.lane + lane]
+                        + group.lane + lane]
                 += examples.shares[s].value * of_cell[lane];
     }
 
@@ -441,7 +446,7 @@ namespace Exemplar
     /// Add the forces of the cells' nodes and their scales to the sums of the nodes.
     static void
     add_forces(const CellTask            &task,
-               const Place               &place,
+               const LaneGroup           &group,
                const Tetrahedron<Number> &tet,
                const Matrix3<Number>     &VP, ///< V P
                const Number              &scale,
@@ -462,7 +467,7 @@ namespace Exemplar
       }
       for (int a = 0; a < 4; ++a)
       {
-        const int *nodes = task.cells.nodes + place.at(4, a);
+        const int *nodes = task.cells.nodes + group.at(4, a);
         if constexpr (width >= 4)
           for (std::size_t lane = 0; lane < width; lane += 4)
           {
@@ -485,18 +490,18 @@ namespace Exemplar
 
     template <typename Cell>
     static void
-    evaluate_place(const CellTask &task,
-                   const Place    &place,
-                   double         *nodal_sums,
-                   double         *weight_sums,
-                   Sums           &sums)
+    evaluate_group(const CellTask  &task,
+                   const LaneGroup &group,
+                   double          *nodal_sums,
+                   double          *weight_sums,
+                   Sums            &sums)
     {
       const bool                frozen       = task.cells.guard_bound == no_guard;
       const bool                has_examples = task.examples.n_weights > 0;
-      const Tetrahedron<Number> tet          = load_tetrahedron(task.cells, place);
-      const Lame<Number>        lame         = load_lame(task.cells, place);
-      const Matrix3<Number>     F            = deformation_gradient(task, place, tet);
-      const Matrix3<Number>     R            = rotation(task, place, F);
+      const Tetrahedron<Number> tet          = load_tetrahedron(task.cells, group);
+      const Lame<Number>        lame         = load_lame(task.cells, group);
+      const Matrix3<Number>     F            = deformation_gradient(task, group, tet);
+      const Matrix3<Number>     R            = rotation(task, group, F);
       const auto                is_real      = tet.volume > Number(0.);
       const auto one = [](const auto &mask) { return select(mask, Number(1.), Number(0.)); };
 
@@ -514,7 +519,7 @@ namespace Exemplar
       Matrix3<Number> D;
       if (has_examples)
       {
-        D = target(task, place); // eta E(w)
+        D = target(task, group); // eta E(w)
         scale += norm(stress(lame, D));
         sums.stress_square += tet.volume * scale * scale;
         sums.energy += tet.volume * cell.energy(D);
@@ -523,7 +528,7 @@ namespace Exemplar
         {
           P = cell.weight_stress(D);
           if (task.weights_are_free)
-            add_weight_sums(task, place, Number(-task.examples.importance) * tet.volume, P,
+            add_weight_sums(task, group, Number(-task.examples.importance) * tet.volume, P,
                             weight_sums);
         }
       }
@@ -532,8 +537,8 @@ namespace Exemplar
 
       if (task.damping.factors != nullptr)
       {
-        const Number          s    = load(task.damping.factors, place, 1, 0);
-        const Matrix3<Number> past = load_strain(task.damping.strains, place, 1, 0);
+        const Number          s    = load(task.damping.factors, group, 1, 0);
+        const Matrix3<Number> past = load_strain(task.damping.strains, group, 1, 0);
         sums.damping += s * tet.volume * cell.energy(past);
         scale += s * (norm(elastic_stress) + norm(stress(lame, past)));
         if (!has_examples)
@@ -552,7 +557,7 @@ namespace Exemplar
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
           RP[i][j] *= tet.volume;
-      add_forces(task, place, tet, RP, tet.volume * cell.force_factor() * scale, nodal_sums);
+      add_forces(task, group, tet, RP, tet.volume * cell.force_factor() * scale, nodal_sums);
     }
 
     static void
@@ -568,33 +573,33 @@ namespace Exemplar
                  [&](auto model)
                  {
                    using Cell = typename decltype(model)::type;
-                   for_each_place(
+                   for_each_group(
                        begin, end,
-                       [&](const Place &place)
-                       { evaluate_place<Cell>(task, place, nodal_sums, weight_sums, sums); });
+                       [&](const LaneGroup &group)
+                       { evaluate_group<Cell>(task, group, nodal_sums, weight_sums, sums); });
                  });
       sums.add_to(result);
     }
 
     static void
-    weight_target(const CellTask   &task,
-                  const std::size_t begin,
-                  const std::size_t end,
-                  double           *weight_sums)
+    weight_linear_term(const CellTask   &task,
+                       const std::size_t begin,
+                       const std::size_t end,
+                       double           *weight_sums)
     {
       with_model(task.cells.strain,
                  [&](auto model)
                  {
                    using Cell = typename decltype(model)::type;
-                   for_each_place(
+                   for_each_group(
                        begin, end,
-                       [&](const Place &place)
+                       [&](const LaneGroup &group)
                        {
-                         const Tetrahedron<Number> tet = load_tetrahedron(task.cells, place);
-                         const Matrix3<Number>     F   = deformation_gradient(task, place, tet);
-                         const Cell cell(load_lame(task.cells, place), rotation(task, place, F), F,
+                         const Tetrahedron<Number> tet = load_tetrahedron(task.cells, group);
+                         const Matrix3<Number>     F   = deformation_gradient(task, group, tet);
+                         const Cell cell(load_lame(task.cells, group), rotation(task, group, F), F,
                                          task.cells.guard_bound);
-                         add_weight_sums(task, place, Number(task.examples.importance) * tet.volume,
+                         add_weight_sums(task, group, Number(task.examples.importance) * tet.volume,
                                          cell.weight_stress(Matrix3<Number>{}), weight_sums);
                        });
                  });
@@ -605,19 +610,19 @@ namespace Exemplar
     static Cell
     driven_cell(const CellTask            &task,
                 const TangentTask         &tangent,
-                const Place               &place,
+                const LaneGroup           &group,
                 const Tetrahedron<Number> &tet,
                 const Matrix3<Number>     &R)
     {
-      Lame<Number>    lame = load_lame(task.cells, place);
-      Matrix3<Number> D    = target(task, place);
+      Lame<Number>    lame = load_lame(task.cells, group);
+      Matrix3<Number> D    = target(task, group);
       if (task.damping.factors != nullptr)
       {
-        const Number s = load(task.damping.factors, place, 1, 0);
+        const Number s = load(task.damping.factors, group, 1, 0);
         lame           = damped_lame(lame, s);
-        D              = damped_target(D, s, load_strain(task.damping.strains, place, 1, 0));
+        D              = damped_target(D, s, load_strain(task.damping.strains, group, 1, 0));
       }
-      Cell cell(lame, R, deformation_gradient(task, place, tet), task.cells.guard_bound);
+      Cell cell(lame, R, deformation_gradient(task, group, tet), task.cells.guard_bound);
       cell.set_target(D);
       if constexpr (std::is_same_v<Cell, GreenCell<Number>>) // the others' is R K R^T
         if (tangent.convex)
@@ -625,7 +630,7 @@ namespace Exemplar
       return cell;
     }
 
-    /// What makes R K R^T of the cells of a place, Eq. (8), by lane.
+    /// What makes R K R^T of the cells of a group, Eq. (8), by lane.
     struct RotatedStiffness
     {
       alignas(64) double g[4][3][width];        ///< R g_a
@@ -635,14 +640,14 @@ namespace Exemplar
     };
 
     static void
-    find_rotated_stiffness(const CellTask &task, const Place &place, RotatedStiffness &K)
+    find_rotated_stiffness(const CellTask &task, const LaneGroup &group, RotatedStiffness &K)
     {
-      const Tetrahedron<Number> tet    = load_tetrahedron(task.cells, place);
-      const Matrix3<Number>     R      = load_rotation(task.cells, place);
-      const Lame<Number>        lame   = load_lame(task.cells, place);
+      const Tetrahedron<Number> tet    = load_tetrahedron(task.cells, group);
+      const Matrix3<Number>     R      = load_rotation(task.cells, group);
+      const Lame<Number>        lame   = load_lame(task.cells, group);
       Number                    factor = tet.volume;
       if (task.damping.factors != nullptr)
-        factor *= Number(1.) + load(task.damping.factors, place, 1, 0);
+        factor *= Number(1.) + load(task.damping.factors, group, 1, 0);
       const Number    lambda = factor * lame.lambda, mu = factor * lame.mu;
       Vector3<Number> g[4];
       rotate_gradients(tet, R, g);
@@ -698,20 +703,20 @@ namespace Exemplar
                           const std::size_t  end)
     {
       RotatedStiffness K;
-      for_each_place(
+      for_each_group(
           begin, end,
-          [&](const Place &place)
+          [&](const LaneGroup &group)
           {
-            find_rotated_stiffness(task, place, K);
-            constexpr std::size_t group = std::min<std::size_t>(4, width);
-            for (std::size_t first = 0; first < width; first += group)
+            find_rotated_stiffness(task, group, K);
+            constexpr std::size_t at_once = std::min<std::size_t>(4, width);
+            for (std::size_t first = 0; first < width; first += at_once)
             {
               Four g[4][4]; // of node a, by cell
               for (int a = 0; a < 4; ++a)
                 gradients_by_cell(K, first, a, g[a]);
-              for (std::size_t l = 0; l < group; ++l)
+              for (std::size_t l = 0; l < at_once; ++l)
               {
-                const std::size_t cell = place.batch * batch_size + place.lane + first + l;
+                const std::size_t cell = group.batch * batch_size + group.lane + first + l;
                 if (cell >= task.cells.n_cells)
                   return;
                 const Four g_of_cell[4] = { g[0][l], g[1][l], g[2][l], g[3][l] };
@@ -742,7 +747,7 @@ namespace Exemplar
     /// Columns of a block of 10, by lane, as they are added.
     using BlockColumns = double[n_block_columns][4][width];
 
-    /// d f_a / d x_b for the cells of a place.
+    /// d f_a / d x_b for the cells of a group.
     template <typename Cell>
     static void
     cell_blocks(const Cell                &cell,
@@ -788,11 +793,11 @@ namespace Exemplar
                 const std::size_t  end)
     {
       alignas(64) BlockColumns columns = {};
-      const auto               add     = [&](const Place &place)
+      const auto               add     = [&](const LaneGroup &group)
       {
         for (std::size_t lane = 0; lane < width; ++lane)
         {
-          const std::size_t cell = place.batch * batch_size + place.lane + lane;
+          const std::size_t cell = group.batch * batch_size + group.lane + lane;
           if (cell >= task.cells.n_cells)
             return;
           const int *position = tangent.positions + n_block_columns * (cell - begin * batch_size);
@@ -807,14 +812,14 @@ namespace Exemplar
                  {
                    using Cell = typename decltype(model)::type;
                    if constexpr (!std::is_same_v<Cell, LinearCell<Number>>) // R K R^T with R = I
-                     for_each_place(begin, end,
-                                    [&](const Place &place)
+                     for_each_group(begin, end,
+                                    [&](const LaneGroup &group)
                                     {
-                                      const auto tet = load_tetrahedron(task.cells, place);
-                                      const auto R   = load_rotation(task.cells, place);
-                                      cell_blocks(driven_cell<Cell>(task, tangent, place, tet, R),
+                                      const auto tet = load_tetrahedron(task.cells, group);
+                                      const auto R   = load_rotation(task.cells, group);
+                                      cell_blocks(driven_cell<Cell>(task, tangent, group, tet, R),
                                                   R, tet, columns);
-                                      add(place);
+                                      add(group);
                                     });
                  });
     }
@@ -830,13 +835,13 @@ namespace Exemplar
                  [&](auto model)
                  {
                    using Cell = typename decltype(model)::type;
-                   for_each_place(
+                   for_each_group(
                        batch, batch + 1,
-                       [&](const Place &place)
+                       [&](const LaneGroup &group)
                        {
-                         const Tetrahedron<Number> tet  = load_tetrahedron(task.cells, place);
-                         const Matrix3<Number>     R    = load_rotation(task.cells, place);
-                         const Lame<Number>        lame = load_lame(task.cells, place);
+                         const Tetrahedron<Number> tet  = load_tetrahedron(task.cells, group);
+                         const Matrix3<Number>     R    = load_rotation(task.cells, group);
+                         const Lame<Number>        lame = load_lame(task.cells, group);
                          const auto add = [&](const unsigned int i, const Number &factor,
                                               const Matrix3<Number> &dP)
                          {
@@ -846,23 +851,23 @@ namespace Exemplar
                              for (int c = 0; c < 3; ++c)
                                Lanes<Number>::store(factor * force[a][c],
                                                     forces + (12 * i + 3 * a + c) * batch_size
-                                                        + place.lane);
+                                                        + group.lane);
                          };
                          Number factor = Number(task.examples.importance);
                          if constexpr (std::is_same_v<Cell, LinearCell<Number>>)
                            for (unsigned int i = 0; i < task.examples.n; ++i)
                              add(i, factor,
-                                 stress(lame, load_strain(task.examples.strains, place,
+                                 stress(lame, load_strain(task.examples.strains, group,
                                                           task.examples.n, i)));
                          else
                          {
                            // the target moves by 1/(1+s) of what the examples' does
                            if (task.damping.factors != nullptr)
-                             factor /= Number(1.) + load(task.damping.factors, place, 1, 0);
-                           const Cell cell = driven_cell<Cell>(task, tangent, place, tet, R);
+                             factor /= Number(1.) + load(task.damping.factors, group, 1, 0);
+                           const Cell cell = driven_cell<Cell>(task, tangent, group, tet, R);
                            for (unsigned int i = 0; i < task.examples.n; ++i)
                              add(i, factor,
-                                 cell.example_response(load_strain(task.examples.strains, place,
+                                 cell.example_response(load_strain(task.examples.strains, group,
                                                                    task.examples.n, i)));
                          }
                        });
@@ -872,8 +877,9 @@ namespace Exemplar
     static CellKernels
     kernels(const char *name)
     {
-      return { name,          update_rotations,      add_rotations, closest_rotations, evaluate,
-               weight_target, add_rotated_stiffness, add_tangent,   coupling };
+      return { name,     update_rotations,   add_rotations,         closest_rotations,
+               evaluate, weight_linear_term, add_rotated_stiffness, add_tangent,
+               coupling };
     }
   };
 } // namespace Exemplar

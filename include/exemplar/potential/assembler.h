@@ -90,14 +90,14 @@ namespace Exemplar
     void
     set_damping(double s, const std::vector<WeightedPositions> &history);
 
-    /// Energies and their derivatives. Who has the weight_target() of these positions spares
+    /// Energies and their derivatives. Who has the weight_linear_term() of these positions spares
     /// the loop those by the weights.
     void
     evaluate(const dealii::Vector<double> &positions,
              const std::vector<double>    &weights,
              Evaluation                   &evaluation,
-             Rotations                     rotations     = Rotations::keep,
-             const std::vector<double>    *weight_target = nullptr);
+             RotationUse                   rotations          = RotationUse::keep,
+             const std::vector<double>    *weight_linear_term = nullptr);
 
     /// A, Eq. (8) or (18), into the values on matrix_pattern() [N/m] and, with weights to
     /// find, the coupling G, Eq. (9): a column a strained weight on the free degrees of
@@ -120,7 +120,8 @@ namespace Exemplar
 
     /// c_i with dPsi/dw = H w - c at these positions [J].
     std::vector<double>
-    weight_target(const dealii::Vector<double> &positions, Rotations rotations = Rotations::keep);
+    weight_linear_term(const dealii::Vector<double> &positions,
+                       RotationUse                   rotations = RotationUse::keep);
 
     /// A residual force [N] that is nothing but the rounding of the positions.
     double
@@ -187,7 +188,7 @@ namespace Exemplar
     CellTask
     task(const dealii::Vector<double> &positions,
          const std::vector<double>    &weights,
-         Rotations                     rotations);
+         RotationUse                   rotations);
 
     /// Find the rotations that the last loop has forgotten.
     void

@@ -208,8 +208,8 @@ namespace Exemplar
 
     void
     evaluate(const State               &state,
-             Rotations                  rotations,
-             const std::vector<double> *weight_target = nullptr);
+             RotationUse                rotations,
+             const std::vector<double> *weight_linear_term = nullptr);
 
     void
     add_inertia_and_loads(const State &state);
@@ -274,7 +274,7 @@ namespace Exemplar
     correct_with_same_factor(State &state, SolveReport &report);
 
     void
-    evaluate_with_best_weights(State &state, Rotations rotations = Rotations::update);
+    evaluate_with_best_weights(State &state, RotationUse rotations = RotationUse::update);
 
     /// A step by degree of freedom, and in the frame of the factor.
     struct QuasiNewtonStep

@@ -43,7 +43,7 @@ namespace Exemplar::Testing
         task.damping                = { damping.data(), past.data() };
         task.positions              = positions.data();
         task.weights                = weights.data();
-        task.use_of_rotations       = Rotations::update;
+        task.rotation_use           = RotationUse::update;
         task.weights_are_free       = true;
         const std::size_t n_batches = task.cells.n_batches();
 
@@ -51,7 +51,7 @@ namespace Exemplar::Testing
         weight_sums.resize(batch_size * weights.size());
         kernels.evaluate(task, 0, n_batches, nodal_sums.data(), weight_sums.data(), sums);
         target.resize(weight_sums.size());
-        kernels.weight_target(task, 0, n_batches, target.data());
+        kernels.weight_linear_term(task, 0, n_batches, target.data());
         rotations.assign(task.cells.rotations, task.cells.rotations + 9 * n);
 
         std::vector<int> places(n_block_columns * n);

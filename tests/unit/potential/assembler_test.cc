@@ -235,7 +235,7 @@ namespace Exemplar::Testing
       }
       // the weights' gradient by its linear form and by differences
       assembler.update_rotations(positions);
-      const auto c = assembler.weight_target(positions);
+      const auto c = assembler.weight_linear_term(positions);
       for (unsigned int k = 0; k < weights.size(); ++k)
       {
         double expected = -c[k];
