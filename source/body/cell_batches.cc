@@ -31,8 +31,8 @@ namespace Exemplar
           gradients[batch_index(place, 9, 3 * (a - 1) + i)] = g[i];
       }
       volumes[place]                 = place < n_cells ? tet.volume : 0.;
-      lame[batch_index(place, 2, 0)] = material.lame(cell).lambda;
-      lame[batch_index(place, 2, 1)] = material.lame(cell).mu;
+      lame[batch_index(place, 2, 0)] = material.elasticity(cell).lambda;
+      lame[batch_index(place, 2, 1)] = material.elasticity(cell).mu;
       for (const unsigned int diagonal : { 0, 4, 8 })
         rotations[batch_index(place, 9, diagonal)] = 1.;
     }

@@ -253,18 +253,18 @@ namespace Exemplar
   {
     gram.reinit(n_weights(), n_weights());
     for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
-      for_each_weight(cell,
-                      [&](const unsigned int v, const unsigned int i, const double share_v)
-                      {
-                        const Matrix3<double> T = stress(material.lame(cell), strain(cell, i));
-                        for_each_weight(
-                            cell,
+      for_each_weight(
+          cell,
+          [&](const unsigned int v, const unsigned int i, const double share_v)
+          {
+            const Matrix3<double> T = stress(material.elasticity(cell), strain(cell, i));
+            for_each_weight(cell,
                             [&](const unsigned int w, const unsigned int j, const double share_w)
                             {
                               gram(v, w) += fe_space.tetrahedron(cell).volume * share_v * share_w
                                             * contract(T, strain(cell, j));
                             });
-                      });
+          });
   }
 
   void

@@ -40,7 +40,7 @@ namespace Exemplar
                           "incompressible material take 0.49.");
     }
 
-    Lame<double>
+    CellMaterial<double>
     lame_of(const ElasticConstants &constants)
     {
       const double E = constants.youngs_modulus, nu = constants.poissons_ratio;

@@ -67,9 +67,9 @@ namespace Exemplar
     dealii::Vector<double> force(fe_space.n_nodes());
     for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
     {
-      const Lame<double>        &lame     = material.lame(cell);
-      const Tetrahedron<double> &tet      = fe_space.tetrahedron(cell);
-      double                     norms[4] = {};
+      const CellMaterial<double> &lame     = material.elasticity(cell);
+      const Tetrahedron<double>  &tet      = fe_space.tetrahedron(cell);
+      double                      norms[4] = {};
       for (unsigned int a = 0; a < 4; ++a)
         norms[a] = std::sqrt(dot(tet.shape_gradient[a], tet.shape_gradient[a]));
       const double strain = rounding * *std::max_element(norms, norms + 4);
@@ -238,7 +238,7 @@ namespace Exemplar
         for (unsigned int k = 0; k < 6; ++k)
           damping_strains[batch_index(cell, 6, k)] += past.weight * part[k];
         if (model.strain == StrainMeasure::corotational
-            && CorotationalCell<double>(material.lame(cell), R, F, guard_bound).is_guarded())
+            && CorotationalCell<double>(material.elasticity(cell), R, F, guard_bound).is_guarded())
           cell_damping[cell] = 0.;
       }
   }
@@ -252,10 +252,10 @@ namespace Exemplar
     return combine(examples->importance(), E, 0., E);
   }
 
-  Lame<double>
+  CellMaterial<double>
   Assembler::damped_lame(const unsigned int cell) const
   {
-    const Lame<double> &lame = material.lame(cell);
+    const CellMaterial<double> &lame = material.elasticity(cell);
     return { (1. + damping_of(cell)) * lame.lambda, (1. + damping_of(cell)) * lame.mu };
   }
 
@@ -374,10 +374,10 @@ namespace Exemplar
     CellResults results{ std::vector<double>(n), std::vector<double>(n), std::vector<double>(n) };
     for (unsigned int cell = 0; cell < n; ++cell)
     {
-      const Lame<double>   &lame   = material.lame(cell);
-      const Matrix3<double> F      = fe_space.deformation_gradient(cell, positions);
-      const Matrix3<double> strain = model_strain(model.strain, batches.rotation(cell), F);
-      Matrix3<double>       T      = stress(lame, strain);
+      const CellMaterial<double> &lame   = material.elasticity(cell);
+      const Matrix3<double>       F      = fe_space.deformation_gradient(cell, positions);
+      const Matrix3<double>       strain = model_strain(model.strain, batches.rotation(cell), F);
+      Matrix3<double>             T      = stress(lame, strain);
 
       results.strain_energy_density[cell] = 0.5 * contract(T, strain);
       results.det_F[cell]                 = determinant(F);

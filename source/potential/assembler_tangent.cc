@@ -91,7 +91,7 @@ namespace Exemplar
       add_force(cell, stress(damped_lame(cell), de), result.gradient);
       if (!result.weight_gradient.empty())
       {
-        const Matrix3<double> dT     = stress(material.lame(cell), de);
+        const Matrix3<double> dT     = stress(material.elasticity(cell), de);
         const double          factor = examples->importance() * fe_space.tetrahedron(cell).volume;
         examples->for_each_weight(
             cell,

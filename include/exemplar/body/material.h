@@ -51,8 +51,8 @@ namespace Exemplar
     /// Throws UserError if a region names a material id that no cell has.
     Material(const MaterialParameters &parameters, const std::vector<unsigned int> &material_ids);
 
-    const Lame<double> &
-    lame(const unsigned int cell) const
+    const CellMaterial<double> &
+    elasticity(const unsigned int cell) const
     {
       return constants[constants_of_cell[cell]].lame;
     }
@@ -72,9 +72,9 @@ namespace Exemplar
   private:
     struct Constants
     {
-      Lame<double> lame;
-      double       density;
-      double       youngs_modulus;
+      CellMaterial<double> lame;
+      double               density;
+      double               youngs_modulus;
     };
 
     std::vector<Constants>    constants;

@@ -37,7 +37,7 @@ namespace Exemplar
       return Lanes<Number>::load(from + group.at(n, e));
     }
 
-    static Lame<Number>
+    static CellMaterial<Number>
     load_lame(const CellArrays &cells, const LaneGroup &group)
     {
       return { load(cells.lame, group, 2, 0), load(cells.lame, group, 2, 1) };
@@ -394,8 +394,8 @@ namespace Exemplar
 
     /// The elastic constants with the damping: both are quadratics around a strain, and so
     /// is their sum.
-    static Lame<Number>
-    damped_lame(const Lame<Number> &lame, const Number &s)
+    static CellMaterial<Number>
+    damped_lame(const CellMaterial<Number> &lame, const Number &s)
     {
       const Number factor = Number(1.) + s;
       return { factor * lame.lambda, factor * lame.mu };
@@ -496,13 +496,13 @@ namespace Exemplar
                    double          *weight_sums,
                    Sums            &sums)
     {
-      const bool                frozen       = task.cells.guard_bound == no_guard;
-      const bool                has_examples = task.examples.n_weights > 0;
-      const Tetrahedron<Number> tet          = load_tetrahedron(task.cells, group);
-      const Lame<Number>        lame         = load_lame(task.cells, group);
-      const Matrix3<Number>     F            = deformation_gradient(task, group, tet);
-      const Matrix3<Number>     R            = rotation(task, group, F);
-      const auto                is_real      = tet.volume > Number(0.);
+      const bool                 frozen       = task.cells.guard_bound == no_guard;
+      const bool                 has_examples = task.examples.n_weights > 0;
+      const Tetrahedron<Number>  tet          = load_tetrahedron(task.cells, group);
+      const CellMaterial<Number> lame         = load_lame(task.cells, group);
+      const Matrix3<Number>      F            = deformation_gradient(task, group, tet);
+      const Matrix3<Number>      R            = rotation(task, group, F);
+      const auto                 is_real      = tet.volume > Number(0.);
       const auto one = [](const auto &mask) { return select(mask, Number(1.), Number(0.)); };
 
       const Number          det = determinant(F);
@@ -614,8 +614,8 @@ namespace Exemplar
                 const Tetrahedron<Number> &tet,
                 const Matrix3<Number>     &R)
     {
-      Lame<Number>    lame = load_lame(task.cells, group);
-      Matrix3<Number> D    = target(task, group);
+      CellMaterial<Number> lame = load_lame(task.cells, group);
+      Matrix3<Number>      D    = target(task, group);
       if (task.damping.factors != nullptr)
       {
         const Number s = load(task.damping.factors, group, 1, 0);
@@ -642,10 +642,10 @@ namespace Exemplar
     static void
     find_rotated_stiffness(const CellTask &task, const LaneGroup &group, RotatedStiffness &K)
     {
-      const Tetrahedron<Number> tet    = load_tetrahedron(task.cells, group);
-      const Matrix3<Number>     R      = load_rotation(task.cells, group);
-      const Lame<Number>        lame   = load_lame(task.cells, group);
-      Number                    factor = tet.volume;
+      const Tetrahedron<Number>  tet    = load_tetrahedron(task.cells, group);
+      const Matrix3<Number>      R      = load_rotation(task.cells, group);
+      const CellMaterial<Number> lame   = load_lame(task.cells, group);
+      Number                     factor = tet.volume;
       if (task.damping.factors != nullptr)
         factor *= Number(1.) + load(task.damping.factors, group, 1, 0);
       const Number    lambda = factor * lame.lambda, mu = factor * lame.mu;
@@ -839,9 +839,9 @@ namespace Exemplar
                        batch, batch + 1,
                        [&](const LaneGroup &group)
                        {
-                         const Tetrahedron<Number> tet  = load_tetrahedron(task.cells, group);
-                         const Matrix3<Number>     R    = load_rotation(task.cells, group);
-                         const Lame<Number>        lame = load_lame(task.cells, group);
+                         const Tetrahedron<Number>  tet  = load_tetrahedron(task.cells, group);
+                         const Matrix3<Number>      R    = load_rotation(task.cells, group);
+                         const CellMaterial<Number> lame = load_lame(task.cells, group);
                          const auto add = [&](const unsigned int i, const Number &factor,
                                               const Matrix3<Number> &dP)
                          {

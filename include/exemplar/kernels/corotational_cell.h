@@ -96,10 +96,10 @@ namespace Exemplar
   {
   public:
     /// `p_0` is the bound below which the guard acts.
-    CorotationalCell(const Lame<Number>    &lame,
-                     const Matrix3<Number> &rotation,
-                     const Matrix3<Number> &deformation_gradient,
-                     const double           p_0)
+    CorotationalCell(const CellMaterial<Number> &lame,
+                     const Matrix3<Number>      &rotation,
+                     const Matrix3<Number>      &deformation_gradient,
+                     const double                p_0)
         : lame(lame), S(symmetric_part(transpose_times(rotation, deformation_gradient)))
     {
       e = S;
@@ -250,16 +250,16 @@ namespace Exemplar
       return D;
     }
 
-    Lame<Number>    lame;
-    Matrix3<Number> S;
-    Matrix3<Number> e; ///< S - I
-    Matrix3<Number> B; ///< tr(S) I - S
-    Number          phi            = Number(1.);
-    Number          phi_derivative = Number(0.);
-    Matrix3<Number> T;
-    Matrix3<Number> W;
-    Matrix3<Number> B_inverse;
-    Number          guard_force;
+    CellMaterial<Number> lame;
+    Matrix3<Number>      S;
+    Matrix3<Number>      e; ///< S - I
+    Matrix3<Number>      B; ///< tr(S) I - S
+    Number               phi            = Number(1.);
+    Number               phi_derivative = Number(0.);
+    Matrix3<Number>      T;
+    Matrix3<Number>      W;
+    Matrix3<Number>      B_inverse;
+    Number               guard_force;
   };
 } // namespace Exemplar
 

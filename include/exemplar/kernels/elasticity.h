@@ -7,7 +7,7 @@ namespace Exemplar
   /// Lamé's constants of an isotropic material [Pa]: C:E = lambda tr(E) I + 2 mu E.
   /// Plain, because the cell kernels see nothing else of a material.
   template <typename Number>
-  struct Lame
+  struct CellMaterial
   {
     Number lambda;
     Number mu;

@@ -31,7 +31,7 @@ namespace Exemplar
   class GreenCell : public QuadraticCell<Number>
   {
   public:
-    GreenCell(const Lame<Number> &lame,
+    GreenCell(const CellMaterial<Number> &lame,
               const Matrix3<Number> & /*rotation*/,
               const Matrix3<Number> &deformation_gradient,
               double /*p_0*/)

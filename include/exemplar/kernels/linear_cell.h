@@ -15,7 +15,7 @@ namespace Exemplar
   class LinearCell : public QuadraticCell<Number>
   {
   public:
-    LinearCell(const Lame<Number> &lame,
+    LinearCell(const CellMaterial<Number> &lame,
                const Matrix3<Number> & /*rotation*/,
                const Matrix3<Number> &deformation_gradient,
                double /*p_0*/)

@@ -46,14 +46,14 @@ namespace Exemplar
     }
 
   protected:
-    QuadraticCell(const Lame<Number> &lame, const Matrix3<Number> &strain)
+    QuadraticCell(const CellMaterial<Number> &lame, const Matrix3<Number> &strain)
         : lame(lame), e(strain), T(strain)
     {
     }
 
-    Lame<Number>    lame;
-    Matrix3<Number> e;
-    Matrix3<Number> T; ///< C:(e - D), once the target is set
+    CellMaterial<Number> lame;
+    Matrix3<Number>      e;
+    Matrix3<Number>      T; ///< C:(e - D), once the target is set
   };
 } // namespace Exemplar
 

@@ -48,7 +48,7 @@ namespace Exemplar
   /// C:E = lambda tr(E) I + 2 mu E, Eq. (3) [Pa].
   template <typename Number>
   Matrix3<Number>
-  stress(const Lame<Number> &lame, const Matrix3<Number> &strain)
+  stress(const CellMaterial<Number> &lame, const Matrix3<Number> &strain)
   {
     const Number    pressure = lame.lambda * trace(strain);
     Matrix3<Number> T;
@@ -91,10 +91,10 @@ namespace Exemplar
   /// V (lambda g_a g_b^T + mu (g_b g_a^T + (g_a.g_b) I)) with rotated gradients [N/m].
   template <typename Number>
   Matrix3<Number>
-  stiffness_block(const Lame<Number>    &lame,
-                  const Number          &volume,
-                  const Vector3<Number> &g_a,
-                  const Vector3<Number> &g_b)
+  stiffness_block(const CellMaterial<Number> &lame,
+                  const Number               &volume,
+                  const Vector3<Number>      &g_a,
+                  const Vector3<Number>      &g_b)
   {
     const Number    lambda = lame.lambda * volume, mu = lame.mu * volume;
     const Number    diagonal = mu * dot(g_a, g_b);

@@ -163,7 +163,7 @@ namespace Exemplar
 
     /// The elastic constants and the target strain of a cell with the damping added: both
     /// are quadratics around a strain, and so is their sum.
-    Lame<double>
+    CellMaterial<double>
     damped_lame(unsigned int cell) const;
 
     /// s of set_damping(), 0 where it is left out.

@@ -17,8 +17,8 @@ namespace Exemplar::Testing
     using Green        = GreenCell<double>;
     using Linear       = LinearCell<double>;
 
-    const Lame<double> lame = { 1.3, 0.7 };
-    const double       p_0  = 0.8;
+    const CellMaterial<double> lame = { 1.3, 0.7 };
+    const double               p_0  = 0.8;
 
     template <typename Cell>
     Matrix3<double>

@@ -10,7 +10,7 @@ namespace Exemplar::Testing
 {
   namespace
   {
-    const Lame<double> soft = { 1.3, 0.7 };
+    const CellMaterial<double> soft = { 1.3, 0.7 };
 
     /// The tetrahedron with nodes 0, e_x, e_y, e_z.
     Tetrahedron<double>
