@@ -44,7 +44,7 @@ namespace Exemplar
     check() const;
   };
 
-  /// The elastic constants of each cell.
+  /// The elastic constants and the density of each cell.
   class Material
   {
   public:
@@ -54,7 +54,7 @@ namespace Exemplar
     const CellMaterial<double> &
     elasticity(const unsigned int cell) const
     {
-      return constants[constants_of_cell[cell]].lame;
+      return constants[constants_of_cell[cell]].elasticity;
     }
 
     double
@@ -72,7 +72,7 @@ namespace Exemplar
   private:
     struct Constants
     {
-      CellMaterial<double> lame;
+      CellMaterial<double> elasticity;
       double               density;
       double               youngs_modulus;
     };

@@ -24,7 +24,7 @@ namespace Exemplar
     const int    *nodes;     ///< 4; ascending in each cell
     const double *gradients; ///< 9: g_a of the last three of those nodes [1/m]
     const double *volumes;   ///< 1 [m^3]
-    const double *lame;      ///< 2: lambda and mu [Pa]
+    const double *material;  ///< those of CellMaterial
     double       *rotations; ///< 9: R by rows
     StrainMeasure strain;
     double        guard_bound; ///< p_0 of Eq. (16)

@@ -15,12 +15,22 @@ namespace Exemplar
   class LinearCell : public QuadraticCell<Number>
   {
   public:
-    LinearCell(const CellMaterial<Number> &lame,
-               const Matrix3<Number> & /*rotation*/,
-               const Matrix3<Number> &deformation_gradient,
+    static constexpr ModelTraits traits
+        = { /* has_rotations */ false, /* has_guard */ false, /* exact_is_rotated */ true,
+            /* convex_is_rotated */ true, /* turns_freely */ false };
+
+    /// e = sym(F) - I.
+    static Matrix3<Number>
+    strain_of(const Matrix3<Number> & /*rotation*/, const Matrix3<Number> &deformation_gradient)
+    {
+      return corotated_strain(identity_matrix<Number>(), deformation_gradient);
+    }
+
+    LinearCell(const CellMaterial<Number> &material,
+               const Matrix3<Number>      &rotation,
+               const Matrix3<Number>      &deformation_gradient,
                double /*p_0*/)
-        : QuadraticCell<Number>(lame,
-                                corotated_strain(identity_matrix<Number>(), deformation_gradient))
+        : QuadraticCell<Number>(material, strain_of(rotation, deformation_gradient))
     {
     }
 
@@ -33,7 +43,7 @@ namespace Exemplar
     Matrix3<Number>
     elastic_force() const
     {
-      return stress(this->lame, this->e);
+      return stress(this->material, this->e);
     }
 
     const Matrix3<Number> &
