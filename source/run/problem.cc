@@ -209,8 +209,7 @@ namespace Exemplar
   bool
   Problem::turns_freely() const
   {
-    // infinitesimal rotations alone leave the linear strain as it is
-    return parameters.model.strain != StrainMeasure::linear;
+    return traits_of(parameters.model.strain).turns_freely;
   }
 
   SolveReport
