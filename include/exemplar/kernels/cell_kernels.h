@@ -43,7 +43,7 @@ namespace Exemplar
     double       value;
   };
 
-  /// The examples that have a strain, which the rest pose has not.
+  /// The examples other than the rest pose, whose strain is zero.
   struct ExampleArrays
   {
     unsigned int       n           = 0; ///< of them
@@ -63,8 +63,9 @@ namespace Exemplar
     const double *strains = nullptr; ///< 6: e_past
   };
 
-  /// Whether a loop over the cells takes their rotations as they are, or finds those of the
-  /// positions that it sees; to store them takes as much memory traffic as all the rest.
+  /// What a loop over the cells does with their rotations: it takes those that are stored, or it
+  /// finds those of the positions and stores them, or it finds them for itself alone, because
+  /// storing them takes as much memory traffic as all the rest.
   enum class RotationUse
   {
     keep,
@@ -112,11 +113,12 @@ namespace Exemplar
   /// Columns of the 10 blocks (a,b), b <= a, of a cell's matrix: three each.
   constexpr std::size_t n_block_columns = 30;
 
-  /// Where the cells' matrices go. Column j of block (a,b) is added to three consecutive
-  /// values, rows 0 to 2; a zero where it is above the diagonal, and to the value behind.
+  /// Where the cells' matrices go. Column j of block (a,b) is added to three consecutive values,
+  /// rows 0 to 2. Entries above the diagonal of the matrix count as zero, and a zero may be added
+  /// to the value behind the three, because four numbers are written at once.
   struct TangentTask
   {
-    bool       convex    = false;   ///< make Green's tangent so
+    bool       convex    = false; ///< make_convex() the models whose convex tangent is not R K R^T
     const int *positions = nullptr; ///< 30 a cell from the first batch on; -1: left out
     double    *values    = nullptr;
   };
@@ -159,8 +161,9 @@ namespace Exemplar
     /// Add the exact tangent, or a convex one.
     void (*add_tangent)(const CellTask &, const TangentTask &, std::size_t begin, std::size_t end);
 
-    /// The forces that a unit of each example's weight takes away: `forces` holds 12 entries an
-    /// example for each cell of one batch. `rotated` is as for R K R^T.
+    /// By how much a unit of each example's weight reduces the nodal forces of the cells of one
+    /// batch: 12 entries an example, each for all cells of the batch. `rotated`: with rotations held
+    /// fixed, as in R K R^T; else by the exact or convex tangent.
     void (*coupling)(
         const CellTask &, const TangentTask &, bool rotated, std::size_t batch, double *forces);
   };

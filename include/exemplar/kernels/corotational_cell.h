@@ -142,15 +142,15 @@ namespace Exemplar
       return e;
     }
 
-    /// At most this times the stress C:e is the force.
+    /// |R^T P| is at most this times |T|.
     Number
     force_factor() const
     {
       return Number(1.);
     }
 
-    /// psi for the target strain D, in the residual form: near an example the expanded
-    /// one cancels.
+    /// psi for the target strain D, computed from e - D as Eq. (16) has it, because near an example
+    /// the expanded square would lose its digits.
     Number
     energy(const Matrix3<Number> &D) const
     {
@@ -161,7 +161,7 @@ namespace Exemplar
       return psi + material.guard_modulus() * (Number(1.) - phi) * contract(S, deviator(D));
     }
 
-    /// -d psi / dD: contracted with E_i, the derivative by a weight less the factor -eta.
+    /// -d psi / dD. The derivative of psi by a weight w_i is -eta times this, contracted with E_i.
     Matrix3<Number>
     weight_stress(const Matrix3<Number> &D) const
     {
@@ -184,7 +184,8 @@ namespace Exemplar
     {
       T = combine(Number(1.), stress(material, combine(Number(1.), e, Number(-1.), D)),
                   material.guard_modulus() * (Number(1.) - phi), deviator(D));
-      // the force divides by s_i + s_j only what the guard makes vanish faster
+      // W divides by s_i + s_j, but its numerator vanishes faster because of the guard, so that a
+      // tiny bound suffices; responses need a greater one
       bound_inverse(Number(1e-8));
       W           = skew_matrix(B_inverse * axial_vector(commutator(S, T)));
       guard_force = -material.guard_modulus() * phi_derivative * contract(S, deviator(D));
@@ -226,8 +227,8 @@ namespace Exemplar
                      combine(Number(1.), dT, Number(1.), dW));
     }
 
-    /// R^T dP for a unit change of the target by -E, a column of the coupling less the
-    /// factor eta.
+    /// R^T dP of a change of the target by -E. A column of the coupling is eta times this, with
+    /// E = E_i.
     Matrix3<Number>
     example_response(const Matrix3<Number> &E) const
     {

@@ -6,8 +6,9 @@
 #include <cmath>
 #include <cstddef>
 
-// Kernels are written once for a number type: double, or a batch of doubles of xsimd. What
-// they need beyond arithmetic is found here for double and by its namespace for batches.
+// Kernels are written once for a number type: double, or a batch of doubles of xsimd. Functions
+// beyond arithmetic are declared here for double; for batches, argument-dependent lookup finds
+// those of xsimd.
 // No deal.II header here: see matrix3.h.
 
 namespace Exemplar

@@ -57,7 +57,7 @@ namespace Exemplar::Loops
              double                    *nodal_sums)
   {
     alignas(64) double lanes[4][4][LaneGroup<Number>::width];
-    Vector3<Number>    last; // the forces sum to zero
+    Vector3<Number>    last; // the force at node 0 is minus the sum of the others
     for (int a = 3; a >= 0; --a)
     {
       const Vector3<Number> force = a > 0 ? VP * tet.shape_gradient[a] : last;
@@ -124,7 +124,7 @@ namespace Exemplar::Loops
     sums.inverted += one(is_real & (det <= Number(0.)));
     sums.elastic += elastic;
 
-    // R^T P, of the elastic stress alone where nothing else is there
+    // R^T P; without examples and damping this is all of it
     Matrix3<Number> P = has_examples ? elastic_stress : cell.elastic_force();
     Matrix3<Number> D;
     if (has_examples)

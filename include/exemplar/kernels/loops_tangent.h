@@ -33,7 +33,7 @@ namespace Exemplar::Loops
     return cell;
   }
 
-  /// Columns of a block of 10, by lane, as they are added.
+  /// Three columns of each of 10 blocks, with space for four rows, of the cells of a group.
   template <typename Number>
   using BlockColumns = double[n_block_columns][4][LaneGroup<Number>::width];
 
@@ -49,7 +49,8 @@ namespace Exemplar::Loops
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
         VR[i][j] *= tet.volume;
-    // node b moves by the unit vector of the rotated frame k, then by that of axis j
+    // node b moves by the unit vector k of the rotated frame; of these three responses that to a
+    // unit vector j of space is a combination
     for (int b = 0; b < 4; ++b)
     {
       Matrix3<Number> response[3];

@@ -19,7 +19,7 @@ namespace Exemplar
     auto
     is_guarded() const
     {
-      return Number(0.) > Number(1.); // nowhere, for each lane
+      return Number(0.) > Number(1.); // false in every lane
     }
 
     const Matrix3<Number> &
