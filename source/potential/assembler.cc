@@ -178,7 +178,7 @@ namespace Exemplar
     task.positions        = node_positions.data();
     task.weights          = weights.data();
     task.rotation_use     = rotations;
-    task.weights_are_free = has_weights();
+    task.with_weight_sums = has_weights();
     return task;
   }
 
@@ -311,7 +311,7 @@ namespace Exemplar
                       const std::vector<double>    *weight_linear_term)
   {
     CellTask cells = task(positions, weights, rotations);
-    cells.weights_are_free &= weight_linear_term == nullptr;
+    cells.with_weight_sums &= weight_linear_term == nullptr;
     std::vector<StripeSums> stripes(n_stripes);
     nodal_sums.fill(0.);
     const ParallelRegion region;

@@ -82,7 +82,7 @@ namespace Exemplar
     const double *positions        = nullptr; ///< four numbers a node, the fourth unused [m]
     const double *weights          = nullptr;
     RotationUse   rotation_use     = RotationUse::keep;
-    bool          weights_are_free = false; ///< whether derivatives by them are wanted
+    bool          with_weight_sums = false; ///< for the derivatives by weights
   };
 
   /// What a loop sums over its cells.

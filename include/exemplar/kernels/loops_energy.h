@@ -134,10 +134,10 @@ namespace Exemplar::Loops
       sums.stress_square += tet.volume * scale * scale;
       sums.energy += tet.volume * cell.energy(D);
       sums.guarded += one(is_real & cell.is_guarded());
-      if (frozen || task.weights_are_free)
+      if (frozen || task.with_weight_sums)
       {
         P = cell.weight_stress(D);
-        if (task.weights_are_free)
+        if (task.with_weight_sums)
           add_weight_sums(task, group, Number(-task.examples.importance) * tet.volume, P,
                           weight_sums);
       }

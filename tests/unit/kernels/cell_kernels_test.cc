@@ -44,7 +44,7 @@ namespace Exemplar::Testing
         task.positions              = positions.data();
         task.weights                = weights.data();
         task.rotation_use           = RotationUse::update;
-        task.weights_are_free       = true;
+        task.with_weight_sums       = true;
         const std::size_t n_batches = task.cells.n_batches();
 
         nodal_sums.resize(4 * n_nodes);
