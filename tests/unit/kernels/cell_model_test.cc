@@ -116,7 +116,10 @@ namespace Exemplar::Testing
     expect_force_is_gradient()
     {
       std::mt19937 generator(7);
-      for (const auto &[name, F] : states())
+      for (const auto &state : states())
+      {
+        const auto            &name = state.first; // no structured binding: Clang 14 captures none
+        const Matrix3<double> &F    = state.second;
         for (const Matrix3<double> &D : targets())
         {
           const Matrix3<double> P = force<Cell>(F, D);
@@ -134,6 +137,7 @@ namespace Exemplar::Testing
                 << name;
           }
         }
+      }
     }
 
     template <typename Cell>
@@ -141,7 +145,10 @@ namespace Exemplar::Testing
     expect_tangent_is_derivative_of_force()
     {
       std::mt19937 generator(8);
-      for (const auto &[name, F] : states())
+      for (const auto &state : states())
+      {
+        const auto            &name = state.first; // no structured binding: Clang 14 captures none
+        const Matrix3<double> &F    = state.second;
         for (const Matrix3<double> &D : targets())
         {
           if (cell_at<Cell>(F).is_guarded() && contract(D, D) > 0.)
@@ -160,6 +167,7 @@ namespace Exemplar::Testing
                     << name;
           }
         }
+      }
     }
 
     template <typename Cell>
@@ -167,11 +175,13 @@ namespace Exemplar::Testing
     expect_derivatives_by_target(const bool with_column)
     {
       std::mt19937 generator(10);
-      for (const auto &[name, F] : states())
+      for (const auto &state : states())
       {
-        const Matrix3<double> D    = targets()[1];
-        const Matrix3<double> E    = symmetric_part(random_matrix(generator));
-        Cell                  cell = cell_at<Cell>(F);
+        const auto            &name = state.first;
+        const Matrix3<double> &F    = state.second;
+        const Matrix3<double>  D    = targets()[1];
+        const Matrix3<double>  E    = symmetric_part(random_matrix(generator));
+        Cell                   cell = cell_at<Cell>(F);
         cell.set_target(D);
         EXPECT_NEAR(
             -contract(cell.weight_stress(D), E),
