@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The loops over the cells for the instruction set that every CPU of the kind has, one by one and as
-// many at once as its registers hold.
+// The loops over the cells for the instruction set that every CPU of the kind has, one by one
+// and as many at once as its registers hold.
 #include <exemplar/kernels/cell_kernels_loops.h>
 
 #include <xsimd/xsimd.hpp>

@@ -16,7 +16,8 @@ namespace Exemplar
   public:
     CellBatches(const FESpace &fe_space, const Material &material);
 
-    /// What the kernels see, for a model with this strain and p_0 of Eq. (16). Loops write rotations.
+    /// What the kernels see, for a model with this strain and p_0 of Eq. (16). Loops that update
+    /// rotations write them here.
     CellArrays
     arrays(StrainMeasure strain, double guard_bound);
 

@@ -162,8 +162,8 @@ namespace Exemplar
     void (*add_tangent)(const CellTask &, const TangentTask &, std::size_t begin, std::size_t end);
 
     /// By how much a unit of each example's weight reduces the nodal forces of the cells of one
-    /// batch: 12 entries an example, each for all cells of the batch. `rotated`: with rotations held
-    /// fixed, as in R K R^T; else by the exact or convex tangent.
+    /// batch: 12 entries an example, each for all cells of the batch. `rotated`: with rotations
+    /// held fixed, as in R K R^T; else by the exact or convex tangent.
     void (*coupling)(
         const CellTask &, const TangentTask &, bool rotated, std::size_t batch, double *forces);
   };

@@ -4,8 +4,8 @@
 
 #include <exemplar/kernels/loops_tangent.h>
 
-// The loops over the cells of a batch that find the columns G of Eq. (9): how much of each example's
-// force a unit of its weight takes away.
+// The loop over the cells of a batch that finds the columns G of Eq. (9): by how much a unit of
+// each example's weight reduces the forces.
 
 namespace Exemplar::Loops
 {

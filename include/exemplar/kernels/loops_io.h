@@ -107,7 +107,7 @@ namespace Exemplar::Loops
   /// Four numbers of one node or cell; the compiler maps them to the registers that there are.
   using Four = double __attribute__((vector_size(32)));
 
-  // These have internal linkage and take references: passed by value, Four needs an instruction set.
+  // Internal linkage, and references: how Four is passed by value depends on the instruction set.
 
   [[gnu::always_inline]] static inline void
   load_four(const double *from, Four &four)

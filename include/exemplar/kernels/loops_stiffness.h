@@ -9,8 +9,8 @@
 
 namespace Exemplar::Loops
 {
-  /// What makes R K R^T of the cells of a group, Eq. (8), for an isotropic material. Lanes are stored
-  /// apart, because each cell is then added by itself.
+  /// What makes R K R^T of the cells of a group, Eq. (8), for an isotropic material. Lanes are
+  /// stored apart, because each cell is then added by itself.
   template <typename Number>
   struct RotatedStiffness
   {
