@@ -9,14 +9,16 @@
 
 namespace Exemplar
 {
-  CellBatches::CellBatches(const FESpace &fe_space, const Material &material)
+  CellBatches::CellBatches(const FESpace &fe_space, const Material &body_material)
       : n_cells(fe_space.n_cells()), nodes(batched_size(n_cells, 4)),
         gradients(batched_size(n_cells, 9)), volumes(batched_size(n_cells, 1)),
-        lame(batched_size(n_cells, 2)), rotations(batched_size(n_cells, 9))
+        material(batched_size(n_cells, CellMaterial<double>::n_numbers)),
+        rotations(batched_size(n_cells, 9))
   {
-    for (std::size_t place = 0; place < volumes.size(); ++place)
+    // slots behind the last cell repeat it, without a volume
+    for (std::size_t slot = 0; slot < volumes.size(); ++slot)
     {
-      const auto                  cell  = static_cast<unsigned int>(std::min(place, n_cells - 1));
+      const auto                  cell  = static_cast<unsigned int>(std::min(slot, n_cells - 1));
       const Tetrahedron<double>  &tet   = fe_space.tetrahedron(cell);
       std::array<unsigned int, 4> order = { { 0, 1, 2, 3 } };
       std::sort(order.begin(), order.end(),
@@ -26,30 +28,31 @@ namespace Exemplar
       {
         const Vector3<double> &g = tet.shape_gradient[order[a]];
 
-        nodes[batch_index(place, 4, a)] = static_cast<int>(fe_space.nodes(cell)[order[a]]);
+        nodes[batch_index(slot, 4, a)] = static_cast<int>(fe_space.nodes(cell)[order[a]]);
         for (unsigned int i = 0; i < 3 && a > 0; ++i)
-          gradients[batch_index(place, 9, 3 * (a - 1) + i)] = g[i];
+          gradients[batch_index(slot, 9, 3 * (a - 1) + i)] = g[i];
       }
-      volumes[place]                 = place < n_cells ? tet.volume : 0.;
-      lame[batch_index(place, 2, 0)] = material.lame(cell).lambda;
-      lame[batch_index(place, 2, 1)] = material.lame(cell).mu;
+      volumes[slot]                   = slot < n_cells ? tet.volume : 0.;
+      constexpr std::size_t n_numbers = CellMaterial<double>::n_numbers;
+      for (std::size_t k = 0; k < n_numbers; ++k)
+        material[batch_index(slot, n_numbers, k)] = body_material.elasticity(cell).number(k);
       for (const unsigned int diagonal : { 0, 4, 8 })
-        rotations[batch_index(place, 9, diagonal)] = 1.;
+        rotations[batch_index(slot, 9, diagonal)] = 1.;
     }
   }
 
   CellArrays
   CellBatches::arrays(const StrainMeasure strain, const double guard_bound)
   {
-    return { n_cells,     nodes.data(),     gradients.data(), volumes.data(),
-             lame.data(), rotations.data(), strain,           guard_bound };
+    return { n_cells,         nodes.data(),     gradients.data(), volumes.data(),
+             material.data(), rotations.data(), strain,           guard_bound };
   }
 
   std::size_t
   CellBatches::memory_consumption() const
   {
     return dealii::MemoryConsumption::memory_consumption(nodes) + gradients.memory_consumption()
-           + volumes.memory_consumption() + lame.memory_consumption()
+           + volumes.memory_consumption() + material.memory_consumption()
            + rotations.memory_consumption();
   }
 } // namespace Exemplar

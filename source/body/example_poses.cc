@@ -8,7 +8,6 @@
 #include <deal.II/base/memory_consumption.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <sstream>
 
@@ -195,14 +194,11 @@ namespace Exemplar
     {
       for (unsigned int i = first_strained; i < size(); ++i)
       {
-        const Matrix3<double>       F = fe_space.deformation_gradient(cell, positions[i]);
-        const Matrix3<double>       E = model_strain(measure, model_rotation(measure, F), F);
-        const std::array<double, 6> upper
-            = { { E[0][0], E[1][1], E[2][2], E[1][2], E[0][2], E[0][1] } };
-        for (unsigned int k = 0; k < 6; ++k)
-          strains[batch_index(cell, 6 * n_strained(), 6 * (i - first_strained) + k)] = upper[k];
+        const Matrix3<double> F = fe_space.deformation_gradient(cell, positions[i]);
+        const Matrix3<double> E = model_strain(measure, model_rotation(measure, F), F);
+        add_to_stored(strains.data(), cell, n_strained(), i - first_strained, 1., E);
         n_inverted[i] += (determinant(F) <= 0.);
-        if (measure == StrainMeasure::corotational)
+        if (traits_of(measure).has_guard)
           p_0 = std::min(p_0, 0.5 * guard_product(E));
       }
       for_each_weight(cell,
@@ -227,18 +223,18 @@ namespace Exemplar
   {
     gram.reinit(n_weights(), n_weights());
     for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
-      for_each_weight(cell,
-                      [&](const unsigned int v, const unsigned int i, const double share_v)
-                      {
-                        const Matrix3<double> T = stress(material.lame(cell), strain(cell, i));
-                        for_each_weight(
-                            cell,
+      for_each_weight(
+          cell,
+          [&](const unsigned int v, const unsigned int i, const double share_v)
+          {
+            const Matrix3<double> T = stress(material.elasticity(cell), strain(cell, i));
+            for_each_weight(cell,
                             [&](const unsigned int w, const unsigned int j, const double share_w)
                             {
                               gram(v, w) += fe_space.tetrahedron(cell).volume * share_v * share_w
                                             * contract(T, strain(cell, j));
                             });
-                      });
+          });
   }
 
   std::vector<double>

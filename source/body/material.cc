@@ -14,7 +14,7 @@ namespace Exemplar
     void
     declare_constants(dealii::ParameterHandler &prm, ElasticConstants &constants)
     {
-      // the least positive number that makes sense keeps 0 out: patterns are closed
+      // a pattern allows its bounds, too, so that 0 as the bound would allow 0
       const dealii::Patterns::Double positive(1e-300);
       prm.add_parameter("Young's modulus", constants.youngs_modulus, "E [Pa], greater than 0.",
                         positive);
@@ -40,8 +40,8 @@ namespace Exemplar
                           "incompressible material take 0.49.");
     }
 
-    Lame<double>
-    lame_of(const ElasticConstants &constants)
+    CellMaterial<double>
+    elasticity_of(const ElasticConstants &constants)
     {
       const double E = constants.youngs_modulus, nu = constants.poissons_ratio;
       return { E * nu / ((1. + nu) * (1. - 2. * nu)), E / (2. * (1. + nu)) };
@@ -86,7 +86,7 @@ namespace Exemplar
       : constants_of_cell(material_ids.size(), 0)
   {
     const auto add = [this](const ElasticConstants &c) {
-      constants.push_back({ lame_of(c), c.density, c.youngs_modulus });
+      constants.push_back({ elasticity_of(c), c.density, c.youngs_modulus });
     };
     add(parameters.everywhere);
     for (const auto &[id, region] : parameters.regions)

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/instruction_set.h>
-#include <exemplar/kernels/cell_kernels_loops.h>
+#include <exemplar/kernels/cell_kernels.h>
 
 namespace Exemplar
 {
+  CellKernels
+  cell_kernels_scalar();
   CellKernels
   cell_kernels_baseline();
 #ifdef __x86_64__
@@ -16,7 +18,7 @@ namespace Exemplar
   std::vector<const CellKernels *>
   all_kernels()
   {
-    static const CellKernels         scalar   = CellLoops<double>::kernels("scalar");
+    static const CellKernels         scalar   = cell_kernels_scalar();
     static const CellKernels         baseline = cell_kernels_baseline();
     std::vector<const CellKernels *> all      = { &scalar, &baseline };
 #ifdef __x86_64__

@@ -9,6 +9,6 @@ namespace Exemplar
   CellKernels
   cell_kernels_avx2()
   {
-    return CellLoops<xsimd::batch<double, xsimd::fma3<xsimd::avx2>>>::kernels("avx2");
+    return Loops::make_kernels<xsimd::batch<double, xsimd::fma3<xsimd::avx2>>>("avx2");
   }
 } // namespace Exemplar

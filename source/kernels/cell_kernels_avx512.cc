@@ -9,6 +9,6 @@ namespace Exemplar
   CellKernels
   cell_kernels_avx512()
   {
-    return CellLoops<xsimd::batch<double, xsimd::avx512dq>>::kernels("avx512");
+    return Loops::make_kernels<xsimd::batch<double, xsimd::avx512dq>>("avx512");
   }
 } // namespace Exemplar

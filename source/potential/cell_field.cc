@@ -13,27 +13,27 @@ namespace Exemplar
   }
 
   CellTask
-  CellField::task(const Vector &positions, const Rotations rotations)
+  CellField::task(const Vector &positions, const RotationUse rotations)
   {
-    if (rotations == Rotations::keep)
+    if (rotations == RotationUse::keep)
       refresh_rotations();
-    rotations_are_forgotten = rotations == Rotations::find_and_forget;
+    rotations_are_forgotten = rotations == RotationUse::find_and_forget;
     for (unsigned int node = 0; node < n_nodes(); ++node)
       for (unsigned int c = 0; c < 3; ++c)
         node_positions[4 * node + c] = positions[3 * node + c];
     CellTask task;
-    task.cells            = batches.arrays(strain, guard_bound);
-    task.positions        = node_positions.data();
-    task.use_of_rotations = rotations;
+    task.cells        = batches.arrays(strain, guard_bound);
+    task.positions    = node_positions.data();
+    task.rotation_use = rotations;
     return task;
   }
 
   void
   CellField::update_rotations(const Vector &positions)
   {
-    if (strain != StrainMeasure::corotational)
+    if (!traits_of(strain).has_rotations)
       return;
-    const CellTask cells = task(positions, Rotations::update);
+    const CellTask cells = task(positions, RotationUse::update);
     kernels.update_rotations(cells, 0, cells.cells.n_batches());
   }
 

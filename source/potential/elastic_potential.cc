@@ -73,13 +73,12 @@ namespace Exemplar
     Vector   force(fe_space.n_nodes());
     for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
     {
-      const Lame<double>        &lame     = parts.material.lame(cell);
       const Tetrahedron<double> &tet      = fe_space.tetrahedron(cell);
       double                     norms[4] = {};
       for (unsigned int a = 0; a < 4; ++a)
         norms[a] = std::sqrt(dot(tet.shape_gradient[a], tet.shape_gradient[a]));
       const double strain = of_positions * *std::max_element(norms, norms + 4);
-      const double stress = strain * (std::abs(lame.lambda) + 2. * lame.mu);
+      const double stress = strain * parts.material.elasticity(cell).norm_estimate();
       rounding.stress_norm += tet.volume * stress * stress;
       for (unsigned int a = 0; a < 4; ++a)
         force[fe_space.nodes(cell)[a]] += std::pow(tet.volume * stress * norms[a], 2);
@@ -108,14 +107,14 @@ namespace Exemplar
   CellTask
   ElasticPotential::task(const Vector              &positions,
                          const std::vector<double> &weights,
-                         const Rotations            rotations)
+                         const RotationUse          rotations)
   {
     CellTask task = cells.task(positions, rotations);
     task.damping  = damping.arrays();
     if (parts.examples != nullptr)
       task.examples = parts.examples->arrays();
     task.weights          = weights.data();
-    task.weights_are_free = has_unknown_weights();
+    task.with_weight_sums = has_unknown_weights();
     return task;
   }
 
@@ -185,11 +184,11 @@ namespace Exemplar
   ElasticPotential::evaluate(const Vector              &positions,
                              const std::vector<double> &weights,
                              ElasticEvaluation         &result,
-                             const Rotations            rotations,
+                             const RotationUse          rotations,
                              const std::vector<double> *linear_term)
   {
     CellTask cell_task = task(positions, weights, rotations);
-    cell_task.weights_are_free &= linear_term == nullptr;
+    cell_task.with_weight_sums &= linear_term == nullptr;
     const std::size_t       n_batches = cell_task.cells.n_batches();
     const std::size_t       n_lanes   = has_unknown_weights() ? batch_size * weights.size() : 0;
     std::vector<StripeSums> stripes(n_stripes);
@@ -226,11 +225,11 @@ namespace Exemplar
   }
 
   std::vector<double>
-  ElasticPotential::weight_linear_term(const Vector &positions, const Rotations rotations)
+  ElasticPotential::weight_linear_term(const Vector &positions, const RotationUse rotations)
   {
     const CellTask                cell_task = task(positions, {}, rotations);
     dealii::AlignedVector<double> weight_sums(batch_size * parts.examples->n_weights());
-    cells.loops().weight_target(cell_task, 0, cell_task.cells.n_batches(), weight_sums.data());
+    cells.loops().weight_linear_term(cell_task, 0, cell_task.cells.n_batches(), weight_sums.data());
     return sum_of_lanes(weight_sums);
   }
 
@@ -242,10 +241,10 @@ namespace Exemplar
     CellResults results{ std::vector<double>(n), std::vector<double>(n), std::vector<double>(n) };
     for (unsigned int cell = 0; cell < n; ++cell)
     {
-      const Lame<double>   &lame   = parts.material.lame(cell);
-      const Matrix3<double> F      = parts.fe_space.deformation_gradient(cell, positions);
-      const Matrix3<double> strain = model_strain(parts.model.strain, cells.rotation(cell), F);
-      Matrix3<double>       T      = stress(lame, strain);
+      const CellMaterial<double> &lame = parts.material.elasticity(cell);
+      const Matrix3<double>       F    = parts.fe_space.deformation_gradient(cell, positions);
+      const Matrix3<double> strain     = model_strain(parts.model.strain, cells.rotation(cell), F);
+      Matrix3<double>       T          = stress(lame, strain);
 
       results.strain_energy_density[cell] = 0.5 * contract(T, strain);
       results.det_F[cell]                 = determinant(F);

@@ -2,7 +2,6 @@
 #include <exemplar/potential/elastic_potential.h>
 
 #include <algorithm>
-#include <type_traits>
 
 // The matrix A and the columns G of a step: R K R^T, for which four vectors are turned and
 // no matrix is multiplied, and the tangents of the models.
@@ -71,10 +70,11 @@ namespace Exemplar
     {
       const Matrix3<double> dF = parts.fe_space.deformation_gradient(cell, displacement);
       const Matrix3<double> de = symmetric_part(transpose_times(cells.rotation(cell), dF));
-      add_force(cell, stress(damping.damped(cell, parts.material.lame(cell)), de), result.gradient);
+      add_force(cell, stress(damping.damped(cell, parts.material.elasticity(cell)), de),
+                result.gradient);
       if (!result.weight_gradient.empty())
       {
-        const Matrix3<double> dT = stress(parts.material.lame(cell), de);
+        const Matrix3<double> dT = stress(parts.material.elasticity(cell), de);
         const double          factor
             = parts.examples->importance() * parts.fe_space.tetrahedron(cell).volume;
         parts.examples->for_each_weight(
@@ -95,10 +95,10 @@ namespace Exemplar
                                const Vector              &positions,
                                const std::vector<double> &weights) const
   {
-    Cell state(damping.damped(cell, parts.material.lame(cell)), cells.rotation(cell),
+    Cell state(damping.damped(cell, parts.material.elasticity(cell)), cells.rotation(cell),
                parts.fe_space.deformation_gradient(cell, positions), cells.get_guard_bound());
     state.set_target(damping.damped(cell, example_strain(cell, weights)));
-    if constexpr (std::is_same_v<Cell, GreenCell<double>>) // the others' is R K R^T
+    if constexpr (!Cell::traits.convex_is_rotated)
       if (tangent == Tangent::convex)
         state.make_convex();
     return state;
@@ -112,7 +112,7 @@ namespace Exemplar
                                      std::vector<double>       &columns)
   {
     const bool rotated   = is_rotated_stiffness(tangent);
-    CellTask   cell_task = task(positions, weights, Rotations::keep);
+    CellTask   cell_task = task(positions, weights, RotationUse::keep);
     if (tangent == Tangent::convex)
       cell_task.damping = damping.arrays_of_all_cells();
     const TangentTask to
@@ -162,12 +162,18 @@ namespace Exemplar
   {
     cells.refresh_rotations();
     if (is_rotated_stiffness(tangent))
+    {
       add_rotated_responses(displacement, result);
-    else if (parts.model.strain == StrainMeasure::green)
-      add_cell_responses<GreenCell<double>>(tangent, displacement, positions, weights, result);
-    else
-      add_cell_responses<CorotationalCell<double>>(tangent, displacement, positions, weights,
-                                                   result);
+      return;
+    }
+    with_cell_model<double>(parts.model.strain,
+                            [&](auto model)
+                            {
+                              using Cell = typename decltype(model)::type;
+                              if constexpr (!Cell::traits.exact_is_rotated)
+                                add_cell_responses<Cell>(tangent, displacement, positions, weights,
+                                                         result);
+                            });
   }
 
   void

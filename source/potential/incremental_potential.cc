@@ -72,16 +72,18 @@ namespace Exemplar
   }
 
   void
-  IncrementalPotential::evaluate(const State &at, const Rotations rotations, Evaluation &evaluation)
+  IncrementalPotential::evaluate(const State      &at,
+                                 const RotationUse rotations,
+                                 Evaluation       &evaluation)
   {
     cells.evaluate(at.positions, at.weights, evaluation.elastic, rotations);
     add_terms(at.positions, evaluation);
   }
 
   void
-  IncrementalPotential::minimize_over_weights(State          &at,
-                                              const Rotations rotations,
-                                              Evaluation     &evaluation)
+  IncrementalPotential::minimize_over_weights(State            &at,
+                                              const RotationUse rotations,
+                                              Evaluation       &evaluation)
   {
     if (unknown_weights() == nullptr)
     {
@@ -90,9 +92,9 @@ namespace Exemplar
     }
     // the loop over the cells needs the weights, so their linear term takes a loop of its own,
     // which leaves the rotations that both need
-    const std::vector<double> c = cells.weight_linear_term(at.positions, Rotations::update);
+    const std::vector<double> c = cells.weight_linear_term(at.positions, RotationUse::update);
     at.weights                  = weights->best(c, at.weights);
-    cells.evaluate(at.positions, at.weights, evaluation.elastic, Rotations::keep, &c);
+    cells.evaluate(at.positions, at.weights, evaluation.elastic, RotationUse::keep, &c);
     add_terms(at.positions, evaluation);
   }
 

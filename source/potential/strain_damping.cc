@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/kernels/symmetric.h>
 #include <exemplar/potential/strain_damping.h>
 
 namespace Exemplar
@@ -21,23 +22,12 @@ namespace Exemplar
     for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
       for (const WeightedPositions &past : history)
       {
-        const Matrix3<double> F       = fe_space.deformation_gradient(cell, *past.positions);
-        const Matrix3<double> R       = model_rotation(measure, F);
-        const Matrix3<double> e       = model_strain(measure, R, F);
-        const double          part[6] = { e[0][0], e[1][1], e[2][2], e[1][2], e[0][2], e[0][1] };
-        for (unsigned int k = 0; k < 6; ++k)
-          strains[batch_index(cell, 6, k)] += past.weight * part[k];
-        if (measure == StrainMeasure::corotational
-            && CorotationalCell<double>(material.lame(cell), R, F, cells.get_guard_bound())
-                   .is_guarded())
+        const Matrix3<double> F = fe_space.deformation_gradient(cell, *past.positions);
+        const Matrix3<double> R = model_rotation(measure, F);
+        add_to_stored(strains.data(), cell, 1, 0, past.weight, model_strain(measure, R, F));
+        if (model_is_guarded(measure, material.elasticity(cell), R, F, cells.get_guard_bound()))
           factors[cell] = 0.;
       }
-  }
-
-  Lame<double>
-  StrainDamping::damped(const unsigned int cell, const Lame<double> &lame) const
-  {
-    return { (1. + factor(cell)) * lame.lambda, (1. + factor(cell)) * lame.mu };
   }
 
   Matrix3<double>
@@ -46,11 +36,7 @@ namespace Exemplar
     const double s_cell = factor(cell);
     if (s_cell == 0.)
       return D;
-    double E[6];
-    for (unsigned int k = 0; k < 6; ++k)
-      E[k] = strains[batch_index(cell, 6, k)];
-    const Matrix3<double> past
-        = { { { E[0], E[5], E[4] }, { E[5], E[1], E[3] }, { E[4], E[3], E[2] } } };
+    const Matrix3<double> past = load_stored(strains.data(), cell, 1, 0);
     return combine(1. / (1. + s_cell), D, s_cell / (1. + s_cell), past);
   }
 

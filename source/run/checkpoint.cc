@@ -29,8 +29,8 @@ namespace Exemplar
       RunTotals &totals = checkpoint.totals;
       archive &checkpoint.parameters &checkpoint.input_digests;
       archive &state.step &state.time &state.positions &state.velocities &state
-          .previous_positions &state.previous_velocities &state.previous_step &state
-          .weights &state.multipliers;
+          .previous_positions &state.previous_velocities &state.previous_step &state.weights &state
+          .multipliers;
       archive &work.handles &work.gravity &work.loads;
       archive &totals.iterations &totals.factorizations &totals.worst_residual;
       for (double &seconds : totals.seconds)
@@ -42,8 +42,8 @@ namespace Exemplar
     auto
     guarded_load(const std::filesystem::path &file, const Load &load)
     {
-      const UserError broken(
-          file.string() + " cannot be read as a checkpoint. Run the scene without --resume.");
+      const UserError broken(file.string()
+                             + " cannot be read as a checkpoint. Run the scene without --resume.");
       try
       {
         return load();
@@ -83,21 +83,21 @@ namespace Exemplar
       throw UserError(file.string()
                       + ": there is no checkpoint to resume from. Run the scene "
                         "without --resume.");
-    return guarded_load(
-        file,
-        [&]
-        {
-          boost::archive::binary_iarchive archive(in);
-          std::string                     found;
-          archive                        &found;
-          if (found != format)
-            throw UserError(file.string()
-                            + " is no checkpoint of this version of exemplar. Run the "
-                              "scene without --resume.");
-          Checkpoint checkpoint;
-          transfer(archive, checkpoint);
-          return checkpoint;
-        });
+    return guarded_load(file,
+                        [&]
+                        {
+                          boost::archive::binary_iarchive archive(in);
+                          std::string                     found;
+                          archive                        &found;
+                          if (found != format)
+                            throw UserError(
+                                file.string()
+                                + " is no checkpoint of this version of exemplar. Run the "
+                                  "scene without --resume.");
+                          Checkpoint checkpoint;
+                          transfer(archive, checkpoint);
+                          return checkpoint;
+                        });
   }
 
   void

@@ -113,10 +113,10 @@ namespace Exemplar
             + (report.status == SolveStatus::failed ? " failed: " : " has no descent: ")
             + report.failure);
       std::ostringstream message;
-      const bool         lacks_derivative
-          = problem.parameters.solver.method == Method::fixed_point && problem.examples != nullptr
-            && problem.parameters.model.strain == StrainMeasure::corotational
-            && !problem.parameters.model.is_frozen();
+      const bool         lacks_derivative = problem.parameters.solver.method == Method::fixed_point
+                                    && problem.examples != nullptr
+                                    && traits_of(problem.parameters.model.strain).has_rotations
+                                    && !problem.parameters.model.is_frozen();
       message << "Step " << step
               << (report.status == SolveStatus::stalled ? " stalled"
                                                         : " stopped at its iteration limit")

@@ -231,7 +231,7 @@ namespace Exemplar
     StepClock::Scope scope(clock, Part::evaluate);
     potential.leave_step();
     potential.set_time(at.time, at);
-    potential.evaluate(at, Rotations::update, evaluation);
+    potential.evaluate(at, RotationUse::update, evaluation);
   }
 
   std::vector<unsigned int>
@@ -275,8 +275,7 @@ namespace Exemplar
   bool
   Problem::turns_freely() const
   {
-    // infinitesimal rotations alone leave the linear strain as it is
-    return parameters.model.strain != StrainMeasure::linear;
+    return traits_of(parameters.model.strain).turns_freely;
   }
 
   SolveReport

@@ -144,8 +144,7 @@ namespace Exemplar
       statistics.emplace(directory.statistics());
       if (is_frame(0))
         write_frame();
-      StatisticsRow row
-          = problem.diagnostics.row(problem.state, SolveReport(), problem.evaluation);
+      StatisticsRow row = problem.diagnostics.row(problem.state, SolveReport(), problem.evaluation);
       Diagnostics::append_seconds(row, {});
       statistics->write(row);
       accepted_bytes = statistics->n_bytes();

@@ -51,7 +51,7 @@ namespace Exemplar
     StepClock::Scope scope(clock, Part::evaluate);
     potential.set_time(time, trial);
     prediction.predict(accepted, step_size, trial);
-    potential.evaluate(trial, Rotations::update, evaluation);
+    potential.evaluate(trial, RotationUse::update, evaluation);
   }
 
   void
@@ -65,7 +65,7 @@ namespace Exemplar
     ++report.iterations;
     {
       StepClock::Scope scope(clock, Part::evaluate);
-      potential.evaluate(trial, Rotations::update, evaluation);
+      potential.evaluate(trial, RotationUse::update, evaluation);
     }
     const bool goes_on = report_iteration(potential, evaluation, trial, report);
     if (parameters.method == Method::one_pass)

@@ -164,7 +164,7 @@ namespace Exemplar
   Newton::evaluate(State &state, Evaluation &evaluation)
   {
     StepClock::Scope scope(clock, Part::evaluate);
-    potential.minimize_over_weights(state, Rotations::update, evaluation);
+    potential.minimize_over_weights(state, RotationUse::update, evaluation);
   }
 
   bool

@@ -89,7 +89,7 @@ namespace Exemplar
     potential.set_time(trial.time, trial);
     prediction.predict(accepted, step_size, trial);
     rebuild_metric(trial);
-    potential.minimize_over_weights(trial, Rotations::update, evaluation);
+    potential.minimize_over_weights(trial, RotationUse::update, evaluation);
   }
 
   void
@@ -174,7 +174,7 @@ namespace Exemplar
     {
       {
         StepClock::Scope scope(clock, Part::evaluate);
-        potential.minimize_over_weights(trial, Rotations::find_and_forget, evaluation);
+        potential.minimize_over_weights(trial, RotationUse::find_and_forget, evaluation);
       }
       if (is_better({ potential, evaluation }, before, length * slope))
         return true;
@@ -259,7 +259,7 @@ namespace Exemplar
         if (n_with_metric < max_iterations) // the line search gave up, and went back
         {
           StepClock::Scope scope(clock, Part::evaluate);
-          potential.minimize_over_weights(trial, Rotations::update, evaluation);
+          potential.minimize_over_weights(trial, RotationUse::update, evaluation);
         }
         free_dofs.gather(evaluation.gradient, iteration.gradient);
         renew_metric(trial);
@@ -270,7 +270,7 @@ namespace Exemplar
       ++n_with_metric;
       old_gradient.swap(iteration.gradient);
       free_dofs.gather(evaluation.gradient, iteration.gradient);
-      const auto norm    = [&](const std::vector<double> &vector)
+      const auto norm = [&](const std::vector<double> &vector)
       { return std::sqrt(free_dofs.exchange().sum(dot(vector, vector))); };
       const double old_norm = norm(old_gradient);
       const double ratio    = norm(iteration.gradient) / old_norm;

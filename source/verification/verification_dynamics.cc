@@ -88,10 +88,10 @@ namespace Exemplar::Verification
         for (unsigned int a = 0; a < 4; ++a)
           if (p.fe_space.nodes(cell)[a] == node)
           {
-            const auto &[lambda, mu] = p.material.lame(cell);
-            const auto &tetrahedron  = p.fe_space.tetrahedron(cell);
-            const auto &g            = tetrahedron.shape_gradient[a];
-            K += tetrahedron.volume * ((lambda + mu) * g[0] * g[0] + mu * dot(g, g));
+            const auto &C           = p.material.elasticity(cell);
+            const auto &tetrahedron = p.fe_space.tetrahedron(cell);
+            const auto &g           = tetrahedron.shape_gradient[a];
+            K += tetrahedron.volume * ((C.lambda + C.mu) * g[0] * g[0] + C.mu * dot(g, g));
             M += p.material.density(cell) * tetrahedron.volume / 10.;
           }
       return std::sqrt(K / M);

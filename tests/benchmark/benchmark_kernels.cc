@@ -60,10 +60,10 @@ namespace Exemplar
     }
 
     void
-    forces(benchmark::State &state, const CellKernels *kernels, const Rotations rotations)
+    forces(benchmark::State &state, const CellKernels *kernels, const RotationUse rotations)
     {
-      CellTask task         = scene->task;
-      task.use_of_rotations = rotations;
+      CellTask task     = scene->task;
+      task.rotation_use = rotations;
       for (auto _ : state)
       {
         CellSums sums;
@@ -78,7 +78,7 @@ namespace Exemplar
     {
       ElasticEvaluation evaluation;
       for (auto _ : state)
-        scene->problem.elastic.evaluate(scene->positions, {}, evaluation, Rotations::update);
+        scene->problem.elastic.evaluate(scene->positions, {}, evaluation, RotationUse::update);
       report_cells(state);
     }
 
@@ -174,11 +174,11 @@ main(int argc, char *argv[])
   {
     const std::string name = std::string("/") + kernels->name;
     benchmark::RegisterBenchmark(("rotations" + name).c_str(), rotations, kernels);
-    benchmark::RegisterBenchmark(("forces" + name).c_str(), forces, kernels, Rotations::keep);
+    benchmark::RegisterBenchmark(("forces" + name).c_str(), forces, kernels, RotationUse::keep);
     benchmark::RegisterBenchmark(("rotations_and_forces" + name).c_str(), forces, kernels,
-                                 Rotations::update);
+                                 RotationUse::update);
     benchmark::RegisterBenchmark(("forces_without_storing_rotations" + name).c_str(), forces,
-                                 kernels, Rotations::find_and_forget);
+                                 kernels, RotationUse::find_and_forget);
   }
   benchmark::RegisterBenchmark("evaluation", evaluation);
   benchmark::RegisterBenchmark("assembly/convex", assembly, Tangent::convex);

@@ -130,10 +130,9 @@ namespace Exemplar
         const State &state = problem.state;
         Sample       sample;
         sample.assemble = duration_of(
-            [&]
-            {
-              problem.potential.assemble(state.positions, state.weights, 1.,
-                                                 matrix->values(), coupling);
+            [&] {
+              problem.potential.assemble(state.positions, state.weights, 1., matrix->values(),
+                                         coupling);
             });
         sample.factorize = duration_of([&] { matrix->factorize(state.positions); });
         column.assign(problem.free_dofs.size(), 1.);

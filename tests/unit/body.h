@@ -90,11 +90,10 @@ namespace Exemplar::Testing
              const StrainMeasure      measure = StrainMeasure::corotational) const
     {
       Examples result;
-      result.poses
-          = std::make_unique<ExamplePoses>(parameters, measure, mesh, fe_space, material);
-      result.weights = std::make_unique<ExampleWeights>(
-          parameters, *result.poses, unit_energy(fe_space, material),
-          TimeAxis::of_increments(TimeParameters()));
+      result.poses = std::make_unique<ExamplePoses>(parameters, measure, mesh, fe_space, material);
+      result.weights = std::make_unique<ExampleWeights>(parameters, *result.poses,
+                                                        unit_energy(fe_space, material),
+                                                        TimeAxis::of_increments(TimeParameters()));
       return result;
     }
 

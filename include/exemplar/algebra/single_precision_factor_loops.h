@@ -61,7 +61,17 @@ namespace Exemplar
           sum[k] += Batch::load_unaligned(columns + k * stride + row) * x;
       }
       for (int k = 0; k < n; ++k)
-        product[k] = xsimd::hadd(sum[k]);
+        product[k] = sum_of_lanes(sum[k]);
+    }
+
+    static float
+    sum_of_lanes(const Batch &batch)
+    {
+#if XSIMD_VERSION_MAJOR < 9
+      return xsimd::hadd(batch);
+#else
+      return xsimd::reduce_add(batch);
+#endif
     }
 
     template <int n>

@@ -10,13 +10,14 @@
 
 namespace Exemplar
 {
-  /// The cells as the kernels want them, and the rotation of each.
+  /// The cells in batches, as CellArrays describes them, and the rotation of each.
   class CellBatches
   {
   public:
     CellBatches(const FESpace &fe_space, const Material &material);
 
-    /// For a model with that strain and p_0 of Eq. (16).
+    /// What the kernels see, for a model with this strain and p_0 of Eq. (16). Loops that update
+    /// rotations write them here.
     CellArrays
     arrays(StrainMeasure strain, double guard_bound);
 
@@ -29,8 +30,7 @@ namespace Exemplar
       return R;
     }
 
-    /// Node a of a cell in ascending order of their numbers, which is the order of all
-    /// arrays.
+    /// Node a of a cell. All arrays have the nodes of a cell in ascending order of their numbers.
     unsigned int
     node(const unsigned int cell, const unsigned int a) const
     {
@@ -46,7 +46,7 @@ namespace Exemplar
     std::vector<int>              nodes;
     dealii::AlignedVector<double> gradients;
     dealii::AlignedVector<double> volumes;
-    dealii::AlignedVector<double> lame;
+    dealii::AlignedVector<double> material;
     dealii::AlignedVector<double> rotations;
   };
 } // namespace Exemplar

@@ -6,6 +6,7 @@
 #include <exemplar/body/material.h>
 #include <exemplar/body/region_shares.h>
 #include <exemplar/kernels/cell_model.h>
+#include <exemplar/kernels/symmetric.h>
 
 #include <deal.II/base/aligned_vector.h>
 #include <deal.II/base/parameter_handler.h>
@@ -132,10 +133,7 @@ namespace Exemplar
     {
       if (i < first_strained)
         return Matrix3<double>{};
-      double E[6];
-      for (unsigned int k = 0; k < 6; ++k)
-        E[k] = strains[batch_index(cell, 6 * n_strained(), 6 * (i - first_strained) + k)];
-      return { { { E[0], E[5], E[4] }, { E[5], E[1], E[3] }, { E[4], E[3], E[2] } } };
+      return load_stored(strains.data(), cell, n_strained(), i - first_strained);
     }
 
     /// What the kernels see of the examples.

@@ -2,7 +2,7 @@
 #ifndef exemplar_fe_space_h
 #define exemplar_fe_space_h
 
-#include <exemplar/kernels/corotational.h>
+#include <exemplar/kernels/tetrahedron.h>
 #include <exemplar/mesh/mesh.h>
 
 #include <deal.II/base/tensor.h>

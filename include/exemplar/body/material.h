@@ -2,7 +2,7 @@
 #ifndef exemplar_material_h
 #define exemplar_material_h
 
-#include <exemplar/kernels/lame.h>
+#include <exemplar/kernels/elasticity.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -44,17 +44,17 @@ namespace Exemplar
     check() const;
   };
 
-  /// The elastic constants of each cell.
+  /// The elastic constants and the density of each cell.
   class Material
   {
   public:
     /// Throws UserError if a region names a material id that no cell has.
     Material(const MaterialParameters &parameters, const std::vector<unsigned int> &material_ids);
 
-    const Lame<double> &
-    lame(const unsigned int cell) const
+    const CellMaterial<double> &
+    elasticity(const unsigned int cell) const
     {
-      return constants[constants_of_cell[cell]].lame;
+      return constants[constants_of_cell[cell]].elasticity;
     }
 
     double
@@ -72,9 +72,9 @@ namespace Exemplar
   private:
     struct Constants
     {
-      Lame<double> lame;
-      double       density;
-      double       youngs_modulus;
+      CellMaterial<double> elasticity;
+      double               density;
+      double               youngs_modulus;
     };
 
     std::vector<Constants>    constants;

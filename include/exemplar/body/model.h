@@ -23,12 +23,12 @@ namespace Exemplar
     void
     declare(dealii::ParameterHandler &prm);
 
-    /// Whether forces are the paper's, which hold the rotations fixed. Only corotation has
-    /// rotations to hold.
+    /// Whether forces are the paper's, which hold the rotations fixed: never in models without
+    /// rotations.
     bool
     is_frozen() const
     {
-      return strain == StrainMeasure::corotational && gradient == GradientKind::frozen;
+      return traits_of(strain).has_rotations && gradient == GradientKind::frozen;
     }
   };
 } // namespace Exemplar

@@ -3,7 +3,7 @@
 #define exemplar_cell_kernels_h
 
 #include <exemplar/kernels/cell_model.h>
-#include <exemplar/kernels/simd.h>
+#include <exemplar/kernels/lanes.h>
 
 #include <limits>
 #include <string>
@@ -24,7 +24,7 @@ namespace Exemplar
     const int    *nodes;     ///< 4; ascending in each cell
     const double *gradients; ///< 9: g_a of the last three of those nodes [1/m]
     const double *volumes;   ///< 1 [m^3]
-    const double *lame;      ///< 2: lambda and mu [Pa]
+    const double *material;  ///< those of CellMaterial
     double       *rotations; ///< 9: R by rows
     StrainMeasure strain;
     double        guard_bound; ///< p_0 of Eq. (16)
@@ -43,7 +43,7 @@ namespace Exemplar
     double       value;
   };
 
-  /// The examples that have a strain, which the rest pose has not.
+  /// The examples other than the rest pose, whose strain is zero.
   struct ExampleArrays
   {
     unsigned int       n           = 0; ///< of them
@@ -63,9 +63,10 @@ namespace Exemplar
     const double *strains = nullptr; ///< 6: e_past
   };
 
-  /// Whether a loop over the cells takes their rotations as they are, or finds those of the
-  /// positions that it sees; to store them takes as much memory traffic as all the rest.
-  enum class Rotations
+  /// What a loop over the cells does with their rotations: it takes those that are stored, or it
+  /// finds those of the positions and stores them, or it finds them for itself alone, because
+  /// storing them takes as much memory traffic as all the rest.
+  enum class RotationUse
   {
     keep,
     update,
@@ -80,8 +81,8 @@ namespace Exemplar
     DampingArrays damping;
     const double *positions        = nullptr; ///< four numbers a node, the fourth unused [m]
     const double *weights          = nullptr;
-    Rotations     use_of_rotations = Rotations::keep;
-    bool          weights_are_free = false; ///< whether derivatives by them are wanted
+    RotationUse   rotation_use     = RotationUse::keep;
+    bool          with_weight_sums = false; ///< for the derivatives by weights
   };
 
   /// What a loop sums over its cells.
@@ -112,11 +113,12 @@ namespace Exemplar
   /// Columns of the 10 blocks (a,b), b <= a, of a cell's matrix: three each.
   constexpr std::size_t n_block_columns = 30;
 
-  /// Where the cells' matrices go. Column j of block (a,b) is added to three consecutive
-  /// values, rows 0 to 2; a zero where it is above the diagonal, and to the value behind.
+  /// Where the cells' matrices go. Column j of block (a,b) is added to three consecutive values,
+  /// rows 0 to 2. Entries above the diagonal of the matrix count as zero, and a zero may be added
+  /// to the value behind the three, because four numbers are written at once.
   struct TangentTask
   {
-    bool       convex    = false;   ///< make Green's tangent so
+    bool       convex    = false; ///< make_convex() the models whose convex tangent is not R K R^T
     const int *positions = nullptr; ///< 30 a cell from the first batch on; -1: left out
     double    *values    = nullptr;
   };
@@ -145,10 +147,10 @@ namespace Exemplar
                      CellSums &);
 
     /// c_i with dPsi/dw = H w - c, into lanes as above.
-    void (*weight_target)(const CellTask &,
-                          std::size_t begin,
-                          std::size_t end,
-                          double     *weight_sums);
+    void (*weight_linear_term)(const CellTask &,
+                               std::size_t begin,
+                               std::size_t end,
+                               double     *weight_sums);
 
     /// Add R K R^T.
     void (*add_rotated_stiffness)(const CellTask &,
@@ -159,8 +161,9 @@ namespace Exemplar
     /// Add the exact tangent, or a convex one.
     void (*add_tangent)(const CellTask &, const TangentTask &, std::size_t begin, std::size_t end);
 
-    /// The forces that a unit of each example's weight takes away: `forces` holds 12 entries an
-    /// example for each cell of one batch. `rotated` is as for R K R^T.
+    /// By how much a unit of each example's weight reduces the nodal forces of the cells of one
+    /// batch: 12 entries an example, each for all cells of the batch. `rotated`: with rotations
+    /// held fixed, as in R K R^T; else by the exact or convex tangent.
     void (*coupling)(
         const CellTask &, const TangentTask &, bool rotated, std::size_t batch, double *forces);
   };

@@ -2,12 +2,14 @@
 #ifndef exemplar_cell_model_h
 #define exemplar_cell_model_h
 
-#include <exemplar/kernels/corotational_consistent.h>
-#include <exemplar/kernels/green.h>
-#include <exemplar/kernels/linear.h>
+#include <exemplar/kernels/corotational_cell.h>
+#include <exemplar/kernels/green_cell.h>
+#include <exemplar/kernels/linear_cell.h>
 #include <exemplar/kernels/polar_decomposition.h>
 
-// The models of a cell: CorotationalCell, LinearCell and GreenCell have the same members.
+// The models of a cell. CorotationalCell, LinearCell and GreenCell have the same members, so that
+// a further model is a header like theirs, a value of StrainMeasure, a case of with_cell_model()
+// and its name in body/model.cc.
 // No deal.II header here: see matrix3.h.
 
 namespace Exemplar
@@ -41,12 +43,19 @@ namespace Exemplar
     }
   }
 
+  inline ModelTraits
+  traits_of(const StrainMeasure measure)
+  {
+    return with_cell_model<double>(measure,
+                                   [](auto model) { return decltype(model)::type::traits; });
+  }
+
   /// The rotation of a cell that a model sees: I where it has none.
   inline Matrix3<double>
   model_rotation(const StrainMeasure measure, const Matrix3<double> &deformation_gradient)
   {
-    return measure == StrainMeasure::corotational ? closest_rotation(deformation_gradient)
-                                                  : identity_matrix<double>();
+    return traits_of(measure).has_rotations ? closest_rotation(deformation_gradient)
+                                            : identity_matrix<double>();
   }
 
   /// The strain of a cell, Eq. (2) or its counterpart.
@@ -55,8 +64,26 @@ namespace Exemplar
                const Matrix3<double> &rotation,
                const Matrix3<double> &deformation_gradient)
   {
-    return measure == StrainMeasure::green ? green_strain(deformation_gradient)
-                                           : corotated_strain(rotation, deformation_gradient);
+    return with_cell_model<double>(
+        measure, [&](auto model)
+        { return decltype(model)::type::strain_of(rotation, deformation_gradient); });
+  }
+
+  /// Whether the guard of Eq. (16) with the bound p_0 acts in a cell.
+  inline bool
+  model_is_guarded(const StrainMeasure         measure,
+                   const CellMaterial<double> &material,
+                   const Matrix3<double>      &rotation,
+                   const Matrix3<double>      &deformation_gradient,
+                   const double                p_0)
+  {
+    return with_cell_model<double>(
+        measure,
+        [&](auto model)
+        {
+          using Cell = typename decltype(model)::type;
+          return Cell(material, rotation, deformation_gradient, p_0).is_guarded();
+        });
   }
 } // namespace Exemplar
 

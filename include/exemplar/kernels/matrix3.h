@@ -6,7 +6,7 @@
 // generic over the number type and include no deal.II header, because the
 // kernels are to be compiled for several instruction sets.
 
-#include <exemplar/kernels/simd.h>
+#include <exemplar/kernels/lanes.h>
 
 namespace Exemplar
 {

@@ -2,7 +2,9 @@
 #ifndef exemplar_quadratic_cell_h
 #define exemplar_quadratic_cell_h
 
-#include <exemplar/kernels/corotational.h>
+#include <exemplar/kernels/elasticity.h>
+#include <exemplar/kernels/model_traits.h>
+#include <exemplar/kernels/tetrahedron.h>
 
 // What the models without rotations share. No deal.II header here: see matrix3.h.
 
@@ -17,7 +19,7 @@ namespace Exemplar
     auto
     is_guarded() const
     {
-      return Number(0.) > Number(1.); // nowhere, for each lane
+      return Number(0.) > Number(1.); // false in every lane
     }
 
     const Matrix3<Number> &
@@ -30,13 +32,13 @@ namespace Exemplar
     energy(const Matrix3<Number> &D) const
     {
       const Matrix3<Number> deviation = combine(Number(1.), e, Number(-1.), D);
-      return Number(0.5) * contract(stress(lame, deviation), deviation);
+      return Number(0.5) * contract(stress(material, deviation), deviation);
     }
 
     Matrix3<Number>
     weight_stress(const Matrix3<Number> &D) const
     {
-      return stress(lame, combine(Number(1.), e, Number(-1.), D));
+      return stress(material, combine(Number(1.), e, Number(-1.), D));
     }
 
     void
@@ -46,14 +48,14 @@ namespace Exemplar
     }
 
   protected:
-    QuadraticCell(const Lame<Number> &lame, const Matrix3<Number> &strain)
-        : lame(lame), e(strain), T(strain)
+    QuadraticCell(const CellMaterial<Number> &material, const Matrix3<Number> &strain)
+        : material(material), e(strain), T(strain)
     {
     }
 
-    Lame<Number>    lame;
-    Matrix3<Number> e;
-    Matrix3<Number> T; ///< C:(e - D), once the target is set
+    CellMaterial<Number> material;
+    Matrix3<Number>      e;
+    Matrix3<Number>      T; ///< C:(e - D), once the target is set
   };
 } // namespace Exemplar
 

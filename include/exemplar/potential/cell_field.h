@@ -28,7 +28,7 @@ namespace Exemplar
     /// The input of a loop over these cells at these positions, by degree of freedom [m]. It refers
     /// to arrays of this object.
     CellTask
-    task(const Vector &positions, Rotations rotations);
+    task(const Vector &positions, RotationUse rotations);
 
     /// R of every cell from the polar decomposition at these positions. Models without rotations
     /// keep I.

@@ -25,12 +25,12 @@ namespace Exemplar
   /// if the scene has none. All must outlive whoever holds this.
   struct ElasticParts
   {
-    ModelParameters        model;
-    const FESpace         &fe_space;
-    const Material        &material;
-    const ExamplePoses    *examples;
-    const ExampleWeights  *weights;
-    const FreeDofs        &free_dofs;
+    ModelParameters       model;
+    const FESpace        &fe_space;
+    const Material       &material;
+    const ExamplePoses   *examples;
+    const ExampleWeights *weights;
+    const FreeDofs       &free_dofs;
   };
 
   /// Psi(x, w), Eqs. (5) and (16), with the stiffness damping: sums over the cells of energies and
@@ -68,7 +68,7 @@ namespace Exemplar
     evaluate(const Vector              &positions,
              const std::vector<double> &weights,
              ElasticEvaluation         &evaluation,
-             Rotations                  rotations   = Rotations::keep,
+             RotationUse                rotations   = RotationUse::keep,
              const std::vector<double> *linear_term = nullptr);
 
     /// Add A, Eq. (8) or (18), to the values on the pattern [N/m] and, with weights to
@@ -92,7 +92,7 @@ namespace Exemplar
 
     /// c_i with dPsi/dw = H w - c at these positions [J].
     std::vector<double>
-    weight_linear_term(const Vector &positions, Rotations rotations = Rotations::keep);
+    weight_linear_term(const Vector &positions, RotationUse rotations = RotationUse::keep);
 
     /// A residual force [N] that is nothing but the rounding of the positions.
     double
@@ -130,16 +130,16 @@ namespace Exemplar
       return parts.weights != nullptr && parts.weights->are_unknown();
     }
 
-    /// Whether a tangent is R K R^T: always with the linear strain, whose exact one it is.
+    /// Whether a tangent is R K R^T.
     bool
     is_rotated_stiffness(const Tangent tangent) const
     {
-      return parts.model.strain == StrainMeasure::linear
-             || (parts.model.strain == StrainMeasure::corotational && tangent == Tangent::convex);
+      const ModelTraits traits = traits_of(parts.model.strain);
+      return tangent == Tangent::exact ? traits.exact_is_rotated : traits.convex_is_rotated;
     }
 
     CellTask
-    task(const Vector &positions, const std::vector<double> &weights, Rotations rotations);
+    task(const Vector &positions, const std::vector<double> &weights, RotationUse rotations);
 
     /// eta E(w) in a cell; 0 without examples.
     Matrix3<double>

@@ -46,12 +46,12 @@ namespace Exemplar
 
     /// Everything at a state. Throws nothing: whoever needs finite numbers asks residual().
     void
-    evaluate(const State &at, Rotations rotations, Evaluation &evaluation);
+    evaluate(const State &at, RotationUse rotations, Evaluation &evaluation);
 
     /// Unknown weights become the best ones for the positions, then as evaluate(). Throws
     /// SolverFailure if they are not determined.
     void
-    minimize_over_weights(State &at, Rotations rotations, Evaluation &evaluation);
+    minimize_over_weights(State &at, RotationUse rotations, Evaluation &evaluation);
 
     /// The cells alone, with their rotations as they are.
     void

@@ -37,8 +37,11 @@ namespace Exemplar
     }
 
     /// C with the damping in a cell.
-    Lame<double>
-    damped(const unsigned int cell, const Lame<double> &lame) const;
+    CellMaterial<double>
+    damped(const unsigned int cell, const CellMaterial<double> &material) const
+    {
+      return material.scaled(1. + factor(cell));
+    }
 
     /// The strain around which the sum of both quadratics stands if the energy's does around D.
     Matrix3<double>

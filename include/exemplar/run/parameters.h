@@ -6,11 +6,11 @@
 #include <exemplar/body/handles.h>
 #include <exemplar/body/loads.h>
 #include <exemplar/body/material.h>
+#include <exemplar/body/model.h>
 #include <exemplar/body/state.h>
 #include <exemplar/body/time_axis.h>
 #include <exemplar/mesh/mesh.h>
 #include <exemplar/prm/prm_tools.h>
-#include <exemplar/body/model.h>
 #include <exemplar/solvers/solver_parameters.h>
 
 #include <deal.II/base/parameter_handler.h>

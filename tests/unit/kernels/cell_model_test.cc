@@ -17,8 +17,8 @@ namespace Exemplar::Testing
     using Green        = GreenCell<double>;
     using Linear       = LinearCell<double>;
 
-    const Lame<double> lame = { 1.3, 0.7 };
-    const double       p_0  = 0.8;
+    const CellMaterial<double> material = { 1.3, 0.7 };
+    const double               p_0      = 0.8;
 
     template <typename Cell>
     Matrix3<double>
@@ -31,7 +31,7 @@ namespace Exemplar::Testing
     Cell
     cell_at(const Matrix3<double> &F)
     {
-      return Cell(lame, rotation_of<Cell>(F), F, p_0);
+      return Cell(material, rotation_of<Cell>(F), F, p_0);
     }
 
     template <typename Cell>
@@ -116,11 +116,14 @@ namespace Exemplar::Testing
     expect_force_is_gradient()
     {
       std::mt19937 generator(7);
-      for (const auto &[name, F] : states())
+      for (const auto &state : states())
+      {
+        const auto            &name = state.first; // no structured binding: Clang 14 captures none
+        const Matrix3<double> &F    = state.second;
         for (const Matrix3<double> &D : targets())
         {
           const Matrix3<double> P = force<Cell>(F, D);
-          const double scale      = std::sqrt(contract(P, P)) + lame.mu * std::sqrt(contract(F, F));
+          const double scale = std::sqrt(contract(P, P)) + material.mu * std::sqrt(contract(F, F));
           std::vector<Matrix3<double>> directions = { combine(
               1. / (std::sqrt(contract(P, P)) + 1e-300), P, 0., P) }; // along the gradient, too
           for (int sample = 0; sample < 4; ++sample)
@@ -134,6 +137,7 @@ namespace Exemplar::Testing
                 << name;
           }
         }
+      }
     }
 
     template <typename Cell>
@@ -141,7 +145,10 @@ namespace Exemplar::Testing
     expect_tangent_is_derivative_of_force()
     {
       std::mt19937 generator(8);
-      for (const auto &[name, F] : states())
+      for (const auto &state : states())
+      {
+        const auto            &name = state.first; // no structured binding: Clang 14 captures none
+        const Matrix3<double> &F    = state.second;
         for (const Matrix3<double> &D : targets())
         {
           if (cell_at<Cell>(F).is_guarded() && contract(D, D) > 0.)
@@ -160,6 +167,7 @@ namespace Exemplar::Testing
                     << name;
           }
         }
+      }
     }
 
     template <typename Cell>
@@ -167,11 +175,13 @@ namespace Exemplar::Testing
     expect_derivatives_by_target(const bool with_column)
     {
       std::mt19937 generator(10);
-      for (const auto &[name, F] : states())
+      for (const auto &state : states())
       {
-        const Matrix3<double> D    = targets()[1];
-        const Matrix3<double> E    = symmetric_part(random_matrix(generator));
-        Cell                  cell = cell_at<Cell>(F);
+        const auto            &name = state.first;
+        const Matrix3<double> &F    = state.second;
+        const Matrix3<double>  D    = targets()[1];
+        const Matrix3<double>  E    = symmetric_part(random_matrix(generator));
+        Cell                   cell = cell_at<Cell>(F);
         cell.set_target(D);
         EXPECT_NEAR(
             -contract(cell.weight_stress(D), E),
@@ -231,7 +241,7 @@ namespace Exemplar::Testing
           least_exact              = std::min(least_exact, contract(dF, cell.response(dF)));
           cell.make_convex();
           EXPECT_GE(contract(dF, cell.response(dF)) - 2. * contract(dF, cell.example_response(E))
-                        + contract(E, stress(lame, E)),
+                        + contract(E, stress(material, E)),
                     -1e-12)
               << name;
         }
@@ -243,7 +253,7 @@ namespace Exemplar::Testing
       const double          s = 1.4, e = 0.5 * (s * s - 1.);
       const Matrix3<double> I = identity_matrix<double>();
       EXPECT_NEAR(energy<Green>(combine(s, I, 0., I), Matrix3<double>{}),
-                  (3. * lame.mu + 4.5 * lame.lambda) * e * e, 1e-14);
+                  (3. * material.mu + 4.5 * material.lambda) * e * e, 1e-14);
       EXPECT_NEAR(energy<Green>(rotation_about({ { 1., 2., 3. } }, 2.), Matrix3<double>{}), 0.,
                   1e-15);
     }
@@ -258,7 +268,7 @@ namespace Exemplar::Testing
     {
       // by 90 degrees about z: e = diag(-1, -1, 0)
       EXPECT_NEAR(energy<Linear>(rotation_about({ { 0., 0., 1. } }, M_PI / 2.), Matrix3<double>{}),
-                  0.5 * (4. * lame.lambda + 4. * lame.mu), 1e-14);
+                  0.5 * (4. * material.lambda + 4. * material.mu), 1e-14);
     }
 
     TEST(ConsistentForce, TangentIsSymmetric)
@@ -295,7 +305,7 @@ namespace Exemplar::Testing
       {
         const Matrix3<double> R = closest_rotation(F);
         EXPECT_LT(max_difference(force<Corotational>(F, Matrix3<double>{}),
-                                 R * stress(lame, corotated_strain(R, F))),
+                                 R * stress(material, corotated_strain(R, F))),
                   1e-12)
             << name;
       }

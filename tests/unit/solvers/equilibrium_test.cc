@@ -212,8 +212,9 @@ namespace Exemplar::Testing
           {
             const auto  &tet = p.fe_space.tetrahedron(cell);
             const auto  &g   = tet.shape_gradient[a];
-            const double mu  = p.material.lame(cell).mu;
-            K += tet.volume * ((p.material.lame(cell).lambda + mu) * g[0] * g[0] + mu * dot(g, g));
+            const double mu  = p.material.elasticity(cell).mu;
+            K += tet.volume
+                 * ((p.material.elasticity(cell).lambda + mu) * g[0] * g[0] + mu * dot(g, g));
             M += 1000. * tet.volume / 10.;
           }
       const double omega = std::sqrt(K / M);

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef exemplar_simd_h
-#define exemplar_simd_h
+#ifndef exemplar_lanes_h
+#define exemplar_lanes_h
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 
-// Kernels are written once for a number type: double, or a batch of doubles of xsimd. What
-// they need beyond arithmetic is found here for double and by its namespace for batches.
+// Kernels are written once for a number type: double, or a batch of doubles of xsimd. Functions
+// beyond arithmetic are declared here for double; for batches, argument-dependent lookup finds
+// those of xsimd.
 // No deal.II header here: see matrix3.h.
 
 namespace Exemplar

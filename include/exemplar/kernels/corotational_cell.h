@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef exemplar_corotational_consistent_h
-#define exemplar_corotational_consistent_h
+#ifndef exemplar_corotational_cell_h
+#define exemplar_corotational_cell_h
 
-#include <exemplar/kernels/corotational.h>
+#include <exemplar/kernels/elasticity.h>
+#include <exemplar/kernels/model_traits.h>
+#include <exemplar/kernels/tetrahedron.h>
 
 #include <limits>
 
@@ -95,12 +97,23 @@ namespace Exemplar
   class CorotationalCell
   {
   public:
+    static constexpr ModelTraits traits
+        = { /* has_rotations */ true, /* has_guard */ true, /* exact_is_rotated */ false,
+            /* convex_is_rotated */ true, /* turns_freely */ true };
+
+    /// e = S - I, Eq. (2).
+    static Matrix3<Number>
+    strain_of(const Matrix3<Number> &rotation, const Matrix3<Number> &deformation_gradient)
+    {
+      return corotated_strain(rotation, deformation_gradient);
+    }
+
     /// `p_0` is the bound below which the guard acts.
-    CorotationalCell(const Lame<Number>    &lame,
-                     const Matrix3<Number> &rotation,
-                     const Matrix3<Number> &deformation_gradient,
-                     const double           p_0)
-        : lame(lame), S(symmetric_part(transpose_times(rotation, deformation_gradient)))
+    CorotationalCell(const CellMaterial<Number> &material,
+                     const Matrix3<Number>      &rotation,
+                     const Matrix3<Number>      &deformation_gradient,
+                     const double                p_0)
+        : material(material), S(symmetric_part(transpose_times(rotation, deformation_gradient)))
     {
       e = S;
       for (int i = 0; i < 3; ++i)
@@ -129,52 +142,53 @@ namespace Exemplar
       return e;
     }
 
-    /// At most this times the stress C:e is the force.
+    /// |R^T P| is at most this times |T|.
     Number
     force_factor() const
     {
       return Number(1.);
     }
 
-    /// psi for the target strain D, in the residual form: near an example the expanded
-    /// one cancels.
+    /// psi for the target strain D, computed from e - D as Eq. (16) has it, because near an example
+    /// the expanded square would lose its digits.
     Number
     energy(const Matrix3<Number> &D) const
     {
       const Matrix3<Number> deviation = combine(Number(1.), e, Number(-1.), D);
-      const Number          psi       = Number(0.5) * contract(stress(lame, deviation), deviation);
+      const Number          psi = Number(0.5) * contract(stress(material, deviation), deviation);
       if (!any(is_guarded()))
         return psi;
-      return psi + Number(2.) * lame.mu * (Number(1.) - phi) * contract(S, deviator(D));
+      return psi + material.guard_modulus() * (Number(1.) - phi) * contract(S, deviator(D));
     }
 
-    /// -d psi / dD: contracted with E_i, the derivative by a weight less the factor -eta.
+    /// -d psi / dD. The derivative of psi by a weight w_i is -eta times this, contracted with E_i.
     Matrix3<Number>
     weight_stress(const Matrix3<Number> &D) const
     {
-      const Matrix3<Number> T_D = stress(lame, combine(Number(1.), e, Number(-1.), D));
+      const Matrix3<Number> T_D = stress(material, combine(Number(1.), e, Number(-1.), D));
       if (!any(is_guarded()))
         return T_D;
-      return combine(Number(1.), T_D, Number(-2.) * lame.mu * (Number(1.) - phi), deviator(S));
+      return combine(Number(1.), T_D, -material.guard_modulus() * (Number(1.) - phi), deviator(S));
     }
 
     /// R^T P without a target.
     Matrix3<Number>
     elastic_force() const
     {
-      return stress(lame, e);
+      return stress(material, e);
     }
 
     /// Prepare force() and the responses for the target strain D.
     void
     set_target(const Matrix3<Number> &D)
     {
-      T = combine(Number(1.), stress(lame, combine(Number(1.), e, Number(-1.), D)),
-                  Number(2.) * lame.mu * (Number(1.) - phi), deviator(D));
-      // the force divides by s_i + s_j only what the guard makes vanish faster
+      T = combine(Number(1.), stress(material, combine(Number(1.), e, Number(-1.), D)),
+                  material.guard_modulus() * (Number(1.) - phi), deviator(D));
+      // W divides by s_i + s_j, but its numerator vanishes faster because of the guard, so that a
+      // tiny bound suffices; responses need a greater one
       bound_inverse(Number(1e-8));
       W           = skew_matrix(B_inverse * axial_vector(commutator(S, T)));
-      guard_force = Number(-2.) * lame.mu * phi_derivative * contract(S, deviator(D));
+      guard_force = -material.guard_modulus() * phi_derivative * contract(S, deviator(D));
       if (any(is_guarded()))
         bound_inverse(Number(1e-2));
     }
@@ -200,7 +214,7 @@ namespace Exemplar
           difference[i][j] = M[i][j] - M[j][i];
       const Matrix3<Number> Omega = skew_matrix(B_inverse * axial_vector(difference));
       const Matrix3<Number> dS    = symmetric_part(combine(Number(1.), M, Number(-1.), Omega * S));
-      const Matrix3<Number> dT    = stress(lame, dS);
+      const Matrix3<Number> dT    = stress(material, dS);
       const Matrix3<Number> right
           = combine(Number(1.), commutator(dS, T), Number(1.), commutator(S, dT));
       const Matrix3<Number> dS_W = dS * W, W_dS = W * dS;
@@ -213,13 +227,14 @@ namespace Exemplar
                      combine(Number(1.), dT, Number(1.), dW));
     }
 
-    /// R^T dP for a unit change of the target by -E, a column of the coupling less the
-    /// factor eta.
+    /// R^T dP of a change of the target by -E. A column of the coupling is eta times this, with
+    /// E = E_i.
     Matrix3<Number>
     example_response(const Matrix3<Number> &E) const
     {
-      const Matrix3<Number> dT = combine(Number(1.), stress(lame, E),
-                                         Number(-2.) * lame.mu * (Number(1.) - phi), deviator(E));
+      const Matrix3<Number> dT
+          = combine(Number(1.), stress(material, E), -material.guard_modulus() * (Number(1.) - phi),
+                    deviator(E));
       return combine(Number(1.), dT, Number(1.),
                      skew_matrix(B_inverse * axial_vector(commutator(S, dT))));
     }
@@ -250,16 +265,16 @@ namespace Exemplar
       return D;
     }
 
-    Lame<Number>    lame;
-    Matrix3<Number> S;
-    Matrix3<Number> e; ///< S - I
-    Matrix3<Number> B; ///< tr(S) I - S
-    Number          phi            = Number(1.);
-    Number          phi_derivative = Number(0.);
-    Matrix3<Number> T;
-    Matrix3<Number> W;
-    Matrix3<Number> B_inverse;
-    Number          guard_force;
+    CellMaterial<Number> material;
+    Matrix3<Number>      S;
+    Matrix3<Number>      e; ///< S - I
+    Matrix3<Number>      B; ///< tr(S) I - S
+    Number               phi            = Number(1.);
+    Number               phi_derivative = Number(0.);
+    Matrix3<Number>      T;
+    Matrix3<Number>      W;
+    Matrix3<Number>      B_inverse;
+    Number               guard_force;
   };
 } // namespace Exemplar
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef exemplar_green_h
-#define exemplar_green_h
+#ifndef exemplar_green_cell_h
+#define exemplar_green_cell_h
 
 #include <exemplar/kernels/quadratic_cell.h>
 
@@ -31,11 +31,22 @@ namespace Exemplar
   class GreenCell : public QuadraticCell<Number>
   {
   public:
-    GreenCell(const Lame<Number> &lame,
+    static constexpr ModelTraits traits
+        = { /* has_rotations */ false, /* has_guard */ false, /* exact_is_rotated */ false,
+            /* convex_is_rotated */ false, /* turns_freely */ true };
+
+    static Matrix3<Number>
+    strain_of(const Matrix3<Number> & /*rotation*/, const Matrix3<Number> &deformation_gradient)
+    {
+      return green_strain(deformation_gradient);
+    }
+
+    GreenCell(const CellMaterial<Number> &material,
               const Matrix3<Number> & /*rotation*/,
               const Matrix3<Number> &deformation_gradient,
               double /*p_0*/)
-        : QuadraticCell<Number>(lame, green_strain(deformation_gradient)), F(deformation_gradient)
+        : QuadraticCell<Number>(material, green_strain(deformation_gradient)),
+          F(deformation_gradient)
     {
     }
 
@@ -49,7 +60,7 @@ namespace Exemplar
     Matrix3<Number>
     elastic_force() const
     {
-      return F * stress(this->lame, this->e);
+      return F * stress(this->material, this->e);
     }
 
     /// P = F T with the second Piola-Kirchhoff stress T = C:(e - D), Eq. (19).
@@ -64,7 +75,7 @@ namespace Exemplar
     response(const Matrix3<Number> &dF) const
     {
       return combine(Number(1.), dF * this->T, Number(1.),
-                     F * stress(this->lame, symmetric_part(transpose_times(F, dF))));
+                     F * stress(this->material, symmetric_part(transpose_times(F, dF))));
     }
 
     /// From now on response() keeps the positive part of T only: it is never negative, and
@@ -80,7 +91,7 @@ namespace Exemplar
     Matrix3<Number>
     example_response(const Matrix3<Number> &E) const
     {
-      return F * stress(this->lame, E);
+      return F * stress(this->material, E);
     }
 
   private:

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef exemplar_corotational_h
-#define exemplar_corotational_h
+#ifndef exemplar_tetrahedron_h
+#define exemplar_tetrahedron_h
 
-#include <exemplar/kernels/lame.h>
 #include <exemplar/kernels/matrix3.h>
 
-// The corotational model of one linear tetrahedron, as pure functions. Equation
+// The geometry of one linear tetrahedron and the forces at its nodes, as pure functions. Equation
 // numbers are those of doc/method.md. No deal.II header here: see matrix3.h.
 
 namespace Exemplar
 {
-  /// What the kernels know of a cell at rest.
+  /// A cell at rest.
   template <typename Number>
   struct Tetrahedron
   {
@@ -33,8 +32,9 @@ namespace Exemplar
     return F;
   }
 
-  /// sym(R^T F) - I, Eq. (2). It is the corotated (Biot) strain S - I if R is the
-  /// rotation of F, and the strain that frozen rotations see otherwise.
+  /// sym(R^T F) - I, Eq. (2). If R is the rotation of F, this is the corotated (Biot) strain
+  /// S - I; if R is a rotation that is held fixed, it is the strain of which frozen forces are the
+  /// derivative.
   template <typename Number>
   Matrix3<Number>
   corotated_strain(const Matrix3<Number> &rotation, const Matrix3<Number> &deformation_gradient)
@@ -43,19 +43,6 @@ namespace Exemplar
     for (int i = 0; i < 3; ++i)
       strain[i][i] -= Number(1.);
     return strain;
-  }
-
-  /// C:E = lambda tr(E) I + 2 mu E, Eq. (3) [Pa].
-  template <typename Number>
-  Matrix3<Number>
-  stress(const Lame<Number> &lame, const Matrix3<Number> &strain)
-  {
-    const Number    pressure = lame.lambda * trace(strain);
-    Matrix3<Number> T;
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j)
-        T[i][j] = Number(2.) * lame.mu * strain[i][j] + (i == j ? pressure : Number(0.));
-    return T;
   }
 
   /// Nodal forces V R T g_a of a cell whose rotation is frozen, Eq. (6) [N].
@@ -75,8 +62,7 @@ namespace Exemplar
     }
   }
 
-  /// The gradients R g_a. An isotropic stiffness is turned by turning these four
-  /// vectors; the 12x12 matrix itself is never multiplied.
+  /// The gradients R g_a.
   template <typename Number>
   void
   rotate_gradients(const Tetrahedron<Number> &cell,
@@ -85,25 +71,6 @@ namespace Exemplar
   {
     for (int a = 0; a < 4; ++a)
       rotated[a] = rotation * cell.shape_gradient[a];
-  }
-
-  /// Block (a,b) of R K R^T, Eq. (8):
-  /// V (lambda g_a g_b^T + mu (g_b g_a^T + (g_a.g_b) I)) with rotated gradients [N/m].
-  template <typename Number>
-  Matrix3<Number>
-  stiffness_block(const Lame<Number>    &lame,
-                  const Number          &volume,
-                  const Vector3<Number> &g_a,
-                  const Vector3<Number> &g_b)
-  {
-    const Number    lambda = lame.lambda * volume, mu = lame.mu * volume;
-    const Number    diagonal = mu * dot(g_a, g_b);
-    Matrix3<Number> K;
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j)
-        K[i][j]
-            = lambda * g_a[i] * g_b[j] + mu * g_b[i] * g_a[j] + (i == j ? diagonal : Number(0.));
-    return K;
   }
 } // namespace Exemplar
 

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_loops_coupling_h
+#define exemplar_loops_coupling_h
+
+#include <exemplar/kernels/loops_tangent.h>
+
+// The loop over the cells of a batch that finds the columns G of Eq. (9): by how much a unit of
+// each example's weight reduces the forces.
+
+namespace Exemplar::Loops
+{
+  /// The nodal forces factor V R dP g_a of example i into its 12 entries for each cell.
+  template <typename Number>
+  inline void
+  store_coupling(const LaneGroup<Number>   &group,
+                 const Tetrahedron<Number> &tet,
+                 const Matrix3<Number>     &R,
+                 const Number              &factor,
+                 const Matrix3<Number>     &dP,
+                 const unsigned int         i,
+                 double                    *forces)
+  {
+    Vector3<Number> force[4];
+    frozen_forces(tet, R, dP, force);
+    for (int a = 0; a < 4; ++a)
+      for (int c = 0; c < 3; ++c)
+        Lanes<Number>::store(factor * force[a][c],
+                             forces + (12 * i + 3 * a + c) * batch_size + group.lane);
+  }
+
+  /// Beside R K R^T: the forces eta V R (C:E_i) g_a of frozen rotations.
+  template <typename Number>
+  inline void
+  couple_rotated(const CellTask &task, const LaneGroup<Number> &group, double *forces)
+  {
+    const Tetrahedron<Number>  tet      = load_tetrahedron(task.cells, group);
+    const Matrix3<Number>      R        = load_rotation(task.cells, group);
+    const CellMaterial<Number> material = load_material(task.cells, group);
+    const Number               factor   = Number(task.examples.importance);
+    for (unsigned int i = 0; i < task.examples.n; ++i)
+      store_coupling(
+          group, tet, R, factor,
+          stress(material, load_strain(task.examples.strains, group, task.examples.n, i)), i,
+          forces);
+  }
+
+  /// Beside the tangent of the model.
+  template <typename Cell, typename Number>
+  inline void
+  couple_exactly(const CellTask          &task,
+                 const TangentTask       &tangent,
+                 const LaneGroup<Number> &group,
+                 double                  *forces)
+  {
+    const Tetrahedron<Number> tet    = load_tetrahedron(task.cells, group);
+    const Matrix3<Number>     R      = load_rotation(task.cells, group);
+    Number                    factor = Number(task.examples.importance);
+    // the damped target moves by 1/(1+s) of what the examples' does, see damped_target()
+    if (task.damping.factors != nullptr)
+      factor /= Number(1.) + load(task.damping.factors, group, 1, 0);
+    const Cell cell = driven_cell<Cell>(task, tangent, group, tet, R);
+    for (unsigned int i = 0; i < task.examples.n; ++i)
+      store_coupling(
+          group, tet, R, factor,
+          cell.example_response(load_strain(task.examples.strains, group, task.examples.n, i)), i,
+          forces);
+  }
+
+  template <typename Number>
+  inline void
+  coupling(const CellTask    &task,
+           const TangentTask &tangent,
+           const bool         rotated,
+           const std::size_t  batch,
+           double            *forces)
+  {
+    with_cell_model<Number>(task.cells.strain,
+                            [&](auto model)
+                            {
+                              using Cell = typename decltype(model)::type;
+                              for_each_group<Number>(batch, batch + 1,
+                                                     [&](const LaneGroup<Number> &group)
+                                                     {
+                                                       if constexpr (!Cell::traits.exact_is_rotated)
+                                                         if (!rotated)
+                                                           return couple_exactly<Cell>(
+                                                               task, tangent, group, forces);
+                                                       couple_rotated(task, group, forces);
+                                                     });
+                            });
+  }
+} // namespace Exemplar::Loops
+
+#endif

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_loops_energy_h
+#define exemplar_loops_energy_h
+
+#include <exemplar/kernels/loops_examples.h>
+#include <exemplar/kernels/loops_rotations.h>
+
+// The loop that evaluates energies, forces and their scales, and the one for the linear term of the
+// weights.
+
+namespace Exemplar::Loops
+{
+  /// CellSums, of the cells of each lane apart.
+  template <typename Number>
+  struct LaneSums
+  {
+    Number energy = Number(0.), elastic = Number(0.), damping = Number(0.);
+    Number stress_square = Number(0.);
+    Number min_det       = Number(std::numeric_limits<double>::max());
+    Number inverted = Number(0.), guarded = Number(0.);
+
+    void
+    add_to(CellSums &sums) const
+    {
+      sums.energy += total(energy);
+      sums.energy_elastic += total(elastic);
+      sums.energy_damping += total(damping);
+      sums.stress_square += total(stress_square);
+      sums.inverted_cells += static_cast<unsigned int>(total(inverted));
+      sums.guarded_cells += static_cast<unsigned int>(total(guarded));
+      alignas(64) double lane[LaneGroup<Number>::width];
+      Lanes<Number>::store(min_det, lane);
+      for (const double det : lane)
+        sums.min_det_F = det >= sums.min_det_F ? sums.min_det_F : det; // NaN is the least
+    }
+
+    static double
+    total(const Number &number)
+    {
+      alignas(64) double lane[LaneGroup<Number>::width];
+      Lanes<Number>::store(number, lane);
+      double sum = 0.;
+      for (const double value : lane)
+        sum += value;
+      return sum;
+    }
+  };
+
+  /// Add the forces of the cells' nodes and their scales to the sums of the nodes.
+  template <typename Number>
+  inline void
+  add_forces(const CellTask            &task,
+             const LaneGroup<Number>   &group,
+             const Tetrahedron<Number> &tet,
+             const Matrix3<Number>     &VP, ///< V P
+             const Number              &scale,
+             double                    *nodal_sums)
+  {
+    alignas(64) double lanes[4][4][LaneGroup<Number>::width];
+    Vector3<Number>    last; // the force at node 0 is minus the sum of the others
+    for (int a = 3; a >= 0; --a)
+    {
+      const Vector3<Number> force = a > 0 ? VP * tet.shape_gradient[a] : last;
+      for (int i = 0; i < 3; ++i)
+      {
+        last[i] = a == 3 ? -force[i] : last[i] - force[i];
+        Lanes<Number>::store(force[i], lanes[a][i]);
+      }
+      const Vector3<Number> &g = tet.shape_gradient[a];
+      Lanes<Number>::store(scale * sqrt(dot(g, g)), lanes[a][3]);
+    }
+    for (int a = 0; a < 4; ++a)
+    {
+      const int *nodes = task.cells.nodes + group.at(4, a);
+      if constexpr (LaneGroup<Number>::width >= 4)
+        for (std::size_t lane = 0; lane < LaneGroup<Number>::width; lane += 4)
+        {
+          Four rows[4];
+          for (int k = 0; k < 4; ++k)
+            load_four(lanes[a][k] + lane, rows[k]);
+          transpose(rows);
+          for (std::size_t l = 0; l < 4; ++l)
+          {
+            add_four(rows[l], nodal_sums + 4 * nodes[lane + l]);
+          }
+        }
+      else
+        for (std::size_t lane = 0; lane < LaneGroup<Number>::width; ++lane)
+          for (int k = 0; k < 4; ++k)
+            nodal_sums[4 * nodes[lane] + k] += lanes[a][k][lane];
+    }
+  }
+
+  template <typename Number>
+  inline Number
+  norm(const Matrix3<Number> &A)
+  {
+    return sqrt(contract(A, A));
+  }
+
+  template <typename Cell, typename Number>
+  inline void
+  evaluate_group(const CellTask          &task,
+                 const LaneGroup<Number> &group,
+                 double                  *nodal_sums,
+                 double                  *weight_sums,
+                 LaneSums<Number>        &sums)
+  {
+    const bool                 frozen       = task.cells.guard_bound == no_guard;
+    const bool                 has_examples = task.examples.n_weights > 0;
+    const Tetrahedron<Number>  tet          = load_tetrahedron(task.cells, group);
+    const CellMaterial<Number> material     = load_material(task.cells, group);
+    const Matrix3<Number>      F            = deformation_gradient(task, group, tet);
+    const Matrix3<Number>      R            = rotation<Cell>(task, group, F);
+    const auto                 is_real      = tet.volume > Number(0.);
+    const auto one = [](const auto &mask) { return select(mask, Number(1.), Number(0.)); };
+
+    const Number          det = determinant(F);
+    Cell                  cell(material, R, F, task.cells.guard_bound);
+    const Matrix3<Number> elastic_stress = stress(material, cell.strain());
+    const Number elastic = Number(0.5) * tet.volume * contract(elastic_stress, cell.strain());
+    Number       scale   = norm(elastic_stress);
+    sums.min_det         = select(det >= sums.min_det, sums.min_det, det);
+    sums.inverted += one(is_real & (det <= Number(0.)));
+    sums.elastic += elastic;
+
+    // R^T P; without examples and damping this is all of it
+    Matrix3<Number> P = has_examples ? elastic_stress : cell.elastic_force();
+    Matrix3<Number> D;
+    if (has_examples)
+    {
+      D = target(task, group); // eta E(w)
+      scale += norm(stress(material, D));
+      sums.stress_square += tet.volume * scale * scale;
+      sums.energy += tet.volume * cell.energy(D);
+      sums.guarded += one(is_real & cell.is_guarded());
+      if (frozen || task.with_weight_sums)
+      {
+        P = cell.weight_stress(D);
+        if (task.with_weight_sums)
+          add_weight_sums(task, group, Number(-task.examples.importance) * tet.volume, P,
+                          weight_sums);
+      }
+    }
+    else
+      sums.energy += elastic;
+
+    if (task.damping.factors != nullptr)
+    {
+      const Number          s    = load(task.damping.factors, group, 1, 0);
+      const Matrix3<Number> past = load_strain(task.damping.strains, group, 1, 0);
+      sums.damping += s * tet.volume * cell.energy(past);
+      scale += s * (norm(elastic_stress) + norm(stress(material, past)));
+      if (!has_examples)
+        D = Matrix3<Number>{};
+      D    = damped_target(D, s, past);
+      cell = Cell(damped_material(material, s), R, F, task.cells.guard_bound);
+      if (frozen)
+        P = cell.weight_stress(D);
+    }
+    if (!frozen && (has_examples || task.damping.factors != nullptr))
+    {
+      cell.set_target(D);
+      P = cell.force();
+    }
+    Matrix3<Number> RP = R * P;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        RP[i][j] *= tet.volume;
+    add_forces(task, group, tet, RP, tet.volume * cell.force_factor() * scale, nodal_sums);
+  }
+
+  template <typename Number>
+  inline void
+  evaluate(const CellTask   &task,
+           const std::size_t begin,
+           const std::size_t end,
+           double           *nodal_sums,
+           double           *weight_sums,
+           CellSums         &result)
+  {
+    LaneSums<Number> sums;
+    with_cell_model<Number>(task.cells.strain,
+                            [&](auto model)
+                            {
+                              using Cell = typename decltype(model)::type;
+                              for_each_group<Number>(begin, end,
+                                                     [&](const LaneGroup<Number> &group) {
+                                                       evaluate_group<Cell>(task, group, nodal_sums,
+                                                                            weight_sums, sums);
+                                                     });
+                            });
+    sums.add_to(result);
+  }
+
+  template <typename Number>
+  inline void
+  weight_linear_term(const CellTask   &task,
+                     const std::size_t begin,
+                     const std::size_t end,
+                     double           *weight_sums)
+  {
+    with_cell_model<Number>(
+        task.cells.strain,
+        [&](auto model)
+        {
+          using Cell = typename decltype(model)::type;
+          for_each_group<Number>(
+              begin, end,
+              [&](const LaneGroup<Number> &group)
+              {
+                const Tetrahedron<Number> tet = load_tetrahedron(task.cells, group);
+                const Matrix3<Number>     F   = deformation_gradient(task, group, tet);
+                const Cell cell(load_material(task.cells, group), rotation<Cell>(task, group, F), F,
+                                task.cells.guard_bound);
+                add_weight_sums(task, group, Number(task.examples.importance) * tet.volume,
+                                cell.weight_stress(Matrix3<Number>{}), weight_sums);
+              });
+        });
+  }
+} // namespace Exemplar::Loops
+
+#endif

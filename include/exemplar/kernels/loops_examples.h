@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_loops_examples_h
+#define exemplar_loops_examples_h
+
+#include <exemplar/kernels/loops_io.h>
+
+// What the example poses and the damping do to the cells of a group: the target strain D of
+// Eq. (16) and the sums for the derivatives by the weights.
+
+namespace Exemplar::Loops
+{
+  /// The weight of example i in the cells of a group.
+  template <typename Number>
+  inline Number
+  weight(const CellTask &task, const LaneGroup<Number> &group, const unsigned int i)
+  {
+    const ExampleArrays &examples = task.examples;
+    if (examples.share_start == nullptr)
+      return Number(task.weights[examples.first + i]);
+    alignas(64) double sum[LaneGroup<Number>::width] = {};
+    for (std::size_t lane = 0; lane < LaneGroup<Number>::width; ++lane)
+      if (const std::size_t cell = group.cell(lane); cell < task.cells.n_cells)
+        for (std::size_t s = examples.share_start[cell]; s < examples.share_start[cell + 1]; ++s)
+          sum[lane]
+              += examples.shares[s].value
+                 * task.weights[examples.shares[s].region * examples.n_all + examples.first + i];
+    return Lanes<Number>::load(sum);
+  }
+
+  /// eta E(w), of the cells of a group.
+  template <typename Number>
+  inline Matrix3<Number>
+  target(const CellTask &task, const LaneGroup<Number> &group)
+  {
+    const ExampleArrays     &examples = task.examples;
+    SymmetricEntries<Number> sum;
+    for (Number &entry : sum.value)
+      entry = Number(0.);
+    for (unsigned int i = 0; i < examples.n; ++i)
+    {
+      if (examples.share_start == nullptr && task.weights[examples.first + i] == 0.)
+        continue; // of many examples with bounded weights most have weight 0
+      const Number w = weight(task, group, i) * Number(examples.importance);
+      for (std::size_t k = 0; k < n_symmetric; ++k)
+        sum[k] += w * load(examples.strains, group, n_symmetric * examples.n, n_symmetric * i + k);
+    }
+    return unpack(sum);
+  }
+
+  /// Add a sum of each cell to that of weight i of every region, times the region's share.
+  template <typename Number>
+  inline void
+  share_out(const CellTask          &task,
+            const LaneGroup<Number> &group,
+            const unsigned int       i,
+            const Number            &sum,
+            double                  *weight_sums)
+  {
+    const ExampleArrays &examples = task.examples;
+    alignas(64) double   of_cell[LaneGroup<Number>::width];
+    Lanes<Number>::store(sum, of_cell);
+    for (std::size_t lane = 0; lane < LaneGroup<Number>::width; ++lane)
+      if (const std::size_t cell = group.cell(lane); cell < task.cells.n_cells)
+        for (std::size_t s = examples.share_start[cell]; s < examples.share_start[cell + 1]; ++s)
+          weight_sums[batch_size * (examples.shares[s].region * examples.n_all + examples.first + i)
+                      + group.lane + lane]
+              += examples.shares[s].value * of_cell[lane];
+  }
+
+  /// Add factor T:E_i to the sums of the weights, for every example i. Each pair of off-diagonal
+  /// entries of T is added up once, because E_i is symmetric.
+  template <typename Number>
+  inline void
+  add_weight_sums(const CellTask          &task,
+                  const LaneGroup<Number> &group,
+                  const Number            &factor, ///< eta V or -eta V
+                  const Matrix3<Number>   &T,
+                  double                  *weight_sums)
+  {
+    const ExampleArrays &examples          = task.examples;
+    const Number         once[n_symmetric] = { factor * T[0][0],
+                                               factor * T[1][1],
+                                               factor * T[2][2],
+                                               factor * (T[1][2] + T[2][1]),
+                                               factor * (T[0][2] + T[2][0]),
+                                               factor * (T[0][1] + T[1][0]) };
+    for (unsigned int i = 0; i < examples.n; ++i)
+    {
+      Number sum = Number(0.);
+      for (std::size_t k = 0; k < n_symmetric; ++k)
+        sum += once[k]
+               * load(examples.strains, group, n_symmetric * examples.n, n_symmetric * i + k);
+      if (examples.share_start == nullptr)
+      {
+        double *to = weight_sums + batch_size * (examples.first + i) + group.lane;
+        Lanes<Number>::store(Lanes<Number>::load(to) + sum, to);
+      }
+      else
+        share_out(task, group, i, sum, weight_sums);
+    }
+  }
+
+  /// The elastic constants of a cell with stiffness damping. The energies of elasticity and of
+  /// damping are 1/2 (e-D):C:(e-D) and s/2 (e-e_past):C:(e-e_past). Up to a constant their sum is
+  /// (1+s)/2 (e-D'):C:(e-D') with D' of damped_target().
+  template <typename Number>
+  inline CellMaterial<Number>
+  damped_material(const CellMaterial<Number> &material, const Number &s)
+  {
+    return material.scaled(Number(1.) + s);
+  }
+
+  /// D' = (D + s e_past) / (1+s).
+  template <typename Number>
+  inline Matrix3<Number>
+  damped_target(const Matrix3<Number> &target, const Number &s, const Matrix3<Number> &past)
+  {
+    const Number factor = Number(1.) / (Number(1.) + s);
+    return combine(factor, target, factor * s, past);
+  }
+} // namespace Exemplar::Loops
+
+#endif

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_loops_io_h
+#define exemplar_loops_io_h
+
+#include <exemplar/kernels/cell_kernels.h>
+#include <exemplar/kernels/symmetric.h>
+
+// How the loops over the cells read the cells and nodes of a group, and how four numbers of each
+// cell are turned into registers of one number of four cells.
+//
+// All of loops_*.h are templates of the number type. Only the files that compile them for an
+// instruction set include them, each for its own type: two files that instantiated them for the
+// same type would leave the linker to choose one, and it might take code that the CPU cannot run.
+
+namespace Exemplar::Loops
+{
+  /// The cells that are computed at once: as many neighbours in a batch as a register has lanes.
+  template <typename Number>
+  struct LaneGroup
+  {
+    static constexpr std::size_t width = Lanes<Number>::n;
+
+    std::size_t batch;
+    std::size_t lane; ///< of the first of them in the batch
+
+    /// The cell in lane l of the register; beyond the last cell the batch is filled with copies.
+    std::size_t
+    cell(const std::size_t l) const
+    {
+      return batch * batch_size + lane + l;
+    }
+
+    /// Where entry e of a quantity with n entries a cell begins.
+    std::size_t
+    at(const std::size_t n, const std::size_t e) const
+    {
+      return (batch * n + e) * batch_size + lane;
+    }
+  };
+
+  /// Call function(group) for all groups of the batches begin to end - 1.
+  template <typename Number, typename Function>
+  inline void
+  for_each_group(const std::size_t begin, const std::size_t end, const Function &function)
+  {
+    for (std::size_t batch = begin; batch < end; ++batch)
+      for (std::size_t lane = 0; lane < batch_size; lane += LaneGroup<Number>::width)
+        function(LaneGroup<Number>{ batch, lane });
+  }
+
+  template <typename Number>
+  inline Number
+  load(const double *from, const LaneGroup<Number> &group, const std::size_t n, const std::size_t e)
+  {
+    return Lanes<Number>::load(from + group.at(n, e));
+  }
+
+  template <typename Number>
+  inline CellMaterial<Number>
+  load_material(const CellArrays &cells, const LaneGroup<Number> &group)
+  {
+    constexpr std::size_t n = CellMaterial<Number>::n_numbers;
+    return CellMaterial<Number>::from_numbers([&](const std::size_t k)
+                                              { return load(cells.material, group, n, k); });
+  }
+
+  template <typename Number>
+  inline Matrix3<Number>
+  load_rotation(const CellArrays &cells, const LaneGroup<Number> &group)
+  {
+    Matrix3<Number> R;
+    for (int k = 0; k < 9; ++k)
+      R[k / 3][k % 3] = load(cells.rotations, group, 9, k);
+    return R;
+  }
+
+  /// Strain i of the n that are stored for each cell.
+  template <typename Number>
+  inline Matrix3<Number>
+  load_strain(const double            *strains,
+              const LaneGroup<Number> &group,
+              const std::size_t        n,
+              const std::size_t        i)
+  {
+    SymmetricEntries<Number> E;
+    for (std::size_t k = 0; k < n_symmetric; ++k)
+      E[k] = load(strains, group, n_symmetric * n, n_symmetric * i + k);
+    return unpack(E);
+  }
+
+  template <typename Number>
+  inline Tetrahedron<Number>
+  load_tetrahedron(const CellArrays &cells, const LaneGroup<Number> &group)
+  {
+    Tetrahedron<Number> tet;
+    for (int i = 0; i < 3; ++i)
+    {
+      for (int a = 1; a < 4; ++a)
+        tet.shape_gradient[a][i] = load(cells.gradients, group, 9, 3 * (a - 1) + i);
+      tet.shape_gradient[0][i] = -tet.shape_gradient[1][i] - tet.shape_gradient[2][i]
+                                 - tet.shape_gradient[3][i]; // shape functions sum to one
+    }
+    tet.volume = load(cells.volumes, group, 1, 0);
+    return tet;
+  }
+
+  /// Four numbers of one node or cell; the compiler maps them to the registers that there are.
+  using Four = double __attribute__((vector_size(32)));
+
+  // Internal linkage, and references: how Four is passed by value depends on the instruction set.
+
+  [[gnu::always_inline]] static inline void
+  load_four(const double *from, Four &four)
+  {
+    __builtin_memcpy(&four, from, sizeof(Four));
+  }
+
+  [[gnu::always_inline]] static inline void
+  add_four(const Four &four, double *to)
+  {
+    Four sum;
+    load_four(to, sum);
+    sum = sum + four;
+    __builtin_memcpy(to, &sum, sizeof(Four));
+  }
+
+  /// Rows become columns.
+  [[gnu::always_inline]] static inline void
+  transpose(Four (&rows)[4])
+  {
+    const Four low_01  = __builtin_shufflevector(rows[0], rows[1], 0, 4, 2, 6);
+    const Four high_01 = __builtin_shufflevector(rows[0], rows[1], 1, 5, 3, 7);
+    const Four low_23  = __builtin_shufflevector(rows[2], rows[3], 0, 4, 2, 6);
+    const Four high_23 = __builtin_shufflevector(rows[2], rows[3], 1, 5, 3, 7);
+
+    rows[0] = __builtin_shufflevector(low_01, low_23, 0, 1, 4, 5);
+    rows[1] = __builtin_shufflevector(high_01, high_23, 0, 1, 4, 5);
+    rows[2] = __builtin_shufflevector(low_01, low_23, 2, 3, 6, 7);
+    rows[3] = __builtin_shufflevector(high_01, high_23, 2, 3, 6, 7);
+  }
+
+  /// One register of the numbers of all cells of a group. They do not go by way of memory, because
+  /// a load that is wider than the stores before it has to wait for them.
+  template <typename Number>
+  inline Number
+  join(const Four (&four)[2])
+  {
+    if constexpr (LaneGroup<Number>::width == 8)
+      return Number(__builtin_shufflevector(four[0], four[1], 0, 1, 2, 3, 4, 5, 6, 7));
+    else
+      return Number(four[0]);
+  }
+
+  /// The positions of one node of each cell; `positions` holds four numbers a node.
+  template <typename Number>
+  inline void
+  load_nodes(const double *positions, const int *nodes, Vector3<Number> &x)
+  {
+    if constexpr (LaneGroup<Number>::width >= 4)
+    {
+      Four parts[3][2];
+      for (std::size_t lane = 0; lane < LaneGroup<Number>::width; lane += 4)
+      {
+        Four rows[4];
+        for (std::size_t l = 0; l < 4; ++l)
+          load_four(positions + 4 * nodes[lane + l], rows[l]);
+        transpose(rows);
+        for (int i = 0; i < 3; ++i)
+          parts[i][lane / 4] = rows[i];
+      }
+      for (int i = 0; i < 3; ++i)
+        x[i] = join<Number>(parts[i]);
+    }
+    else
+    {
+      alignas(64) double parts[3][LaneGroup<Number>::width];
+      for (std::size_t lane = 0; lane < LaneGroup<Number>::width; ++lane)
+        for (int i = 0; i < 3; ++i)
+          parts[i][lane] = positions[4 * nodes[lane] + i];
+      for (int i = 0; i < 3; ++i)
+        x[i] = Lanes<Number>::load(parts[i]);
+    }
+  }
+
+  template <typename Number>
+  inline Matrix3<Number>
+  deformation_gradient(const CellTask            &task,
+                       const LaneGroup<Number>   &group,
+                       const Tetrahedron<Number> &tet)
+  {
+    Vector3<Number> x[4];
+    for (int a = 0; a < 4; ++a)
+      load_nodes(task.positions, task.cells.nodes + group.at(4, a), x[a]);
+    Vector3<Number> edge[4]; // from node 0
+    for (int a = 1; a < 4; ++a)
+      for (int i = 0; i < 3; ++i)
+        edge[a][i] = x[a][i] - x[0][i];
+    Matrix3<Number> F; // Eq. (1)
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        F[i][j] = edge[1][i] * tet.shape_gradient[1][j] + edge[2][i] * tet.shape_gradient[2][j]
+                  + edge[3][i] * tet.shape_gradient[3][j];
+    return F;
+  }
+} // namespace Exemplar::Loops
+
+#endif

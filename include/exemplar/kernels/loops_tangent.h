@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_loops_tangent_h
+#define exemplar_loops_tangent_h
+
+#include <exemplar/kernels/loops_examples.h>
+
+// The tangents of the models that are not R K R^T, Eqs. (18) and (19).
+
+namespace Exemplar::Loops
+{
+  /// A cell of each lane with its material, positions and target strain, damping included.
+  template <typename Cell, typename Number>
+  inline Cell
+  driven_cell(const CellTask            &task,
+              const TangentTask         &tangent,
+              const LaneGroup<Number>   &group,
+              const Tetrahedron<Number> &tet,
+              const Matrix3<Number>     &R)
+  {
+    CellMaterial<Number> material = load_material(task.cells, group);
+    Matrix3<Number>      D        = target(task, group);
+    if (task.damping.factors != nullptr)
+    {
+      const Number s = load(task.damping.factors, group, 1, 0);
+      material       = damped_material(material, s);
+      D              = damped_target(D, s, load_strain(task.damping.strains, group, 1, 0));
+    }
+    Cell cell(material, R, deformation_gradient(task, group, tet), task.cells.guard_bound);
+    cell.set_target(D);
+    if constexpr (!Cell::traits.convex_is_rotated)
+      if (tangent.convex)
+        cell.make_convex();
+    return cell;
+  }
+
+  /// Three columns of each of 10 blocks, with space for four rows, of the cells of a group.
+  template <typename Number>
+  using BlockColumns = double[n_block_columns][4][LaneGroup<Number>::width];
+
+  /// d f_a / d x_b for the cells of a group.
+  template <typename Cell, typename Number>
+  inline void
+  cell_blocks(const Cell                &cell,
+              const Matrix3<Number>     &R,
+              const Tetrahedron<Number> &tet,
+              BlockColumns<Number>      &columns)
+  {
+    Matrix3<Number> VR = R;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        VR[i][j] *= tet.volume;
+    // node b moves by the unit vector k of the rotated frame; of these three responses that to a
+    // unit vector j of space is a combination
+    for (int b = 0; b < 4; ++b)
+    {
+      Matrix3<Number> response[3];
+      for (int k = 0; k < 3; ++k)
+      {
+        Matrix3<Number> M{};
+        for (int l = 0; l < 3; ++l)
+          M[k][l] = tet.shape_gradient[b][l];
+        response[k] = VR * cell.response(M);
+      }
+      for (int a = b; a < 4; ++a)
+      {
+        Vector3<Number> force[3];
+        for (int k = 0; k < 3; ++k)
+          force[k] = response[k] * tet.shape_gradient[a];
+        const int block = a * (a + 1) / 2 + b;
+        for (int j = 0; j < 3; ++j)
+          for (int i = 0; i < 3; ++i)
+            Lanes<Number>::store(a == b && i < j ? Number(0.)
+                                                 : force[0][i] * R[j][0] + force[1][i] * R[j][1]
+                                                       + force[2][i] * R[j][2],
+                                 columns[3 * block + j][i]);
+      }
+    }
+  }
+
+  template <typename Number>
+  inline void
+  add_tangent(const CellTask    &task,
+              const TangentTask &tangent,
+              const std::size_t  begin,
+              const std::size_t  end)
+  {
+    alignas(64) BlockColumns<Number> columns = {};
+    const auto                       add     = [&](const LaneGroup<Number> &group)
+    {
+      for (std::size_t lane = 0; lane < LaneGroup<Number>::width; ++lane)
+      {
+        const std::size_t cell = group.cell(lane);
+        if (cell >= task.cells.n_cells)
+          return;
+        const int *position = tangent.positions + n_block_columns * (cell - begin * batch_size);
+        for (std::size_t column = 0; column < n_block_columns; ++column)
+          if (position[column] >= 0)
+            for (int i = 0; i < 3; ++i)
+              tangent.values[position[column] + i] += columns[column][i][lane];
+      }
+    };
+    with_cell_model<Number>(task.cells.strain,
+                            [&](auto model)
+                            {
+                              using Cell = typename decltype(model)::type;
+                              if constexpr (!Cell::traits.exact_is_rotated)
+                                for_each_group<Number>(
+                                    begin, end,
+                                    [&](const LaneGroup<Number> &group)
+                                    {
+                                      const auto tet = load_tetrahedron(task.cells, group);
+                                      const auto R   = load_rotation(task.cells, group);
+                                      cell_blocks(driven_cell<Cell>(task, tangent, group, tet, R),
+                                                  R, tet, columns);
+                                      add(group);
+                                    });
+                            });
+  }
+} // namespace Exemplar::Loops
+
+#endif

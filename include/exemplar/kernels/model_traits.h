@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_model_traits_h
+#define exemplar_model_traits_h
+
+namespace Exemplar
+{
+  /// What distinguishes the models of a cell, beside their formulas. Each model has a constant
+  /// `traits`.
+  struct ModelTraits
+  {
+    /// R is the rotation of F. In models without rotations it is I, and P = R (R^T P) holds, too.
+    bool has_rotations;
+
+    /// The energy contains the guard phi of Eq. (16), which acts in badly inverted cells.
+    bool has_guard;
+
+    /// R K R^T, Eq. (8), is the derivative of the force.
+    bool exact_is_rotated;
+
+    /// R K R^T is the tangent that is never indefinite. Else make_convex() turns response() into
+    /// that.
+    bool convex_is_rotated;
+
+    /// The energy without examples stays as it is when the body turns.
+    bool turns_freely;
+  };
+} // namespace Exemplar
+
+#endif
