@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Print the table of doc/results.md on recovery: bodies without loads that start crushed, flat or mirrored.
+"""Print the table of doc/stability.md on recovery: bodies without loads that start crushed, flat or mirrored.
 
-Usage: /usr/bin/python3 doc/measure_recovery.py [BINARY] [BODY]...     from anywhere; needs numpy
+Usage: /usr/bin/python3 doc/scripts/measure_recovery.py [BINARY] [BODY]...     from anywhere; needs numpy
 BODY is bar, bar-examples or cat; all of them by default. The bar takes a minute, the cat about
 five; every run is noted on stderr. Exits with 1 if a run crashes or writes what is no number.
 """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the measuring scripts of doc/ share: runs of scenes and the tables they print.
+"""What the measuring scripts of doc/scripts share: runs of scenes and the tables they print.
 
 Meshes, poses and results are read and written by the runner of the scene tests.
 """
@@ -8,7 +8,7 @@ import sys
 from collections import namedtuple
 from pathlib import Path
 
-TOP = Path(__file__).resolve().parents[1]
+TOP = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(TOP / "tests/scenes"))
 from exemplar_runner import prm, read_csv, read_msh, read_summary, read_vtu, write_msh  # noqa: E402,F401
 

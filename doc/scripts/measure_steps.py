@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Print Table 1 of doc/results.md: where the time of a step goes, beside the paper's.
+"""Print the first table of doc/speed.md: where the time of a step goes, beside the paper's.
 
-Usage: python3 doc/measure_steps.py [BINARY]     on a quiet machine
+Usage: python3 doc/scripts/measure_steps.py [BINARY]     on a quiet machine
 Runs a cat and a horse scene five times without frames. A time is the median over the runs of the
 mean over all steps of a run; the share is formed within each run.
 """

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Print the tables of doc/results.md that compare the models of a cell, and draw doc/figures/models.png.
+"""Print the tables of doc/models.md that compare the models of a cell, and draw doc/figures/models.png.
 
 Usage, from the top folder:
 
-    xvfb-run -a /usr/bin/python3 doc/compare_models.py [BINARY]
+    xvfb-run -a /usr/bin/python3 doc/scripts/compare_models.py [BINARY]
 
 A cat is dragged by each model, and a free bar spins; half a minute. True residuals and torques are computed
 here in numpy from the final poses, independently of the program. Debian: python3-numpy python3-vtk9 xvfb xauth.

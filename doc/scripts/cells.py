@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Cells in numpy, written from doc/method.md and independent of the program: an array has a row a cell."""
+"""Cells in numpy, written from doc/model.md and independent of the program: an array has a row a cell."""
 import numpy as np
 
 from scene_runs import read_msh

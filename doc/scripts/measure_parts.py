@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What each part of a scene takes, in time and memory, and that a part which a scene does not need takes none.
 
-Usage, from the top folder: python3 doc/measure_parts.py [PROGRAM]
+Usage, from the top folder: python3 doc/scripts/measure_parts.py [PROGRAM]
 
 Runs the cat of prm/studies/scenes/cat.prm as several kinds of scene under `perf record` (Debian: linux-perf) on one thread
-and writes doc/studies/parts.csv, which `python3 doc/study_tables.py --write` puts into doc/results.md. A minute.
+and writes doc/studies/parts.csv, which `python3 doc/scripts/study_tables.py --write` puts into doc/left-out.md. A minute.
 Times are processor time by the functions that were running, memory is what the parts themselves count (memory_mib of
 summary.json); both are of the program as it is, without changes for measuring.
 """
@@ -17,7 +17,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-TOP = Path(__file__).resolve().parents[1]
+TOP = Path(__file__).resolve().parents[2]
 SCENE, RESULT = TOP / "prm/studies/scenes/cat.prm", TOP / "doc/studies/parts.csv"
 FREQUENCY = 1000
 

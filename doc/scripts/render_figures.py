@@ -3,7 +3,7 @@
 
 Usage, from the top folder:
 
-    xvfb-run -a /usr/bin/python3 doc/render_figures.py build/release/exemplar [FIGURE]...
+    xvfb-run -a /usr/bin/python3 doc/scripts/render_figures.py build/release/exemplar [FIGURE]...
 
 FIGURE is fig1, fig2, fig3 or cat; all of them by default. The runs go to
 output/figures and take about a minute. Debian/Ubuntu packages:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Print the tables of doc/results.md on large meshes: cholesky beside iterative, and a bar of a million cells.
+"""Print the tables of doc/speed.md on large meshes: cholesky beside iterative, and a bar of a million cells.
 
-Usage: python3 doc/measure_large.py [BINARY] [PART]...     on a quiet machine
+Usage: python3 doc/scripts/measure_large.py [BINARY] [PART]...     on a quiet machine
 PART is crossover (five minutes, 2 GB) or million (a minute, 3.5 GB); both by default.
 """
 import resource

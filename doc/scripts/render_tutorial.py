@@ -3,7 +3,7 @@
 
 Usage, from the top folder:
 
-    xvfb-run -a /usr/bin/python3 doc/render_tutorial.py build/release/exemplar [STEP]...
+    xvfb-run -a /usr/bin/python3 doc/scripts/render_tutorial.py build/release/exemplar [STEP]...
 
 STEP is step1, step2 and so on; all of them by default. The runs go to output/tutorial and take
 about a minute; plots also read doc/studies. Debian/Ubuntu packages: python3-vtk9 xvfb xauth gnuplot-nox.

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The tables of doc/results.md and doc/tutorial that come from studies: check that they are those of doc/studies/*.csv,
+"""The tables of pages that come from studies: check that they are those of doc/studies/*.csv,
 write or renew them.
 
-Usage: python3 doc/study_tables.py             exit 1 if a table of a page is not what the files say
-       python3 doc/study_tables.py --write     put the tables into the pages
-       python3 doc/study_tables.py --run NAME...
+Usage: python3 doc/scripts/study_tables.py             exit 1 if a table of a page is not what the files say
+       python3 doc/scripts/study_tables.py --write     put the tables into the pages
+       python3 doc/scripts/study_tables.py --run NAME...
                                                run the studies NAME.prm of prm/studies and prm/tutorial (all, if none is
                                                named), keep study.csv and study.svg here; on a quiet machine, two hours
 
@@ -26,8 +26,8 @@ import subprocess
 import sys
 from pathlib import Path
 
-TOP = Path(__file__).resolve().parents[1]
-PAGES = [TOP / "doc/results.md", *sorted((TOP / "doc/tutorial").glob("*.md"))]
+TOP = Path(__file__).resolve().parents[2]
+PAGES = sorted((TOP / "doc").rglob("*.md"))
 FILES, FIGURES = TOP / "doc/studies", TOP / "doc/figures"
 STUDIES = {file.stem: file for folder in ("prm/studies", "prm/tutorial") for file in sorted((TOP / folder).glob("*.prm"))
            if re.search(r"^\s*set Vary", file.read_text(), re.MULTILINE)}
@@ -207,13 +207,13 @@ def main():
         return
     missing = [name for name in STUDIES if not (FILES / f"{name}.csv").exists()]
     if missing:
-        sys.exit(f"doc/studies has no results of {', '.join(missing)}: python3 doc/study_tables.py --run NAME")
+        sys.exit(f"doc/studies has no results of {', '.join(missing)}: python3 doc/scripts/study_tables.py --run NAME")
     for page in PAGES:
         right = page_with_tables(page.read_text())
         if sys.argv[1:] == ["--write"]:
             page.write_text(right)
         elif page.read_text() != right:
-            sys.exit(f"{page} has other numbers than doc/studies/*.csv: python3 doc/study_tables.py --write")
+            sys.exit(f"{page} has other numbers than doc/studies/*.csv: python3 doc/scripts/study_tables.py --write")
     print("the pages have the numbers of doc/studies")
 
 
