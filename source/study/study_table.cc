@@ -13,15 +13,6 @@ namespace Exemplar
   {
     const double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-    /// NaN unless the whole text is a number.
-    double
-    parse_number(const std::string &text)
-    {
-      char        *end    = nullptr;
-      const double number = std::strtod(text.c_str(), &end);
-      return !text.empty() && end == text.c_str() + text.size() ? number : not_a_number;
-    }
-
     bool
     is_numeric(const StudyAxis &axis)
     {
