@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/algebra/dense_cholesky.h>
+#include <exemplar/algebra/dense.h>
 #include <exemplar/algebra/linear_prediction.h>
 #include <exemplar/algebra/long_vectors.h>
 

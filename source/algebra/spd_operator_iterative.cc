@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/mpi_session.h>
+#include <exemplar/algebra/rigid_modes.h>
 #include <exemplar/algebra/spd_operator.h>
 #include <exemplar/base/errors.h>
 
@@ -10,7 +12,6 @@
 #include <Epetra_Vector.h>
 #include <Teuchos_ParameterList.hpp>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <malloc.h>
 #include <ml_MultiLevelPreconditioner.h>
@@ -26,24 +27,9 @@ namespace Exemplar
     using Multigrid = ML_Epetra::MultiLevelPreconditioner;
 
     constexpr unsigned int most_iterations = 1000;
-    constexpr unsigned int n_modes         = 6;
 
-    /// Epetra and ML call MPI even in one process. Nothing else here does, so it is started
-    /// by the first who needs it.
-    void
-    require_mpi()
-    {
-      int is_running = 0;
-      MPI_Initialized(&is_running);
-      if (is_running != 0)
-        return;
-      // alone, Open MPI would start a daemon, and look for ssh to do so
-      setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
-      MPI_Init(nullptr, nullptr); // does not return if it fails
-      std::atexit([] { MPI_Finalize(); });
-    }
-
-    /// deal.II's own asserts in Debug that it is finite; ours may not be, and then says so.
+    /// Not deal.II's product of vectors, because that asserts in Debug that it is finite. Here it
+    /// may be infinite or NaN, which check_curvature() and solve() report.
     double
     dot(const Vector &a, const Vector &b)
     {
@@ -112,7 +98,7 @@ namespace Exemplar
           row_of.push_back(static_cast<int>(3 * (nodes.size() - 1) + dof % 3));
         }
         places.resize(3 * nodes.size());
-        require_mpi();
+        MpiSession::require();
       }
 
       OperatorTraits
@@ -169,13 +155,13 @@ namespace Exemplar
         malloc_trim(0);
         const std::size_t before = heap_in_use();
 
-        const std::vector<double> modes = rigid_modes();
+        const std::vector<double> modes = rigid_modes(places, row_of);
         Teuchos::ParameterList    parameters;
         ML_Epetra::SetDefaults("SA", parameters);
         parameters.set("ML output", 0);
         parameters.set("PDE equations", 3);
         parameters.set("null space: type", "pre-computed");
-        parameters.set("null space: dimension", static_cast<int>(n_modes));
+        parameters.set("null space: dimension", static_cast<int>(n_rigid_modes));
         parameters.set("null space: vectors", const_cast<double *>(modes.data()));
         parameters.set("aggregation: type", "Uncoupled");
         parameters.set("prec type", "MGW"); // W cycles: coarse levels cost next to nothing
@@ -281,46 +267,7 @@ namespace Exemplar
       {
         for (std::size_t row = 0; row < places.size(); ++row)
           places[row] = positions[3 * nodes[row / 3] + row % 3];
-        scale_places();
-      }
-
-      /// Centred and of size one, so that all modes are of the same size.
-      void
-      scale_places()
-      {
-        double greatest = 0.;
-        for (unsigned int c = 0; c < 3; ++c)
-        {
-          double sum = 0.;
-          for (std::size_t row = c; row < places.size(); row += 3)
-            sum += places[row];
-          for (std::size_t row = c; row < places.size(); row += 3)
-          {
-            places[row] -= sum / static_cast<double>(nodes.size());
-            greatest = std::max(greatest, std::abs(places[row]));
-          }
-        }
-        if (greatest > 0.)
-          for (double &x : places)
-            x /= greatest;
-      }
-
-      /// Three translations and three rotations, one after the other.
-      std::vector<double>
-      rigid_modes() const
-      {
-        std::vector<double> modes(n_modes * places.size(), 0.);
-        for (const int row : row_of)
-        {
-          const int     c   = row % 3;
-          const double *x   = places.data() + (row - c);
-          const auto    set = [&](const int mode, const double value)
-          { modes[mode * places.size() + row] = value; };
-          set(c, 1.);
-          set(3 + (c + 1) % 3, x[(c + 2) % 3]);
-          set(3 + (c + 2) % 3, -x[(c + 1) % 3]);
-        }
-        return modes;
+        center_and_scale(places);
       }
 
       void
@@ -363,6 +310,12 @@ namespace Exemplar
       std::size_t multigrid_memory = 0; ///< what its making has left on the heap [bytes]
     };
   } // namespace
+
+  bool
+  has_iterative_operator()
+  {
+    return true;
+  }
 
   std::unique_ptr<SpdOperator>
   make_iterative_operator(const FreeDofs &free_dofs, const double tolerance)

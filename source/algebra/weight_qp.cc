@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/algebra/dense_cholesky.h>
+#include <exemplar/algebra/dense.h>
 #include <exemplar/algebra/weight_qp.h>
 
 #include <algorithm>

@@ -4,6 +4,7 @@
 #include <exemplar/base/interrupt.h>
 
 #include <fcntl.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -21,16 +22,49 @@ namespace Exemplar
   {
     using Clock = std::chrono::steady_clock;
 
+    /// An open file, closed at the end.
+    class OpenFile
+    {
+    public:
+      /// What open() or the like has returned; throws if that is an error.
+      OpenFile(const int descriptor, const std::string &name) : descriptor(descriptor)
+      {
+        if (descriptor < 0)
+          throw std::system_error(errno, std::generic_category(), name);
+      }
+
+      ~OpenFile()
+      {
+        close(descriptor);
+      }
+
+      OpenFile(const OpenFile &) = delete;
+      OpenFile &
+      operator=(const OpenFile &)
+          = delete;
+
+      std::string
+      text_from_begin() const
+      {
+        std::string text;
+        char        buffer[4096];
+        for (ssize_t n; (n = pread(descriptor, buffer, sizeof(buffer), text.size())) > 0;)
+          text.append(buffer, n);
+        return text;
+      }
+
+      const int descriptor;
+    };
+
     /// In the forked process, where nothing but system calls is safe.
     [[noreturn]] void
-    become(char *const argv[], const char *log, const pid_t parent)
+    become(char *const argv[], const int out, const pid_t parent)
     {
       prctl(PR_SET_PDEATHSIG, SIGKILL);
       if (getppid() != parent) // it has died before the line above
         _exit(no_such_program);
-      const int in  = open("/dev/null", O_RDONLY);
-      const int out = open(log, O_WRONLY | O_CREAT | O_TRUNC, 0666);
-      if (in < 0 || out < 0 || dup2(in, STDIN_FILENO) < 0 || dup2(out, STDOUT_FILENO) < 0
+      const int in = open("/dev/null", O_RDONLY);
+      if (in < 0 || dup2(in, STDIN_FILENO) < 0 || dup2(out, STDOUT_FILENO) < 0
           || dup2(out, STDERR_FILENO) < 0)
         _exit(no_such_program);
       execvp(argv[0], argv);
@@ -38,7 +72,7 @@ namespace Exemplar
     }
 
     pid_t
-    start(const std::vector<std::string> &command, const std::filesystem::path &log)
+    start(const std::vector<std::string> &command, const OpenFile &out)
     {
       std::vector<char *> argv;
       for (const std::string &argument : command)
@@ -48,7 +82,7 @@ namespace Exemplar
       std::signal(SIGCHLD, SIG_DFL); // if ignored, the kernel would take the status
       const pid_t child = fork();
       if (child == 0)
-        become(argv.data(), log.c_str(), parent);
+        become(argv.data(), out.descriptor, parent);
       if (child < 0)
         throw std::runtime_error(
             "No process can be started: " + std::generic_category().message(errno) + ".");
@@ -59,8 +93,7 @@ namespace Exemplar
     class Child
     {
     public:
-      Child(const std::vector<std::string> &command, const std::filesystem::path &log)
-          : id(start(command, log))
+      Child(const std::vector<std::string> &command, const OpenFile &out) : id(start(command, out))
       {
       }
 
@@ -109,6 +142,32 @@ namespace Exemplar
       int         status = 0;
       bool        ended  = false;
     };
+
+    ChildEnd
+    run(const std::vector<std::string> &command, const OpenFile &out, const double timeout)
+    {
+      ChildEnd   end;
+      const auto begin = Clock::now();
+      const auto seconds
+          = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
+      Child child(command, out);
+      while (!child.has_ended())
+      {
+        check_interrupt();
+        if (timeout > 0. && !end.timed_out && seconds() > timeout)
+        {
+          end.timed_out = true;
+          child.kill();
+        }
+        // often enough for runs of a tenth of a second, and too seldom to disturb them
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      }
+      end.seconds     = seconds();
+      const int state = child.get_status();
+      end.signal      = WIFSIGNALED(state) ? WTERMSIG(state) : 0;
+      end.exit_status = end.signal != 0 ? 128 + end.signal : WEXITSTATUS(state);
+      return end;
+    }
   } // namespace
 
   ChildEnd
@@ -116,26 +175,16 @@ namespace Exemplar
             const std::filesystem::path    &log,
             const double                    timeout)
   {
-    ChildEnd   end;
-    const auto begin = Clock::now();
-    const auto seconds
-        = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
-    Child child(command, log);
-    while (!child.has_ended())
-    {
-      check_interrupt();
-      if (timeout > 0. && !end.timed_out && seconds() > timeout)
-      {
-        end.timed_out = true;
-        child.kill();
-      }
-      // often enough for runs of a tenth of a second, and too seldom to disturb them
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    }
-    end.seconds     = seconds();
-    const int state = child.get_status();
-    end.signal      = WIFSIGNALED(state) ? WTERMSIG(state) : 0;
-    end.exit_status = end.signal != 0 ? 128 + end.signal : WEXITSTATUS(state);
-    return end;
+    const OpenFile out(open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666),
+                       log.string());
+    return run(command, out, timeout);
+  }
+
+  ChildOutput
+  output_of_child(const std::vector<std::string> &command)
+  {
+    const OpenFile out(memfd_create("output", MFD_CLOEXEC), "the output of " + command.at(0));
+    const ChildEnd end = run(command, out, 0.);
+    return { end, out.text_from_begin() };
   }
 } // namespace Exemplar

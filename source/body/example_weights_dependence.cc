@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/algebra/conditioning.h>
+#include <exemplar/algebra/dense.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/body/example_weights.h>
 
-#include <cmath>
 #include <limits>
 #include <sstream>
 
@@ -11,44 +11,6 @@
 
 namespace Exemplar
 {
-  namespace
-  {
-    /// The row at which Cholesky's factorisation finds the least pivot relative to its
-    /// diagonal entry: that depends most on the rows before it.
-    struct LeastPivot
-    {
-      unsigned int row   = 0;
-      double       ratio = 1.;
-    };
-
-    LeastPivot
-    least_pivot(const dealii::FullMatrix<double> &matrix, const double rounding)
-    {
-      const unsigned int         n = matrix.m();
-      dealii::FullMatrix<double> L(n, n);
-      LeastPivot                 least;
-      for (unsigned int i = 0; i < n; ++i)
-        for (unsigned int j = 0; j <= i; ++j)
-        {
-          double value = matrix(i, j);
-          for (unsigned int m = 0; m < j; ++m)
-            value -= L(i, m) * L(j, m);
-          if (i != j)
-          {
-            L(i, j) = value / L(j, j);
-            continue;
-          }
-          const double ratio = value > rounding ? value / matrix(i, i) : 0.;
-          if (ratio < least.ratio)
-            least = { i, ratio };
-          if (ratio < 1e-14)
-            return { i, 0. };
-          L(i, i) = std::sqrt(value);
-        }
-      return least;
-    }
-  } // namespace
-
   void
   ExampleWeights::check_independence(const double unit_energy)
   {

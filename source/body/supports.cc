@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/dense.h>
 #include <exemplar/body/supports.h>
 #include <exemplar/mesh/rigid_motion.h>
-
-#include <deal.II/lac/full_matrix.h>
 
 #include <algorithm>
 #include <cmath>
@@ -66,44 +65,20 @@ namespace Exemplar
   unsigned int
   n_free_rigid_motions(const Mesh &mesh, const std::vector<unsigned int> &held_dofs)
   {
-    // rows: the six rigid motions at a held degree of freedom, lengths in diameters;
-    // their rank by Gauss elimination with complete pivoting
-    const dealii::Point<3>             center   = centroid(mesh.get_nodes());
-    const double                       diameter = mesh.diameter();
-    std::vector<std::array<double, 6>> rows;
-    for (const unsigned int dof : held_dofs)
+    // rows: the six rigid motions at a held degree of freedom, lengths in diameters
+    const dealii::Point<3>     center   = centroid(mesh.get_nodes());
+    const double               diameter = mesh.diameter();
+    dealii::FullMatrix<double> motions(held_dofs.size(), 6);
+    for (unsigned int row = 0; row < held_dofs.size(); ++row)
     {
-      const dealii::Tensor<1, 3> r = (mesh.get_nodes()[dof / 3] - center) / diameter;
-      const unsigned int         c = dof % 3, d = (c + 1) % 3, e = (c + 2) % 3;
-      std::array<double, 6>      row{};
-      row[c]     = 1.;
-      row[3 + d] = r[e]; // (omega x r)_c = omega_d r_e - omega_e r_d
-      row[3 + e] = -r[d];
-      rows.push_back(row);
+      const unsigned int         node = held_dofs[row] / 3, c = held_dofs[row] % 3;
+      const unsigned int         d = (c + 1) % 3, e = (c + 2) % 3;
+      const dealii::Tensor<1, 3> r = (mesh.get_nodes()[node] - center) / diameter;
+      motions(row, c)              = 1.;
+      motions(row, 3 + d)          = r[e]; // (omega x r)_c = omega_d r_e - omega_e r_d
+      motions(row, 3 + e)          = -r[d];
     }
-    unsigned int rank = 0;
-    for (; rank < 6 && rank < rows.size(); ++rank)
-    {
-      unsigned int pivot_row = rank, pivot_column = 0;
-      for (unsigned int i = rank; i < rows.size(); ++i)
-        for (unsigned int j = 0; j < 6; ++j)
-          if (std::abs(rows[i][j]) > std::abs(rows[pivot_row][pivot_column]))
-          {
-            pivot_row    = i;
-            pivot_column = j;
-          }
-      if (std::abs(rows[pivot_row][pivot_column]) < 1e-8)
-        break;
-      std::swap(rows[rank], rows[pivot_row]);
-      for (unsigned int i = rank + 1; i < rows.size(); ++i)
-      {
-        const double factor = rows[i][pivot_column] / rows[rank][pivot_column];
-        for (unsigned int j = 0; j < 6; ++j)
-          rows[i][j] -= factor * rows[rank][j];
-        rows[i][pivot_column] = 0.;
-      }
-    }
-    return 6 - rank;
+    return 6 - rank(motions, 1e-8);
   }
 
   StaticallyDeterminateSupport

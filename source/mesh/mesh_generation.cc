@@ -1,24 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/child_process.h>
 #include <exemplar/base/digest.h>
 #include <exemplar/base/errors.h>
+#include <exemplar/base/text_file.h>
 #include <exemplar/mesh/mesh_generation.h>
 
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdlib>
-#include <cstring>
-#include <fstream>
 #include <limits>
 #include <regex>
 #include <sstream>
 #include <utility>
-
-extern char **environ;
 
 namespace Exemplar
 {
@@ -149,65 +143,6 @@ namespace Exemplar
                         "machine would hold. Give smaller counts.");
     }
 
-    /// What a finished program said on both its channels.
-    struct ProgramResult
-    {
-      bool        found;
-      bool        success;
-      std::string output;
-    };
-
-    std::string
-    read_until_closed(const int descriptor)
-    {
-      std::string            text;
-      std::array<char, 4096> buffer;
-      while (true)
-      {
-        const ssize_t n = ::read(descriptor, buffer.data(), buffer.size());
-        if (n > 0)
-          text.append(buffer.data(), static_cast<std::size_t>(n));
-        else if (n == 0 || errno != EINTR)
-          return text;
-      }
-    }
-
-    /// Run a program without a shell, so that no file name needs quoting.
-    ProgramResult
-    run_program(std::vector<std::string> arguments)
-    {
-      std::vector<char *> argv;
-      for (auto &argument : arguments)
-        argv.push_back(argument.data());
-      argv.push_back(nullptr);
-
-      int pipe_ends[2];
-      if (::pipe2(pipe_ends, O_CLOEXEC) != 0)
-        throw std::runtime_error(std::string("Cannot open a pipe: ") + std::strerror(errno) + ".");
-      posix_spawn_file_actions_t actions;
-      posix_spawn_file_actions_init(&actions);
-      posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
-      posix_spawn_file_actions_adddup2(&actions, pipe_ends[1], 1);
-      posix_spawn_file_actions_adddup2(&actions, pipe_ends[1], 2);
-      pid_t     child = 0;
-      const int error = posix_spawnp(&child, argv[0], &actions, nullptr, argv.data(), environ);
-      posix_spawn_file_actions_destroy(&actions);
-      ::close(pipe_ends[1]);
-
-      ProgramResult result{ error == 0, false, "" };
-      if (result.found)
-      {
-        result.output = read_until_closed(pipe_ends[0]);
-        int status    = 0;
-        while (::waitpid(child, &status, 0) < 0 && errno == EINTR)
-        {
-        }
-        result.success = WIFEXITED(status) && WEXITSTATUS(status) == 0;
-      }
-      ::close(pipe_ends[0]);
-      return result;
-    }
-
     /// gmsh's errors, or else the last lines that it wrote.
     std::string
     telling_lines(const std::string &output)
@@ -244,44 +179,50 @@ namespace Exemplar
     std::string
     gmsh_version(const std::filesystem::path &geo)
     {
-      const ProgramResult result = run_program({ "gmsh", "--version" });
-      if (!result.found)
+      const ChildOutput gmsh = output_of_child({ "gmsh", "--version" });
+      if (gmsh.end.exit_status == no_such_program)
         throw UserError(geo.string()
                         + ": meshing it needs gmsh, which cannot be started. Install "
                           "the package gmsh, or mesh it elsewhere and set Mesh/File "
                           "to the .msh.");
-      return result.output;
+      return gmsh.text;
     }
 
     std::string
-    read_text(const std::filesystem::path &file)
+    read_geo(const std::filesystem::path &file)
     {
-      errno = 0;
-      std::ifstream in(file, std::ios::binary);
-      if (!in || std::filesystem::is_directory(file))
-        throw UserError("Mesh/File: " + file.string() + " cannot be opened ("
-                        + (errno != 0 ? std::strerror(errno) : "is it a directory?")
-                        + "). Give a .msh or .geo file; relative names start from the .prm.");
-      std::ostringstream text;
-      text << in.rdbuf();
-      return text.str();
+      std::string reason;
+      if (auto text = read_text_file(file, &reason))
+        return *text;
+      throw UserError("Mesh/File: " + file.string() + " cannot be opened (" + reason
+                      + "). Give a .msh or .geo file; relative names start from the .prm.");
     }
+
+    /// A file that is removed in the end, if it is still there under its name.
+    struct TemporaryFile
+    {
+      ~TemporaryFile()
+      {
+        std::error_code ignored;
+        std::filesystem::remove(path, ignored);
+      }
+
+      const std::filesystem::path path;
+    };
 
     void
     run_gmsh(const std::filesystem::path &geo, const std::filesystem::path &msh)
     {
       // Absolute, so that no name is taken for an option. The temporary is this
       // process's own: several runs may mesh the same file at once.
-      const std::string   temporary = msh.string() + "." + std::to_string(::getpid()) + ".tmp";
-      const ProgramResult result
-          = run_program({ "gmsh", "-3", std::filesystem::absolute(geo).string(), "-format", "msh22",
-                          "-o", temporary });
-      const bool no_error = (result.output.find("Error ") == std::string::npos);
-      if (result.success && no_error && std::filesystem::exists(temporary))
-        return std::filesystem::rename(temporary, msh);
-      std::error_code ignored;
-      std::filesystem::remove(temporary, ignored);
-      throw UserError(geo.string() + ": gmsh could not mesh it:" + telling_lines(result.output)
+      const TemporaryFile temporary{ msh.string() + "." + std::to_string(::getpid()) + ".tmp" };
+      const ChildOutput   gmsh
+          = output_of_child({ "gmsh", "-3", std::filesystem::absolute(geo).string(), "-format",
+                              "msh22", "-o", temporary.path.string() });
+      const bool no_error = (gmsh.text.find("Error ") == std::string::npos);
+      if (gmsh.end.exit_status == 0 && no_error && std::filesystem::exists(temporary.path))
+        return std::filesystem::rename(temporary.path, msh);
+      throw UserError(geo.string() + ": gmsh could not mesh it:" + telling_lines(gmsh.text)
                       + "\nTry it with: gmsh -3 " + geo.string());
     }
   } // namespace
@@ -317,7 +258,7 @@ namespace Exemplar
   std::filesystem::path
   mesh_geo_file(const std::filesystem::path &geo)
   {
-    const std::string           text = read_text(geo); // first: a missing file needs no gmsh
+    const std::string           text = read_geo(geo); // first: a missing file needs no gmsh
     const std::string           key  = sha256_of_text(text + "\n" + gmsh_version(geo));
     const std::filesystem::path msh  = cache_directory() / (key + ".msh");
     // what a file includes or merges is not in the key, so such meshes are made anew

@@ -1,367 +1,170 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Format: https://gmsh.info/doc/texinfo/gmsh.html, "File formats".
-#include <exemplar/mesh/msh_file.h>
 #include <exemplar/mesh/msh_node_index.h>
-#include <exemplar/mesh/msh_scanner.h>
+#include <exemplar/mesh/msh_reader.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <set>
 
 namespace Exemplar
 {
-  namespace
+  MshFile
+  MshReader::read()
   {
-    /// One reading of one file, section by section.
-    class MshReader
-    {
-    public:
-      explicit MshReader(const std::filesystem::path &file) : in(file) {}
-
-      MshFile
-      read();
-
-    private:
-      void
-      read_section(const std::string &name);
-      void
-      read_format();
-      void
-      read_physical_names();
-      void
-      read_entities();
-      void
-      read_nodes_2();
-      void
-      read_nodes_4();
-      void
-      read_elements_2();
-      void
-      read_elements_4();
-
-      void
-      read_coordinates(std::size_t number);
-      void
-      read_element_nodes(MshElement &element, unsigned int n_nodes);
-      const MshElementKind &
-      kind_of(unsigned int type) const;
-      void
-      begin_items(std::size_t n_items, const std::string &what);
-      void
-      require_all(std::size_t n_read, std::size_t n_announced) const;
-      void
+    if (in.at_end() || in.begin_section() != "MeshFormat")
+      in.fail("a gmsh .msh file begins with $MeshFormat, this one does not. For other formats: "
+              "gmsh FILE -save -format msh22 -o NEW.msh");
+    read_format();
+    in.end_section();
+    while (!in.at_end())
+      read_section(in.begin_section());
+    for (const char *const name : { "Nodes", "Elements" })
+      if (seen.count(name) == 0)
+        in.fail(
+            std::string("there is no section $") + name
+            + ". The file is truncated or has no mesh: mesh in three dimensions and save anew.");
+    resolve_node_numbers();
+    if (version_4)
       resolve_entities();
-      void
-      resolve_node_numbers();
+    return std::move(msh);
+  }
 
-      MshScanner            in;
-      bool                  version_4 = false;
-      std::set<std::string> seen;
-      MshFile               msh;
-      /// 4.1: (dimension, entity) -> first physical tag
-      std::map<std::pair<unsigned int, int>, int> entity_physical;
-    };
+  void
+  MshReader::read_section(const std::string &name)
+  {
+    if (name == "PartitionedEntities" || name == "ParametricNodes")
+      in.fail("the section is not supported. In gmsh save without partitions "
+              "(Mesh.PartitionSplitMeshFiles) and parameters (Mesh.SaveParametric = 0).");
+    const bool known
+        = name == "PhysicalNames" || name == "Entities" || name == "Nodes" || name == "Elements";
+    if (!known || (name == "Entities" && !version_4))
+      return in.skip_section();
 
-    MshFile
-    MshReader::read()
-    {
-      if (in.at_end() || in.begin_section() != "MeshFormat")
-        in.fail("a gmsh .msh file begins with $MeshFormat, this one does not. For other formats: "
-                "gmsh FILE -save -format msh22 -o NEW.msh");
-      read_format();
-      in.end_section();
-      while (!in.at_end())
-        read_section(in.begin_section());
-      for (const char *const name : { "Nodes", "Elements" })
-        if (seen.count(name) == 0)
-          in.fail(
-              std::string("there is no section $") + name
-              + ". The file is truncated or has no mesh: mesh in three dimensions and save anew.");
-      resolve_node_numbers();
-      if (version_4)
-        resolve_entities();
-      return std::move(msh);
-    }
-
-    void
-    MshReader::read_section(const std::string &name)
-    {
-      if (name == "PartitionedEntities" || name == "ParametricNodes")
-        in.fail("the section is not supported. In gmsh save without partitions "
-                "(Mesh.PartitionSplitMeshFiles) and parameters (Mesh.SaveParametric = 0).");
-      const bool known
-          = name == "PhysicalNames" || name == "Entities" || name == "Nodes" || name == "Elements";
-      if (!known || (name == "Entities" && !version_4))
-        return in.skip_section();
-
-      if (!seen.insert(name).second)
-        in.fail("the section appears twice. Save the mesh anew.");
-      if (version_4 && in.is_binary() && name != "PhysicalNames")
-        in.end_line();
-      if (name == "PhysicalNames")
-        read_physical_names();
-      else if (name == "Entities")
-        read_entities();
-      else if (name == "Nodes")
-        version_4 ? read_nodes_4() : read_nodes_2();
-      else
-        version_4 ? read_elements_4() : read_elements_2();
-      in.end_section();
-    }
-
-    void
-    MshReader::read_format()
-    {
-      const std::string version(in.text_word());
-      if (version != "2.2" && version != "4.1")
-        in.fail("MSH version " + version
-                + " is not supported (2.2 and 4.1 are). Convert it: "
-                  "gmsh FILE -save -format msh22 -o NEW.msh");
-      version_4                = (version == "4.1");
-      const int binary         = in.text_int();
-      const int bytes_per_real = in.text_int();
-      if ((binary != 0 && binary != 1) || bytes_per_real != sizeof(double))
-        in.fail("the file type must be 0 or 1 and the data size 8, found " + std::to_string(binary)
-                + " and " + std::to_string(bytes_per_real) + ".");
-      if (binary == 0)
-        return;
+    if (!seen.insert(name).second)
+      in.fail("the section appears twice. Save the mesh anew.");
+    if (version_4 && in.is_binary() && name != "PhysicalNames")
       in.end_line();
-      in.set_binary(true);
-      if (in.read_int() != 1)
-        in.fail("the binary numbers are in another machine's byte order. Save the mesh as ASCII "
-                "(Mesh.Binary = 0).");
-    }
+    if (name == "PhysicalNames")
+      read_physical_names();
+    else if (name == "Entities")
+      read_entities();
+    else if (name == "Nodes")
+      version_4 ? read_nodes_4() : read_nodes_2();
+    else
+      version_4 ? read_elements_4() : read_elements_2();
+    in.end_section();
+  }
 
-    void
-    MshReader::read_physical_names()
-    {
-      const std::size_t n_names = in.text_size();
-      in.begin_count(n_names, "names");
-      for (std::size_t i = 0; i < n_names; ++i, in.count())
-      {
-        const int dimension                           = in.text_int();
-        const int tag                                 = in.text_int();
-        msh.physical_names[std::pair(dimension, tag)] = in.text_quoted();
-      }
-    }
+  void
+  MshReader::read_format()
+  {
+    const std::string version(in.text_word());
+    if (version != "2.2" && version != "4.1")
+      in.fail("MSH version " + version
+              + " is not supported (2.2 and 4.1 are). Convert it: "
+                "gmsh FILE -save -format msh22 -o NEW.msh");
+    version_4                = (version == "4.1");
+    const int binary         = in.text_int();
+    const int bytes_per_real = in.text_int();
+    if ((binary != 0 && binary != 1) || bytes_per_real != sizeof(double))
+      in.fail("the file type must be 0 or 1 and the data size 8, found " + std::to_string(binary)
+              + " and " + std::to_string(bytes_per_real) + ".");
+    if (binary == 0)
+      return;
+    in.end_line();
+    in.set_binary(true);
+    if (in.read_int() != 1)
+      in.fail("the binary numbers are in another machine's byte order. Save the mesh as ASCII "
+              "(Mesh.Binary = 0).");
+  }
 
-    void
-    MshReader::read_entities()
+  void
+  MshReader::read_physical_names()
+  {
+    const std::size_t n_names = in.text_size();
+    in.begin_count(n_names, "names");
+    for (std::size_t i = 0; i < n_names; ++i, in.count())
     {
-      std::array<std::size_t, 4> n_entities{};
-      for (auto &n : n_entities)
-        n = in.read_size();
-      for (unsigned int dimension = 0; dimension <= 3; ++dimension)
-      {
-        in.begin_count(n_entities[dimension], "entities of dimension " + std::to_string(dimension));
-        for (std::size_t i = 0; i < n_entities[dimension]; ++i, in.count())
-        {
-          const int tag = in.read_int();
-          // A point's place, or the bounding box.
-          for (unsigned int k = 0; k < (dimension == 0 ? 3U : 6U); ++k)
-            in.read_double();
-          const std::size_t n_physical = in.read_size();
-          for (std::size_t k = 0; k < n_physical; ++k)
-          {
-            const int physical = in.read_int();
-            if (k == 0)
-              entity_physical[std::pair(dimension, tag)] = physical;
-          }
-          const std::size_t n_bounding = (dimension == 0) ? 0 : in.read_size();
-          for (std::size_t k = 0; k < n_bounding; ++k)
-            in.read_int();
-        }
-      }
+      const int dimension                           = in.text_int();
+      const int tag                                 = in.text_int();
+      msh.physical_names[std::pair(dimension, tag)] = in.text_quoted();
     }
+  }
 
-    void
-    MshReader::read_nodes_2()
+  void
+  MshReader::read_coordinates(const std::size_t number)
+  {
+    dealii::Point<3> point;
+    for (unsigned int d = 0; d < 3; ++d)
     {
-      const std::size_t n_nodes = in.text_size();
-      if (in.is_binary())
-        in.end_line();
-      begin_items(n_nodes, "nodes");
-      for (std::size_t i = 0; i < n_nodes; ++i)
-      {
-        msh.node_numbers.push_back(in.read_int_as_size());
-        read_coordinates(msh.node_numbers.back());
-      }
+      point[d] = in.read_double();
+      if (!std::isfinite(point[d]))
+        in.fail("node " + std::to_string(number)
+                + " has a coordinate that is no finite number. Repair the mesh.");
     }
+    msh.nodes.push_back(point);
+    in.count();
+  }
 
-    void
-    MshReader::read_nodes_4()
+  /// Node numbers for the time being, see resolve_node_numbers().
+  void
+  MshReader::read_element_nodes(MshElement &element, const unsigned int n_nodes)
+  {
+    element.nodes.resize(n_nodes);
+    for (auto &node : element.nodes)
+      node = version_4 ? in.read_size() : in.read_int_as_size();
+    msh.elements.push_back(element);
+    in.count();
+  }
+
+  const MshElementKind &
+  MshReader::kind_of(const unsigned int type) const
+  {
+    const MshElementKind *const kind = find_msh_element_kind(type);
+    if (kind == nullptr)
+      in.fail("element type " + std::to_string(type)
+              + " is not known (1 to 31 are). Mesh with 4-node tetrahedra.");
+    return *kind;
+  }
+
+  /// A count is not to be believed until the things have been read: reserve no
+  /// more than the file can hold, at 8 bytes for the shortest line "1 0 0 0\n".
+  void
+  MshReader::begin_items(const std::size_t n_items, const std::string &what)
+  {
+    in.begin_count(n_items, what);
+    const std::size_t n_reserved = std::min(n_items, in.n_bytes_left() / 8);
+    if (what == "nodes")
     {
-      const std::size_t n_blocks = in.read_size();
-      const std::size_t n_nodes  = in.read_size();
-      in.read_size(); // smallest and largest number
-      in.read_size();
-      begin_items(n_nodes, "nodes");
-      for (std::size_t block = 0; block < n_blocks; ++block)
-      {
-        const std::size_t dimension = in.read_int_as_size();
-        in.read_int(); // entity
-        // Nodes on an entity may carry their parameters on it as well.
-        const std::size_t n_parameters = (in.read_int() != 0) ? dimension : 0;
-        const std::size_t first        = msh.node_numbers.size();
-        const std::size_t n_in_block   = in.read_size();
-        for (std::size_t i = 0; i < n_in_block; ++i)
-          msh.node_numbers.push_back(in.read_size());
-        for (std::size_t i = 0; i < n_in_block; ++i)
-        {
-          read_coordinates(msh.node_numbers[first + i]);
-          for (std::size_t k = 0; k < n_parameters; ++k)
-            in.read_double();
-        }
-      }
-      require_all(msh.nodes.size(), n_nodes);
+      msh.node_numbers.reserve(n_reserved);
+      msh.nodes.reserve(n_reserved);
     }
+    else
+      msh.elements.reserve(n_reserved);
+  }
 
-    void
-    MshReader::read_coordinates(const std::size_t number)
-    {
-      dealii::Point<3> point;
-      for (unsigned int d = 0; d < 3; ++d)
-      {
-        point[d] = in.read_double();
-        if (!std::isfinite(point[d]))
-          in.fail("node " + std::to_string(number)
-                  + " has a coordinate that is no finite number. Repair the mesh.");
-      }
-      msh.nodes.push_back(point);
-      in.count();
-    }
+  void
+  MshReader::require_all(const std::size_t n_read, const std::size_t n_announced) const
+  {
+    if (n_read != n_announced)
+      in.fail("the blocks hold " + std::to_string(n_read)
+              + ", which is not the number announced. Save the mesh anew.");
+  }
 
-    void
-    MshReader::read_elements_2()
-    {
-      const std::size_t n_elements = in.text_size();
-      if (in.is_binary())
-        in.end_line();
-      begin_items(n_elements, "elements");
-      while (msh.elements.size() < n_elements)
-      {
-        MshElement element{};
-        // In ASCII the number comes first; in binary a header serves many elements.
-        if (!in.is_binary())
-          element.number = in.read_int_as_size();
-        element.type             = static_cast<unsigned int>(in.read_int_as_size());
-        const std::size_t n_same = in.is_binary() ? in.read_int_as_size() : 1;
-        const std::size_t n_tags = in.read_int_as_size();
-        const auto       &kind   = kind_of(element.type);
-        for (std::size_t i = 0; i < n_same; ++i)
-        {
-          if (in.is_binary())
-            element.number = in.read_int_as_size();
-          for (std::size_t k = 0; k < n_tags; ++k)
-          {
-            const int tag = in.read_int();
-            if (k < 2) // others number partitions
-              (k == 0 ? element.physical : element.elementary) = tag;
-          }
-          read_element_nodes(element, kind.n_nodes);
-        }
-      }
-      require_all(msh.elements.size(), n_elements);
-    }
-
-    void
-    MshReader::read_elements_4()
-    {
-      const std::size_t n_blocks   = in.read_size();
-      const std::size_t n_elements = in.read_size();
-      in.read_size(); // smallest and largest number
-      in.read_size();
-      begin_items(n_elements, "elements");
-      for (std::size_t block = 0; block < n_blocks; ++block)
-      {
-        MshElement element{};
-        in.read_int(); // the entity's dimension, which is the element's
-        element.elementary           = in.read_int();
-        element.type                 = static_cast<unsigned int>(in.read_int_as_size());
-        const std::size_t n_in_block = in.read_size();
-        const auto       &kind       = kind_of(element.type);
-        for (std::size_t i = 0; i < n_in_block; ++i)
-        {
-          element.number = in.read_size();
-          read_element_nodes(element, kind.n_nodes);
-        }
-      }
-      require_all(msh.elements.size(), n_elements);
-    }
-
-    /// Node numbers for the time being, see resolve_node_numbers().
-    void
-    MshReader::read_element_nodes(MshElement &element, const unsigned int n_nodes)
-    {
-      element.nodes.resize(n_nodes);
+  void
+  MshReader::resolve_node_numbers()
+  {
+    const NodeIndex index(msh.node_numbers, in);
+    for (auto &element : msh.elements)
       for (auto &node : element.nodes)
-        node = version_4 ? in.read_size() : in.read_int_as_size();
-      msh.elements.push_back(element);
-      in.count();
-    }
-
-    const MshElementKind &
-    MshReader::kind_of(const unsigned int type) const
-    {
-      const MshElementKind *const kind = find_msh_element_kind(type);
-      if (kind == nullptr)
-        in.fail("element type " + std::to_string(type)
-                + " is not known (1 to 31 are). Mesh with 4-node tetrahedra.");
-      return *kind;
-    }
-
-    /// A count is not to be believed until the things have been read: reserve no
-    /// more than the file can hold, at 8 bytes for the shortest line "1 0 0 0\n".
-    void
-    MshReader::begin_items(const std::size_t n_items, const std::string &what)
-    {
-      in.begin_count(n_items, what);
-      const std::size_t n_reserved = std::min(n_items, in.n_bytes_left() / 8);
-      if (what == "nodes")
       {
-        msh.node_numbers.reserve(n_reserved);
-        msh.nodes.reserve(n_reserved);
+        const std::size_t number = node;
+        if (!index.find(number, node))
+          in.fail("element " + std::to_string(element.number) + " uses node "
+                  + std::to_string(number)
+                  + ", which $Nodes does not have. Save the mesh anew, with all its nodes.");
       }
-      else
-        msh.elements.reserve(n_reserved);
-    }
-
-    void
-    MshReader::require_all(const std::size_t n_read, const std::size_t n_announced) const
-    {
-      if (n_read != n_announced)
-        in.fail("the blocks hold " + std::to_string(n_read)
-                + ", which is not the number announced. Save the mesh anew.");
-    }
-
-    void
-    MshReader::resolve_entities()
-    {
-      for (auto &element : msh.elements)
-      {
-        const unsigned int dimension = find_msh_element_kind(element.type)->dimension;
-        const auto         entity = entity_physical.find(std::pair(dimension, element.elementary));
-        if (entity != entity_physical.end())
-          element.physical = entity->second;
-      }
-    }
-
-    void
-    MshReader::resolve_node_numbers()
-    {
-      const NodeIndex index(msh.node_numbers, in);
-      for (auto &element : msh.elements)
-        for (auto &node : element.nodes)
-        {
-          const std::size_t number = node;
-          if (!index.find(number, node))
-            in.fail("element " + std::to_string(element.number) + " uses node "
-                    + std::to_string(number)
-                    + ", which $Nodes does not have. Save the mesh anew, with all its nodes.");
-        }
-    }
-  } // namespace
+  }
 
   MshFile
   read_msh(const std::filesystem::path &file)

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
+#include <exemplar/base/text_file.h>
 #include <exemplar/mesh/msh_scanner.h>
 
-#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
-#include <sstream>
 
 namespace Exemplar
 {
@@ -21,18 +19,13 @@ namespace Exemplar
     }
 
     std::string
-    read_bytes(const std::filesystem::path &file)
+    read_msh_bytes(const std::filesystem::path &file)
     {
-      errno = 0;
-      std::ifstream in(file, std::ios::binary);
-      // A directory opens, but does not read.
-      if (!in || std::filesystem::is_directory(file))
-        throw UserError(file.string() + ": cannot be opened ("
-                        + (errno != 0 ? std::strerror(errno) : "is it a directory?")
-                        + "). Give the path of a gmsh .msh file.");
-      std::ostringstream bytes;
-      bytes << in.rdbuf();
-      return bytes.str();
+      std::string reason;
+      if (auto bytes = read_text_file(file, &reason))
+        return std::move(*bytes);
+      throw UserError(file.string() + ": cannot be opened (" + reason
+                      + "). Give the path of a gmsh .msh file.");
     }
 
     /// Words come from files that may be anything: show few and harmless characters.
@@ -46,7 +39,10 @@ namespace Exemplar
     }
   } // namespace
 
-  MshScanner::MshScanner(const std::filesystem::path &path) : file(path), bytes(read_bytes(path)) {}
+  MshScanner::MshScanner(const std::filesystem::path &path)
+      : file(path), bytes(read_msh_bytes(path))
+  {
+  }
 
   void
   MshScanner::set_binary(const bool binary_numbers)

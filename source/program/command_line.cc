@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/spd_operator.h>
 #include <exemplar/base/environment.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/base/version.h>
@@ -128,7 +129,9 @@ namespace Exemplar
   {
     Arguments arguments;
     CLI::App  app("exemplar: elastic solids that deform the way their examples say");
-    app.set_version_flag("--version", "exemplar " EXEMPLAR_VERSION " (" EXEMPLAR_GIT_REVISION ")");
+    app.set_version_flag("--version",
+                         std::string("exemplar " EXEMPLAR_VERSION " (" EXEMPLAR_GIT_REVISION ")")
+                             + (has_iterative_operator() ? "" : " without Trilinos"));
     declare_scene(app, arguments);
     const CLI::App &study_command  = declare_study(app, arguments);
     const CLI::App &verify_command = declare_verify(app, arguments);

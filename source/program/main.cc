@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/mpi_session.h>
 #include <exemplar/base/environment.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/program/command_line.h>
@@ -17,7 +18,8 @@ main(int argc, char *argv[])
   dealii::MultithreadInfo::set_thread_limit(1);
   std::signal(SIGXFSZ, SIG_IGN); // a write beyond ulimit -f then fails like any other
   dealii::deal_II_exceptions::disable_abort_on_exception();
-  const auto report = [](const std::string &message, const int status)
+  const Exemplar::MpiSession mpi; // scenes without multigrid never start it
+  const auto                 report = [](const std::string &message, const int status)
   {
     std::cerr << "exemplar: " << message << std::endl;
     return status;

@@ -150,7 +150,7 @@ namespace Exemplar
       if (solver.linear_solver == LinearSolver::iterative)
         return nullptr;
       const bool may_choose = solver.linear_solver == LinearSolver::automatic
-                              && solver.method != Method::quasi_newton;
+                              && solver.method != Method::quasi_newton && has_iterative_operator();
       auto matrix = make_cholmod_operator();
       try
       {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
+#include <exemplar/base/text_file.h>
 #include <exemplar/run/statistics_file.h>
 
 #include <stdexcept>
@@ -36,16 +37,10 @@ namespace Exemplar
   void
   StatisticsFile::write(const StatisticsRow &row)
   {
-    const auto write_line = [&](const auto &cell)
-    {
-      for (unsigned int i = 0; i < row.size(); ++i)
-        out << (i == 0 ? "" : ",") << cell(row[i]);
-      out << '\n';
-    };
     if (!has_header)
-      write_line([](const auto &entry) { return entry.first; });
+      write_csv_header(out, row);
     has_header = true;
-    write_line([](const auto &entry) { return entry.second; });
+    write_csv_cells(out, row);
     out.flush();
     if (!out)
       throw std::runtime_error(path.string() + " cannot be written; is the disk full?");

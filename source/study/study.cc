@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/base/interrupt.h>
+#include <exemplar/base/median.h>
 #include <exemplar/base/number_text.h>
 #include <exemplar/base/progress.h>
 #include <exemplar/mesh/mesh.h>
@@ -25,14 +26,6 @@ namespace Exemplar
   namespace
   {
     namespace fs = std::filesystem;
-
-    double
-    median(std::vector<double> values)
-    {
-      std::sort(values.begin(), values.end());
-      const std::size_t half = values.size() / 2;
-      return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2.;
-    }
 
     /// The final poses of runs. A mesh is read once for all runs that have it.
     class FinalPoses

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/study/study_axes.h>
 #include <exemplar/study/study_file.h>
 
 #include <algorithm>
-#include <set>
 
 namespace Exemplar
 {
@@ -55,164 +55,6 @@ namespace Exemplar
       }
     };
 
-    std::size_t
-    find_unquoted(const std::string &text, const char separator, std::size_t from = 0)
-    {
-      bool is_quoted = std::count(text.begin(), text.begin() + from, '"') % 2 == 1;
-      for (; from < text.size(); ++from)
-        if (text[from] == '"')
-          is_quoted = !is_quoted;
-        else if (text[from] == separator && !is_quoted)
-          return from;
-      return std::string::npos;
-    }
-
-    /// As split_trimmed(), but quoted separators do not count.
-    std::vector<std::string>
-    split_unquoted(const std::string &text, const char separator)
-    {
-      std::vector<std::string> parts;
-      std::size_t              begin = 0;
-      if (trim(text).empty())
-        return parts;
-      for (std::size_t end; (end = find_unquoted(text, separator, begin)) != std::string::npos;
-           begin = end + 1)
-        parts.push_back(trim(text.substr(begin, end - begin)));
-      parts.push_back(trim(text.substr(begin)));
-      return parts;
-    }
-
-    std::string
-    without_quotes(const std::string &value)
-    {
-      const bool is_quoted = value.size() > 1 && value.front() == '"' && value.back() == '"';
-      return is_quoted ? value.substr(1, value.size() - 2) : value;
-    }
-
-    void
-    require_closed_quotes(const std::string &text, const std::string &place)
-    {
-      if (std::count(text.begin(), text.end(), '"') % 2 == 1)
-        throw UserError(place
-                        + ": a quotation mark is not closed. Put '\"' around values that "
-                          "hold ';', '|', ',' or blanks.");
-    }
-
-    std::string
-    joined(const std::vector<std::string> &parts)
-    {
-      std::string text;
-      for (const std::string &part : parts)
-        text += (text.empty() ? "" : " + ") + part;
-      return text;
-    }
-
-    void
-    require_own_key(const Assignment &assignment)
-    {
-      if (assignment.path() == "Output/Directory")
-        throw UserError(assignment.place
-                        + ": Output/Directory is not a study's to set: each of its runs has a "
-                          "directory of its own. Remove it; --output moves the whole study.");
-    }
-
-    /// "Section/Key=value; ..." at a place of the file.
-    std::vector<Assignment>
-    parse_settings(const std::string &text, const std::string &place)
-    {
-      std::vector<Assignment> settings;
-      std::set<std::string>   paths;
-      require_closed_quotes(text, place);
-      for (const std::string &part : split_unquoted(text, ';'))
-        if (!part.empty())
-        {
-          settings.push_back(parse_assignment(part, place));
-          settings.back().value = without_quotes(settings.back().value);
-          require_own_key(settings.back());
-          if (!paths.insert(settings.back().path()).second)
-            throw UserError(place + ": " + settings.back().path() + " is set twice. Keep one.");
-        }
-      return settings;
-    }
-
-    std::vector<std::string>
-    split_at_blanks(const std::string &text)
-    {
-      std::vector<std::string> parts = split_unquoted(text, ' ');
-      parts.erase(std::remove(parts.begin(), parts.end(), ""), parts.end());
-      return parts;
-    }
-
-    std::vector<std::string>
-    split_values(const std::string &text)
-    {
-      for (const char separator : { ';', ',' })
-        if (find_unquoted(text, separator) != std::string::npos)
-        {
-          std::vector<std::string> values = split_unquoted(text, separator);
-          if (values.back().empty()) // "one pass," is a single value
-            values.pop_back();
-          return values;
-        }
-      return split_at_blanks(text);
-    }
-
-    /// "Section/Key: values", or "Key + Key: value + value, ...".
-    StudyAxis
-    parse_axis(const std::string &text, const std::string &place)
-    {
-      const std::string remedy
-          = " Write 'Section/Key: value value ...'; axes are separated by '|'.";
-      const auto colon = text.find(':');
-      if (colon == std::string::npos)
-        throw UserError(place + ": the axis '" + text + "' has no ':'." + remedy);
-      StudyAxis axis;
-      for (const std::string &key : split_trimmed(text.substr(0, colon), '+'))
-        axis.keys.push_back(parse_assignment(key + "=", place).path());
-      if (axis.keys.empty())
-        throw UserError(place + ": the axis '" + text + "' names no key." + remedy);
-      for (const std::string &value : split_values(trim(text.substr(colon + 1))))
-      {
-        axis.values.push_back(axis.keys.size() > 1 ? split_unquoted(value, '+')
-                                                   : std::vector<std::string>{ value });
-        for (std::string &part : axis.values.back())
-          part = without_quotes(part);
-      }
-      if (axis.values.empty())
-        throw UserError(place + ": " + axis.name() + " has no values." + remedy);
-      for (const auto &values : axis.values)
-      {
-        if (values.size() != axis.keys.size()
-            || std::find(values.begin(), values.end(), "") != values.end())
-          throw UserError(place + ": " + axis.name() + " has the value '" + joined(values)
-                          + "', where " + std::to_string(axis.keys.size())
-                          + " are needed, none of them empty." + remedy);
-        if (std::count(axis.values.begin(), axis.values.end(), values) > 1)
-          throw UserError(place + ": " + axis.name() + " lists '" + joined(values)
-                          + "' twice. Keep one.");
-      }
-      return axis;
-    }
-
-    std::vector<StudyAxis>
-    parse_axes(const std::string &text, const std::string &place)
-    {
-      std::vector<StudyAxis> axes;
-      std::set<std::string>  keys;
-      require_closed_quotes(text, place);
-      for (const std::string &part : split_unquoted(text, '|'))
-      {
-        axes.push_back(parse_axis(part, place));
-        for (const std::string &key : axes.back().keys)
-        {
-          require_own_key(parse_assignment(key + "=", place));
-          if (!keys.insert(key).second)
-            throw UserError(place + ": " + key + " is varied twice. Keep one axis.");
-        }
-      }
-      return axes;
-    }
-
     std::vector<std::string>
     parse_columns(const std::string &text, const std::string &place)
     {
@@ -254,18 +96,6 @@ namespace Exemplar
                               "reference's value belongs in Reference), or from Vary.");
     }
   } // namespace
-
-  std::string
-  StudyAxis::name() const
-  {
-    return joined(keys);
-  }
-
-  std::string
-  StudyAxis::text(const unsigned int choice) const
-  {
-    return joined(values[choice]);
-  }
 
   Study::Study(const std::filesystem::path &file) : file(file), text(read_prm(file))
   {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/number_text.h>
 #include <exemplar/mesh/mesh.h>
 #include <exemplar/prm/prm_tools.h>
 #include <exemplar/study/study_measures.h>
@@ -8,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 #include <map>
 #include <optional>
@@ -54,10 +54,8 @@ namespace Exemplar
       double
       number(const std::string &column, const double absent) const
       {
-        const std::string text  = cell(column);
-        char             *end   = nullptr;
-        const double      value = std::strtod(text.c_str(), &end);
-        return !text.empty() && *end == '\0' ? value : absent;
+        const double value = parse_number(cell(column));
+        return std::isnan(value) ? absent : value;
       }
 
     private:

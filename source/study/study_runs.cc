@@ -4,6 +4,7 @@
 #include <exemplar/base/digest.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
+#include <exemplar/base/text_file.h>
 #include <exemplar/run/run_directory.h>
 #include <exemplar/study/study_runs.h>
 
@@ -11,9 +12,7 @@
 
 #include <algorithm>
 #include <cstring>
-#include <fstream>
 #include <regex>
-#include <sstream>
 
 namespace Exemplar
 {
@@ -28,8 +27,8 @@ namespace Exemplar
     Json
     read_json(const fs::path &file)
     {
-      std::ifstream in(file);
-      return in ? Json::parse(in) : Json::object();
+      const auto text = read_text_file(file);
+      return text ? Json::parse(*text) : Json::object();
     }
 
     fs::path
@@ -56,10 +55,7 @@ namespace Exemplar
     std::string
     message_in(const fs::path &log)
     {
-      std::ifstream      in(log);
-      std::ostringstream bytes;
-      bytes << in.rdbuf();
-      const std::string text  = "\n" + bytes.str();
+      const std::string text  = "\n" + read_text_file(log).value_or("");
       const std::string start = "\nexemplar: ";
       const auto        found = text.rfind(start);
       if (found == std::string::npos)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/atomic_file.h>
 #include <exemplar/base/number_text.h>
+#include <exemplar/base/text_file.h>
 #include <exemplar/study/study_table.h>
 
 #include <cmath>
@@ -12,15 +13,6 @@ namespace Exemplar
   {
     const double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-    /// NaN unless the whole text is a number.
-    double
-    parse_number(const std::string &text)
-    {
-      char        *end    = nullptr;
-      const double number = std::strtod(text.c_str(), &end);
-      return !text.empty() && end == text.c_str() + text.size() ? number : not_a_number;
-    }
-
     bool
     is_numeric(const StudyAxis &axis)
     {
@@ -30,25 +22,11 @@ namespace Exemplar
       return axis.values.size() > 1;
     }
 
-    /// With quotes where the text would not be one cell without.
-    std::string
-    csv_cell(const std::string &text)
-    {
-      if (text.find_first_of(",\"\n") == std::string::npos)
-        return text;
-      std::string cell = "\"";
-      for (const char c : text)
-        cell += c == '"' ? "\"\"" : std::string(1, c);
-      return cell + "\"";
-    }
-
     std::string
     condition_text(const double condition)
     {
       return std::isinf(condition) ? "not definite" : shortest_text(condition);
     }
-
-    using CsvRow = std::vector<std::pair<std::string, std::string>>;
 
     CsvRow
     csv_row(const StudyTable &table, const StudyRow &row)
@@ -170,15 +148,9 @@ namespace Exemplar
   write_study_csv(const StudyTable &table, const std::filesystem::path &file)
   {
     AtomicFile atomic_file(file);
-    const auto write_line = [&](const CsvRow &row, const auto &cell)
-    {
-      for (unsigned int i = 0; i < row.size(); ++i)
-        atomic_file.stream() << (i == 0 ? "" : ",") << csv_cell(cell(row[i]));
-      atomic_file.stream() << '\n';
-    };
-    write_line(csv_row(table, table.rows.at(0)), [](const auto &entry) { return entry.first; });
+    write_csv_header(atomic_file.stream(), csv_row(table, table.rows.at(0)));
     for (const StudyRow &row : table.rows)
-      write_line(csv_row(table, row), [](const auto &entry) { return entry.second; });
+      write_csv_cells(atomic_file.stream(), csv_row(table, row));
     atomic_file.commit();
   }
 } // namespace Exemplar

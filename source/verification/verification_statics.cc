@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <random>
 
 // Patch test, Newton's method, and interpolation between poses.
@@ -116,6 +117,8 @@ namespace Exemplar::Verification
       return greatest;
     }
 
+    /// The weights go from pose to pose evenly, and so must the body: where it jumps from one
+    /// equilibrium to another, an increment is much longer than the others.
     std::vector<Measurement>
     interpolation(const std::string &pose, const unsigned int increments)
     {
@@ -124,23 +127,25 @@ namespace Exemplar::Verification
           + section("Examples", set("Pose functions", pose) + set("Prescribed weights", "1-t; t"))
           + section("Time", set("Increments", std::to_string(increments)))
           + section("Solver", set("Tolerance", 1e-13)));
-      Problem     &p               = scene.problem;
-      unsigned int most_iterations = 0;
+      Problem            &p = scene.problem;
+      std::vector<double> ways; // of the node that moves most, for each increment
       for (unsigned int step = 0; step < increments; ++step)
       {
-        const SolveReport report = p.advance();
+        const dealii::Vector<double> before = p.state.positions;
+        const SolveReport            report = p.advance();
         if (!is_success(report.status))
           throw SolverFailure("increment " + std::to_string(step + 1) + ": "
                               + status_name(report.status));
-        most_iterations = std::max(most_iterations, report.iterations);
+        ways.push_back(max_difference(before, p.state.positions));
       }
+      const double           longest = *std::max_element(ways.begin(), ways.end());
+      const double           mean    = std::accumulate(ways.begin(), ways.end(), 0.) / increments;
       dealii::Vector<double> aligned = p.state.positions;
       align(p.examples->pose(1), aligned);
       return { { "|S - I - E|", 1e-12, strain_error(p, p.state), Comparison::at_most },
                { "distance to the pose", 0., max_difference(aligned, p.examples->pose(1)) / 4.,
                  Comparison::absolute, 1e-8 },
-               { "iterations an increment", 6., static_cast<double>(most_iterations),
-                 Comparison::at_most } };
+               { "longest increment, of the mean", 2., longest / mean, Comparison::at_most } };
     }
   } // namespace
 

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/mpi_session.h>
 #include <exemplar/base/environment.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/run/problem.h>
 
+#include "benchmark_unit.h"
+
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/multithread_info.h>
 #include <deal.II/base/utilities.h>
-#include <deal.II/lac/lapack_full_matrix.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cholmod.h>
 #include <cmath>
-#include <ctime>
 #include <iostream>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -39,185 +39,6 @@ namespace Exemplar
       bool                     reference = false;
       bool                     no_unit   = false;
     };
-
-    /// Seconds, by the wall's clock and of this thread's processor time.
-    struct Duration
-    {
-      double wall = 0.;
-      double cpu  = 0.;
-
-      Duration
-      operator+(const Duration &other) const
-      {
-        return { wall + other.wall, cpu + other.cpu };
-      }
-    };
-
-    double
-    seconds_on(const clockid_t clock)
-    {
-      timespec time{};
-      clock_gettime(clock, &time);
-      return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-    }
-
-    template <typename Work>
-    Duration
-    duration_of(const Work &work)
-    {
-      const double wall = seconds_on(CLOCK_MONOTONIC), cpu = seconds_on(CLOCK_THREAD_CPUTIME_ID);
-      work();
-      return { seconds_on(CLOCK_MONOTONIC) - wall, seconds_on(CLOCK_THREAD_CPUTIME_ID) - cpu };
-    }
-
-    double
-    median(std::vector<double> values)
-    {
-      std::sort(values.begin(), values.end());
-      const std::size_t middle = values.size() / 2;
-      return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
-    }
-
-    Duration
-    median(const std::vector<Duration> &durations)
-    {
-      std::vector<double> wall, cpu;
-      for (const Duration &duration : durations)
-      {
-        wall.push_back(duration.wall);
-        cpu.push_back(duration.cpu);
-      }
-      return { median(wall), median(cpu) };
-    }
-
-    /// One factorisation and one solve of the scene's matrix.
-    class Unit
-    {
-    public:
-      /// At the problem's state; changes nothing there.
-      void
-      measure(Problem &problem)
-      {
-        if (!matrix)
-        {
-          matrix = make_cholmod_operator();
-          matrix->reinit(problem.pattern);
-          measure_once(problem); // touches the factor's memory for the first time
-        }
-        const Sample sample = measure_once(problem);
-        assemble.push_back(sample.assemble);
-        factorize.push_back(sample.factorize);
-        solve.push_back(sample.solve);
-        both.push_back(sample.factorize + sample.solve);
-      }
-
-      std::vector<Duration> assemble;
-      std::vector<Duration> factorize;
-      std::vector<Duration> solve;
-      std::vector<Duration> both;
-
-    private:
-      struct Sample
-      {
-        Duration assemble;
-        Duration factorize;
-        Duration solve;
-      };
-
-      Sample
-      measure_once(Problem &problem)
-      {
-        const State &state = problem.state;
-        Sample       sample;
-        sample.assemble = duration_of(
-            [&] {
-              problem.potential.assemble(state.positions, state.weights, 1., matrix->values(),
-                                         coupling);
-            });
-        sample.factorize = duration_of([&] { matrix->factorize(state.positions); });
-        column.assign(problem.free_dofs.size(), 1.);
-        sample.solve = duration_of([&] { matrix->solve(column); });
-        return sample;
-      }
-
-      std::unique_ptr<SpdOperator> matrix;
-      std::vector<double>          coupling;
-      std::vector<double>          column;
-    };
-
-    /// Operations and bytes of the factor, which the operator does not tell.
-    struct FactorSize
-    {
-      double flops = 0.;
-      double bytes = 0.;
-    };
-
-    FactorSize
-    factor_size(SymmetricPattern pattern)
-    {
-      cholmod_common common{};
-      cholmod_start(&common);
-      common.supernodal = CHOLMOD_AUTO;
-      cholmod_sparse matrix{};
-      matrix.nrow = matrix.ncol = pattern.n();
-      matrix.nzmax              = pattern.row.size();
-      matrix.p                  = pattern.column_start.data();
-      matrix.i                  = pattern.row.data();
-      matrix.stype              = -1;
-      matrix.itype              = CHOLMOD_INT;
-      matrix.xtype              = CHOLMOD_PATTERN;
-      matrix.dtype              = CHOLMOD_DOUBLE;
-      matrix.sorted = matrix.packed = 1;
-      cholmod_factor *factor        = cholmod_analyze(&matrix, &common);
-      FactorSize      size;
-      if (factor != nullptr)
-      {
-        size.flops = common.fl;
-        size.bytes = factor->is_super ? static_cast<double>(factor->xsize * sizeof(double)
-                                                            + factor->ssize * sizeof(int))
-                                      : common.lnz * (sizeof(double) + sizeof(int));
-      }
-      cholmod_free_factor(&factor, &common);
-      cholmod_finish(&common);
-      return size;
-    }
-
-    /// What the BLAS reaches at best.
-    double
-    dgemm_gflops()
-    {
-      constexpr unsigned int           n = 1500;
-      dealii::LAPACKFullMatrix<double> A(n), B(n), C(n);
-      for (unsigned int i = 0; i < n; ++i)
-        for (unsigned int j = 0; j < n; ++j)
-        {
-          A(i, j) = 1. / (1. + i + j);
-          B(i, j) = i < j ? 1. : 0.5;
-        }
-      double least = std::numeric_limits<double>::infinity();
-      for (unsigned int repetition = 0; repetition < 4; ++repetition)
-        least = std::min(least, duration_of([&] { A.mmult(C, B); }).cpu);
-      return 2e-9 * n * n * n / least;
-    }
-
-    /// What a core can read and write of the main memory.
-    double
-    triad_gb_s()
-    {
-      const std::size_t         n = 1 << 23; // thrice 64 MiB, more than caches hold
-      const std::vector<double> b(n, 1.), c(n, 2.);
-      std::vector<double>       a(n, 0.);
-      double                    least = std::numeric_limits<double>::infinity();
-      for (unsigned int repetition = 0; repetition < 5; ++repetition)
-        least = std::min(least, duration_of(
-                                    [&]
-                                    {
-                                      for (std::size_t i = 0; i < n; ++i)
-                                        a[i] = b[i] + 0.5 * c[i];
-                                    })
-                                    .cpu);
-      return a[n / 2] > 0. ? 3e-9 * sizeof(double) * n / least : 0.;
-    }
 
     std::vector<std::string>
     overrides_of_reference(std::vector<std::string> overrides)
@@ -502,6 +323,7 @@ main(int argc, char *argv[])
   Exemplar::set_n_threads(1); // on one core
   dealii::MultithreadInfo::set_thread_limit(1);
   dealii::deal_II_exceptions::disable_abort_on_exception();
+  const Exemplar::MpiSession mpi; // for multigrid
   try
   {
     return Exemplar::run(argc, argv);

@@ -23,6 +23,9 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 TOP = HERE.parents[1]
+sys.path.insert(0, str(TOP / "tests/scenes"))
+from exemplar_runner import run_program, set_words  # noqa: E402
+
 BASELINE = HERE / "baseline.json"
 SCENES = ["cat_grav", "cat_mid60", "cat_mid30", "cat_mid60_examples", "cat_invert", "cat_one_pass", "horse_grav",
           "horse_mid60", "bar100k"]
@@ -55,13 +58,11 @@ class Failures:
 
 def run_once(options, scene, settings, flags, failures):
     """The JSON object of one run of benchmark_steps, None if there is none."""
-    words = [word for key, value in settings.items() for word in ("--set", f"{key}={value}")]
-    words += [word for setting in options.set for word in ("--set", setting)]
-    done = subprocess.run([str(options.program), str(HERE / f"scenes/{scene}.prm"), *words, *flags],
-                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-    if done.returncode:
-        failures.add(f"{scene} {' '.join(words + flags)}: {done.stderr.strip()}")
-    return json.loads(done.stdout) if done.stdout else None
+    words = set_words(settings) + [word for setting in options.set for word in ("--set", setting)]
+    run = run_program(HERE / f"scenes/{scene}.prm", *words, *flags, program=options.program)
+    if run.status:
+        failures.add(f"{scene} {' '.join(words + flags)}: {run.stderr.strip()}")
+    return json.loads(run.stdout) if run.stdout else None
 
 
 def median_of(runs):

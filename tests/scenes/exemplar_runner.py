@@ -1,21 +1,24 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs the program under test on small scenes and reads back what it wrote.
+"""Runs the program on scenes and reads back what it wrote: for the tests of scenes, the benchmarks and the scripts of doc/.
 
 The binary is named by the environment variable EXEMPLAR.
 """
 
 import base64
 import csv
+import functools
 import json
 import os
 import re
 import struct
 import subprocess
+import sys
 import tempfile
 import unittest
 import xml.etree.ElementTree
 import zlib
 from collections import namedtuple
+from math import cos, pi, sin
 from pathlib import Path
 
 REPOSITORY = Path(__file__).resolve().parents[2]
@@ -34,6 +37,43 @@ BAR = {
 }
 
 Run = namedtuple("Run", "status stdout stderr output")
+SceneRun = namedtuple("SceneRun", "status stderr output rows summary")
+
+
+def run_program(*arguments, program=EXEMPLAR, cwd=None, timeout=None, environment=None):
+    """Run the program as it is called, with changes to the environment."""
+    done = subprocess.run([str(program), *map(str, arguments)], cwd=cwd, text=True,
+                          env={**os.environ, **(environment or {})},
+                          stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                          stderr=subprocess.PIPE, timeout=timeout)
+    return Run(done.returncode, done.stdout, done.stderr, None)
+
+
+def set_words(settings):
+    """{"Section/Key": value} on the command line."""
+    return [word for key, value in settings.items() for word in ("--set", f"{key}={value}")]
+
+
+def run_scene(program, scene, output, settings=None, check=True, arguments=()):
+    """Run a scene file with {"Section/Key": value} set, without frames unless asked for; what it left."""
+    words = set_words({"Output/Every": "0", **(settings or {})})
+    run = run_program(scene, "--quiet", "--output", output, *words, *arguments, program=program)
+    if check and run.status:
+        sys.exit(f"{scene}: {run.stderr}")
+    output = Path(output)
+    written = (output / "summary.json").exists()
+    return SceneRun(run.status, run.stderr, output, read_csv(output) if written else [],
+                    read_summary(output) if written else {})
+
+
+@functools.lru_cache(maxsize=None)
+def has_trilinos():
+    """Whether the program under test has Linear solver = iterative."""
+    return "without Trilinos" not in run_program("--version").stdout
+
+
+def needs_trilinos(test):
+    return unittest.skipUnless(has_trilinos(), "built without Trilinos")(test)
 
 
 def prm(keys):
@@ -46,6 +86,39 @@ def prm(keys):
             lines += [f"set {key} = {value}"]
             lines += ["end"] * len(subsections)
     return "\n".join(lines) + "\n"
+
+
+def write_scene(file, keys):
+    """A scene file of {"Section/Key": value}."""
+    Path(file).write_text(prm(keys))
+    return Path(file)
+
+
+# Poses of a bar along x from 0 to 4, as functions for a scene and of a place.
+
+
+def twist(angle):
+    """Pose function of the bar twisted by a muParser expression over its length."""
+    a = f"({angle})*x/4"
+    return f"x; y*cos({a}) - z*sin({a}); y*sin({a}) + z*cos({a})"
+
+
+def bend(angle):
+    """Pose function of the bar bent to an arc; its centre line keeps its length."""
+    r = f"(4/({angle}))"
+    return f"({r}-z)*sin(x/{r}); y; {r} - ({r}-z)*cos(x/{r})"
+
+
+def twisted(x, y, z, angle=2 * pi):
+    """By an angle over its length."""
+    a = angle * x / 4
+    return x, y * cos(a) - z * sin(a), y * sin(a) + z * cos(a)
+
+
+def bent(x, y, z, angle=pi):
+    """To an arc of an angle."""
+    r = 4 / angle
+    return (r - z) * sin(x / r), y, r - (r - z) * cos(x / r)
 
 
 class SceneTest(unittest.TestCase):
@@ -65,11 +138,7 @@ class SceneTest(unittest.TestCase):
 
     def call(self, *arguments, **environment):
         """Run the program as it is called, with changes to the environment."""
-        done = subprocess.run([EXEMPLAR, *map(str, arguments)], cwd=self.directory, text=True,
-                              env={**os.environ, **environment},
-                              stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                              stderr=subprocess.PIPE, timeout=300)
-        return Run(done.returncode, done.stdout, done.stderr, None)
+        return run_program(*arguments, cwd=self.directory, timeout=300, environment=environment)
 
     def attempt(self, scene, *arguments, output="out", file="scene.prm"):
         """Run a scene, given as text or as a dictionary of keys."""
@@ -82,6 +151,13 @@ class SceneTest(unittest.TestCase):
         run = self.attempt(scene, *arguments, **keywords)
         self.assertEqual((run.status, run.stderr), (0, ""))
         return run.output
+
+    def run_file(self, scene, output, *overrides):
+        """Run a scene file, which must succeed, without frames; its output directory."""
+        words = [word for override in ("Output/Every=0", *overrides) for word in ("--set", override)]
+        run = self.call(scene, "--quiet", "--output", output, *words)
+        self.assertEqual(run.status, 0, run.stderr)
+        return self.directory / output
 
     def write_box(self, keys, file, place=lambda x, y, z: (x, y, z)):
         """Write the box of a scene as a mesh file, its nodes moved; return it."""
@@ -146,6 +222,10 @@ def read_msh(file):
         nodes[int(number)] = tuple(map(float, position))
     elements = [tuple(map(int, line.split())) for line in section("Elements")]
     return Msh(nodes, elements, section("PhysicalNames"))
+
+
+def nodes_of(file):
+    return read_msh(file).nodes
 
 
 def write_msh(file, msh, place=lambda x, y, z: (x, y, z)):

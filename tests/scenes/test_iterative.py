@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Solver/Linear solver = iterative gives what the factorisation does, the same bytes each time."""
+"""Solver/Linear solver = iterative gives what the factorisation does, the same bytes each time; without Trilinos it is
+refused."""
 
 import unittest
 
-from exemplar_runner import (BAR, SceneTest, greatest_distance, read_csv, read_msh, read_summary,
-                             results)
+from exemplar_runner import (BAR, SceneTest, greatest_distance, has_trilinos, needs_trilinos, read_csv, read_msh,
+                             read_summary, results)
 
 # held at one end, on rollers at the other: nodes of which one component is held
 BENT = {**BAR, "Mesh/Box size": "4, 1, 1", "Mesh/Box cells": "12, 3, 3", "Time/Increments": "2",
@@ -15,6 +16,7 @@ DYNAMIC = {**BENT, "Scene": "dynamic", "Time/Step": "0.02", "Time/End": "0.24"}
 ITERATIVE = {"Solver/Linear solver": "iterative"}
 
 
+@needs_trilinos
 class Iterative(SceneTest):
     def check_agreement(self, scene):
         cholesky, iterative = (self.solve({**scene, "Solver/Linear solver": solver}, output=solver)
@@ -61,6 +63,8 @@ class Iterative(SceneTest):
             self.assertEqual(run.status, 2)
             self.assertRegex(run.stderr, r"^exemplar: Step 1 .*\n$")
 
+
+class LinearSolvers(SceneTest):
     def test_auto_takes_cholesky_for_small_scenes(self):
         output = self.solve(BAR)
         self.assertEqual(read_summary(output)["linear_solver"], "cholesky")
@@ -70,6 +74,15 @@ class Iterative(SceneTest):
         summary = read_summary(self.solve(BAR))
         self.assertAlmostEqual(summary["bytes_per_cell"] * summary["cells"],
                                summary["peak_memory_mib"] * 2 ** 20, delta=summary["cells"])
+
+    @unittest.skipIf(has_trilinos(), "built with Trilinos")
+    def test_without_trilinos_it_is_refused(self):
+        for arguments in ([], ["--validate"]):
+            run = self.attempt({**BENT, **ITERATIVE}, *arguments)
+            self.assertEqual((run.status, run.stdout), (1, ""))
+            self.assertRegex(run.stderr, r"^exemplar: Solver/Linear solver = iterative: this exemplar was built without "
+                                         r"Trilinos \(Epetra and ML\)\. Set .*cholesky.*\n$")
+            self.assertFalse(run.output.exists())
 
 
 if __name__ == "__main__":

@@ -3,11 +3,12 @@
 
 import unittest
 
-from exemplar_runner import BAR, SceneTest, read_summary
+from exemplar_runner import BAR, SceneTest, needs_trilinos, read_summary
 
 ONE_STEP = {**BAR, "Time/Increments": "1", "Solver/Method": "one pass", "Output/Every": "0"}
 
 
+@needs_trilinos
 class Automatic(SceneTest):
     def chosen(self, keys):
         summary = read_summary(self.solve({**ONE_STEP, **keys}))

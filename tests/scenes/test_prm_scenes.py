@@ -3,38 +3,22 @@
 interpolations end at their examples, and examples change what the same drag does."""
 
 import unittest
-from math import cos, pi, sin
 
-from exemplar_runner import REPOSITORY, SceneTest, distance, greatest_distance, read_csv, read_msh
+from exemplar_runner import REPOSITORY, SceneTest, bent, distance, greatest_distance, nodes_of, read_csv, twisted
 
 PAPER = REPOSITORY / "prm/paper"
-DRAGS = sorted(PAPER.glob("fig[23]*.prm"))
-RADIUS = 4 / pi
 
 
-def twisted(x, y, z):
-    """By 360 degrees over the length 4."""
-    return x, y * cos(pi * x / 2) - z * sin(pi * x / 2), y * sin(pi * x / 2) + z * cos(pi * x / 2)
-
-
-def bent(x, y, z):
-    """Into half a circle."""
-    return (RADIUS - z) * sin(x / RADIUS), y, RADIUS - (RADIUS - z) * cos(x / RADIUS)
-
-
-def nodes_of(file):
-    return read_msh(file).nodes
+def files(pattern):
+    """Those of the repository, of which there must be some."""
+    found = sorted(REPOSITORY.glob(pattern))
+    assert found, pattern
+    return found
 
 
 class PrmScenes(SceneTest):
-    def run_file(self, scene, output, *overrides):
-        settings = [word for override in ("Output/Every=0", *overrides) for word in ("--set", override)]
-        run = self.call(scene, "--quiet", "--output", output, *settings)
-        self.assertEqual(run.status, 0, run.stderr)
-        return self.directory / output
-
     def test_every_scene_is_valid_and_says_what_to_expect(self):
-        for scene in sorted(REPOSITORY.glob("prm/**/*.prm")):
+        for scene in files("prm/**/*.prm"):
             with self.subTest(scene.name):
                 run = self.call("--validate", scene)
                 self.assertEqual((run.status, run.stderr), (0, ""))
@@ -42,7 +26,7 @@ class PrmScenes(SceneTest):
                 self.assertTrue(opening.startswith("#") and "Expect" in opening, opening)
 
     def test_poses_are_what_their_scenes_make(self):
-        for scene in sorted((REPOSITORY / "prm/poses").glob("*.prm")):
+        for scene in files("prm/poses/*.prm"):
             with self.subTest(scene.stem):
                 made = nodes_of(self.run_file(scene, scene.stem) / "final.msh")
                 committed = nodes_of(REPOSITORY / f"meshes/poses/{scene.stem}.msh")
@@ -66,7 +50,7 @@ class PrmScenes(SceneTest):
                 self.assertLess(max(errors), 1e-6)
 
     def test_examples_change_what_a_drag_does(self):
-        for scene in DRAGS:
+        for scene in files("prm/paper/fig[23]*.prm"):
             with self.subTest(scene.stem):
                 examples = self.run_file(scene, scene.stem)
                 plain = self.run_file(scene, scene.stem + "_plain", "Examples/Importance=0")

@@ -6,7 +6,7 @@ import subprocess
 import time
 import unittest
 
-from exemplar_runner import (EXEMPLAR, SceneTest, prm, read_csv, read_pvd, read_summary, results,
+from exemplar_runner import (EXEMPLAR, SceneTest, needs_trilinos, prm, read_csv, read_pvd, read_summary, results,
                              timeless_statistics)
 
 EACH_STEP = ["--set", "Output/Checkpoint minutes=0"]
@@ -97,10 +97,12 @@ class Resume(SceneTest):
     def test_killed_static_scene(self):
         self.check_kills(STATIC, [(20, 0.)])
 
+    @needs_trilinos
     def test_killed_dynamic_scene_with_iterative_solver(self):
         # multigrid hierarchies know nothing of those before
         self.check_kills({**DYNAMIC, **ITERATIVE}, [(11, 0.003), (36, 0.001)])
 
+    @needs_trilinos
     def test_killed_static_scene_with_iterative_solver(self):
         self.check_kills({**STATIC, **ITERATIVE}, [(20, 0.)])
 

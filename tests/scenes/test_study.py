@@ -129,6 +129,7 @@ class Studies(SceneTest):
         for scheme, order in (("implicit euler", 1), ("bdf2", 2)):
             section = self.report().split(f"## Time/Scheme = {scheme}\n")[1].split("\n## ")[0]
             lines = [line.split("|") for line in section.splitlines() if line.startswith("| 0.")]
+            self.assertEqual(len(lines), 3)
             self.assertEqual(lines[0][4].strip(), "")
             for line in lines[1:]:
                 self.assertAlmostEqual(float(line[4]), order, delta=0.02 * order)

@@ -7,6 +7,7 @@
 #include <exemplar/body/material.h>
 #include <exemplar/mesh/mesh.h>
 #include <exemplar/potential/elastic_potential.h>
+#include <exemplar/verification/verification_scene.h>
 
 #include <memory>
 #include <random>
@@ -27,8 +28,7 @@ namespace Exemplar::Testing
   inline std::string
   twist(const double degrees)
   {
-    const std::string angle = "(" + std::to_string(degrees * M_PI / 180. / 4.) + "*x)";
-    return "x; y*cos" + angle + "-z*sin" + angle + "; y*sin" + angle + "+z*cos" + angle;
+    return Verification::twist(degrees, 4.);
   }
 
   /// A bar of which the cells with their centroid beyond x = `border` are material 2,

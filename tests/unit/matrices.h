@@ -3,6 +3,7 @@
 #define exemplar_tests_matrices_h
 
 #include <exemplar/kernels/matrix3.h>
+#include <exemplar/verification/verification_scene.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,22 +23,7 @@ namespace Exemplar::Testing
     return A;
   }
 
-  /// Rotation by `angle` about `axis` (Rodrigues).
-  inline Matrix3<double>
-  rotation_about(Vector3<double> axis, const double angle)
-  {
-    const double length = std::sqrt(dot(axis, axis));
-    for (int i = 0; i < 3; ++i)
-      axis[i] /= length;
-    const Matrix3<double> W
-        = { { { 0., -axis[2], axis[1] }, { axis[2], 0., -axis[0] }, { -axis[1], axis[0], 0. } } };
-    const Matrix3<double> W2 = W * W;
-    Matrix3<double>       R  = identity_matrix<double>();
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j)
-        R[i][j] += std::sin(angle) * W[i][j] + (1. - std::cos(angle)) * W2[i][j];
-    return R;
-  }
+  using Verification::rotation_about;
 
   inline double
   max_difference(const Matrix3<double> &A, const Matrix3<double> &B)

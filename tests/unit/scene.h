@@ -9,6 +9,7 @@
 // Whole problems from the text of a scene.
 namespace Exemplar::Testing
 {
+  using Verification::max_difference;
   using Verification::Scene;
 
   inline const std::string bar = "subsection Mesh\n set Generator = box\n set Box size = 4, 1, 1\n"
@@ -24,14 +25,6 @@ namespace Exemplar::Testing
   examples(const std::string &keys)
   {
     return "subsection Examples\n" + keys + "end\n";
-  }
-
-  inline double
-  max_difference(const dealii::Vector<double> &a, const dealii::Vector<double> &b)
-  {
-    dealii::Vector<double> difference = a;
-    difference -= b;
-    return difference.linfty_norm();
   }
 } // namespace Exemplar::Testing
 

@@ -30,6 +30,8 @@ namespace Exemplar::Testing
     std::filesystem::path
     write_file(const std::string &name, const std::string &bytes) const
     {
+      // anew, for some file systems wait for the disk when a file is cut and written again
+      std::filesystem::remove(directory / name);
       std::ofstream(directory / name, std::ios::binary) << bytes;
       return directory / name;
     }

@@ -110,8 +110,14 @@ namespace Exemplar
   /// Conjugate gradients to a residual of `tolerance` times the right side, preconditioned
   /// with ML's smoothed aggregation, whose coarse spaces hold the six rigid motions of the
   /// nodes. Results depend on the matrix, the positions of the nodes and the right side alone.
+  /// Throws UserError in a build without Trilinos, and where MPI neither runs nor may be started
+  /// (MpiSession).
   std::unique_ptr<SpdOperator>
   make_iterative_operator(const FreeDofs &free_dofs, double tolerance);
+
+  /// Whether this is a build with Trilinos, of which make_iterative_operator() makes use.
+  bool
+  has_iterative_operator();
 } // namespace Exemplar
 
 #endif

@@ -27,6 +27,17 @@ namespace Exemplar
   run_child(const std::vector<std::string> &command,
             const std::filesystem::path    &log,
             double                          timeout);
+
+  /// How a process ended, and its output and errors.
+  struct ChildOutput
+  {
+    ChildEnd    end;
+    std::string text;
+  };
+
+  /// As run_child() without a timeout, but what the program says is returned, not logged.
+  ChildOutput
+  output_of_child(const std::vector<std::string> &command);
 } // namespace Exemplar
 
 #endif

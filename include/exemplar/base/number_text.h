@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <string>
 
 namespace Exemplar
@@ -18,6 +19,15 @@ namespace Exemplar
     char       buffer[32];
     const auto end = std::to_chars(buffer, buffer + sizeof(buffer), value).ptr;
     return { buffer, end };
+  }
+
+  /// NaN unless the whole text is a number.
+  inline double
+  parse_number(const std::string &text)
+  {
+    char        *end    = nullptr;
+    const double number = std::strtod(text.c_str(), &end);
+    return !text.empty() && end == text.c_str() + text.size() ? number : std::nan("");
   }
 } // namespace Exemplar
 

@@ -2,7 +2,7 @@
 #ifndef exemplar_study_file_h
 #define exemplar_study_file_h
 
-#include <exemplar/prm/prm_tools.h>
+#include <exemplar/study/study_axes.h>
 
 #include <deal.II/base/point.h>
 
@@ -13,19 +13,6 @@
 
 namespace Exemplar
 {
-  /// Keys that change together, and the values that they take.
-  struct StudyAxis
-  {
-    std::vector<std::string>              keys;   ///< "Section/Key"
-    std::vector<std::vector<std::string>> values; ///< in each a value a key
-
-    /// The keys, or the values of one choice, in one piece of text.
-    std::string
-    name() const;
-    std::string
-    text(unsigned int choice) const;
-  };
-
   /// What a study file says: a scene, and the settings with which it is run.
   struct Study
   {

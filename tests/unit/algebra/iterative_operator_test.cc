@@ -15,6 +15,17 @@ namespace Exemplar::Testing
   {
     using Columns = std::vector<double>;
 
+    class IterativeOperator : public testing::Test
+    {
+    protected:
+      void
+      SetUp() override
+      {
+        if (!has_iterative_operator())
+          GTEST_SKIP() << "built without Trilinos";
+      }
+    };
+
     /// Degrees of freedom of the nodes at x = 0, their components below `n_components`.
     std::vector<unsigned int>
     left_end(const Mesh &mesh, const unsigned int n_components = 3)
@@ -118,14 +129,14 @@ namespace Exemplar::Testing
       EXPECT_LT(relative_difference(bar.solve(*bar.iterative()), bar.solve(*bar.cholmod())), 1e-9);
     }
 
-    TEST(IterativeOperator, AgreesWithCholmod)
+    TEST_F(IterativeOperator, AgreesWithCholmod)
     {
       const Mesh mesh(BentBar::fine_mesh());
       BentBar    bar(left_end(mesh));
       expect_agreement(bar);
     }
 
-    TEST(IterativeOperator, AgreesWithCholmodWhereNodesAreHeldInPart)
+    TEST_F(IterativeOperator, AgreesWithCholmodWhereNodesAreHeldInPart)
     {
       // rollers on the end, one of their nodes held, another in two components
       const Mesh                mesh(BentBar::fine_mesh());
@@ -136,7 +147,7 @@ namespace Exemplar::Testing
       expect_agreement(bar);
     }
 
-    TEST(IterativeOperator, AgreesWithCholmodOnTheSmallestBodies)
+    TEST_F(IterativeOperator, AgreesWithCholmodOnTheSmallestBodies)
     {
       const MeshParameters      brick = box_mesh(1., 1, 1);
       const Mesh                mesh(brick);
@@ -149,7 +160,7 @@ namespace Exemplar::Testing
       expect_agreement(two_unknowns);
     }
 
-    TEST(IterativeOperator, NodesInAnyPlaceGiveTheSameSolution)
+    TEST_F(IterativeOperator, NodesInAnyPlaceGiveTheSameSolution)
     {
       // they only choose the preconditioner: turned, in a plane, in a point
       const Mesh    mesh(BentBar::fine_mesh());
@@ -175,7 +186,7 @@ namespace Exemplar::Testing
       expect("in a point");
     }
 
-    TEST(IterativeOperator, DependsOnNothingBefore)
+    TEST_F(IterativeOperator, DependsOnNothingBefore)
     {
       // a resumed run has not seen the matrices before
       const Mesh    mesh(BentBar::fine_mesh());
@@ -192,7 +203,7 @@ namespace Exemplar::Testing
       EXPECT_EQ(bar.solve(*matrix), other);
     }
 
-    TEST(IterativeOperator, ReachesItsTolerance)
+    TEST_F(IterativeOperator, ReachesItsTolerance)
     {
       // r = b - A x with the matrix of the other operator
       const Mesh mesh(BentBar::fine_mesh());
@@ -238,7 +249,7 @@ namespace Exemplar::Testing
       }
     }
 
-    TEST(IterativeOperator, NoticesIndefiniteMatrices)
+    TEST_F(IterativeOperator, NoticesIndefiniteMatrices)
     {
       const Mesh mesh(BentBar::fine_mesh());
       BentBar    bar(left_end(mesh));
@@ -260,7 +271,7 @@ namespace Exemplar::Testing
       EXPECT_LT(relative_difference(bar.solve(*matrix), bar.solve(*bar.cholmod())), 1e-9);
     }
 
-    TEST(IterativeOperator, IsSilent)
+    TEST_F(IterativeOperator, IsSilent)
     {
       const Mesh mesh(BentBar::fine_mesh());
       BentBar    bar(left_end(mesh));
@@ -275,7 +286,7 @@ namespace Exemplar::Testing
       EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
     }
 
-    TEST(IterativeOperator, SolvesScenesWithExamples)
+    TEST_F(IterativeOperator, SolvesScenesWithExamples)
     {
       // weights on the simplex and free ones: columns of G beside the right side
       for (const std::string weights : { "simplex", "free" })

@@ -3,6 +3,7 @@
 #include <exemplar/base/digest.h>
 #include <exemplar/base/errors.h>
 
+#include "expect_contains.h"
 #include "temporary_directory.h"
 
 #include <gtest/gtest.h>
@@ -26,12 +27,6 @@ namespace Exemplar
         return write_file(name, bytes);
       }
     };
-
-    void
-    expect_contains(const std::string &text, const std::string &part)
-    {
-      EXPECT_NE(text.find(part), std::string::npos) << "no '" << part << "' in: " << text;
-    }
 
     TEST_F(FilesTest, AtomicFileKeepsOldUntilCommit)
     {

@@ -36,12 +36,16 @@ namespace Exemplar::Testing
       ASSERT_EQ(report.status, SolveStatus::converged);
       // once small, the residual's exponent doubles: r_(k+1) <= C r_k^2. A linear rate of
       // 0.3, the fixed point's, would fail this from 1e-4 on
-      const auto &r = report.residual_history;
+      const auto  &r       = report.residual_history;
+      unsigned int telling = 0; // iterations that a linear rate of 0.1 would fail
       for (unsigned int k = 0; k + 1 < r.size(); ++k)
-        if (r[k] < 1e-2 && r[k + 1] > 0.)
+        if (r[k] < 1e-2)
         {
-          EXPECT_LT(r[k + 1], std::max(500. * r[k] * r[k], 1e-11));
+          const double bound = std::max(500. * r[k] * r[k], 1e-11);
+          EXPECT_LT(r[k + 1], bound);
+          telling += bound < 0.1 * r[k];
         }
+      EXPECT_GE(telling, 1u);
     }
 
     TEST(Newton, InterpolatesATwistOf720Degrees)
@@ -89,7 +93,7 @@ namespace Exemplar::Testing
 
     TEST(Newton, BlendedEnergyHoldsTheWeightsBack)
     {
-      // scaled and free, eta w is the same for every eta: the weight undoes it. Blended, not.
+      // scaled, eta w is the same for every eta (`exemplar verify free-weights-undo-importance`)
       const auto eta_w = [&](const std::string &eta, const std::string &energy)
       {
         Scene scene("set Scene = static\n" + bar + drag
@@ -99,74 +103,8 @@ namespace Exemplar::Testing
                     + newton);
         return std::stod(eta) * scene.solve().weights[1];
       };
-      EXPECT_NEAR(eta_w("0.5", "scaled") / eta_w("1", "scaled"), 1., 1e-6);
       EXPECT_NEAR(eta_w("1", "blended") / eta_w("1", "scaled"), 1., 1e-6);
       EXPECT_LT(eta_w("0.5", "blended") / eta_w("1", "scaled"), 0.8);
-    }
-
-    TEST(Newton, AngularMomentumLawOfImplicitEuler)
-    {
-      // of a free body: L_(n+1) = L_n + h sum v_(n+1) x M v_n. The frozen force breaks it.
-      const auto defect = [&](const std::string &solver)
-      {
-        Scene    scene("set Scene = dynamic\n" + bar + examples(two_poses + "set Weights = free\n")
-                       + "subsection Initial\n set Pose function = 1.1*x; y+0.05*x*x; z+0.1*y\n"
-                            "set Velocity = -3*y; 3*x; x\nend\n"
-                            "subsection Time\n set Step = 0.02\n set End = 0.2\nend\n"
-                       + solver);
-        Problem &p        = scene.problem;
-        double   greatest = 0.;
-        while (p.state.step < p.time_axis.n_steps())
-        {
-          const State before = p.state;
-          EXPECT_TRUE(is_success(p.advance().status));
-          // M v_n for each component, by the nodal mass matrix
-          const auto          &mass = p.mass->nodal();
-          dealii::Tensor<1, 3> cross;
-          for (unsigned int a = 0; a < mass.m(); ++a)
-          {
-            dealii::Tensor<1, 3> momentum, velocity;
-            for (unsigned int c = 0; c < 3; ++c)
-            {
-              velocity[c] = p.state.velocities[3 * a + c];
-              for (auto entry = mass.begin(a); entry != mass.end(a); ++entry)
-                momentum[c] += entry->value() * before.velocities[3 * entry->column() + c];
-            }
-            cross += dealii::cross_product_3d(velocity, momentum);
-          }
-          const auto law = p.mass->motion_sums(before).angular_momentum + 0.02 * cross;
-          const auto now = p.mass->motion_sums(p.state).angular_momentum;
-          greatest       = std::max(greatest, (now - law).norm() / now.norm());
-        }
-        return greatest;
-      };
-      EXPECT_LT(defect(newton), 1e-9);
-      EXPECT_GT(
-          defect("subsection Model\n set Gradient = frozen\nend\n"
-                 "subsection Solver\n set Method = fixed point\n set Maximum iterations = 500\n"
-                 "set Tolerance = 1e-11\nend\n"),
-          1e-5);
-    }
-
-    TEST(Newton, EnergyBoundOfImplicitEuler)
-    {
-      // with handles at rest: Psi_(n+1) + 1/2 |v_(n+1) - v_n|_M^2 <= Psi_n + 1/2 |v_n|_M^2
-      Scene    scene("set Scene = dynamic\n" + bar + examples(two_poses)
-                     + "subsection Handles\n set Names = left\n" + held_left + "end\n"
-                     + "subsection Initial\n set Velocity = 0; 2*x; -x\nend\n"
-                          "subsection Time\n set Step = 0.05\n set End = 1\nend\n"
-                     + newton);
-      Problem &p = scene.problem;
-      while (p.state.step < p.time_axis.n_steps())
-      {
-        const State  before = p.state;
-        const auto  &e      = p.evaluation.elastic;
-        const double bound  = e.energy + p.mass->motion_sums(before).kinetic_energy;
-        ASSERT_TRUE(is_success(p.advance().status));
-        State change = p.state;
-        change.velocities -= before.velocities;
-        EXPECT_LE(e.energy + p.mass->motion_sums(change).kinetic_energy, bound * (1. + 1e-12));
-      }
     }
 
     TEST(Newton, RecoversFromABodyCrushedIntoAPlane)

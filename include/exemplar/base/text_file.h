@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_text_file_h
+#define exemplar_text_file_h
+
+#include <filesystem>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace Exemplar
+{
+  /// All bytes of a file; nothing if it cannot be read, and then `reason`, if given, says why, in
+  /// words for a message. A directory cannot be read.
+  std::optional<std::string>
+  read_text_file(const std::filesystem::path &file, std::string *reason = nullptr);
+
+  /// (column, cell) of a table in CSV, in the order of the columns.
+  using CsvRow = std::vector<std::pair<std::string, std::string>>;
+
+  /// A line of the columns' names, with quotes where a name would not be one cell without.
+  void
+  write_csv_header(std::ostream &out, const CsvRow &row);
+
+  /// A line of the cells, with quotes where a text would not be one cell without.
+  void
+  write_csv_cells(std::ostream &out, const CsvRow &row);
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_msh_reader_h
+#define exemplar_msh_reader_h
+
+#include <exemplar/mesh/msh_file.h>
+#include <exemplar/mesh/msh_scanner.h>
+
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+
+namespace Exemplar
+{
+  /// One reading of one file, section by section.
+  class MshReader
+  {
+  public:
+    explicit MshReader(const std::filesystem::path &file) : in(file) {}
+
+    MshFile
+    read();
+
+  private:
+    void
+    read_section(const std::string &name);
+    void
+    read_format();
+    void
+    read_physical_names();
+    void
+    read_entities();
+    void
+    read_nodes_2();
+    void
+    read_nodes_4();
+    void
+    read_elements_2();
+    void
+    read_elements_4();
+
+    void
+    read_coordinates(std::size_t number);
+    void
+    read_element_nodes(MshElement &element, unsigned int n_nodes);
+    const MshElementKind &
+    kind_of(unsigned int type) const;
+    void
+    begin_items(std::size_t n_items, const std::string &what);
+    void
+    require_all(std::size_t n_read, std::size_t n_announced) const;
+    void
+    resolve_entities();
+    void
+    resolve_node_numbers();
+
+    MshScanner            in;
+    bool                  version_4 = false;
+    std::set<std::string> seen;
+    MshFile               msh;
+    /// 4.1: (dimension, entity) -> first physical tag
+    std::map<std::pair<unsigned int, int>, int> entity_physical;
+  };
+} // namespace Exemplar
+
+#endif

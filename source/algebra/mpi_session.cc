@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/mpi_session.h>
+#include <exemplar/base/errors.h>
+
+#include <cstdlib>
+#include <mpi.h>
+
+namespace Exemplar
+{
+  namespace
+  {
+    bool mpi_may_be_started = false, mpi_was_started = false;
+  } // namespace
+
+  MpiSession::MpiSession()
+  {
+    mpi_may_be_started = true;
+  }
+
+  MpiSession::~MpiSession()
+  {
+    if (mpi_was_started)
+      MPI_Finalize();
+    mpi_may_be_started = mpi_was_started = false;
+  }
+
+  void
+  MpiSession::require()
+  {
+    int is_running = 0;
+    MPI_Initialized(&is_running);
+    if (is_running != 0)
+      return;
+    if (!mpi_may_be_started)
+      throw UserError("Solver/Linear solver = iterative needs MPI, which this program has not "
+                      "started. Call MPI_Init before, or hold an Exemplar::MpiSession in main().");
+    // alone, Open MPI would start a daemon, and look for ssh to do so
+    setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+    MPI_Init(nullptr, nullptr); // does not return if it fails
+    mpi_was_started = true;
+  }
+} // namespace Exemplar

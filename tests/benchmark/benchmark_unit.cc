@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "benchmark_unit.h"
+
+#include <deal.II/lac/lapack_full_matrix.h>
+
+#include <algorithm>
+#include <cholmod.h>
+#include <limits>
+
+namespace Exemplar
+{
+  Duration
+  median(const std::vector<Duration> &durations)
+  {
+    std::vector<double> wall, cpu;
+    for (const Duration &duration : durations)
+    {
+      wall.push_back(duration.wall);
+      cpu.push_back(duration.cpu);
+    }
+    return { median(wall), median(cpu) };
+  }
+
+  FactorSize
+  factor_size(SymmetricPattern pattern)
+  {
+    cholmod_common common{};
+    cholmod_start(&common);
+    common.supernodal = CHOLMOD_AUTO;
+    cholmod_sparse matrix{};
+    matrix.nrow = matrix.ncol = pattern.n();
+    matrix.nzmax              = pattern.row.size();
+    matrix.p                  = pattern.column_start.data();
+    matrix.i                  = pattern.row.data();
+    matrix.stype              = -1;
+    matrix.itype              = CHOLMOD_INT;
+    matrix.xtype              = CHOLMOD_PATTERN;
+    matrix.dtype              = CHOLMOD_DOUBLE;
+    matrix.sorted = matrix.packed = 1;
+    cholmod_factor *factor        = cholmod_analyze(&matrix, &common);
+    FactorSize      size;
+    if (factor != nullptr)
+    {
+      size.flops = common.fl;
+      size.bytes
+          = factor->is_super
+                ? static_cast<double>(factor->xsize * sizeof(double) + factor->ssize * sizeof(int))
+                : common.lnz * (sizeof(double) + sizeof(int));
+    }
+    cholmod_free_factor(&factor, &common);
+    cholmod_finish(&common);
+    return size;
+  }
+
+  double
+  dgemm_gflops()
+  {
+    constexpr unsigned int           n = 1500;
+    dealii::LAPACKFullMatrix<double> A(n), B(n), C(n);
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = 0; j < n; ++j)
+      {
+        A(i, j) = 1. / (1. + i + j);
+        B(i, j) = i < j ? 1. : 0.5;
+      }
+    double least = std::numeric_limits<double>::infinity();
+    for (unsigned int repetition = 0; repetition < 4; ++repetition)
+      least = std::min(least, duration_of([&] { A.mmult(C, B); }).cpu);
+    return 2e-9 * n * n * n / least;
+  }
+
+  double
+  triad_gb_s()
+  {
+    const std::size_t         n = 1 << 23; // thrice 64 MiB, more than caches hold
+    const std::vector<double> b(n, 1.), c(n, 2.);
+    std::vector<double>       a(n, 0.);
+    double                    least = std::numeric_limits<double>::infinity();
+    for (unsigned int repetition = 0; repetition < 5; ++repetition)
+      least = std::min(least, duration_of(
+                                  [&]
+                                  {
+                                    for (std::size_t i = 0; i < n; ++i)
+                                      a[i] = b[i] + 0.5 * c[i];
+                                  })
+                                  .cpu);
+    return a[n / 2] > 0. ? 3e-9 * sizeof(double) * n / least : 0.;
+  }
+} // namespace Exemplar
