@@ -35,17 +35,6 @@ namespace Exemplar
     }
   } // namespace
 
-  void
-  LoadParameters::declare(dealii::ParameterHandler &prm)
-  {
-    prm.enter_subsection(name);
-    select.declare(prm, "Where the force acts");
-    prm.add_parameter("Force", force,
-                      "Total dead force [N], three functions of t [s]; shared by area over a "
-                      "boundary, by mass over other selections.");
-    prm.leave_subsection();
-  }
-
   Loads::Loads(const dealii::Tensor<1, 3>        &gravity,
                const std::vector<LoadParameters> &parameters,
                const Mesh                        &mesh,

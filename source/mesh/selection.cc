@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
+#include <exemplar/mesh/mesh.h>
 #include <exemplar/mesh/selection.h>
+
+#include <deal.II/base/parameter_handler.h>
 
 #include <algorithm>
 #include <cmath>

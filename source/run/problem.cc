@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
+#include <exemplar/run/initial_state.h>
 #include <exemplar/run/problem.h>
 
 #include <algorithm>

@@ -13,20 +13,6 @@ namespace Exemplar
 {
   namespace
   {
-    const EnumTable<Method> methods = { { Method::automatic, "auto" },
-                                        { Method::one_pass, "one pass" },
-                                        { Method::fixed_point, "fixed point" },
-                                        { Method::newton, "newton" },
-                                        { Method::quasi_newton, "quasi newton" } };
-
-    const EnumTable<LinearSolver> linear_solvers = { { LinearSolver::automatic, "auto" },
-                                                     { LinearSolver::cholesky, "cholesky" },
-                                                     { LinearSolver::iterative, "iterative" },
-                                                     { LinearSolver::umfpack, "umfpack" } };
-
-    const EnumTable<PassRotations> pass_rotations
-        = { { PassRotations::last, "last" }, { PassRotations::predicted, "predicted" } };
-
     const EnumTable<SolveStatus> statuses = { { SolveStatus::initial, "initial" },
                                               { SolveStatus::converged, "converged" },
                                               { SolveStatus::one_pass, "one pass" },
@@ -53,56 +39,6 @@ namespace Exemplar
       return a <= rounding ? 0. : a / b;
     }
   } // namespace
-
-  void
-  SolverParameters::declare(dealii::ParameterHandler &prm)
-  {
-    prm.enter_subsection("Solver");
-    declare_enum(
-        prm, "Method", method, methods,
-        "one pass: the paper's, one linear solve with frozen rotations a step; fixed "
-        "point: the same, repeated until the residual is below Tolerance; newton: descent on "
-        "the energy with its exact tangent, or as much of a convex one as it takes; quasi newton: "
-        "descent with the factor of an earlier step, for dynamic scenes, to Step tolerance; auto: "
-        "quasi newton where it is possible (not with Linear solver = iterative), newton in other "
-        "scenes, fixed point with frozen "
-        "forces, for which nothing else converges.");
-    prm.add_parameter("Tolerance", tolerance,
-                      "Relative residual at which a step has converged: the greatest free residual "
-                      "force over the greatest nodal force scale. Not used by one pass.",
-                      dealii::Patterns::Double(1e-16, 1.));
-    prm.add_parameter("Step tolerance", step_tolerance,
-                      "Error of the positions at which a step of quasi newton has converged, "
-                      "over the greatest displacement in this step; its relative residual must be "
-                      "as small, too. Not used by other methods.",
-                      dealii::Patterns::Double(0., 1.));
-    prm.add_parameter(
-        "Maximum iterations", maximum_iterations,
-        "Iterations after which a step without convergence ends the run with status "
-        "2; newton first tries half the step, up to six times, with as many each. Not "
-        "used by one pass.",
-        dealii::Patterns::Integer(1));
-    declare_enum(
-        prm, "Rotations", rotations, pass_rotations,
-        "Rotations of the cells in one pass, and in the first pass of fixed point: last: those of "
-        "the last step's positions, as in the paper; predicted: those of positions that the last "
-        "velocities predict, for dynamic scenes. Not used by other methods.");
-    declare_enum(
-        prm, "Linear solver", linear_solver, linear_solvers,
-        "cholesky: CHOLMOD factorises the positions' block, the weights follow from a "
-        "dense Schur complement; iterative: the same with conjugate gradients and algebraic "
-        "multigrid in place of the factor, for large meshes; umfpack: the whole bordered matrix "
-        "at once, for checking; auto: cholesky, also for quasi newton, which needs a factor, or "
-        "iterative where that is faster by CHOLMOD's count of operations, in compact bodies from "
-        "about 40,000 degrees of freedom.");
-    prm.leave_subsection();
-  }
-
-  std::string
-  method_name(const Method method)
-  {
-    return enum_name(method, methods);
-  }
 
   std::string
   status_name(const SolveStatus status)

@@ -2,6 +2,7 @@
 #ifndef exemplar_example_poses_h
 #define exemplar_example_poses_h
 
+#include <exemplar/body/example_parameters.h>
 #include <exemplar/body/fe_space.h>
 #include <exemplar/body/material.h>
 #include <exemplar/body/region_shares.h>
@@ -10,7 +11,6 @@
 #include <exemplar/prm/expression.h>
 
 #include <deal.II/base/aligned_vector.h>
-#include <deal.II/base/parameter_handler.h>
 #include <deal.II/lac/full_matrix.h>
 
 #include <optional>
@@ -19,45 +19,6 @@
 
 namespace Exemplar
 {
-  enum class ExampleEnergy
-  {
-    scaled,
-    blended
-  };
-
-  enum class ExampleWeights
-  {
-    simplex,
-    free,
-    prescribed
-  };
-
-  /// Subsection Examples.
-  struct ExampleParameters
-  {
-    std::vector<std::string> poses;
-    std::string              pose_functions;
-    bool                     include_rest_pose = true;
-    double                   importance        = 0.8; ///< eta
-    std::string              weight_penalty    = "auto";
-    ExampleEnergy            energy            = ExampleEnergy::scaled;
-    ExampleWeights           weights           = ExampleWeights::simplex;
-    std::string              prescribed_weights;
-    bool                     weights_per_region  = false;
-    double                   region_blend_length = 0.; ///< [m]
-
-    void
-    declare(dealii::ParameterHandler &prm);
-
-    /// Whether any pose is given and its importance is not 0.
-    bool
-    in_use() const;
-
-    /// Throws UserError for what no pattern can tell.
-    void
-    check() const;
-  };
-
   /// sum E V over the cells [J]: the scale of the energy of a strain of 1.
   double
   unit_energy(const FESpace &fe_space, const Material &material);

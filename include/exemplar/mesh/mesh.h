@@ -2,9 +2,9 @@
 #ifndef exemplar_mesh_h
 #define exemplar_mesh_h
 
+#include <exemplar/mesh/mesh_parameters.h>
 #include <exemplar/mesh/msh_file.h>
 
-#include <deal.II/base/parameter_handler.h>
 #include <deal.II/grid/tria.h>
 
 #include <array>
@@ -13,30 +13,6 @@
 
 namespace Exemplar
 {
-  enum class MeshGenerator
-  {
-    none,
-    box
-  };
-
-  /// Subsection Mesh. Exactly one of `file` and `generator` must be given.
-  ///
-  /// The box is [0,Lx] x [-Ly/2,Ly/2] x [-Lz/2,Lz/2], cut into nx x ny x nz bricks
-  /// of 6 tetrahedra each (Kuhn's subdivision, all along the diagonal from the
-  /// lowest to the highest corner). Its nodes are numbered from 1, x fastest; its
-  /// boundary ids are 1..6 for x-, x+, y-, y+, z-, z+, its material id is 1.
-  struct MeshParameters
-  {
-    std::string                 file;
-    MeshGenerator               generator = MeshGenerator::none;
-    std::array<double, 3>       box_size{ { 1., 1., 1. } };
-    std::array<unsigned int, 3> box_cells{ { 4, 4, 4 } };
-    double                      scale = 1.;
-
-    void
-    declare(dealii::ParameterHandler &prm);
-  };
-
   /// A boundary triangle: three node indices, counterclockwise seen from outside,
   /// and its boundary id.
   struct BoundaryFace

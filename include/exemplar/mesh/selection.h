@@ -2,16 +2,20 @@
 #ifndef exemplar_selection_h
 #define exemplar_selection_h
 
-#include <exemplar/mesh/mesh.h>
-
-#include <deal.II/base/parameter_handler.h>
-
 #include <filesystem>
 #include <string>
 #include <vector>
 
+namespace dealii
+{
+  class ParameterHandler;
+}
+
 namespace Exemplar
 {
+  class Mesh;
+  struct BoundaryFace;
+
   /// A set of nodes named in a scene: box x0 y0 z0 x1 y1 z1 | sphere x y z r |
   /// boundary ID | region ID | nodes FILE.
   struct Selection

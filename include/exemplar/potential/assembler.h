@@ -8,7 +8,7 @@
 #include <exemplar/body/example_poses.h>
 #include <exemplar/body/fe_space.h>
 #include <exemplar/body/material.h>
-#include <exemplar/body/model.h>
+#include <exemplar/body/model_parameters.h>
 #include <exemplar/potential/inertia.h>
 
 #include <deal.II/lac/vector.h>

@@ -2,16 +2,17 @@
 #ifndef exemplar_parameters_h
 #define exemplar_parameters_h
 
-#include <exemplar/body/example_poses.h>
-#include <exemplar/body/handles.h>
-#include <exemplar/body/loads.h>
-#include <exemplar/body/material.h>
-#include <exemplar/body/state.h>
-#include <exemplar/body/time_axis.h>
-#include <exemplar/mesh/mesh.h>
-#include <exemplar/potential/assembler.h>
+#include <exemplar/body/example_parameters.h>
+#include <exemplar/body/handle_parameters.h>
+#include <exemplar/body/load_parameters.h>
+#include <exemplar/body/material_parameters.h>
+#include <exemplar/body/model_parameters.h>
+#include <exemplar/body/time_parameters.h>
+#include <exemplar/mesh/mesh_parameters.h>
 #include <exemplar/prm/prm_tools.h>
-#include <exemplar/solvers/equilibrium.h>
+#include <exemplar/run/initial_parameters.h>
+#include <exemplar/run/output_parameters.h>
+#include <exemplar/solvers/solver_parameters.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -26,23 +27,6 @@ namespace Exemplar
     interpolation,
     statics,
     dynamic
-  };
-
-  enum class FrameFormat
-  {
-    vtu
-  };
-
-  /// Subsection Output.
-  struct OutputParameters
-  {
-    std::string  directory;
-    unsigned int every              = 1;
-    FrameFormat  format             = FrameFormat::vtu;
-    double       checkpoint_minutes = 5.;
-
-    void
-    declare(dealii::ParameterHandler &prm);
   };
 
   /// Everything a scene file says. Each part declares its own section; what

@@ -11,9 +11,8 @@
 #include <exemplar/potential/assembler.h>
 #include <exemplar/potential/inertia.h>
 #include <exemplar/solvers/quasi_newton_memory.h>
+#include <exemplar/solvers/solver_parameters.h>
 #include <exemplar/solvers/turned_factor.h>
-
-#include <deal.II/base/parameter_handler.h>
 
 #include <functional>
 #include <string>
@@ -21,44 +20,6 @@
 
 namespace Exemplar
 {
-  enum class Method
-  {
-    automatic,
-    one_pass,
-    fixed_point,
-    newton,
-    quasi_newton
-  };
-
-  /// Of which positions the rotations of a step's first pass are.
-  enum class PassRotations
-  {
-    last,
-    predicted
-  };
-
-  enum class LinearSolver
-  {
-    automatic,
-    cholesky,
-    iterative,
-    umfpack
-  };
-
-  /// Subsection Solver.
-  struct SolverParameters
-  {
-    Method        method             = Method::automatic;
-    double        tolerance          = 1e-8;
-    double        step_tolerance     = 1e-3;
-    unsigned int  maximum_iterations = 50;
-    PassRotations rotations          = PassRotations::last;
-    LinearSolver  linear_solver      = LinearSolver::automatic;
-
-    void
-    declare(dealii::ParameterHandler &prm);
-  };
-
   enum class SolveStatus
   {
     initial,
@@ -69,10 +30,6 @@ namespace Exemplar
     iteration_limit,
     failed
   };
-
-  /// The method as scene files write it.
-  std::string
-  method_name(Method method);
 
   /// The status as files and messages write it.
   std::string

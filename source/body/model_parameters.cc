@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/body/model.h>
+#include <exemplar/body/model_parameters.h>
 #include <exemplar/prm/prm_tools.h>
 
 namespace Exemplar

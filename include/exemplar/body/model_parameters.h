@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef exemplar_model_h
-#define exemplar_model_h
+#ifndef exemplar_model_parameters_h
+#define exemplar_model_parameters_h
 
 #include <exemplar/kernels/cell_model.h>
 
-#include <deal.II/base/parameter_handler.h>
+namespace dealii
+{
+  class ParameterHandler;
+}
 
 namespace Exemplar
 {

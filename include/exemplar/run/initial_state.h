@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_initial_state_h
+#define exemplar_initial_state_h
+
+#include <exemplar/body/example_poses.h>
+#include <exemplar/body/fe_space.h>
+#include <exemplar/body/state.h>
+#include <exemplar/run/initial_parameters.h>
+
+namespace Exemplar
+{
+  /// The state before the first step: the rest pose or the one that Initial asks
+  /// for, moving with Initial/Velocity if `dynamic`; weight one on the first
+  /// example, or the prescribed weights at t = 0. `examples` may be null.
+  State
+  initial_state(const InitialParameters &parameters,
+                const Mesh              &mesh,
+                const FESpace           &fe_space,
+                const ExamplePoses      *examples,
+                bool                     dynamic);
+} // namespace Exemplar
+
+#endif

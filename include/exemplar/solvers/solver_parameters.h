@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_solver_parameters_h
+#define exemplar_solver_parameters_h
+
+#include <string>
+
+namespace dealii
+{
+  class ParameterHandler;
+}
+
+namespace Exemplar
+{
+  enum class Method
+  {
+    automatic,
+    one_pass,
+    fixed_point,
+    newton,
+    quasi_newton
+  };
+
+  /// Of which positions the rotations of a step's first pass are.
+  enum class PassRotations
+  {
+    last,
+    predicted
+  };
+
+  enum class LinearSolver
+  {
+    automatic,
+    cholesky,
+    iterative,
+    umfpack
+  };
+
+  /// Subsection Solver.
+  struct SolverParameters
+  {
+    Method        method             = Method::automatic;
+    double        tolerance          = 1e-8;
+    double        step_tolerance     = 1e-3;
+    unsigned int  maximum_iterations = 50;
+    PassRotations rotations          = PassRotations::last;
+    LinearSolver  linear_solver      = LinearSolver::automatic;
+
+    void
+    declare(dealii::ParameterHandler &prm);
+  };
+
+  /// The method as scene files write it.
+  std::string
+  method_name(Method method);
+} // namespace Exemplar
+
+#endif
