@@ -14,15 +14,23 @@ namespace Exemplar
     /// 90 degrees. What frozen forces find depends on the support, so there it never may.
     constexpr double largest_turn = 0.7;
 
+    SceneParameters
+    completed(SceneParameters parameters)
+    {
+      parameters.complete();
+      parameters.check();
+      return parameters;
+    }
+
     TimeAxis
-    make_time_axis(const Parameters &parameters)
+    make_time_axis(const SceneParameters &parameters)
     {
       return parameters.scene == SceneKind::dynamic ? TimeAxis::of_dynamics(parameters.time)
                                                     : TimeAxis::of_increments(parameters.time);
     }
 
     std::unique_ptr<Handles>
-    make_handles(const Parameters &parameters, const Mesh &mesh, const TimeAxis &axis)
+    make_handles(const SceneParameters &parameters, const Mesh &mesh, const TimeAxis &axis)
     {
       if (parameters.handles.empty())
         return nullptr;
@@ -30,7 +38,7 @@ namespace Exemplar
     }
 
     std::optional<StaticallyDeterminateSupport>
-    make_support(const Parameters &parameters, const Mesh &mesh)
+    make_support(const SceneParameters &parameters, const Mesh &mesh)
     {
       if (parameters.scene != SceneKind::interpolation)
         return {};
@@ -38,23 +46,24 @@ namespace Exemplar
     }
 
     std::unique_ptr<Loads>
-    make_loads(const Parameters &parameters,
-               const Mesh       &mesh,
-               const FESpace    &fe_space,
-               const Material   &material)
+    make_loads(const SceneParameters &parameters,
+               const Mesh            &mesh,
+               const FESpace         &fe_space,
+               const Material        &material)
     {
-      if (parameters.loads.empty() && parameters.gravity.norm() == 0.)
+      if (parameters.loads.empty() && !parameters.has_gravity())
         return nullptr;
-      return std::make_unique<Loads>(parameters.gravity, parameters.loads, mesh, fe_space,
-                                     material);
+      const auto &[x, y, z] = parameters.gravity;
+      return std::make_unique<Loads>(dealii::Tensor<1, 3>({ x, y, z }), parameters.loads, mesh,
+                                     fe_space, material);
     }
 
     std::unique_ptr<ExamplePoses>
-    make_examples(const Parameters &parameters,
-                  const Mesh       &mesh,
-                  const FESpace    &fe_space,
-                  const Material   &material,
-                  const TimeAxis   &axis)
+    make_examples(const SceneParameters &parameters,
+                  const Mesh            &mesh,
+                  const FESpace         &fe_space,
+                  const Material        &material,
+                  const TimeAxis        &axis)
     {
       if (!parameters.examples.in_use())
         return nullptr;
@@ -63,7 +72,9 @@ namespace Exemplar
     }
 
     std::unique_ptr<Inertia>
-    make_inertia(const Parameters &parameters, const FESpace &fe_space, const Material &material)
+    make_inertia(const SceneParameters &parameters,
+                 const FESpace         &fe_space,
+                 const Material        &material)
     {
       if (parameters.scene != SceneKind::dynamic)
         return nullptr;
@@ -140,11 +151,12 @@ namespace Exemplar
     }
   } // namespace
 
-  Problem::Problem(const Parameters &parameters)
-      : parameters(parameters), clock(Part::read), time_axis(make_time_axis(parameters)),
-        mesh(parameters.mesh), material(parameters.material, mesh.get_material_ids()),
-        fe_space(mesh), handles(make_handles(parameters, mesh, time_axis)),
-        support(make_support(parameters, mesh)), free_dofs(fe_space.n_dofs(), held_dofs()),
+  Problem::Problem(SceneParameters scene)
+      : parameters(completed(std::move(scene))), clock(Part::read),
+        time_axis(make_time_axis(parameters)), mesh(parameters.mesh),
+        material(parameters.material, mesh.get_material_ids()), fe_space(mesh),
+        handles(make_handles(parameters, mesh, time_axis)), support(make_support(parameters, mesh)),
+        free_dofs(fe_space.n_dofs(), held_dofs()),
         loads(make_loads(parameters, mesh, fe_space, material)),
         examples(make_examples(parameters, mesh, fe_space, material, time_axis)),
         inertia(make_inertia(parameters, fe_space, material)),
@@ -178,7 +190,7 @@ namespace Exemplar
       return {};
     const std::vector<unsigned int> held = handles->held_dofs();
     if (held.size() == fe_space.n_dofs())
-      throw UserError(parameters.scene_file.string()
+      throw UserError(parameters.name
                       + ": the handles hold every node, so there is nothing to solve. Make "
                         "Handles/NAME/Select smaller.");
     return held;
@@ -190,7 +202,7 @@ namespace Exemplar
     const unsigned int n_free = n_free_rigid_motions(mesh, held_dofs());
     if (n_free > 0)
       throw UserError(
-          parameters.scene_file.string() + ": the handles leave " + std::to_string(n_free)
+          parameters.name + ": the handles leave " + std::to_string(n_free)
           + " of 6 rigid motions free, so a static scene has no unique equilibrium. Add a "
             "subsection of Handles that holds three nodes not on a line (a box, a sphere "
             "or a boundary), or hold more Components.");

@@ -2,6 +2,7 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
 #include <exemplar/mesh/mesh_generation.h>
+#include <exemplar/run/scene_file.h>
 #include <exemplar/verification/verification_scene.h>
 
 #include <cmath>
@@ -23,7 +24,7 @@ namespace Exemplar::Verification
   } // namespace
 
   Scene::Scene(const std::string &text, const std::vector<std::string> &overrides)
-      : parameters("scene", text, overrides), problem(parameters)
+      : problem(SceneFile("scene", text, overrides).get_parameters())
   {
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/environment.h>
 #include <exemplar/run/problem.h>
+#include <exemplar/run/scene_file.h>
 
 #include <deal.II/base/multithread_info.h>
 
@@ -17,7 +18,8 @@ namespace Exemplar
     struct Scene
     {
       explicit Scene(const std::string &file)
-          : parameters(file, {}), problem(parameters), batches(problem.fe_space, problem.material),
+          : problem(SceneFile(file, {}).get_parameters()),
+            batches(problem.fe_space, problem.material),
             positions(problem.fe_space.rest_positions()), node_positions(4 * positions.size() / 3)
       {
         // strains and turns of some tenths, different in every cell
@@ -31,7 +33,6 @@ namespace Exemplar
         forces.resize(node_positions.size());
       }
 
-      const Parameters              parameters;
       Problem                       problem;
       CellBatches                   batches;
       dealii::Vector<double>        positions;

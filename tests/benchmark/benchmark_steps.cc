@@ -2,6 +2,7 @@
 #include <exemplar/base/environment.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/run/problem.h>
+#include <exemplar/run/scene_file.h>
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/multithread_info.h>
@@ -235,8 +236,8 @@ namespace Exemplar
     {
     public:
       explicit Reference(const Options &options)
-          : parameters(options.scene_file, overrides_of_reference(options.overrides)),
-            problem(parameters)
+          : problem(SceneFile(options.scene_file, overrides_of_reference(options.overrides))
+                        .get_parameters())
       {
       }
 
@@ -260,8 +261,7 @@ namespace Exemplar
       unsigned int        failures = 0;
 
     private:
-      const Parameters parameters;
-      Problem          problem;
+      Problem problem;
     };
 
     /// Of this process, in bytes.
@@ -278,7 +278,7 @@ namespace Exemplar
     public:
       explicit Benchmark(const Options &options)
           : options(options), resident_before(memory().VmRSS),
-            parameters(options.scene_file, options.overrides), problem(parameters)
+            problem(SceneFile(options.scene_file, options.overrides).get_parameters())
       {
         if (options.reference)
           reference = std::make_unique<Reference>(options);
@@ -362,7 +362,7 @@ namespace Exemplar
       add_scene(Json &json) const
       {
         json["scene"]    = std::filesystem::path(options.scene_file).stem().string();
-        json["method"]   = method_name(parameters.solver.method);
+        json["method"]   = method_name(problem.parameters.solver.method);
         json["examples"] = problem.examples != nullptr ? problem.examples->size() : 0;
         json["cells"]    = problem.mesh.n_cells();
         json["dofs"]     = problem.free_dofs.size();
@@ -448,7 +448,6 @@ namespace Exemplar
 
       const Options              options;
       const double               resident_before; ///< [KiB]
-      const Parameters           parameters;
       Problem                    problem;
       std::unique_ptr<Reference> reference;
       Unit                       unit;

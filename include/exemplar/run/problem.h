@@ -17,7 +17,7 @@
 #include <exemplar/potential/assembler.h>
 #include <exemplar/potential/inertia.h>
 #include <exemplar/run/diagnostics.h>
-#include <exemplar/run/parameters.h>
+#include <exemplar/run/scene_parameters.h>
 #include <exemplar/solvers/equilibrium.h>
 
 #include <memory>
@@ -33,7 +33,7 @@ namespace Exemplar
   {
   public:
     /// Reads every input and checks it; writes nothing. Throws UserError.
-    explicit Problem(const Parameters &parameters);
+    explicit Problem(SceneParameters scene);
 
     /// Solve the next step from `state`, which is replaced if the solve succeeds.
     SolveReport
@@ -60,8 +60,8 @@ namespace Exemplar
     std::vector<std::string>
     warnings_at_end() const;
 
-    const Parameters &parameters;
-    StepClock         clock;
+    const SceneParameters parameters; ///< completed
+    StepClock             clock;
 
     const TimeAxis                                    time_axis;
     const Mesh                                        mesh;

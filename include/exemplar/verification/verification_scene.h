@@ -24,10 +24,6 @@ namespace Exemplar::Verification
     State
     solve();
 
-  private:
-    const Parameters parameters;
-
-  public:
     Problem problem;
   };
 
