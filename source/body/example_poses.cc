@@ -50,7 +50,8 @@ namespace Exemplar
                              const Mesh              &mesh,
                              const FESpace           &fe_space,
                              const Material          &material,
-                             const TimeAxis          &axis)
+                             const TimeAxis          &axis,
+                             const NamedPoses        &poses)
       : fe_space(fe_space), eta(parameters.importance), measure(measure),
         regions(make_regions(parameters, mesh, fe_space)),
         first_strained(parameters.include_rest_pose ? 1 : 0),
@@ -58,8 +59,8 @@ namespace Exemplar
   {
     if (parameters.include_rest_pose)
       add_pose("rest pose", mesh.get_nodes());
-    for (const std::string &file : parameters.poses)
-      add_pose(file, mesh.read_pose(file));
+    for (const std::string &name : parameters.poses)
+      add_pose(name, mesh.find_pose(poses, name, "Examples/Poses"));
     add_pose_functions(parameters.pose_functions, mesh);
     if (parameters.weights == ExampleWeights::prescribed)
     {

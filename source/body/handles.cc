@@ -28,19 +28,6 @@ namespace Exemplar
     }
 
     std::vector<dealii::Point<3>>
-    read_pose(const Mesh &mesh, const std::string &file, const std::string &key)
-    {
-      try
-      {
-        return mesh.read_pose(file);
-      }
-      catch (const UserError &error)
-      {
-        throw UserError(key + ": " + error.what());
-      }
-    }
-
-    std::vector<dealii::Point<3>>
     choose(const std::vector<dealii::Point<3>> &all, const std::vector<unsigned int> &nodes)
     {
       std::vector<dealii::Point<3>> chosen;
@@ -52,11 +39,13 @@ namespace Exemplar
 
   Handles::Handles(const std::vector<HandleParameters> &parameters,
                    const Mesh                          &mesh,
-                   const TimeAxis                      &axis)
+                   const TimeAxis                      &axis,
+                   const NamedPoses                    &poses,
+                   const NamedNodes                    &nodes)
       : mesh(mesh)
   {
     for (const HandleParameters &p : parameters)
-      handles.push_back(make_handle(p));
+      handles.push_back(make_handle(p, poses, nodes));
     dealii::Vector<double> anywhere(3 * mesh.n_nodes());
     move(axis.time(0), anywhere); // are the formulas finite?
     move(axis.time(axis.n_steps()), anywhere);
@@ -67,12 +56,14 @@ namespace Exemplar
   }
 
   Handles::Handle
-  Handles::make_handle(const HandleParameters &p) const
+  Handles::make_handle(const HandleParameters &p,
+                       const NamedPoses       &poses,
+                       const NamedNodes       &named_nodes) const
   {
     p.check();
     const std::string key = "Handles/" + p.name;
     Handle            handle{ p.name,
-                   p.select.nodes(mesh, key),
+                   p.select.nodes(mesh, key, named_nodes),
                    parse_components(p.components, key),
                    Expression(key + "/Motion", p.motion, "xyzt", 3),
                    Expression(key + "/Progress", p.progress, "t", 1),
@@ -80,7 +71,7 @@ namespace Exemplar
     if (!p.follow_pose.empty())
       handle.path.emplace(
           rest_positions(handle),
-          choose(read_pose(mesh, p.follow_pose, key + "/Follow pose"), handle.nodes));
+          choose(mesh.find_pose(poses, p.follow_pose, key + "/Follow pose"), handle.nodes));
     return handle;
   }
 

@@ -2,46 +2,16 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/mesh/mesh.h>
 #include <exemplar/mesh/mesh_checks.h>
-#include <exemplar/mesh/mesh_generation.h>
 
 #include <deal.II/grid/tria_accessor.h>
 #include <deal.II/grid/tria_iterator.h>
 
 #include <algorithm>
-#include <cstdlib>
 
 namespace Exemplar
 {
   namespace
   {
-    std::filesystem::path
-    msh_of(const std::string &file)
-    {
-      const std::filesystem::path path(file);
-      return path.extension() == ".geo" ? mesh_geo_file(path) : path;
-    }
-
-    MshFile
-    load(const MeshParameters &parameters)
-    {
-      const bool has_file = !parameters.file.empty();
-      const bool has_box  = parameters.generator == MeshGenerator::box;
-      if (has_file == has_box)
-        throw UserError(std::string("Mesh: ")
-                        + (has_file ? "both File and Generator are given" : "no mesh is given")
-                        + ". Set Mesh/File to a .msh or .geo file, or set Mesh/Generator = box; "
-                          "exactly one of them.");
-      if (!(parameters.scale > 0.))
-        throw UserError("Mesh/Scale: must be positive, found " + std::to_string(parameters.scale)
-                        + ". Leave it at 1 if the mesh is in metres.");
-
-      MshFile contents = has_box ? generate_box(parameters.box_size, parameters.box_cells)
-                                 : read_msh(msh_of(parameters.file));
-      for (auto &node : contents.nodes)
-        node *= parameters.scale;
-      return contents;
-    }
-
     /// The corners opposite to each corner of a positive tetrahedron,
     /// counterclockwise seen from outside.
     constexpr unsigned int outward_faces[4][3]
@@ -176,22 +146,19 @@ namespace Exemplar
   } // namespace
 
   Mesh::Mesh(const MeshParameters &parameters)
-      : contents(load(parameters)),
-        name(parameters.generator == MeshGenerator::box ? "box" : parameters.file),
-        scale(parameters.scale)
+      : Mesh(load_mesh(parameters), parameters.name(), parameters.scale)
   {
-    build();
   }
 
-  Mesh::Mesh(MshFile file_contents, const std::string &file_name)
-      : contents(std::move(file_contents)), name(file_name)
+  Mesh::Mesh(MshFile file_contents, const std::string &file_name, const double scale)
+      : contents(std::move(file_contents)), name(file_name), scale(scale)
   {
-    build();
-  }
+    if (!(scale > 0.))
+      throw UserError("Mesh/Scale: must be positive, found " + std::to_string(scale)
+                      + ". Leave it at 1 if the mesh is in metres.");
+    for (auto &node : contents.nodes)
+      node *= scale;
 
-  void
-  Mesh::build()
-  {
     Tetrahedra tetrahedra = extract_tetrahedra(contents, name);
     const auto swapped    = orient_tetrahedra(contents, name, tetrahedra);
     if (!swapped.empty())

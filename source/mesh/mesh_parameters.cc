@@ -41,4 +41,12 @@ namespace Exemplar
                       Double(0.));
     prm.leave_subsection();
   }
+
+  std::string
+  MeshParameters::name() const
+  {
+    if (generator == MeshGenerator::box)
+      return "box";
+    return file.empty() ? "mesh" : file;
+  }
 } // namespace Exemplar

@@ -112,14 +112,16 @@ namespace Exemplar
         }
     }
 
-    /// A file name, absolute; refused if a scene file could not hold it.
+    /// A file name, absolute if there is a directory to start from; refused if a scene file could not hold it.
     std::string
     absolute_file(const std::string           &file,
                   const std::filesystem::path &directory,
                   const std::string           &unwanted)
     {
       const std::string path
-          = std::filesystem::absolute(directory / file).lexically_normal().string();
+          = directory.empty()
+                ? file
+                : std::filesystem::absolute(directory / file).lexically_normal().string();
       if (path.find_first_of(unwanted) != std::string::npos)
         throw UserError("The path " + path + " holds one of the signs " + unwanted
                         + " which mean something else in scene files. Rename the file or its "

@@ -30,7 +30,8 @@ namespace Exemplar
     {
       try
       {
-        auto problem = std::make_unique<Problem>(parameters);
+        const StepClock clock(Part::read);
+        auto problem = std::make_unique<Problem>(parameters, read_inputs(parameters), clock);
         for (const std::string &warning : problem->warnings())
           warn(warning);
         return problem;

@@ -10,7 +10,8 @@ namespace Exemplar
                 const Mesh              &mesh,
                 const FESpace           &fe_space,
                 const ExamplePoses      *examples,
-                const bool               dynamic)
+                const bool               dynamic,
+                const NamedPoses        &poses)
   {
     if (!parameters.pose.empty() && !parameters.pose_function.empty())
       throw UserError("Initial/Pose and Initial/Pose function are both given. Keep one of them.");
@@ -28,7 +29,7 @@ namespace Exemplar
     };
     if (!parameters.pose.empty())
     {
-      const auto nodes = mesh.read_pose(parameters.pose);
+      const auto nodes = mesh.find_pose(poses, parameters.pose, "Initial/Pose");
       for (unsigned int dof = 0; dof < fe_space.n_dofs(); ++dof)
         state.positions[dof] = nodes[dof / 3][dof % 3];
     }

@@ -30,11 +30,14 @@ namespace Exemplar
     }
 
     std::unique_ptr<Handles>
-    make_handles(const SceneParameters &parameters, const Mesh &mesh, const TimeAxis &axis)
+    make_handles(const SceneParameters &parameters,
+                 const Mesh            &mesh,
+                 const TimeAxis        &axis,
+                 const Inputs          &inputs)
     {
       if (parameters.handles.empty())
         return nullptr;
-      return std::make_unique<Handles>(parameters.handles, mesh, axis);
+      return std::make_unique<Handles>(parameters.handles, mesh, axis, inputs.poses, inputs.nodes);
     }
 
     std::optional<StaticallyDeterminateSupport>
@@ -49,13 +52,14 @@ namespace Exemplar
     make_loads(const SceneParameters &parameters,
                const Mesh            &mesh,
                const FESpace         &fe_space,
-               const Material        &material)
+               const Material        &material,
+               const Inputs          &inputs)
     {
       if (parameters.loads.empty() && !parameters.has_gravity())
         return nullptr;
       const auto &[x, y, z] = parameters.gravity;
       return std::make_unique<Loads>(dealii::Tensor<1, 3>({ x, y, z }), parameters.loads, mesh,
-                                     fe_space, material);
+                                     fe_space, material, inputs.nodes);
     }
 
     std::unique_ptr<ExamplePoses>
@@ -63,12 +67,13 @@ namespace Exemplar
                   const Mesh            &mesh,
                   const FESpace         &fe_space,
                   const Material        &material,
-                  const TimeAxis        &axis)
+                  const TimeAxis        &axis,
+                  const Inputs          &inputs)
     {
       if (!parameters.examples.in_use())
         return nullptr;
       return std::make_unique<ExamplePoses>(parameters.examples, parameters.model.strain, mesh,
-                                            fe_space, material, axis);
+                                            fe_space, material, axis, inputs.poses);
     }
 
     std::unique_ptr<Inertia>
@@ -151,14 +156,15 @@ namespace Exemplar
     }
   } // namespace
 
-  Problem::Problem(SceneParameters scene)
-      : parameters(completed(std::move(scene))), clock(Part::read),
-        time_axis(make_time_axis(parameters)), mesh(parameters.mesh),
+  Problem::Problem(SceneParameters scene, Inputs inputs, StepClock running_clock)
+      : parameters(completed(std::move(scene))), clock(std::move(running_clock)),
+        time_axis(make_time_axis(parameters)),
+        mesh(std::move(inputs.mesh), parameters.mesh.name(), parameters.mesh.scale),
         material(parameters.material, mesh.get_material_ids()), fe_space(mesh),
-        handles(make_handles(parameters, mesh, time_axis)), support(make_support(parameters, mesh)),
-        free_dofs(fe_space.n_dofs(), held_dofs()),
-        loads(make_loads(parameters, mesh, fe_space, material)),
-        examples(make_examples(parameters, mesh, fe_space, material, time_axis)),
+        handles(make_handles(parameters, mesh, time_axis, inputs)),
+        support(make_support(parameters, mesh)), free_dofs(fe_space.n_dofs(), held_dofs()),
+        loads(make_loads(parameters, mesh, fe_space, material, inputs)),
+        examples(make_examples(parameters, mesh, fe_space, material, time_axis, inputs)),
         inertia(make_inertia(parameters, fe_space, material)),
         assembler(parameters.model, fe_space, material, examples.get(), inertia.get(), free_dofs),
         linear_solver(make_linear_solver(
@@ -172,7 +178,8 @@ namespace Exemplar
                             mesh,
                             fe_space,
                             examples.get(),
-                            parameters.scene == SceneKind::dynamic))
+                            parameters.scene == SceneKind::dynamic,
+                            inputs.poses))
   {
     if (parameters.scene == SceneKind::statics)
       check_supports();

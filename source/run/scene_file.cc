@@ -101,28 +101,28 @@ namespace Exemplar
                        const std::vector<Assignment> &overrides)
       : file(file), text(text)
   {
-    parameters.name                     = file.string();
-    std::vector<Assignment> assignments = read_assignments(text, file.string());
+    if (!file.empty())
+      parameters.name = file.string();
+    std::vector<Assignment> assignments = read_assignments(text, parameters.name);
     assignments.insert(assignments.end(), overrides.begin(), overrides.end());
     if (find_assignment(assignments, "Scene") == nullptr)
-      throw UserError(file.string()
+      throw UserError(parameters.name
                       + ": Scene is not set. Add a line 'set Scene = dynamic' (or static, or "
                         "interpolation).");
 
-    const auto directory   = std::filesystem::absolute(file).parent_path();
     const auto first_named = std::stable_partition(
         assignments.begin(), assignments.end(), [](const Assignment &a) { return !is_named(a); });
     const std::vector<Assignment> named(first_named, assignments.end());
     assignments.erase(first_named, assignments.end());
 
     declare_sections();
-    apply_assignments(prm, assignments, directory);
+    apply_assignments(prm, assignments, directory());
     check_names(handle_names, "Handles");
     check_names(load_names, "Loads");
     check_listed(named, "Handles", handle_names);
     check_listed(named, "Loads", load_names);
     declare_named_subsections(named);
-    apply_assignments(prm, named, directory);
+    apply_assignments(prm, named, directory());
 
     make_selections_absolute();
     const ExampleParameters given = parameters.examples;
@@ -130,8 +130,15 @@ namespace Exemplar
     if (parameters.scene == SceneKind::interpolation)
       set_interpolation(assignments, given);
     if (parameters.output.directory.empty())
-      set({ "Output" }, "Directory", "output/" + file.stem().string());
+      set({ "Output" }, "Directory",
+          "output/" + std::filesystem::path(parameters.name).stem().string());
     parameters.check();
+  }
+
+  std::filesystem::path
+  SceneFile::directory() const
+  {
+    return file.empty() ? file : std::filesystem::absolute(file).parent_path();
   }
 
   void
@@ -206,11 +213,11 @@ namespace Exemplar
   void
   SceneFile::make_selections_absolute()
   {
-    const auto directory = std::filesystem::absolute(file).parent_path();
     for (const HandleParameters &handle : parameters.handles)
-      set({ "Handles", handle.name }, "Select", Selection::absolute(handle.select.text, directory));
+      set({ "Handles", handle.name }, "Select",
+          Selection::absolute(handle.select.text, directory()));
     for (const LoadParameters &load : parameters.loads)
-      set({ "Loads", load.name }, "Select", Selection::absolute(load.select.text, directory));
+      set({ "Loads", load.name }, "Select", Selection::absolute(load.select.text, directory()));
   }
 
   void

@@ -15,11 +15,17 @@ namespace Exemplar
 {
   namespace
   {
+    Problem
+    problem_of(const std::string &file, const std::vector<std::string> &overrides = {})
+    {
+      const SceneFile scene(file, overrides);
+      return { scene.get_parameters(), read_inputs(scene.get_parameters()) };
+    }
+
     struct Scene
     {
       explicit Scene(const std::string &file)
-          : problem(SceneFile(file, {}).get_parameters()),
-            batches(problem.fe_space, problem.material),
+          : problem(problem_of(file)), batches(problem.fe_space, problem.material),
             positions(problem.fe_space.rest_positions()), node_positions(4 * positions.size() / 3)
       {
         // strains and turns of some tenths, different in every cell

@@ -231,13 +231,19 @@ namespace Exemplar
       return overrides;
     }
 
+    Problem
+    problem_of(const std::string &file, const std::vector<std::string> &overrides = {})
+    {
+      const SceneFile scene(file, overrides);
+      return { scene.get_parameters(), read_inputs(scene.get_parameters()) };
+    }
+
     /// The same scene, each of its steps solved to the end from where the measured one starts.
     class Reference
     {
     public:
       explicit Reference(const Options &options)
-          : problem(SceneFile(options.scene_file, overrides_of_reference(options.overrides))
-                        .get_parameters())
+          : problem(problem_of(options.scene_file, overrides_of_reference(options.overrides)))
       {
       }
 
@@ -278,7 +284,7 @@ namespace Exemplar
     public:
       explicit Benchmark(const Options &options)
           : options(options), resident_before(memory().VmRSS),
-            problem(SceneFile(options.scene_file, options.overrides).get_parameters())
+            problem(problem_of(options.scene_file, options.overrides))
       {
         if (options.reference)
           reference = std::make_unique<Reference>(options);

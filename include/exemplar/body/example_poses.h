@@ -30,7 +30,7 @@ namespace Exemplar
   class ExamplePoses
   {
   public:
-    /// Reads the pose files. Throws UserError for a pose on another mesh, for
+    /// Those of Examples/Poses are among `poses`. Throws UserError for one that is not, for
     /// prescribed weights that do not sum to one in every step, and for free
     /// weights without penalty if the examples are affinely dependent.
     ExamplePoses(const ExampleParameters &parameters,
@@ -38,7 +38,8 @@ namespace Exemplar
                  const Mesh              &mesh,
                  const FESpace           &fe_space,
                  const Material          &material,
-                 const TimeAxis          &axis);
+                 const TimeAxis          &axis,
+                 const NamedPoses        &poses = {});
 
     /// Number of examples.
     unsigned int

@@ -35,12 +35,14 @@ namespace Exemplar
   class Handles
   {
   public:
-    /// Throws UserError for a selection without nodes, a formula that is not
-    /// understood, a pose that is none of the mesh, and for handles that overlap and
-    /// disagree in any step.
+    /// The poses that handles follow are among `poses`, the files of nodes among `nodes`.
+    /// Throws UserError for a selection without nodes, a formula that is not understood, a
+    /// pose that is not there, and for handles that overlap and disagree in any step.
     Handles(const std::vector<HandleParameters> &parameters,
             const Mesh                          &mesh,
-            const TimeAxis                      &axis);
+            const TimeAxis                      &axis,
+            const NamedPoses                    &poses = {},
+            const NamedNodes                    &nodes = {});
 
     /// Degrees of freedom 3 i + c that are held, ascending, each once.
     std::vector<unsigned int>
@@ -89,7 +91,9 @@ namespace Exemplar
     };
 
     Handle
-    make_handle(const HandleParameters &parameters) const;
+    make_handle(const HandleParameters &parameters,
+                const NamedPoses       &poses,
+                const NamedNodes       &nodes) const;
 
     std::vector<dealii::Point<3>>
     rest_positions(const Handle &handle) const;

@@ -18,12 +18,14 @@ namespace Exemplar
   class Loads
   {
   public:
-    /// Throws UserError for a load that selects nothing or that is not understood.
+    /// The files of nodes are among `nodes`. Throws UserError for a load that selects nothing or
+    /// that is not understood.
     Loads(const dealii::Tensor<1, 3>        &gravity,
           const std::vector<LoadParameters> &parameters,
           const Mesh                        &mesh,
           const FESpace                     &fe_space,
-          const Material                    &material);
+          const Material                    &material,
+          const NamedNodes                  &nodes = {});
 
     bool
     has_gravity() const

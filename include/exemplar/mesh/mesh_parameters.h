@@ -18,7 +18,8 @@ namespace Exemplar
     box
   };
 
-  /// Subsection Mesh. Exactly one of `file` and `generator` must be given.
+  /// Subsection Mesh. Exactly one of `file` and `generator` must be given, unless a program
+  /// hands in a mesh of its own.
   ///
   /// The box is [0,Lx] x [-Ly/2,Ly/2] x [-Lz/2,Lz/2], cut into nx x ny x nz bricks
   /// of 6 tetrahedra each (Kuhn's subdivision, all along the diagonal from the
@@ -34,6 +35,10 @@ namespace Exemplar
 
     void
     declare(dealii::ParameterHandler &prm);
+
+    /// What stands for the mesh in messages: the file, "box" or, with neither, "mesh".
+    std::string
+    name() const;
   };
 } // namespace Exemplar
 

@@ -134,7 +134,7 @@ namespace Exemplar
   declared_keys(const dealii::ParameterHandler &prm);
 
   /// Set the values in `prm`; input files become absolute, relative ones starting
-  /// from `directory`. Throws UnknownKey for an undeclared key (with the nearest
+  /// from `directory`; if that is empty, they stay. Throws UnknownKey for an undeclared key (with the nearest
   /// declared one) and UserError for a value that its pattern does not allow.
   void
   apply_assignments(dealii::ParameterHandler      &prm,

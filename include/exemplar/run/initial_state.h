@@ -11,13 +11,15 @@ namespace Exemplar
 {
   /// The state before the first step: the rest pose or the one that Initial asks
   /// for, moving with Initial/Velocity if `dynamic`; weight one on the first
-  /// example, or the prescribed weights at t = 0. `examples` may be null.
+  /// example, or the prescribed weights at t = 0. `examples` may be null,
+  /// the pose is among `poses`. Throws UserError if it is not, or if a function is given, too.
   State
   initial_state(const InitialParameters &parameters,
                 const Mesh              &mesh,
                 const FESpace           &fe_space,
                 const ExamplePoses      *examples,
-                bool                     dynamic);
+                bool                     dynamic,
+                const NamedPoses        &poses = {});
 } // namespace Exemplar
 
 #endif

@@ -17,6 +17,7 @@
 #include <exemplar/potential/assembler.h>
 #include <exemplar/potential/inertia.h>
 #include <exemplar/run/diagnostics.h>
+#include <exemplar/run/inputs.h>
 #include <exemplar/run/scene_parameters.h>
 #include <exemplar/solvers/equilibrium.h>
 
@@ -32,8 +33,10 @@ namespace Exemplar
   class Problem
   {
   public:
-    /// Reads every input and checks it; writes nothing. Throws UserError.
-    explicit Problem(SceneParameters scene);
+    /// `inputs` are what read_inputs() gives, or arrays that a program hands in: then the scene
+    /// needs no file. `clock` may run since the inputs are read. Throws UserError for whatever
+    /// is no valid scene; writes nothing.
+    Problem(SceneParameters scene, Inputs inputs, StepClock clock = StepClock(Part::read));
 
     /// Solve the next step from `state`, which is replaced if the solve succeeds.
     SolveReport

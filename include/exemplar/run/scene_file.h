@@ -20,7 +20,8 @@ namespace Exemplar
     /// UserError.
     SceneFile(const std::filesystem::path &file, const std::vector<std::string> &overrides);
 
-    /// The same from the text of a scene, as if `file` contained it.
+    /// The same from the text of a scene, as if `file` contained it. If `file` is empty, names
+    /// of input files stay as they are.
     SceneFile(const std::filesystem::path    &file,
               const std::string              &text,
               const std::vector<std::string> &overrides);
@@ -68,6 +69,10 @@ namespace Exemplar
 
   private:
     SceneFile() = default;
+
+    /// From which input files are named; empty: they stay as they are.
+    std::filesystem::path
+    directory() const;
 
     void
     declare_sections();
