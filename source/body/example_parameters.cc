@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/body/example_parameters.h>
-#include <exemplar/prm/prm_tools.h>
+#include <exemplar/prm/key_table.h>
 
 #include <cmath>
 #include <optional>
@@ -39,51 +39,48 @@ namespace Exemplar
   } // namespace
 
   void
-  ExampleParameters::declare(dealii::ParameterHandler &prm)
+  ExampleParameters::declare(KeyTable &keys)
   {
-    prm.enter_subsection("Examples");
-    declare_input_files(prm, "Poses", poses,
-                        "Example poses: .msh files with the nodes and tetrahedra of the mesh, such "
-                        "as the final.msh of another scene.");
-    prm.add_parameter("Pose functions", pose_functions,
-                      "Analytic example poses after those of Poses: x'; y'; z' as functions of the "
-                      "rest position x, y, z [m]; poses separated by |.");
-    prm.add_parameter("Include rest pose", include_rest_pose,
-                      "Whether the rest pose is example 0. Without it a single example is a "
-                      "permanent pre-strain.");
-    prm.add_parameter(
-        "Importance", importance,
-        "eta [-]: 0 is plain elasticity (no pose file is opened), 1 lets the examples "
-        "alone be free of stress.",
-        dealii::Patterns::Double(0., 1.));
-    prm.add_parameter(
-        "Weight penalty", weight_penalty,
-        "sigma [J] of the ridge sigma/2 sum w_i^2 on weights that are not prescribed: paper "
-        "(1e-5 sum E V over the cells), auto (1e-9 sum E V with simplex weights, which "
-        "decides ties and moves nothing; the paper's with free ones, which would "
-        "run away) or a number not less than 0.");
-    declare_enum(
-        prm, "Energy", energy, energies,
+    keys.enter_subsection("Examples");
+    keys.add_files("Poses", poses,
+                   "Example poses: .msh files with the nodes and tetrahedra of the mesh, such "
+                   "as the final.msh of another scene.");
+    keys.add("Pose functions", pose_functions,
+             "Analytic example poses after those of Poses: x'; y'; z' as functions of the "
+             "rest position x, y, z [m]; poses separated by |.");
+    keys.add("Include rest pose", include_rest_pose,
+             "Whether the rest pose is example 0. Without it a single example is a "
+             "permanent pre-strain.");
+    keys.add("Importance", importance,
+             "eta [-]: 0 is plain elasticity (no pose file is opened), 1 lets the examples "
+             "alone be free of stress.",
+             Bounds{ 0., 1. });
+    keys.add("Weight penalty", weight_penalty,
+             "sigma [J] of the ridge sigma/2 sum w_i^2 on weights that are not prescribed: paper "
+             "(1e-5 sum E V over the cells), auto (1e-9 sum E V with simplex weights, which "
+             "decides ties and moves nothing; the paper's with free ones, which would "
+             "run away) or a number not less than 0.");
+    keys.add(
+        "Energy", energy, energies,
         "scaled: V/2 (strain - eta E(w)) : C : (strain - eta E(w)), as the paper; blended: (1 - "
         "eta) of the elastic energy and eta of the distance to E(w).");
-    declare_enum(
-        prm, "Weights", weights, weight_kinds,
+    keys.add(
+        "Weights", weights, weight_kinds,
         "simplex: minimise the energy over weights that sum to one and are not negative; free: "
         "that sum to one, as the paper; prescribed: as given.");
-    prm.add_parameter("Prescribed weights", prescribed_weights,
-                      "One function of t for each example, the rest pose first where it is "
-                      "included, separated by ;. They sum to one. With Weights per region either "
-                      "the same for all, or one such list a region, in ascending order of material "
-                      "ids, separated by |.");
-    prm.add_parameter("Weights per region", weights_per_region,
-                      "Whether the cells of each material id have weights of their own "
-                      "(statistics: weight_R_i for example i in region R).");
-    prm.add_parameter(
-        "Region blend length", region_blend_length,
-        "Distance [m] over which the weights of neighbouring regions pass into each "
-        "other; 0: at once, at the border. Below the size of a cell: over about a cell.",
-        dealii::Patterns::Double(0.));
-    prm.leave_subsection();
+    keys.add("Prescribed weights", prescribed_weights,
+             "One function of t for each example, the rest pose first where it is "
+             "included, separated by ;. They sum to one. With Weights per region either "
+             "the same for all, or one such list a region, in ascending order of material "
+             "ids, separated by |.");
+    keys.add("Weights per region", weights_per_region,
+             "Whether the cells of each material id have weights of their own "
+             "(statistics: weight_R_i for example i in region R).");
+    keys.add("Region blend length", region_blend_length,
+             "Distance [m] over which the weights of neighbouring regions pass into each "
+             "other; 0: at once, at the border. Below the size of a cell: over about a cell.",
+             Bounds{ 0. });
+    keys.leave_subsection();
   }
 
   bool

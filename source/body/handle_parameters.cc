@@ -1,32 +1,29 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/body/handle_parameters.h>
-#include <exemplar/prm/prm_tools.h>
+#include <exemplar/prm/key_table.h>
 
 namespace Exemplar
 {
   void
-  HandleParameters::declare(dealii::ParameterHandler &prm)
+  HandleParameters::declare(KeyTable &keys)
   {
-    prm.enter_subsection(name);
-    select.declare(prm, "The nodes that the handle holds");
-    prm.add_parameter(
-        "Motion", motion,
-        "Displacement [m] of the held nodes from their rest position: three functions "
-        "of the rest position x, y, z [m] and of t [s].");
-    prm.add_parameter(
-        "Components", components,
-        "The components that are held; fewer than x, y, z make a roller or a plane of "
-        "symmetry.");
-    declare_input_file(
-        prm, "Follow pose", follow_pose,
-        "A .msh file with the nodes and tetrahedra of the mesh: the held nodes go to "
-        "their places in this pose, turned and moved rigidly together, instead of "
-        "by Motion.");
-    prm.add_parameter("Progress", progress,
-                      "How far the nodes are on the way to the pose that they follow, a function "
-                      "of t [s]: 0 at rest, 1 in the pose.");
-    prm.leave_subsection();
+    keys.enter_subsection(name);
+    select.declare(keys, "The nodes that the handle holds");
+    keys.add("Motion", motion,
+             "Displacement [m] of the held nodes from their rest position: three functions "
+             "of the rest position x, y, z [m] and of t [s].");
+    keys.add("Components", components,
+             "The components that are held; fewer than x, y, z make a roller or a plane of "
+             "symmetry.");
+    keys.add_file("Follow pose", follow_pose,
+                  "A .msh file with the nodes and tetrahedra of the mesh: the held nodes go to "
+                  "their places in this pose, turned and moved rigidly together, instead of "
+                  "by Motion.");
+    keys.add("Progress", progress,
+             "How far the nodes are on the way to the pose that they follow, a function "
+             "of t [s]: 0 at rest, 1 in the pose.");
+    keys.leave_subsection();
   }
 
   void

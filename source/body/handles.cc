@@ -2,7 +2,7 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
 #include <exemplar/body/handles.h>
-#include <exemplar/prm/prm_tools.h>
+#include <exemplar/prm/assignments.h>
 
 #include <cmath>
 #include <map>

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/body/load_parameters.h>
-
-#include <deal.II/base/parameter_handler.h>
+#include <exemplar/prm/key_table.h>
 
 namespace Exemplar
 {
   void
-  LoadParameters::declare(dealii::ParameterHandler &prm)
+  LoadParameters::declare(KeyTable &keys)
   {
-    prm.enter_subsection(name);
-    select.declare(prm, "Where the force acts");
-    prm.add_parameter("Force", force,
-                      "Total dead force [N], three functions of t [s]; shared by area over a "
-                      "boundary, by mass over other selections.");
-    prm.leave_subsection();
+    keys.enter_subsection(name);
+    select.declare(keys, "Where the force acts");
+    keys.add("Force", force,
+             "Total dead force [N], three functions of t [s]; shared by area over a "
+             "boundary, by mass over other selections.");
+    keys.leave_subsection();
   }
 } // namespace Exemplar

@@ -2,7 +2,7 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
 #include <exemplar/body/material_parameters.h>
-#include <exemplar/prm/prm_tools.h>
+#include <exemplar/prm/key_table.h>
 
 namespace Exemplar
 {
@@ -12,17 +12,14 @@ namespace Exemplar
         = { { MassMatrix::consistent, "consistent" }, { MassMatrix::lumped, "lumped" } };
 
     void
-    declare_constants(dealii::ParameterHandler &prm, ElasticConstants &constants)
+    declare_constants(KeyTable &keys, ElasticConstants &constants)
     {
-      // the least positive number that makes sense keeps 0 out: patterns are closed
-      const dealii::Patterns::Double positive(1e-300);
-      prm.add_parameter("Young's modulus", constants.youngs_modulus, "E [Pa], greater than 0.",
-                        positive);
-      prm.add_parameter("Poisson's ratio", constants.poissons_ratio,
-                        "nu [-], greater than -1 and less than 0.5.",
-                        dealii::Patterns::Double(-1., 0.5));
-      prm.add_parameter("Density", constants.density,
-                        "rho [kg/m^3], greater than 0. Used by dynamics and gravity.", positive);
+      const Bounds positive = Bounds::positive();
+      keys.add("Young's modulus", constants.youngs_modulus, "E [Pa], greater than 0.", positive);
+      keys.add("Poisson's ratio", constants.poissons_ratio,
+               "nu [-], greater than -1 and less than 0.5.", Bounds{ -1., 0.5 });
+      keys.add("Density", constants.density,
+               "rho [kg/m^3], greater than 0. Used by dynamics and gravity.", positive);
     }
 
     void
@@ -42,28 +39,27 @@ namespace Exemplar
   }
 
   void
-  MaterialParameters::declare(dealii::ParameterHandler &prm)
+  MaterialParameters::declare(KeyTable &keys)
   {
-    prm.enter_subsection("Material");
-    declare_constants(prm, everywhere);
-    declare_enum(prm, "Mass matrix", mass_matrix, mass_matrices,
-                 "consistent, or lumped at the nodes. Used by dynamics only.");
-    prm.leave_subsection();
+    keys.enter_subsection("Material");
+    declare_constants(keys, everywhere);
+    keys.add("Mass matrix", mass_matrix, mass_matrices,
+             "consistent, or lumped at the nodes. Used by dynamics only.");
+    keys.leave_subsection();
   }
 
   void
-  MaterialParameters::declare_regions(dealii::ParameterHandler     &prm,
-                                      const std::set<unsigned int> &ids)
+  MaterialParameters::declare_regions(KeyTable &keys, const std::set<unsigned int> &ids)
   {
-    prm.enter_subsection("Material");
+    keys.enter_subsection("Material");
     for (const unsigned int id : ids)
     {
       regions[id] = everywhere;
-      prm.enter_subsection(region_name(id));
-      declare_constants(prm, regions[id]);
-      prm.leave_subsection();
+      keys.enter_subsection(region_name(id));
+      declare_constants(keys, regions[id]);
+      keys.leave_subsection();
     }
-    prm.leave_subsection();
+    keys.leave_subsection();
   }
 
   void

@@ -2,8 +2,7 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/mesh/mesh.h>
 #include <exemplar/mesh/selection.h>
-
-#include <deal.II/base/parameter_handler.h>
+#include <exemplar/prm/key_table.h>
 
 #include <algorithm>
 #include <cmath>
@@ -153,12 +152,12 @@ namespace Exemplar
   } // namespace
 
   void
-  Selection::declare(dealii::ParameterHandler &prm, const std::string &what)
+  Selection::declare(KeyTable &keys, const std::string &what)
   {
-    prm.add_parameter("Select", text,
-                      what + ": " + forms
-                          + ". Boxes (inclusive) and spheres select by rest position [m]; a FILE "
-                            "lists node numbers of the mesh file.");
+    keys.add("Select", text,
+             what + ": " + forms
+                 + ". Boxes (inclusive) and spheres select by rest position [m]; a FILE "
+                   "lists node numbers of the mesh file.");
   }
 
   std::string

@@ -20,7 +20,7 @@ namespace Exemplar
     values_of(const SceneFile &scene)
     {
       std::map<std::string, std::string> values;
-      for (const DeclaredKey &key : scene.keys())
+      for (const DeclaredKey &key : scene.get_keys())
         values[key.path()] = key.value;
       return values;
     }
@@ -112,7 +112,7 @@ namespace Exemplar
     {
       AtomicFile atomic_file(file);
       atomic_file.stream() << RunDirectory::mark << '\n';
-      print_keys(atomic_file.stream(), scene.keys(), false);
+      print_keys(atomic_file.stream(), scene.get_keys(), false);
       atomic_file.commit();
     }
   } // namespace

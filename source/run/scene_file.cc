@@ -13,8 +13,6 @@ namespace Exemplar
                                                { SceneKind::statics, "static" },
                                                { SceneKind::dynamic, "dynamic" } };
 
-    const dealii::Patterns::List names_pattern{ dealii::Patterns::Anything() };
-
     std::vector<Assignment>
     parse_overrides(const std::vector<std::string> &texts)
     {
@@ -116,13 +114,13 @@ namespace Exemplar
     assignments.erase(first_named, assignments.end());
 
     declare_sections();
-    apply_assignments(prm, assignments, directory());
+    keys.apply(assignments, directory());
     check_names(handle_names, "Handles");
     check_names(load_names, "Loads");
     check_listed(named, "Handles", handle_names);
     check_listed(named, "Loads", load_names);
     declare_named_subsections(named);
-    apply_assignments(prm, named, directory());
+    keys.apply(named, directory());
 
     make_selections_absolute();
     const ExampleParameters given = parameters.examples;
@@ -130,8 +128,8 @@ namespace Exemplar
     if (parameters.scene == SceneKind::interpolation)
       set_interpolation(assignments, given);
     if (parameters.output.directory.empty())
-      set({ "Output" }, "Directory",
-          "output/" + std::filesystem::path(parameters.name).stem().string());
+      keys.set("Output/Directory",
+               "output/" + std::filesystem::path(parameters.name).stem().string());
     parameters.check();
   }
 
@@ -144,80 +142,67 @@ namespace Exemplar
   void
   SceneFile::declare_sections()
   {
-    declare_enum(prm, "Scene", parameters.scene, scene_kinds,
-                 "What to solve: interpolation between poses, static equilibrium in increments, or "
-                 "dynamic. To be set in every scene.");
-    parameters.mesh.declare(prm);
-    parameters.material.declare(prm);
-    parameters.model.declare(prm);
-    parameters.examples.declare(prm);
-    prm.enter_subsection("Handles");
-    prm.add_parameter("Names", handle_names,
-                      "Names of the handles, separated by commas; each has a subsection.",
-                      names_pattern);
-    prm.leave_subsection();
-    prm.enter_subsection("Loads");
-    prm.add_parameter(
-        "Gravity", parameters.gravity,
-        "Acceleration of gravity [m/s^2]. It acts in full from the start, also in a static "
-        "scene; a weight that grows is a force of Loads/Names on a region.");
-    prm.add_parameter("Names", load_names,
-                      "Names of dead forces, separated by commas; each has a subsection.",
-                      names_pattern);
-    prm.leave_subsection();
-    parameters.initial.declare(prm);
-    parameters.time.declare(prm);
-    parameters.solver.declare(prm);
-    parameters.output.declare(prm);
+    keys.add("Scene", parameters.scene, scene_kinds,
+             "What to solve: interpolation between poses, static equilibrium in increments, or "
+             "dynamic. To be set in every scene.");
+    parameters.mesh.declare(keys);
+    parameters.material.declare(keys);
+    parameters.model.declare(keys);
+    parameters.examples.declare(keys);
+    keys.enter_subsection("Handles");
+    keys.add_names("Names", handle_names,
+                   "Names of the handles, separated by commas; each has a subsection.");
+    keys.leave_subsection();
+    keys.enter_subsection("Loads");
+    keys.add("Gravity", parameters.gravity,
+             "Acceleration of gravity [m/s^2]. It acts in full from the start, also in a static "
+             "scene; a weight that grows is a force of Loads/Names on a region.");
+    keys.add_names("Names", load_names,
+                   "Names of dead forces, separated by commas; each has a subsection.");
+    keys.leave_subsection();
+    parameters.initial.declare(keys);
+    parameters.time.declare(keys);
+    parameters.solver.declare(keys);
+    parameters.output.declare(keys);
   }
 
   void
   SceneFile::declare_named_subsections(const std::vector<Assignment> &assignments)
   {
     const std::set<unsigned int> regions = material_regions(assignments);
-    parameters.material.declare_regions(prm, regions);
+    parameters.material.declare_regions(keys, regions);
     // deal.II rounds the text of a default to six digits: take over the text that was set
     for (const std::string key : { "Young's modulus", "Poisson's ratio", "Density" })
       for (const unsigned int id : regions)
-        set({ "Material", "region " + std::to_string(id) }, key, prm.get({ "Material" }, key));
+        keys.set("Material/" + MaterialParameters::region_name(id) + "/" + key,
+                 keys.get("Material/" + key));
     parameters.handles.resize(handle_names.size()); // before binding: entries must not move
     parameters.loads.resize(load_names.size());
-    prm.enter_subsection("Handles");
+    keys.enter_subsection("Handles");
     for (unsigned int i = 0; i < handle_names.size(); ++i)
     {
       parameters.handles[i].name = handle_names[i];
-      parameters.handles[i].declare(prm);
+      parameters.handles[i].declare(keys);
     }
-    prm.leave_subsection();
-    prm.enter_subsection("Loads");
+    keys.leave_subsection();
+    keys.enter_subsection("Loads");
     for (unsigned int i = 0; i < load_names.size(); ++i)
     {
       parameters.loads[i].name = load_names[i];
-      parameters.loads[i].declare(prm);
+      parameters.loads[i].declare(keys);
     }
-    prm.leave_subsection();
-  }
-
-  void
-  SceneFile::set(const std::vector<std::string> &subsections,
-                 const std::string              &key,
-                 const std::string              &value)
-  {
-    for (const std::string &subsection : subsections)
-      prm.enter_subsection(subsection);
-    prm.set(key, value);
-    for (std::size_t i = 0; i < subsections.size(); ++i)
-      prm.leave_subsection();
+    keys.leave_subsection();
   }
 
   void
   SceneFile::make_selections_absolute()
   {
     for (const HandleParameters &handle : parameters.handles)
-      set({ "Handles", handle.name }, "Select",
-          Selection::absolute(handle.select.text, directory()));
+      keys.set("Handles/" + handle.name + "/Select",
+               Selection::absolute(handle.select.text, directory()));
     for (const LoadParameters &load : parameters.loads)
-      set({ "Loads", load.name }, "Select", Selection::absolute(load.select.text, directory()));
+      keys.set("Loads/" + load.name + "/Select",
+               Selection::absolute(load.select.text, directory()));
   }
 
   void
@@ -231,7 +216,7 @@ namespace Exemplar
         throw UserError(assignment->place + ": Examples/" + key + " = " + assignment->value
                         + ", but an interpolation has " + key + " = " + value
                         + ". Remove the line, or choose Scene = static.");
-      set({ "Examples" }, key, value);
+      keys.set("Examples/" + key, value);
     };
     require("Importance", "1", given.importance == parameters.examples.importance);
     require("Weights", "prescribed", given.weights == parameters.examples.weights);
@@ -245,20 +230,20 @@ namespace Exemplar
     samples.handle_names = { "NAME" };
     samples.load_names   = { "NAME" };
     samples.declare_named_subsections({ { { "Material", "region 1" }, "", "", "" } });
-    return samples.keys();
+    return samples.get_keys();
   }
 
   std::vector<DeclaredKey>
-  SceneFile::keys() const
+  SceneFile::get_keys() const
   {
-    return declared_keys(prm);
+    return keys.keys();
   }
 
   std::vector<std::filesystem::path>
   SceneFile::input_files() const
   {
     std::vector<std::filesystem::path> files;
-    for (const DeclaredKey &key : keys())
+    for (const DeclaredKey &key : get_keys())
       if (key.path() == "Examples/Poses" && !parameters.examples.in_use())
         continue; // with importance 0 the poses need not be there
       else if (key.is_input_file)

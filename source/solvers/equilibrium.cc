@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/body/supports.h>
-#include <exemplar/prm/prm_tools.h>
+#include <exemplar/prm/key_table.h>
 #include <exemplar/solvers/equilibrium.h>
 
 #include <deal.II/base/memory_consumption.h>

@@ -48,7 +48,7 @@ namespace Exemplar
       {
         const SceneFile scene(study.scene, scene_text, run.assignments);
         std::string     key;
-        for (const DeclaredKey &declared : scene.keys())
+        for (const DeclaredKey &declared : scene.get_keys())
           if (declared.subsections == std::vector<std::string>{ "Mesh" })
             key += declared.value + "\n";
         std::unique_ptr<const Mesh> &mesh = meshes[key];

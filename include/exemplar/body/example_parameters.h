@@ -5,13 +5,10 @@
 #include <string>
 #include <vector>
 
-namespace dealii
-{
-  class ParameterHandler;
-}
-
 namespace Exemplar
 {
+  class KeyTable;
+
   enum class ExampleEnergy
   {
     scaled,
@@ -40,7 +37,7 @@ namespace Exemplar
     double                   region_blend_length = 0.; ///< [m]
 
     void
-    declare(dealii::ParameterHandler &prm);
+    declare(KeyTable &keys);
 
     /// Whether any pose is given and its importance is not 0.
     bool

@@ -6,13 +6,10 @@
 
 #include <string>
 
-namespace dealii
-{
-  class ParameterHandler;
-}
-
 namespace Exemplar
 {
+  class KeyTable;
+
   /// A subsection of Handles.
   struct HandleParameters
   {
@@ -24,7 +21,7 @@ namespace Exemplar
     std::string progress = "t";
 
     void
-    declare(dealii::ParameterHandler &prm);
+    declare(KeyTable &keys);
 
     /// Throws UserError if both a motion and a pose to follow are given, or a
     /// progress without a pose.

@@ -6,13 +6,10 @@
 
 #include <string>
 
-namespace dealii
-{
-  class ParameterHandler;
-}
-
 namespace Exemplar
 {
+  class KeyTable;
+
   /// A subsection of Loads.
   struct LoadParameters
   {
@@ -21,7 +18,7 @@ namespace Exemplar
     std::string force = "0; 0; 0";
 
     void
-    declare(dealii::ParameterHandler &prm);
+    declare(KeyTable &keys);
   };
 } // namespace Exemplar
 

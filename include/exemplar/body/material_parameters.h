@@ -6,13 +6,10 @@
 #include <set>
 #include <string>
 
-namespace dealii
-{
-  class ParameterHandler;
-}
-
 namespace Exemplar
 {
+  class KeyTable;
+
   struct ElasticConstants
   {
     double youngs_modulus = 1e6;  ///< E [Pa]
@@ -34,11 +31,11 @@ namespace Exemplar
     std::map<unsigned int, ElasticConstants> regions; ///< by material id
 
     void
-    declare(dealii::ParameterHandler &prm);
+    declare(KeyTable &keys);
 
     /// Declare subsections "region N"; what they do not set is as everywhere.
     void
-    declare_regions(dealii::ParameterHandler &prm, const std::set<unsigned int> &ids);
+    declare_regions(KeyTable &keys, const std::set<unsigned int> &ids);
 
     /// The subsection of a material id.
     static std::string

@@ -4,13 +4,10 @@
 
 #include <exemplar/kernels/cell_model.h>
 
-namespace dealii
-{
-  class ParameterHandler;
-}
-
 namespace Exemplar
 {
+  class KeyTable;
+
   enum class GradientKind
   {
     consistent,
@@ -24,7 +21,7 @@ namespace Exemplar
     GradientKind  gradient = GradientKind::consistent;
 
     void
-    declare(dealii::ParameterHandler &prm);
+    declare(KeyTable &keys);
 
     /// Whether forces are the paper's, which hold the rotations fixed. Only corotation has
     /// rotations to hold.

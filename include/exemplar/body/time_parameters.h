@@ -2,13 +2,10 @@
 #ifndef exemplar_time_parameters_h
 #define exemplar_time_parameters_h
 
-namespace dealii
-{
-  class ParameterHandler;
-}
-
 namespace Exemplar
 {
+  class KeyTable;
+
   enum class TimeScheme
   {
     implicit_euler,
@@ -26,7 +23,7 @@ namespace Exemplar
     unsigned int increments        = 10;   ///< of statics and interpolation
 
     void
-    declare(dealii::ParameterHandler &prm);
+    declare(KeyTable &keys);
   };
 } // namespace Exemplar
 

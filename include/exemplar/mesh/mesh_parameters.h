@@ -5,13 +5,10 @@
 #include <array>
 #include <string>
 
-namespace dealii
-{
-  class ParameterHandler;
-}
-
 namespace Exemplar
 {
+  class KeyTable;
+
   enum class MeshGenerator
   {
     none,
@@ -34,7 +31,7 @@ namespace Exemplar
     double                      scale = 1.;
 
     void
-    declare(dealii::ParameterHandler &prm);
+    declare(KeyTable &keys);
 
     /// What stands for the mesh in messages: the file, "box" or, with neither, "mesh".
     std::string

@@ -7,13 +7,9 @@
 #include <string>
 #include <vector>
 
-namespace dealii
-{
-  class ParameterHandler;
-}
-
 namespace Exemplar
 {
+  class KeyTable;
   class Mesh;
   struct BoundaryFace;
   using NamedNodes = std::map<std::string, std::vector<unsigned int>>;
@@ -25,7 +21,7 @@ namespace Exemplar
     std::string text; ///< as the scene has it; the FILE absolute
 
     void
-    declare(dealii::ParameterHandler &prm, const std::string &what);
+    declare(KeyTable &keys, const std::string &what);
 
     /// Make the file of "nodes FILE" absolute, if there is a directory to start from; other
     /// selections stay.

@@ -4,13 +4,10 @@
 
 #include <string>
 
-namespace dealii
-{
-  class ParameterHandler;
-}
-
 namespace Exemplar
 {
+  class KeyTable;
+
   /// Subsection Initial.
   struct InitialParameters
   {
@@ -19,7 +16,7 @@ namespace Exemplar
     std::string velocity = "0; 0; 0";
 
     void
-    declare(dealii::ParameterHandler &prm);
+    declare(KeyTable &keys);
   };
 } // namespace Exemplar
 

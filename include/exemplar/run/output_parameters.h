@@ -4,13 +4,10 @@
 
 #include <string>
 
-namespace dealii
-{
-  class ParameterHandler;
-}
-
 namespace Exemplar
 {
+  class KeyTable;
+
   enum class FrameFormat
   {
     vtu
@@ -25,7 +22,7 @@ namespace Exemplar
     double       checkpoint_minutes = 5.;
 
     void
-    declare(dealii::ParameterHandler &prm);
+    declare(KeyTable &keys);
   };
 } // namespace Exemplar
 

@@ -2,7 +2,7 @@
 #ifndef exemplar_scene_file_h
 #define exemplar_scene_file_h
 
-#include <exemplar/prm/prm_tools.h>
+#include <exemplar/prm/key_table.h>
 #include <exemplar/run/scene_parameters.h>
 
 #include <filesystem>
@@ -57,7 +57,7 @@ namespace Exemplar
 
     /// All keys with the values in force; input files are absolute.
     std::vector<DeclaredKey>
-    keys() const;
+    get_keys() const;
 
     /// The input files that the scene needs.
     std::vector<std::filesystem::path>
@@ -81,11 +81,6 @@ namespace Exemplar
     declare_named_subsections(const std::vector<Assignment> &assignments);
 
     void
-    set(const std::vector<std::string> &subsections,
-        const std::string              &key,
-        const std::string              &value);
-
-    void
     make_selections_absolute();
 
     /// Take over as text what an interpolation has decided. Throws UserError where
@@ -96,7 +91,7 @@ namespace Exemplar
     const std::filesystem::path file;
     const std::string           text;
     SceneParameters             parameters;
-    dealii::ParameterHandler    prm; ///< bound to `parameters` and the names
+    KeyTable                    keys; ///< bound to `parameters` and the names
     std::vector<std::string>    handle_names;
     std::vector<std::string>    load_names;
   };

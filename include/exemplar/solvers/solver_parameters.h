@@ -4,13 +4,10 @@
 
 #include <string>
 
-namespace dealii
-{
-  class ParameterHandler;
-}
-
 namespace Exemplar
 {
+  class KeyTable;
+
   enum class Method
   {
     automatic,
@@ -46,7 +43,7 @@ namespace Exemplar
     LinearSolver  linear_solver      = LinearSolver::automatic;
 
     void
-    declare(dealii::ParameterHandler &prm);
+    declare(KeyTable &keys);
   };
 
   /// The method as scene files write it.

@@ -21,7 +21,7 @@ namespace Exemplar::Testing
     std::string
     text_of(const SceneFile &scene, const std::string &path)
     {
-      for (const DeclaredKey &key : scene.keys())
+      for (const DeclaredKey &key : scene.get_keys())
         if (key.path() == path)
           return key.value;
       return "absent";
