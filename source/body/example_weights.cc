@@ -3,7 +3,7 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
 #include <exemplar/body/example_weights.h>
-#include <exemplar/prm/prm_tools.h>
+#include <exemplar/prm/assignments.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,15 +13,6 @@ namespace Exemplar
 {
   namespace
   {
-    /// sigma for "auto" and "paper", in units of sum E V.
-    double
-    default_penalty(const ExampleParameters &parameters)
-    {
-      const bool weak
-          = parameters.weight_penalty == "auto" && parameters.weights == WeightRule::simplex;
-      return weak ? 1e-9 : 1e-5;
-    }
-
     /// The greater of two numbers; a NaN is the greatest, which std::max may pass over.
     double
     greater(const double a, const double b)
@@ -54,8 +45,7 @@ namespace Exemplar
     form.N.reinit(poses.n_regions(), n);
     if (are_unknown())
     {
-      const double sigma
-          = parameters.given_penalty().value_or(default_penalty(parameters) * unit_energy);
+      const double sigma = parameters.ridge(unit_energy);
       // a region has its part of the ridge, so that equal weights in all regions cost what
       // global ones do
       const std::vector<double> fraction = poses.volume_fractions();

@@ -2,7 +2,7 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
 #include <exemplar/body/handles.h>
-#include <exemplar/prm/prm_tools.h>
+#include <exemplar/prm/assignments.h>
 
 #include <cmath>
 #include <map>
@@ -28,19 +28,6 @@ namespace Exemplar
     }
 
     std::vector<dealii::Point<3>>
-    read_pose(const Mesh &mesh, const std::string &file, const std::string &key)
-    {
-      try
-      {
-        return mesh.read_pose(file);
-      }
-      catch (const UserError &error)
-      {
-        throw UserError(key + ": " + error.what());
-      }
-    }
-
-    std::vector<dealii::Point<3>>
     choose(const std::vector<dealii::Point<3>> &all, const std::vector<unsigned int> &nodes)
     {
       std::vector<dealii::Point<3>> chosen;
@@ -50,52 +37,15 @@ namespace Exemplar
     }
   } // namespace
 
-  void
-  HandleParameters::declare(dealii::ParameterHandler &prm)
-  {
-    prm.enter_subsection(name);
-    select.declare(prm, "The nodes that the handle holds");
-    prm.add_parameter(
-        "Motion", motion,
-        "Displacement [m] of the held nodes from their rest position: three functions "
-        "of the rest position x, y, z [m] and of t [s].");
-    prm.add_parameter(
-        "Components", components,
-        "The components that are held; fewer than x, y, z make a roller or a plane of "
-        "symmetry.");
-    declare_input_file(
-        prm, "Follow pose", follow_pose,
-        "A .msh file with the nodes and tetrahedra of the mesh: the held nodes go to "
-        "their places in this pose, turned and moved rigidly together, instead of "
-        "by Motion.");
-    prm.add_parameter("Progress", progress,
-                      "How far the nodes are on the way to the pose that they follow, a function "
-                      "of t [s]: 0 at rest, 1 in the pose.");
-    prm.leave_subsection();
-  }
-
-  void
-  HandleParameters::check() const
-  {
-    const std::string key = "Handles/" + name;
-    if (!follow_pose.empty()
-        && split_trimmed(motion, ';') != split_trimmed(HandleParameters().motion, ';'))
-      throw UserError(key + "/Follow pose and " + key + "/Motion = '" + motion
-                      + "' are both given, but only one of them can say where the nodes go. Remove "
-                        "one of them.");
-    if (follow_pose.empty() && progress != HandleParameters().progress)
-      throw UserError(key + "/Progress = '" + progress + "' is given, but no " + key
-                      + "/Follow pose. Give the pose that is followed, or remove Progress and put "
-                        "the function of t into Motion.");
-  }
-
   Handles::Handles(const std::vector<HandleParameters> &parameters,
                    const Mesh                          &mesh,
-                   const TimeAxis                      &axis)
+                   const TimeAxis                      &axis,
+                   const NamedPoses                    &poses,
+                   const NamedNodes                    &nodes)
       : mesh(mesh)
   {
     for (const HandleParameters &p : parameters)
-      handles.push_back(make_handle(p));
+      handles.push_back(make_handle(p, poses, nodes));
     dealii::Vector<double> anywhere(3 * mesh.n_nodes());
     move(axis.time(0), anywhere); // are the formulas finite?
     move(axis.time(axis.n_steps()), anywhere);
@@ -106,12 +56,14 @@ namespace Exemplar
   }
 
   Handles::Handle
-  Handles::make_handle(const HandleParameters &p) const
+  Handles::make_handle(const HandleParameters &p,
+                       const NamedPoses       &poses,
+                       const NamedNodes       &named_nodes) const
   {
     p.check();
     const std::string key = "Handles/" + p.name;
     Handle            handle{ p.name,
-                   p.select.nodes(mesh, key),
+                   p.select.nodes(mesh, key, named_nodes),
                    parse_components(p.components, key),
                    Expression(key + "/Motion", p.motion, "xyzt", 3),
                    Expression(key + "/Progress", p.progress, "t", 1),
@@ -119,7 +71,7 @@ namespace Exemplar
     if (!p.follow_pose.empty())
       handle.path.emplace(
           rest_positions(handle),
-          choose(read_pose(mesh, p.follow_pose, key + "/Follow pose"), handle.nodes));
+          choose(mesh.find_pose(poses, p.follow_pose, key + "/Follow pose"), handle.nodes));
     return handle;
   }
 

@@ -35,22 +35,12 @@ namespace Exemplar
     }
   } // namespace
 
-  void
-  LoadParameters::declare(dealii::ParameterHandler &prm)
-  {
-    prm.enter_subsection(name);
-    select.declare(prm, "Where the force acts");
-    prm.add_parameter("Force", force,
-                      "Total dead force [N], three functions of t [s]; shared by area over a "
-                      "boundary, by mass over other selections.");
-    prm.leave_subsection();
-  }
-
   Loads::Loads(const dealii::Tensor<1, 3>        &gravity,
                const std::vector<LoadParameters> &parameters,
                const Mesh                        &mesh,
                const FESpace                     &fe_space,
-               const Material                    &material)
+               const Material                    &material,
+               const NamedNodes                  &named_nodes)
   {
     const std::vector<double> masses = nodal_masses(fe_space, material);
     if (gravity.norm() > 0.)
@@ -63,7 +53,7 @@ namespace Exemplar
     for (const LoadParameters &p : parameters)
     {
       const std::string         key   = "Loads/" + p.name;
-      const auto                nodes = p.select.nodes(mesh, key);
+      const auto                nodes = p.select.nodes(mesh, key, named_nodes);
       const std::vector<double> weights
           = p.select.is_boundary() ? nodal_areas(mesh, p.select.faces(mesh, key)) : masses;
       std::vector<double> shares;

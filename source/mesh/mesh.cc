@@ -2,50 +2,16 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/mesh/mesh.h>
 #include <exemplar/mesh/mesh_checks.h>
-#include <exemplar/mesh/mesh_generation.h>
-#include <exemplar/prm/prm_tools.h>
 
 #include <deal.II/grid/tria_accessor.h>
 #include <deal.II/grid/tria_iterator.h>
 
 #include <algorithm>
-#include <cstdlib>
 
 namespace Exemplar
 {
   namespace
   {
-    const EnumTable<MeshGenerator> generator_names{ { MeshGenerator::none, "none" },
-                                                    { MeshGenerator::box, "box" } };
-
-    std::filesystem::path
-    msh_of(const std::string &file)
-    {
-      const std::filesystem::path path(file);
-      return path.extension() == ".geo" ? mesh_geo_file(path) : path;
-    }
-
-    MshFile
-    load(const MeshParameters &parameters)
-    {
-      const bool has_file = !parameters.file.empty();
-      const bool has_box  = parameters.generator == MeshGenerator::box;
-      if (has_file == has_box)
-        throw UserError(std::string("Mesh: ")
-                        + (has_file ? "both File and Generator are given" : "no mesh is given")
-                        + ". Set Mesh/File to a .msh or .geo file, or set Mesh/Generator = box; "
-                          "exactly one of them.");
-      if (!(parameters.scale > 0.))
-        throw UserError("Mesh/Scale: must be positive, found " + std::to_string(parameters.scale)
-                        + ". Leave it at 1 if the mesh is in metres.");
-
-      MshFile contents = has_box ? generate_box(parameters.box_size, parameters.box_cells)
-                                 : read_msh(msh_of(parameters.file));
-      for (auto &node : contents.nodes)
-        node *= parameters.scale;
-      return contents;
-    }
-
     /// The corners opposite to each corner of a positive tetrahedron,
     /// counterclockwise seen from outside.
     constexpr unsigned int outward_faces[4][3]
@@ -179,55 +145,20 @@ namespace Exemplar
     }
   } // namespace
 
-  void
-  MeshParameters::declare(dealii::ParameterHandler &prm)
-  {
-    using namespace dealii::Patterns;
-    prm.enter_subsection("Mesh");
-    declare_input_file(prm, "File", file,
-                       "The tetrahedral rest mesh: a gmsh .msh file of version 2.2 or 4.1, ASCII "
-                       "or binary, or a .geo file, which gmsh meshes (the result is kept in "
-                       "~/.cache/exemplar). Physical Volumes give material ids, Physical "
-                       "Surfaces boundary ids. Leave it empty if Generator = box.");
-    declare_enum(prm, "Generator", generator, generator_names,
-                 "box: generate a box instead of reading a file. It spans 0..Lx, -Ly/2..Ly/2, "
-                 "-Lz/2..Lz/2, in bricks of 6 tetrahedra each; nodes are numbered from 1, x "
-                 "fastest; boundary ids are 1, 2, 3, 4, 5, 6 for x-, x+, y-, y+, z-, z+; the "
-                 "material id is 1.");
-    prm.add_parameter(
-        "Box size", box_size,
-        "Lengths Lx, Ly, Lz of the generated box [m before Scale], each > 0. It goes from x = "
-        "0 to Lx and lies symmetric to y = 0 and z = 0.",
-        List(Double(0.), 3, 3));
-    prm.add_parameter("Box cells", box_cells,
-                      "Numbers of bricks of the generated box along x, y, z, each >= 1; every "
-                      "brick has 6 tetrahedra.",
-                      List(Integer(1), 3, 3));
-    prm.add_parameter("Scale", scale,
-                      "Factor > 0 that makes metres of the coordinates of the mesh and of its "
-                      "poses, e.g. 0.001 for millimetres. All other lengths are in metres; poses "
-                      "are written in the mesh's own unit.",
-                      Double(0.));
-    prm.leave_subsection();
-  }
-
   Mesh::Mesh(const MeshParameters &parameters)
-      : contents(load(parameters)),
-        name(parameters.generator == MeshGenerator::box ? "box" : parameters.file),
-        scale(parameters.scale)
+      : Mesh(load_mesh(parameters), parameters.name(), parameters.scale)
   {
-    build();
   }
 
-  Mesh::Mesh(MshFile file_contents, const std::string &file_name)
-      : contents(std::move(file_contents)), name(file_name)
+  Mesh::Mesh(MshFile file_contents, const std::string &file_name, const double scale)
+      : contents(std::move(file_contents)), name(file_name), scale(scale)
   {
-    build();
-  }
+    if (!(scale > 0.))
+      throw UserError("Mesh/Scale: must be positive, found " + std::to_string(scale)
+                      + ". Leave it at 1 if the mesh is in metres.");
+    for (auto &node : contents.nodes)
+      node *= scale;
 
-  void
-  Mesh::build()
-  {
     Tetrahedra tetrahedra = extract_tetrahedra(contents, name);
     const auto swapped    = orient_tetrahedra(contents, name, tetrahedra);
     if (!swapped.empty())

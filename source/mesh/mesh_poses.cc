@@ -64,15 +64,41 @@ namespace Exemplar
   } // namespace
 
   std::vector<dealii::Point<3>>
-  Mesh::read_pose(const std::filesystem::path &file) const
+  read_pose(const std::filesystem::path &file, const MshFile &mesh, const std::string &mesh_name)
   {
     MshFile           pose   = read_msh(file);
-    const std::string prefix = file.string() + " is no pose of " + name + ": ";
-    compare_node_numbers(contents, pose, prefix);
-    compare_tetrahedra(contents, pose, prefix);
-    for (auto &node : pose.nodes)
-      node *= scale;
+    const std::string prefix = file.string() + " is no pose of " + mesh_name + ": ";
+    compare_node_numbers(mesh, pose, prefix);
+    compare_tetrahedra(mesh, pose, prefix);
     return std::move(pose.nodes);
+  }
+
+  std::vector<dealii::Point<3>>
+  Mesh::scaled(std::vector<dealii::Point<3>> nodes) const
+  {
+    for (auto &node : nodes)
+      node *= scale;
+    return nodes;
+  }
+
+  std::vector<dealii::Point<3>>
+  Mesh::read_pose(const std::filesystem::path &file) const
+  {
+    return scaled(Exemplar::read_pose(file, contents, name));
+  }
+
+  std::vector<dealii::Point<3>>
+  Mesh::find_pose(const NamedPoses &poses, const std::string &pose, const std::string &key) const
+  {
+    const auto found = poses.find(pose);
+    if (found == poses.end())
+      throw UserError(key + ": there is no pose '" + pose
+                      + "' among the inputs. Hand it in by this name, or read it from a file.");
+    if (found->second.size() != n_nodes())
+      throw UserError(key + ": the pose '" + pose + "' has " + std::to_string(found->second.size())
+                      + " nodes, the mesh " + std::to_string(n_nodes())
+                      + ". Hand in a place for each node.");
+    return scaled(found->second);
   }
 
   void

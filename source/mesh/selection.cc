@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
+#include <exemplar/mesh/mesh.h>
 #include <exemplar/mesh/selection.h>
+#include <exemplar/prm/key_table.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <set>
 #include <sstream>
-#include <unordered_map>
 
 namespace Exemplar
 {
@@ -116,30 +116,21 @@ namespace Exemplar
     }
 
     std::vector<unsigned int>
-    nodes_in_file(const Mesh &mesh, const std::string &file, const std::string &key)
+    named_nodes(const Mesh        &mesh,
+                const NamedNodes  &named,
+                const std::string &name,
+                const std::string &key)
     {
-      std::ifstream in(file);
-      if (!in || std::filesystem::is_directory(file))
-        throw UserError(key + "/Select: the file of nodes " + file
-                        + " cannot be read. It lists node numbers of the mesh file, one a line.");
-      std::unordered_map<std::size_t, unsigned int> index;
-      const auto                                   &node_numbers = mesh.get_contents().node_numbers;
-      for (unsigned int node = 0; node < mesh.n_nodes(); ++node)
-        index[node_numbers[node]] = node;
-      std::set<unsigned int> nodes;
-      for (std::string word; in >> word;)
-      {
-        std::size_t        number = 0;
-        std::istringstream digits(word);
-        if (!(digits >> number) || !digits.eof() || index.count(number) == 0)
-          throw UserError(key + "/Select: '" + word + "' in " + file + " is no node number of "
-                          + mesh.get_name() + ". List node numbers of the mesh file, one a line.");
-        nodes.insert(index.at(number));
-      }
-      if (nodes.empty())
-        throw UserError(key + "/Select: " + file
-                        + " holds no node number. List node numbers of the "
-                          "mesh file, one a line.");
+      const auto found = named.find(name);
+      if (found == named.end())
+        throw UserError(key + "/Select: there are no nodes '" + name
+                        + "' among the inputs. Hand them in by this name, or read them from a "
+                          "file.");
+      const std::set<unsigned int> nodes(found->second.begin(), found->second.end());
+      if (!nodes.empty() && *nodes.rbegin() >= mesh.n_nodes())
+        throw UserError(key + "/Select: the nodes '" + name + "' have the index "
+                        + std::to_string(*nodes.rbegin()) + ", but the mesh has "
+                        + std::to_string(mesh.n_nodes()) + " nodes. They are counted from 0.");
       return { nodes.begin(), nodes.end() };
     }
 
@@ -161,19 +152,19 @@ namespace Exemplar
   } // namespace
 
   void
-  Selection::declare(dealii::ParameterHandler &prm, const std::string &what)
+  Selection::declare(KeyTable &keys, const std::string &what)
   {
-    prm.add_parameter("Select", text,
-                      what + ": " + forms
-                          + ". Boxes (inclusive) and spheres select by rest position [m]; a FILE "
-                            "lists node numbers of the mesh file.");
+    keys.add("Select", text,
+             what + ": " + forms
+                 + ". Boxes (inclusive) and spheres select by rest position [m]; a FILE "
+                   "lists node numbers of the mesh file.");
   }
 
   std::string
   Selection::absolute(const std::string &text, const std::filesystem::path &directory)
   {
     const Words words = split(text);
-    if (words.kind != "nodes")
+    if (words.kind != "nodes" || directory.empty())
       return text;
     return "nodes " + std::filesystem::absolute(directory / words.rest).lexically_normal().string();
   }
@@ -182,6 +173,13 @@ namespace Exemplar
   Selection::is_boundary() const
   {
     return split(text).kind == "boundary";
+  }
+
+  std::string
+  Selection::file() const
+  {
+    const Words words = split(text);
+    return words.kind == "nodes" ? words.rest : "";
   }
 
   std::vector<BoundaryFace>
@@ -205,7 +203,7 @@ namespace Exemplar
   }
 
   std::vector<unsigned int>
-  Selection::nodes(const Mesh &mesh, const std::string &key) const
+  Selection::nodes(const Mesh &mesh, const std::string &key, const NamedNodes &named) const
   {
     const Words               words = split(text);
     std::vector<unsigned int> nodes;
@@ -216,7 +214,7 @@ namespace Exemplar
     else if (words.kind == "region")
       nodes = nodes_of_region(mesh, id_number(words, key), key);
     else if (words.kind == "nodes")
-      nodes = nodes_in_file(mesh, words.rest, key);
+      nodes = named_nodes(mesh, named, words.rest, key);
     else if (words.kind == "boundary")
     {
       std::set<unsigned int> on_faces;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
+#include <exemplar/prm/assignments.h>
 #include <exemplar/prm/expression.h>
-#include <exemplar/prm/prm_tools.h>
 
 #include <muParser.h>
 

@@ -26,11 +26,12 @@ namespace Exemplar
     /// Whatever fails while the parts are built, the input is to blame: nothing has
     /// been solved yet.
     std::unique_ptr<Problem>
-    make_problem(const Parameters &parameters)
+    make_problem(const SceneParameters &parameters)
     {
       try
       {
-        auto problem = std::make_unique<Problem>(parameters);
+        const StepClock clock(Part::read);
+        auto problem = std::make_unique<Problem>(parameters, read_inputs(parameters), clock);
         for (const std::string &warning : problem->warnings())
           warn(warning);
         return problem;
@@ -45,7 +46,7 @@ namespace Exemplar
     print_header(const Problem &problem)
     {
       const BlasInfo blas = blas_info();
-      std::cout << "Scene     " << problem.parameters.scene_file.string() << '\n'
+      std::cout << "Scene     " << problem.parameters.name << '\n'
                 << "Mesh      " << problem.mesh.get_name() << ": " << problem.mesh.n_cells()
                 << " cells, " << problem.mesh.n_nodes() << " nodes, " << problem.free_dofs.size()
                 << " of " << problem.fe_space.n_dofs() << " dofs free\n"
@@ -154,9 +155,9 @@ namespace Exemplar
   void
   run_scene(const RunOptions &options)
   {
-    const Parameters parameters(options.scene_file, options.overrides);
-    const auto       problem = make_problem(parameters);
-    Results          results(*problem);
+    const SceneFile scene(options.scene_file, options.overrides);
+    const auto      problem = make_problem(scene.get_parameters());
+    Results         results(*problem, scene);
     try
     {
       if (options.resume)
@@ -198,7 +199,7 @@ namespace Exemplar
                         + ". Go on with --resume.");
     }
     progress.finish();
-    results.finish(status_name(parameters.solver.method == Method::one_pass
+    results.finish(status_name(problem->parameters.solver.method == Method::one_pass
                                    ? SolveStatus::one_pass
                                    : SolveStatus::converged));
     for (const std::string &warning : problem->warnings_at_end())
@@ -210,15 +211,15 @@ namespace Exemplar
   void
   validate_scene(const RunOptions &options)
   {
-    const Parameters parameters(options.scene_file, options.overrides);
-    const auto       problem = make_problem(parameters);
+    const SceneFile scene(options.scene_file, options.overrides);
+    const auto      problem = make_problem(scene.get_parameters());
     std::cout << options.scene_file.string() << ": valid; " << problem->mesh.n_cells() << " cells, "
               << problem->mesh.n_nodes() << " nodes, " << problem->time_axis.n_steps() << " steps"
               << std::endl;
   }
 
   void
-  check_parts(const Parameters &parameters)
+  check_parts(const SceneParameters &parameters)
   {
     make_problem(parameters);
   }
@@ -228,6 +229,6 @@ namespace Exemplar
   {
     std::cout << "# All parameters of exemplar with their defaults.\n"
               << "# Subsections NAME and region N stand for as many as a scene names.\n\n";
-    print_keys(std::cout, Parameters().keys(), true);
+    print_keys(std::cout, SceneFile::reference(), true);
   }
 } // namespace Exemplar

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
+#include <exemplar/run/initial_state.h>
 #include <exemplar/run/problem.h>
 
 #include <boost/archive/archive_exception.hpp>
@@ -16,23 +17,34 @@ namespace Exemplar
     /// 90 degrees. What frozen forces find depends on the support, so there it never may.
     constexpr double largest_turn = 0.7;
 
+    SceneParameters
+    completed(SceneParameters parameters)
+    {
+      parameters.complete();
+      parameters.check();
+      return parameters;
+    }
+
     TimeAxis
-    make_time_axis(const Parameters &parameters)
+    make_time_axis(const SceneParameters &parameters)
     {
       return parameters.scene == SceneKind::dynamic ? TimeAxis::of_dynamics(parameters.time)
                                                     : TimeAxis::of_increments(parameters.time);
     }
 
     std::unique_ptr<Handles>
-    make_handles(const Parameters &parameters, const Mesh &mesh, const TimeAxis &axis)
+    make_handles(const SceneParameters &parameters,
+                 const Mesh            &mesh,
+                 const TimeAxis        &axis,
+                 const Inputs          &inputs)
     {
       if (parameters.handles.empty())
         return nullptr;
-      return std::make_unique<Handles>(parameters.handles, mesh, axis);
+      return std::make_unique<Handles>(parameters.handles, mesh, axis, inputs.poses, inputs.nodes);
     }
 
     std::optional<StaticallyDeterminateSupport>
-    make_support(const Parameters &parameters, const Mesh &mesh)
+    make_support(const SceneParameters &parameters, const Mesh &mesh)
     {
       if (parameters.scene != SceneKind::interpolation)
         return {};
@@ -40,34 +52,37 @@ namespace Exemplar
     }
 
     std::unique_ptr<Loads>
-    make_loads(const Parameters &parameters,
-               const Mesh       &mesh,
-               const FESpace    &fe_space,
-               const Material   &material)
+    make_loads(const SceneParameters &parameters,
+               const Mesh            &mesh,
+               const FESpace         &fe_space,
+               const Material        &material,
+               const Inputs          &inputs)
     {
-      if (parameters.loads.empty() && parameters.gravity.norm() == 0.)
+      if (parameters.loads.empty() && !parameters.has_gravity())
         return nullptr;
-      return std::make_unique<Loads>(parameters.gravity, parameters.loads, mesh, fe_space,
-                                     material);
+      const auto &[x, y, z] = parameters.gravity;
+      return std::make_unique<Loads>(dealii::Tensor<1, 3>({ x, y, z }), parameters.loads, mesh,
+                                     fe_space, material, inputs.nodes);
     }
 
     std::unique_ptr<ExamplePoses>
-    make_examples(const Parameters &parameters,
-                  const Mesh       &mesh,
-                  const FESpace    &fe_space,
-                  const Material   &material)
+    make_examples(const SceneParameters &parameters,
+                  const Mesh            &mesh,
+                  const FESpace         &fe_space,
+                  const Material        &material,
+                  const Inputs          &inputs)
     {
       if (!parameters.examples.in_use())
         return nullptr;
       return std::make_unique<ExamplePoses>(parameters.examples, parameters.model.strain, mesh,
-                                            fe_space, material);
+                                            fe_space, material, inputs.poses);
     }
 
     std::unique_ptr<ExampleWeights>
-    make_weights(const Parameters   &parameters,
-                 const ExamplePoses *examples,
-                 const double        energy_of_unit_strain,
-                 const TimeAxis     &axis)
+    make_weights(const SceneParameters &parameters,
+                 const ExamplePoses    *examples,
+                 const double           energy_of_unit_strain,
+                 const TimeAxis        &axis)
     {
       if (examples == nullptr)
         return nullptr;
@@ -76,7 +91,7 @@ namespace Exemplar
     }
 
     std::unique_ptr<Mass>
-    make_mass(const Parameters &parameters, const FESpace &fe_space, const Material &material)
+    make_mass(const SceneParameters &parameters, const FESpace &fe_space, const Material &material)
     {
       if (parameters.scene != SceneKind::dynamic)
         return nullptr;
@@ -84,7 +99,7 @@ namespace Exemplar
     }
 
     std::unique_ptr<TimeIntegrator>
-    make_integrator(const Parameters &parameters)
+    make_integrator(const SceneParameters &parameters)
     {
       if (parameters.scene != SceneKind::dynamic)
         return nullptr;
@@ -191,13 +206,15 @@ namespace Exemplar
     }
   } // namespace
 
-  Problem::Problem(const Parameters &parameters)
-      : parameters(parameters), clock(Part::read), time_axis(make_time_axis(parameters)),
-        mesh(parameters.mesh), material(parameters.material, mesh.get_material_ids()),
-        fe_space(mesh), handles(make_handles(parameters, mesh, time_axis)),
+  Problem::Problem(SceneParameters scene, Inputs inputs, StepClock running_clock)
+      : parameters(completed(std::move(scene))), clock(std::move(running_clock)),
+        time_axis(make_time_axis(parameters)),
+        mesh(std::move(inputs.mesh), parameters.mesh.name(), parameters.mesh.scale),
+        material(parameters.material, mesh.get_material_ids()), fe_space(mesh),
+        handles(make_handles(parameters, mesh, time_axis, inputs)),
         support(make_support(parameters, mesh)), free_dofs(fe_space.n_dofs(), held_dofs()),
-        loads(make_loads(parameters, mesh, fe_space, material)),
-        examples(make_examples(parameters, mesh, fe_space, material)),
+        loads(make_loads(parameters, mesh, fe_space, material, inputs)),
+        examples(make_examples(parameters, mesh, fe_space, material, inputs)),
         weights(
             make_weights(parameters, examples.get(), unit_energy(fe_space, material), time_axis)),
         mass(make_mass(parameters, fe_space, material)), integrator(make_integrator(parameters)),
@@ -216,7 +233,8 @@ namespace Exemplar
                             mesh,
                             fe_space,
                             weights.get(),
-                            parameters.scene == SceneKind::dynamic))
+                            parameters.scene == SceneKind::dynamic,
+                            inputs.poses))
   {
     if (parameters.scene == SceneKind::statics)
       check_supports();
@@ -243,7 +261,7 @@ namespace Exemplar
       return {};
     const std::vector<unsigned int> held = handles->held_dofs();
     if (held.size() == fe_space.n_dofs())
-      throw UserError(parameters.scene_file.string()
+      throw UserError(parameters.name
                       + ": the handles hold every node, so there is nothing to solve. Make "
                         "Handles/NAME/Select smaller.");
     return held;
@@ -255,7 +273,7 @@ namespace Exemplar
     const unsigned int n_free = n_free_rigid_motions(mesh, held_dofs());
     if (n_free > 0)
       throw UserError(
-          parameters.scene_file.string() + ": the handles leave " + std::to_string(n_free)
+          parameters.name + ": the handles leave " + std::to_string(n_free)
           + " of 6 rigid motions free, so a static scene has no unique equilibrium. Add a "
             "subsection of Handles that holds three nodes not on a line (a box, a sphere "
             "or a boundary), or hold more Components.");

@@ -17,19 +17,19 @@ namespace Exemplar
   namespace
   {
     std::map<std::string, std::string>
-    values_of(const Parameters &parameters)
+    values_of(const SceneFile &scene)
     {
       std::map<std::string, std::string> values;
-      for (const DeclaredKey &key : parameters.keys())
+      for (const DeclaredKey &key : scene.get_keys())
         values[key.path()] = key.value;
       return values;
     }
 
     std::map<std::string, std::string>
-    digests_of(const Parameters &parameters)
+    digests_of(const SceneFile &scene)
     {
       std::map<std::string, std::string> digests;
-      for (const fs::path &file : parameters.input_files())
+      for (const fs::path &file : scene.input_files())
         digests[file.string()] = sha256(file);
       return digests;
     }
@@ -43,7 +43,7 @@ namespace Exemplar
     /// A resumed run may end later and write differently; all else must be the same.
     void
     check_same_scene(const Checkpoint                         &checkpoint,
-                     const Parameters                         &parameters,
+                     const SceneFile                          &scene,
                      const std::map<std::string, std::string> &input_digests,
                      const fs::path                           &file)
     {
@@ -57,7 +57,7 @@ namespace Exemplar
         const auto entry = values.find(key);
         return entry == values.end() ? absent : entry->second;
       };
-      const auto now  = values_of(parameters);
+      const auto now  = values_of(scene);
       auto       both = now;
       both.insert(checkpoint.parameters.begin(), checkpoint.parameters.end());
       for (const auto &entry : both)
@@ -108,19 +108,18 @@ namespace Exemplar
     }
 
     void
-    write_parameters(const Parameters &parameters, const fs::path &file)
+    write_parameters(const SceneFile &scene, const fs::path &file)
     {
       AtomicFile atomic_file(file);
       atomic_file.stream() << RunDirectory::mark << '\n';
-      print_keys(atomic_file.stream(), parameters.keys(), false);
+      print_keys(atomic_file.stream(), scene.get_keys(), false);
       atomic_file.commit();
     }
   } // namespace
 
-  Results::Results(Problem &problem)
-      : problem(problem), directory(problem.parameters.output.directory),
-        input_digests(digests_of(problem.parameters)),
-        last_checkpoint(std::chrono::steady_clock::now()),
+  Results::Results(Problem &problem, const SceneFile &scene)
+      : problem(problem), scene(scene), directory(problem.parameters.output.directory),
+        input_digests(digests_of(scene)), last_checkpoint(std::chrono::steady_clock::now()),
         vtu_writer(problem.parameters.output.every > 0
                        ? std::make_unique<const VtuWriter>(problem.mesh)
                        : nullptr),
@@ -131,15 +130,14 @@ namespace Exemplar
   void
   Results::begin()
   {
-    const Parameters &parameters = problem.parameters;
-    auto              inputs     = parameters.input_files();
-    inputs.push_back(parameters.scene_file);
+    auto inputs = scene.input_files();
+    inputs.push_back(scene.get_path());
     directory.check_for_new_run(inputs);
 
     {
       StepClock::Scope scope(problem.clock, Part::output);
       directory.clear();
-      write_parameters(parameters, directory.parameters_prm());
+      write_parameters(scene, directory.parameters_prm());
       write_original();
       statistics.emplace(directory.statistics());
       if (is_frame(0))
@@ -158,7 +156,7 @@ namespace Exemplar
   Results::resume()
   {
     const Checkpoint checkpoint = load_checkpoint(directory.checkpoint());
-    check_same_scene(checkpoint, problem.parameters, input_digests, directory.checkpoint());
+    check_same_scene(checkpoint, scene, input_digests, directory.checkpoint());
     const State &state = checkpoint.state;
     if (state.step > problem.time_axis.n_steps()
         || state.time != problem.time_axis.time(state.step))
@@ -171,7 +169,7 @@ namespace Exemplar
       StepClock::Scope scope(problem.clock, Part::output);
       statistics.emplace(directory.statistics(), checkpoint.statistics_bytes);
       write_original();
-      write_parameters(problem.parameters, directory.parameters_prm());
+      write_parameters(scene, directory.parameters_prm());
     }
     const auto earlier_every = checkpoint.parameters.find("Output/Every");
     const bool was_only_last = earlier_every != checkpoint.parameters.end()
@@ -198,7 +196,7 @@ namespace Exemplar
   Results::write_original() const
   {
     AtomicFile file(directory.original_prm());
-    file.stream() << problem.parameters.scene_text;
+    file.stream() << scene.get_text();
     file.commit();
   }
 
@@ -309,9 +307,8 @@ namespace Exemplar
   {
     background.drain(); // a resumed run writes no frame anew
     last_checkpoint = std::chrono::steady_clock::now();
-    save_checkpoint({ values_of(problem.parameters), input_digests, problem.state,
-                      problem.solver_memory(), problem.diagnostics.get_work(), totals,
-                      accepted_bytes },
+    save_checkpoint({ values_of(scene), input_digests, problem.state, problem.solver_memory(),
+                      problem.diagnostics.get_work(), totals, accepted_bytes },
                     directory.checkpoint());
   }
 } // namespace Exemplar

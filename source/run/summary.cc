@@ -52,8 +52,7 @@ namespace Exemplar
                 const std::string           &status,
                 const std::filesystem::path &file)
   {
-    const Parameters &parameters = problem.parameters;
-    const BlasInfo    blas       = blas_info();
+    const BlasInfo blas = blas_info();
 
     Json json;
     json["program"]          = "exemplar";
@@ -64,7 +63,7 @@ namespace Exemplar
     json["blas_core"]        = blas.core;
     json["blas_threads"]     = blas.threads;
     json["threads"]          = n_threads();
-    json["scene"]            = parameters.scene_file.string();
+    json["scene"]            = problem.parameters.name;
     json["mesh"]             = problem.mesh.get_name();
     json["mesh_sha256"]      = mesh_sha256;
     json["cells"]            = problem.mesh.n_cells();

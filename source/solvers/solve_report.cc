@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/prm/prm_tools.h>
+#include <exemplar/prm/key_table.h>
 #include <exemplar/solvers/solve_report.h>
 
 namespace Exemplar

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/prm/prm_tools.h>
+#include <exemplar/prm/key_table.h>
 #include <exemplar/solvers/solver_parameters.h>
 
 namespace Exemplar
@@ -22,11 +22,11 @@ namespace Exemplar
   } // namespace
 
   void
-  SolverParameters::declare(dealii::ParameterHandler &prm)
+  SolverParameters::declare(KeyTable &keys)
   {
-    prm.enter_subsection("Solver");
-    declare_enum(
-        prm, "Method", method, methods,
+    keys.enter_subsection("Solver");
+    keys.add(
+        "Method", method, methods,
         "one pass: the paper's, one linear solve with frozen rotations a step; fixed "
         "point: the same, repeated until the residual is below Tolerance; newton: descent on "
         "the energy with its exact tangent, or as much of a convex one as it takes; quasi newton: "
@@ -34,35 +34,34 @@ namespace Exemplar
         "quasi newton where it is possible (not with Linear solver = iterative), newton in other "
         "scenes, fixed point with frozen "
         "forces, for which nothing else converges.");
-    prm.add_parameter("Tolerance", tolerance,
-                      "Relative residual at which a step has converged: the greatest free residual "
-                      "force over the greatest nodal force scale. Not used by one pass.",
-                      dealii::Patterns::Double(1e-16, 1.));
-    prm.add_parameter("Step tolerance", step_tolerance,
-                      "Error of the positions at which a step of quasi newton has converged, "
-                      "over the greatest displacement in this step; its relative residual must be "
-                      "as small, too. Not used by other methods.",
-                      dealii::Patterns::Double(0., 1.));
-    prm.add_parameter(
-        "Maximum iterations", maximum_iterations,
-        "Iterations after which a step without convergence ends the run with status "
-        "2; newton first tries half the step, up to six times, with as many each. Not "
-        "used by one pass.",
-        dealii::Patterns::Integer(1));
-    declare_enum(
-        prm, "Rotations", rotations, pass_rotations,
+    keys.add("Tolerance", tolerance,
+             "Relative residual at which a step has converged: the greatest free residual "
+             "force over the greatest nodal force scale. Not used by one pass.",
+             Bounds{ 1e-16, 1. });
+    keys.add("Step tolerance", step_tolerance,
+             "Error of the positions at which a step of quasi newton has converged, "
+             "over the greatest displacement in this step; its relative residual must be "
+             "as small, too. Not used by other methods.",
+             Bounds{ 0., 1. });
+    keys.add("Maximum iterations", maximum_iterations,
+             "Iterations after which a step without convergence ends the run with status "
+             "2; newton first tries half the step, up to six times, with as many each. Not "
+             "used by one pass.",
+             Bounds{ 1 });
+    keys.add(
+        "Rotations", rotations, pass_rotations,
         "Rotations of the cells in one pass, and in the first pass of fixed point: last: those of "
         "the last step's positions, as in the paper; predicted: those of positions that the last "
         "velocities predict, for dynamic scenes. Not used by other methods.");
-    declare_enum(
-        prm, "Linear solver", linear_solver, linear_solvers,
+    keys.add(
+        "Linear solver", linear_solver, linear_solvers,
         "cholesky: CHOLMOD factorises the positions' block, the weights follow from a "
         "dense Schur complement; iterative: the same with conjugate gradients and algebraic "
         "multigrid in place of the factor, for large meshes; umfpack: the whole bordered matrix "
         "at once, for checking; auto: cholesky, also for quasi newton, which needs a factor, or "
         "iterative where that is faster by CHOLMOD's count of operations, in compact bodies from "
         "about 40,000 degrees of freedom.");
-    prm.leave_subsection();
+    keys.leave_subsection();
   }
 
   std::string

@@ -5,8 +5,8 @@
 #include <exemplar/base/number_text.h>
 #include <exemplar/base/progress.h>
 #include <exemplar/mesh/mesh.h>
-#include <exemplar/run/parameters.h>
 #include <exemplar/run/run_directory.h>
+#include <exemplar/run/scene_file.h>
 #include <exemplar/study/study.h>
 #include <exemplar/study/study_directory.h>
 #include <exemplar/study/study_plan.h>
@@ -39,14 +39,14 @@ namespace Exemplar
       FinalPose
       read(const PlannedRun &run, const fs::path &directory)
       {
-        const Parameters parameters(study.scene, scene_text, run.assignments);
-        std::string      key;
-        for (const DeclaredKey &declared : parameters.keys())
+        const SceneFile scene(study.scene, scene_text, run.assignments);
+        std::string     key;
+        for (const DeclaredKey &declared : scene.get_keys())
           if (declared.subsections == std::vector<std::string>{ "Mesh" })
             key += declared.value + "\n";
         std::unique_ptr<const Mesh> &mesh = meshes[key];
         if (mesh == nullptr)
-          mesh = std::make_unique<const Mesh>(parameters.mesh);
+          mesh = std::make_unique<const Mesh>(scene.get_parameters().mesh);
         return { *mesh, RunDirectory(directory).final_pose() };
       }
 

@@ -2,6 +2,8 @@
 #include <exemplar/study/study_axes.h>
 #include <exemplar/study/study_file.h>
 
+#include <deal.II/base/patterns.h>
+
 #include <algorithm>
 
 namespace Exemplar
@@ -18,17 +20,17 @@ namespace Exemplar
       std::string  columns, probe;
 
       void
-      declare(dealii::ParameterHandler &prm)
+      declare(KeyTable &keys)
       {
-        declare_input_file(prm, "Scene", scene, "The scene that is run. To be set in every study.");
-        prm.add_parameter("Base", base,
-                          "Keys of all runs on top of the scene's: Section/Key=value, separated by "
-                          "';'. Input files are relative to the scene. Frames are only written if "
-                          "Output/Every is set here.");
-        prm.add_parameter("Reference", reference,
-                          "Keys of the reference run on top of Base. Empty: no reference, and no "
-                          "errors.");
-        prm.add_parameter(
+        keys.add_file("Scene", scene, "The scene that is run. To be set in every study.");
+        keys.add("Base", base,
+                 "Keys of all runs on top of the scene's: Section/Key=value, separated by "
+                 "';'. Input files are relative to the scene. Frames are only written if "
+                 "Output/Every is set here.");
+        keys.add("Reference", reference,
+                 "Keys of the reference run on top of Base. Empty: no reference, and no "
+                 "errors.");
+        keys.add(
             "Vary", vary,
             "Axes separated by '|', each Section/Key: values; the runs are all combinations. "
             "Values "
@@ -37,21 +39,19 @@ namespace Exemplar
             "together are joined by '+', and so are their values. Values that hold separators are "
             "put "
             "in double quotes, here and in Base. To be set in every study.");
-        prm.add_parameter("Repeats", repeats,
-                          "How often each combination is run, for the median of the seconds.",
-                          dealii::Patterns::Integer(1));
-        prm.add_parameter("Timeout", timeout,
-                          "Seconds after which a run is ended, with the status timeout; 0: never.",
-                          dealii::Patterns::Double(0.));
-        prm.add_parameter("Threads", threads, "Threads of each run.",
-                          dealii::Patterns::Integer(1, 1024));
-        prm.add_parameter("Columns", columns,
-                          "Columns of statistics.csv whose values at the end are columns of the "
-                          "study's tables, separated by commas: weight_0, reaction_tip_z.");
-        prm.add_parameter("Probe", probe,
-                          "Rest position x, y, z [m], separated by commas, whose displacement at "
-                          "the end is in the columns probe_x, probe_y and probe_z [m]: that of the "
-                          "nearest node. Empty: no such columns.");
+        keys.add("Repeats", repeats,
+                 "How often each combination is run, for the median of the seconds.", Bounds{ 1 });
+        keys.add("Timeout", timeout,
+                 "Seconds after which a run is ended, with the status timeout; 0: never.",
+                 Bounds{ 0. });
+        keys.add("Threads", threads, "Threads of each run.", Bounds{ 1, 1024 });
+        keys.add("Columns", columns,
+                 "Columns of statistics.csv whose values at the end are columns of the "
+                 "study's tables, separated by commas: weight_0, reaction_tip_z.");
+        keys.add("Probe", probe,
+                 "Rest position x, y, z [m], separated by commas, whose displacement at "
+                 "the end is in the columns probe_x, probe_y and probe_z [m]: that of the "
+                 "nearest node. Empty: no such columns.");
       }
     };
 
@@ -106,10 +106,10 @@ namespace Exemplar
         throw UserError(file.string() + ": " + key
                         + " is not set. A study has lines 'set Scene = FILE.prm' and 'set Vary = "
                           "Section/Key: value value ...'.");
-    dealii::ParameterHandler prm;
-    Entries                  entries;
-    entries.declare(prm);
-    apply_assignments(prm, given, std::filesystem::absolute(file).parent_path());
+    KeyTable keys;
+    Entries  entries;
+    entries.declare(keys);
+    keys.apply(given, std::filesystem::absolute(file).parent_path());
 
     const auto place = [&](const std::string &key)
     {
@@ -172,10 +172,10 @@ namespace Exemplar
   std::vector<DeclaredKey>
   study_keys()
   {
-    dealii::ParameterHandler prm;
-    Entries                  entries;
-    entries.declare(prm);
-    return declared_keys(prm);
+    KeyTable keys;
+    Entries  entries;
+    entries.declare(keys);
+    return keys.keys();
   }
 
   bool

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/number_text.h>
 #include <exemplar/mesh/mesh.h>
-#include <exemplar/prm/prm_tools.h>
+#include <exemplar/prm/assignments.h>
 #include <exemplar/study/study_measures.h>
 
 #include <nlohmann/json.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/run/drivers.h>
-#include <exemplar/run/parameters.h>
+#include <exemplar/run/scene_file.h>
 #include <exemplar/study/study_plan.h>
 #include <exemplar/study/study_table.h>
 
@@ -10,15 +10,15 @@ namespace Exemplar
 {
   namespace
   {
-    /// The parameters of a run, or null where its values are refused.
-    std::unique_ptr<const Parameters>
-    parameters_of(const std::vector<Assignment> &assignments,
-                  const Study                   &study,
-                  const std::string             &scene_text)
+    /// The scene of a run, or null where its values are refused.
+    std::unique_ptr<const SceneFile>
+    scene_of(const std::vector<Assignment> &assignments,
+             const Study                   &study,
+             const std::string             &scene_text)
     {
       try
       {
-        return std::make_unique<const Parameters>(study.scene, scene_text, assignments);
+        return std::make_unique<const SceneFile>(study.scene, scene_text, assignments);
       }
       catch (const UnknownKey &)
       {
@@ -32,11 +32,11 @@ namespace Exemplar
 
     /// Whether a run can be built; why not is in `refusal`, if nothing is there yet.
     bool
-    can_be_built(const Parameters &parameters, std::string &refusal)
+    can_be_built(const SceneFile &scene, std::string &refusal)
     {
       try
       {
-        check_parts(parameters);
+        check_parts(scene.get_parameters());
         return true;
       }
       catch (const UserError &error)
@@ -57,18 +57,16 @@ namespace Exemplar
     std::string refusal;
     const auto  plan = [&](const std::vector<unsigned int> &choice, const auto &assignments)
     {
-      const auto parameters = parameters_of(assignments, study, scene_text);
-      parts_are_checked
-          = parts_are_checked || (parameters != nullptr && can_be_built(*parameters, refusal));
-      using Files = std::vector<std::filesystem::path>;
-      return PlannedRun{ names.name(assignments,
-                                    parameters != nullptr ? parameters->input_files() : Files()),
+      const auto scene  = scene_of(assignments, study, scene_text);
+      parts_are_checked = parts_are_checked || (scene != nullptr && can_be_built(*scene, refusal));
+      using Files       = std::vector<std::filesystem::path>;
+      return PlannedRun{ names.name(assignments, scene != nullptr ? scene->input_files() : Files()),
                          choice, assignments };
     };
     if (!study.reference.empty())
     {
       const auto assignments = study.reference_assignments();
-      Parameters(study.scene, scene_text, assignments); // throws if it is refused
+      SceneFile(study.scene, scene_text, assignments); // throws if it is refused
       reference = plan({}, assignments);
       if (!parts_are_checked)
         throw UserError(refusal);
@@ -77,7 +75,7 @@ namespace Exemplar
       runs.push_back(plan(choice, study.assignments(choice)));
     if (parts_are_checked)
       return;
-    Parameters(study.scene, scene_text, runs.at(0).assignments); // throws if that is why
+    SceneFile(study.scene, scene_text, runs.at(0).assignments); // throws if that is why
     throw UserError(refusal);
   }
 

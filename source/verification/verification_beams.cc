@@ -144,24 +144,25 @@ namespace Exemplar::Verification
     double
     cook_deflection(const double poisson, const unsigned int cells)
     {
-      const MovedBox membrane({ { 1., 1., 1. } }, { { cells, cells, 1 } },
-                              [](const dealii::Point<3> &p)
-                              {
-                                const double eta = p[1] + 0.5;
-                                return dealii::Point<3>(
-                                    48. * p[0], 44. * p[0] + eta * (44. - 28. * p[0]), p[2]);
-                              });
-      const double   force = 1e-4; // of the small load, for which the result is linear
-      const auto     plane = set("Components", "z");
-      Scene          scene(
-                   set("Scene", "static") + membrane.section()
-                   + section("Material", set("Young's modulus", 1.) + set("Poisson's ratio", poisson))
-                   + named_sections("Handles", { { "end", set("Select", "boundary 1") },
-                                                 { "back", set("Select", "boundary 5") + plane },
-                                                 { "front", set("Select", "boundary 6") + plane } })
-                   + named_sections(
-                       "Loads", { { "edge", set("Select", "boundary 2") + set("Force", "0; 1e-4*t; 0") } })
-                   + increments(1));
+      const Inputs membrane = moved_box(
+          { { 1., 1., 1. } }, { { cells, cells, 1 } },
+          [](const dealii::Point<3> &p)
+          {
+            const double eta = p[1] + 0.5;
+            return dealii::Point<3>(48. * p[0], 44. * p[0] + eta * (44. - 28. * p[0]), p[2]);
+          });
+      const double force = 1e-4; // of the small load, for which the result is linear
+      const auto   plane = set("Components", "z");
+      Scene        scene(
+                 set("Scene", "static")
+                     + section("Material", set("Young's modulus", 1.) + set("Poisson's ratio", poisson))
+                     + named_sections("Handles", { { "end", set("Select", "boundary 1") },
+                                                   { "back", set("Select", "boundary 5") + plane },
+                                                   { "front", set("Select", "boundary 6") + plane } })
+                     + named_sections("Loads", { { "edge", set("Select", "boundary 2")
+                                                               + set("Force", "0; 1e-4*t; 0") } })
+                     + increments(1),
+                 {}, membrane);
       return mean_displacement(scene.problem, scene.solve(), "box 47.9 51.9 -1 48.1 52.1 1")[1]
              / force;
     }

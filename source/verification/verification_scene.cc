@@ -2,28 +2,20 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
 #include <exemplar/mesh/mesh_generation.h>
+#include <exemplar/run/scene_file.h>
 #include <exemplar/verification/verification_scene.h>
 
 #include <cmath>
-#include <unistd.h>
 
 namespace Exemplar::Verification
 {
-  namespace
+  Scene::Scene(const std::string &text, const std::vector<std::string> &overrides, Inputs inputs)
+      : Scene(SceneFile("", text, overrides).get_parameters(), std::move(inputs))
   {
-    /// A name that no other object and no other process has.
-    std::filesystem::path
-    temporary_msh()
-    {
-      static unsigned int n_files = 0;
-      return std::filesystem::temp_directory_path()
-             / ("exemplar_verify_" + std::to_string(::getpid()) + "_" + std::to_string(n_files++)
-                + ".msh");
-    }
-  } // namespace
+  }
 
-  Scene::Scene(const std::string &text, const std::vector<std::string> &overrides)
-      : parameters("scene", text, overrides), problem(parameters)
+  Scene::Scene(const SceneParameters &parameters, Inputs inputs)
+      : problem(parameters, read_inputs(parameters, std::move(inputs)))
   {
   }
 
@@ -41,27 +33,15 @@ namespace Exemplar::Verification
     return problem.state;
   }
 
-  MovedBox::MovedBox(const std::array<double, 3>       &size,
-                     const std::array<unsigned int, 3> &n_cells,
-                     const Map                         &map)
-      : file(temporary_msh())
+  Inputs
+  moved_box(const std::array<double, 3>                                     &size,
+            const std::array<unsigned int, 3>                               &n_cells,
+            const std::function<dealii::Point<3>(const dealii::Point<3> &)> &map)
   {
-    MshFile msh = generate_box(size, n_cells);
-    for (dealii::Point<3> &node : msh.nodes)
+    Inputs inputs{ generate_box(size, n_cells), {}, {} };
+    for (dealii::Point<3> &node : inputs.mesh.nodes)
       node = map(node);
-    write_msh(msh, file);
-  }
-
-  MovedBox::~MovedBox()
-  {
-    std::error_code ignored; // nothing to be done about a file that cannot be removed
-    std::filesystem::remove(file, ignored);
-  }
-
-  std::string
-  MovedBox::section() const
-  {
-    return Verification::section("Mesh", set("File", file.string()));
+    return inputs;
   }
 
   std::string

@@ -16,7 +16,7 @@ namespace Exemplar::Verification
   namespace
   {
     /// A box of 2 x 1 x 1 whose interior nodes are off their places by up to 0.1.
-    MovedBox
+    Inputs
     irregular_box()
     {
       std::mt19937                           generator(1);
@@ -26,15 +26,15 @@ namespace Exemplar::Verification
         return p[0] > 1e-9 && p[0] < 2. - 1e-9 && std::abs(p[1]) < 0.5 - 1e-9
                && std::abs(p[2]) < 0.5 - 1e-9;
       };
-      return MovedBox({ { 2., 1., 1. } }, { { 4, 3, 3 } },
-                      [&](const dealii::Point<3> &p)
-                      {
-                        dealii::Point<3> moved = p;
-                        if (is_inside(p))
-                          for (unsigned int c = 0; c < 3; ++c)
-                            moved[c] += uniform(generator);
-                        return moved;
-                      });
+      return moved_box({ { 2., 1., 1. } }, { { 4, 3, 3 } },
+                       [&](const dealii::Point<3> &p)
+                       {
+                         dealii::Point<3> moved = p;
+                         if (is_inside(p))
+                           for (unsigned int c = 0; c < 3; ++c)
+                             moved[c] += uniform(generator);
+                         return moved;
+                       });
     }
 
     std::vector<Measurement>
@@ -47,12 +47,12 @@ namespace Exemplar::Verification
         faces.emplace_back("face " + std::to_string(face),
                            set("Select", "boundary " + std::to_string(face))
                                + set("Motion", motion));
-      const MovedBox box = irregular_box();
-      Scene          scene(set("Scene", "static") + box.section() + named_sections("Handles", faces)
-                           + section("Time", set("Increments", "2"))
-                           + section("Solver", set("Tolerance", 1e-13)));
-      const State    state = scene.solve();
-      const auto     field = moved_rigidly(scene.problem.fe_space.rest_positions(), F, {});
+      Scene       scene(set("Scene", "static") + named_sections("Handles", faces)
+                            + section("Time", set("Increments", "2"))
+                            + section("Solver", set("Tolerance", 1e-13)),
+                        {}, irregular_box());
+      const State state = scene.solve();
+      const auto  field = moved_rigidly(scene.problem.fe_space.rest_positions(), F, {});
       return { { "inside less affine field", 0., max_difference(state.positions, field),
                  Comparison::absolute, 1e-12 } };
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/environment.h>
 #include <exemplar/run/problem.h>
+#include <exemplar/run/scene_file.h>
 
 #include <deal.II/base/multithread_info.h>
 
@@ -14,10 +15,17 @@ namespace Exemplar
 {
   namespace
   {
+    Problem
+    problem_of(const std::string &file, const std::vector<std::string> &overrides = {})
+    {
+      const SceneFile scene(file, overrides);
+      return { scene.get_parameters(), read_inputs(scene.get_parameters()) };
+    }
+
     struct Scene
     {
       explicit Scene(const std::string &file)
-          : parameters(file, {}), problem(parameters), batches(problem.fe_space, problem.material),
+          : problem(problem_of(file)), batches(problem.fe_space, problem.material),
             positions(problem.fe_space.rest_positions()), node_positions(4 * positions.size() / 3)
       {
         // strains and turns of some tenths, different in every cell
@@ -31,7 +39,6 @@ namespace Exemplar
         forces.resize(node_positions.size());
       }
 
-      const Parameters              parameters;
       Problem                       problem;
       CellBatches                   batches;
       dealii::Vector<double>        positions;

@@ -3,6 +3,7 @@
 #include <exemplar/base/environment.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/run/problem.h>
+#include <exemplar/run/scene_file.h>
 
 #include "benchmark_unit.h"
 
@@ -50,13 +51,19 @@ namespace Exemplar
       return overrides;
     }
 
+    Problem
+    problem_of(const std::string &file, const std::vector<std::string> &overrides = {})
+    {
+      const SceneFile scene(file, overrides);
+      return { scene.get_parameters(), read_inputs(scene.get_parameters()) };
+    }
+
     /// The same scene, each of its steps solved to the end from where the measured one starts.
     class Reference
     {
     public:
       explicit Reference(const Options &options)
-          : parameters(options.scene_file, overrides_of_reference(options.overrides)),
-            problem(parameters)
+          : problem(problem_of(options.scene_file, overrides_of_reference(options.overrides)))
       {
       }
 
@@ -80,8 +87,7 @@ namespace Exemplar
       unsigned int        failures = 0;
 
     private:
-      const Parameters parameters;
-      Problem          problem;
+      Problem problem;
     };
 
     /// Of this process, in bytes.
@@ -98,7 +104,7 @@ namespace Exemplar
     public:
       explicit Benchmark(const Options &options)
           : options(options), resident_before(memory().VmRSS),
-            parameters(options.scene_file, options.overrides), problem(parameters)
+            problem(problem_of(options.scene_file, options.overrides))
       {
         if (options.reference)
           reference = std::make_unique<Reference>(options);
@@ -182,7 +188,7 @@ namespace Exemplar
       add_scene(Json &json) const
       {
         json["scene"]    = std::filesystem::path(options.scene_file).stem().string();
-        json["method"]   = method_name(parameters.solver.method);
+        json["method"]   = method_name(problem.parameters.solver.method);
         json["examples"] = problem.examples != nullptr ? problem.examples->size() : 0;
         json["cells"]    = problem.mesh.n_cells();
         json["dofs"]     = problem.free_dofs.size();
@@ -268,7 +274,6 @@ namespace Exemplar
 
       const Options              options;
       const double               resident_before; ///< [KiB]
-      const Parameters           parameters;
       Problem                    problem;
       std::unique_ptr<Reference> reference;
       Unit                       unit;

@@ -2,6 +2,7 @@
 #ifndef exemplar_example_poses_h
 #define exemplar_example_poses_h
 
+#include <exemplar/body/example_parameters.h>
 #include <exemplar/body/fe_space.h>
 #include <exemplar/body/material.h>
 #include <exemplar/body/region_shares.h>
@@ -9,7 +10,6 @@
 #include <exemplar/kernels/symmetric.h>
 
 #include <deal.II/base/aligned_vector.h>
-#include <deal.II/base/parameter_handler.h>
 #include <deal.II/lac/full_matrix.h>
 
 #include <optional>
@@ -18,49 +18,6 @@
 
 namespace Exemplar
 {
-  enum class ExampleEnergy
-  {
-    scaled,
-    blended
-  };
-
-  enum class WeightRule
-  {
-    simplex,
-    free,
-    prescribed
-  };
-
-  /// Subsection Examples.
-  struct ExampleParameters
-  {
-    std::vector<std::string> poses;
-    std::string              pose_functions;
-    bool                     include_rest_pose = true;
-    double                   importance        = 0.8; ///< eta
-    std::string              weight_penalty    = "auto";
-    ExampleEnergy            energy            = ExampleEnergy::scaled;
-    WeightRule               weights           = WeightRule::simplex;
-    std::string              prescribed_weights;
-    bool                     weights_per_region  = false;
-    double                   region_blend_length = 0.; ///< [m]
-
-    void
-    declare(dealii::ParameterHandler &prm);
-
-    /// sigma [J] if Weight penalty is a number that is not negative.
-    std::optional<double>
-    given_penalty() const;
-
-    /// Whether any pose is given and its importance is not 0.
-    bool
-    in_use() const;
-
-    /// Throws UserError for what no pattern can tell.
-    void
-    check() const;
-  };
-
   /// sum E V over the cells [J]: the scale of the energy of a strain of 1.
   double
   unit_energy(const FESpace &fe_space, const Material &material);
@@ -72,12 +29,13 @@ namespace Exemplar
   class ExamplePoses
   {
   public:
-    /// Reads the pose files. Throws UserError for a pose on another mesh.
+    /// Those of Examples/Poses are among `poses`. Throws UserError for one that is not.
     ExamplePoses(const ExampleParameters &parameters,
                  StrainMeasure            measure,
                  const Mesh              &mesh,
                  const FESpace           &fe_space,
-                 const Material          &material);
+                 const Material          &material,
+                 const NamedPoses        &poses = {});
 
     /// Number of examples.
     unsigned int

@@ -2,12 +2,12 @@
 #ifndef exemplar_handles_h
 #define exemplar_handles_h
 
+#include <exemplar/body/handle_parameters.h>
 #include <exemplar/body/time_axis.h>
+#include <exemplar/mesh/mesh.h>
 #include <exemplar/mesh/rigid_motion.h>
-#include <exemplar/mesh/selection.h>
 #include <exemplar/prm/expression.h>
 
-#include <deal.II/base/parameter_handler.h>
 #include <deal.II/lac/vector.h>
 
 #include <optional>
@@ -17,25 +17,6 @@
 
 namespace Exemplar
 {
-  /// A subsection of Handles.
-  struct HandleParameters
-  {
-    std::string name;
-    Selection   select;
-    std::string motion     = "0; 0; 0";
-    std::string components = "x, y, z";
-    std::string follow_pose; ///< a file; empty: `motion` says where the nodes go
-    std::string progress = "t";
-
-    void
-    declare(dealii::ParameterHandler &prm);
-
-    /// Throws UserError if both a motion and a pose to follow are given, or a
-    /// progress without a pose.
-    void
-    check() const;
-  };
-
   /// A turn of points of which each moves on a straight line, so that they are crushed
   /// towards the axis on the way.
   struct StraightTurn
@@ -54,12 +35,14 @@ namespace Exemplar
   class Handles
   {
   public:
-    /// Throws UserError for a selection without nodes, a formula that is not
-    /// understood, a pose that is none of the mesh, and for handles that overlap and
-    /// disagree in any step.
+    /// The poses that handles follow are among `poses`, the files of nodes among `nodes`.
+    /// Throws UserError for a selection without nodes, a formula that is not understood, a
+    /// pose that is not there, and for handles that overlap and disagree in any step.
     Handles(const std::vector<HandleParameters> &parameters,
             const Mesh                          &mesh,
-            const TimeAxis                      &axis);
+            const TimeAxis                      &axis,
+            const NamedPoses                    &poses = {},
+            const NamedNodes                    &nodes = {});
 
     /// Degrees of freedom 3 i + c that are held, ascending, each once.
     std::vector<unsigned int>
@@ -108,7 +91,9 @@ namespace Exemplar
     };
 
     Handle
-    make_handle(const HandleParameters &parameters) const;
+    make_handle(const HandleParameters &parameters,
+                const NamedPoses       &poses,
+                const NamedNodes       &nodes) const;
 
     std::vector<dealii::Point<3>>
     rest_positions(const Handle &handle) const;

@@ -3,11 +3,10 @@
 #define exemplar_loads_h
 
 #include <exemplar/body/fe_space.h>
+#include <exemplar/body/load_parameters.h>
 #include <exemplar/body/material.h>
-#include <exemplar/mesh/selection.h>
 #include <exemplar/prm/expression.h>
 
-#include <deal.II/base/parameter_handler.h>
 #include <deal.II/lac/vector.h>
 
 #include <string>
@@ -15,27 +14,18 @@
 
 namespace Exemplar
 {
-  /// A subsection of Loads.
-  struct LoadParameters
-  {
-    std::string name;
-    Selection   select;
-    std::string force = "0; 0; 0";
-
-    void
-    declare(dealii::ParameterHandler &prm);
-  };
-
   /// Gravity and dead forces.
   class Loads
   {
   public:
-    /// Throws UserError for a load that selects nothing or that is not understood.
+    /// The files of nodes are among `nodes`. Throws UserError for a load that selects nothing or
+    /// that is not understood.
     Loads(const dealii::Tensor<1, 3>        &gravity,
           const std::vector<LoadParameters> &parameters,
           const Mesh                        &mesh,
           const FESpace                     &fe_space,
-          const Material                    &material);
+          const Material                    &material,
+          const NamedNodes                  &nodes = {});
 
     bool
     has_gravity() const

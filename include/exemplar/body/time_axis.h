@@ -2,30 +2,10 @@
 #ifndef exemplar_time_axis_h
 #define exemplar_time_axis_h
 
-#include <deal.II/base/parameter_handler.h>
+#include <exemplar/body/time_parameters.h>
 
 namespace Exemplar
 {
-  enum class TimeScheme
-  {
-    implicit_euler,
-    bdf2
-  };
-
-  /// Subsection Time.
-  struct TimeParameters
-  {
-    TimeScheme   scheme            = TimeScheme::implicit_euler;
-    double       step              = 0.01; ///< h [s]
-    double       end               = 1.;   ///< [s]
-    double       mass_damping      = 0.;   ///< [1/s]
-    double       stiffness_damping = 0.;   ///< [s]
-    unsigned int increments        = 10;   ///< of statics and interpolation
-
-    void
-    declare(dealii::ParameterHandler &prm);
-  };
-
   /// The times at which a scene is solved: 0, h, 2 h, ... End in dynamics, the last
   /// step shorter if End is no whole number of steps; n increments of [0,1] otherwise.
   /// Times are computed from the number of the step, never accumulated, so that a

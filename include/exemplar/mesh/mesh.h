@@ -2,9 +2,8 @@
 #ifndef exemplar_mesh_h
 #define exemplar_mesh_h
 
-#include <exemplar/mesh/msh_file.h>
+#include <exemplar/mesh/mesh_inputs.h>
 
-#include <deal.II/base/parameter_handler.h>
 #include <deal.II/grid/tria.h>
 
 #include <array>
@@ -13,51 +12,19 @@
 
 namespace Exemplar
 {
-  enum class MeshGenerator
-  {
-    none,
-    box
-  };
-
-  /// Subsection Mesh. Exactly one of `file` and `generator` must be given.
-  ///
-  /// The box is [0,Lx] x [-Ly/2,Ly/2] x [-Lz/2,Lz/2], cut into nx x ny x nz bricks
-  /// of 6 tetrahedra each (Kuhn's subdivision, all along the diagonal from the
-  /// lowest to the highest corner). Its nodes are numbered from 1, x fastest; its
-  /// boundary ids are 1..6 for x-, x+, y-, y+, z-, z+, its material id is 1.
-  struct MeshParameters
-  {
-    std::string                 file;
-    MeshGenerator               generator = MeshGenerator::none;
-    std::array<double, 3>       box_size{ { 1., 1., 1. } };
-    std::array<unsigned int, 3> box_cells{ { 4, 4, 4 } };
-    double                      scale = 1.;
-
-    void
-    declare(dealii::ParameterHandler &prm);
-  };
-
-  /// A boundary triangle: three node indices, counterclockwise seen from outside,
-  /// and its boundary id.
-  struct BoundaryFace
-  {
-    std::array<unsigned int, 3> nodes;
-    unsigned int                boundary_id;
-  };
-
   /// The tetrahedral rest mesh. Node i is the i-th node of the file, cell c its
   /// c-th tetrahedron; the Triangulation has the same numbering, and results go
   /// back to disk in it.
   class Mesh
   {
   public:
-    /// Read, mesh with gmsh (.geo) or generate as the parameters say, check, and
-    /// build the Triangulation. Throws UserError with element or node numbers of
-    /// the file for whatever is no valid body.
+    /// Load as the parameters say, then as below.
     explicit Mesh(const MeshParameters &parameters);
 
-    /// Build from contents at hand; `name` stands for the file in messages.
-    Mesh(MshFile contents, const std::string &name);
+    /// Multiply the nodes by `scale`, check, and build the Triangulation. `name` stands for the
+    /// file in messages. Throws UserError with element or node numbers of the file for whatever
+    /// is no valid body, and for a scale that is not positive.
+    Mesh(MshFile contents, const std::string &name, double scale = 1.);
 
     unsigned int
     n_nodes() const
@@ -111,7 +78,7 @@ namespace Exemplar
       return triangulation;
     }
 
-    /// The file the mesh came from; "box" if generated.
+    /// The file the mesh came from; "box" if generated, "mesh" if made of arrays.
     const std::string &
     get_name() const
     {
@@ -129,11 +96,15 @@ namespace Exemplar
     double
     diameter() const;
 
-    /// Node coordinates of a pose on this mesh: the file must have the same node
-    /// numbers and tetrahedra in the same order. They are multiplied by the
-    /// mesh's scale. Throws UserError naming the first difference.
+    /// Places of the nodes [m] in the pose of a file, which is checked as by the function of
+    /// the same name, times the mesh's scale.
     std::vector<dealii::Point<3>>
     read_pose(const std::filesystem::path &file) const;
+
+    /// Places of the nodes [m] in one of `poses`, times the mesh's scale. Throws UserError,
+    /// calling the parameter `key`, if it is not there or has another number of nodes.
+    std::vector<dealii::Point<3>>
+    find_pose(const NamedPoses &poses, const std::string &pose, const std::string &key) const;
 
     /// The inverse: the mesh with its nodes at `positions`, divided by the mesh's
     /// scale, with the file's numbers, order and tags.
@@ -146,16 +117,15 @@ namespace Exemplar
     memory_consumption() const;
 
   private:
-    /// Fill what follows from `contents`, or throw.
-    void
-    build();
+    std::vector<dealii::Point<3>>
+    scaled(std::vector<dealii::Point<3>> nodes) const;
 
     void
     build_triangulation();
 
     MshFile                                  contents;
     std::string                              name;
-    double                                   scale = 1.;
+    double                                   scale;
     std::vector<std::array<unsigned int, 4>> cells;
     std::vector<unsigned int>                material_ids;
     std::vector<BoundaryFace>                boundary_faces;

@@ -3,7 +3,7 @@
 #define exemplar_elastic_potential_h
 
 #include <exemplar/body/example_weights.h>
-#include <exemplar/body/model.h>
+#include <exemplar/body/model_parameters.h>
 #include <exemplar/potential/cell_scatter.h>
 #include <exemplar/potential/evaluation.h>
 #include <exemplar/potential/strain_damping.h>

@@ -8,7 +8,7 @@
 
 namespace Exemplar
 {
-  class Parameters;
+  struct SceneParameters;
 
   /// What the command line says of a run.
   struct RunOptions
@@ -33,7 +33,7 @@ namespace Exemplar
   /// Build the parts of a scene and let them go: its files are read and checked. Throws
   /// UserError.
   void
-  check_parts(const Parameters &parameters);
+  check_parts(const SceneParameters &parameters);
 
   /// Print every parameter with its default, range, unit and meaning, as a .prm.
   void

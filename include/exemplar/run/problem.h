@@ -14,7 +14,8 @@
 #include <exemplar/potential/inertia_term.h>
 #include <exemplar/potential/load_term.h>
 #include <exemplar/run/diagnostics.h>
-#include <exemplar/run/parameters.h>
+#include <exemplar/run/inputs.h>
+#include <exemplar/run/scene_parameters.h>
 #include <exemplar/solvers/step_solver.h>
 
 #include <memory>
@@ -29,8 +30,10 @@ namespace Exemplar
   class Problem
   {
   public:
-    /// Reads every input and checks it; writes nothing. Throws UserError.
-    explicit Problem(const Parameters &parameters);
+    /// `inputs` are what read_inputs() gives, or arrays that a program hands in: then the scene
+    /// needs no file. `clock` may run since the inputs are read. Throws UserError for whatever
+    /// is no valid scene; writes nothing.
+    Problem(SceneParameters scene, Inputs inputs, StepClock clock = StepClock(Part::read));
 
     /// Solve the next step from `state`, which is replaced if the solve succeeds.
     SolveReport
@@ -65,8 +68,8 @@ namespace Exemplar
     std::vector<std::string>
     warnings_at_end() const;
 
-    const Parameters &parameters;
-    StepClock         clock;
+    const SceneParameters parameters; ///< completed
+    StepClock             clock;
 
     const TimeAxis                                    time_axis;
     const Mesh                                        mesh;

@@ -6,6 +6,7 @@
 #include <exemplar/run/checkpoint.h>
 #include <exemplar/run/problem.h>
 #include <exemplar/run/run_directory.h>
+#include <exemplar/run/scene_file.h>
 #include <exemplar/run/statistics_file.h>
 #include <exemplar/run/vtu_writer.h>
 
@@ -24,7 +25,8 @@ namespace Exemplar
   class Results
   {
   public:
-    explicit Results(Problem &problem);
+    /// Keeps references to both.
+    Results(Problem &problem, const SceneFile &scene);
 
     /// Begin a new run: check and clear the directory, write the scene and the
     /// initial state. Throws UserError, with nothing written.
@@ -81,6 +83,7 @@ namespace Exemplar
     lap();
 
     Problem                                 &problem;
+    const SceneFile                         &scene;
     const RunDirectory                       directory;
     const std::map<std::string, std::string> input_digests; ///< SHA-256 of the files read
     std::optional<StatisticsFile>            statistics;

@@ -2,12 +2,12 @@
 #ifndef exemplar_solver_parameters_h
 #define exemplar_solver_parameters_h
 
-#include <deal.II/base/parameter_handler.h>
-
 #include <string>
 
 namespace Exemplar
 {
+  class KeyTable;
+
   enum class Method
   {
     automatic,
@@ -43,7 +43,7 @@ namespace Exemplar
     LinearSolver  linear_solver      = LinearSolver::automatic;
 
     void
-    declare(dealii::ParameterHandler &prm);
+    declare(KeyTable &keys);
   };
 
   /// The method as scene files write it.

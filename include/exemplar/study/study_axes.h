@@ -2,7 +2,7 @@
 #ifndef exemplar_study_axes_h
 #define exemplar_study_axes_h
 
-#include <exemplar/prm/prm_tools.h>
+#include <exemplar/prm/assignments.h>
 
 #include <string>
 #include <vector>

@@ -2,6 +2,7 @@
 #ifndef exemplar_study_file_h
 #define exemplar_study_file_h
 
+#include <exemplar/prm/key_table.h>
 #include <exemplar/study/study_axes.h>
 
 #include <deal.II/base/point.h>

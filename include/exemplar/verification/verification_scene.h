@@ -5,7 +5,6 @@
 #include <exemplar/run/problem.h>
 
 #include <array>
-#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -18,43 +17,26 @@ namespace Exemplar::Verification
   class Scene
   {
   public:
-    explicit Scene(const std::string &text, const std::vector<std::string> &overrides = {});
+    /// What `inputs` hold need not be in files.
+    explicit Scene(const std::string              &text,
+                   const std::vector<std::string> &overrides = {},
+                   Inputs                          inputs    = {});
 
     /// All steps; throws SolverFailure unless each succeeds.
     State
     solve();
 
-  private:
-    const Parameters parameters;
-
-  public:
     Problem problem;
-  };
-
-  /// The generated box with its nodes moved, as a .msh file that lives as long as this.
-  class MovedBox
-  {
-  public:
-    using Map = std::function<dealii::Point<3>(const dealii::Point<3> &)>;
-
-    MovedBox(const std::array<double, 3>       &size,
-             const std::array<unsigned int, 3> &n_cells,
-             const Map                         &map);
-
-    ~MovedBox();
-
-    MovedBox(const MovedBox &) = delete;
-    MovedBox &
-    operator=(const MovedBox &)
-        = delete;
-
-    /// The section Mesh of a scene on it.
-    std::string
-    section() const;
 
   private:
-    const std::filesystem::path file;
+    Scene(const SceneParameters &parameters, Inputs inputs);
   };
+
+  /// The generated box with its nodes moved.
+  Inputs
+  moved_box(const std::array<double, 3>                                     &size,
+            const std::array<unsigned int, 3>                               &n_cells,
+            const std::function<dealii::Point<3>(const dealii::Point<3> &)> &map);
 
   /// "subsection NAME ... end" around lines "set KEY = VALUE", or around other subsections.
   std::string

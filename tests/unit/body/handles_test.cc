@@ -5,7 +5,6 @@
 #include "body.h"
 #include "matrices.h"
 #include "scene.h"
-#include "temporary_directory.h"
 
 #include <gtest/gtest.h>
 
@@ -34,7 +33,7 @@ namespace Exemplar::Testing
     }
 
     /// A handle at the end x = 4 of a bar that follows a pose.
-    class FollowPose : public InTemporaryDirectory
+    class FollowPose : public testing::Test
     {
     protected:
       /// The bar turned about the axis through (4, 0, 0) by 157 degrees, and moved.
@@ -48,12 +47,11 @@ namespace Exemplar::Testing
       HandleParameters
       follow(const Mesh &pose_mesh)
       {
-        std::vector<dealii::Point<3>> pose;
+        poses["pose"].clear();
         for (const auto &x : pose_mesh.get_nodes())
-          pose.push_back(turned(x));
-        pose_mesh.write_pose(pose, directory / "pose.msh");
+          poses["pose"].push_back(turned(x));
         HandleParameters parameters = tip();
-        parameters.follow_pose      = directory / "pose.msh";
+        parameters.follow_pose      = "pose";
         return parameters;
       }
 
@@ -67,7 +65,7 @@ namespace Exemplar::Testing
       positions(const HandleParameters &parameters, const double time) const
       {
         dealii::Vector<double> result(3 * mesh.n_nodes());
-        Handles({ parameters }, mesh, increments(4)).move(time, result);
+        Handles({ parameters }, mesh, increments(4), poses).move(time, result);
         return result;
       }
 
@@ -82,7 +80,7 @@ namespace Exemplar::Testing
       {
         try
         {
-          Handles({ parameters }, mesh, increments(4));
+          Handles({ parameters }, mesh, increments(4), poses);
         }
         catch (const UserError &error)
         {
@@ -91,6 +89,7 @@ namespace Exemplar::Testing
         return "";
       }
 
+      NamedPoses            poses;
       const Mesh            mesh = Mesh(box_mesh(4., 4, 2));
       const Matrix3<double> Q    = rotation_about({ { 0.2, 1., -0.4 } }, 157. * M_PI / 180.);
     };
@@ -143,7 +142,8 @@ namespace Exemplar::Testing
         EXPECT_EQ(of_two[3 * i + 1], 0.);
         EXPECT_EQ(of_two[3 * i + 2], of_all[3 * i + 2]);
       }
-      EXPECT_EQ(Handles({ two }, mesh, increments(1)).held_dofs().size(), 2 * end_nodes().size());
+      EXPECT_EQ(Handles({ two }, mesh, increments(1), poses).held_dofs().size(),
+                2 * end_nodes().size());
     }
 
     TEST_F(FollowPose, HasTheScaleOfTheMesh)
@@ -153,7 +153,7 @@ namespace Exemplar::Testing
       scaled.scale          = 0.5;
       const Mesh             small(scaled);
       dealii::Vector<double> end(3 * small.n_nodes());
-      Handles({ pose }, small, increments(1)).move(1., end);
+      Handles({ pose }, small, increments(1), poses).move(1., end);
       for (const unsigned int i : end_nodes())
       {
         const auto expected = turned(mesh.get_nodes()[i]);
@@ -179,29 +179,32 @@ namespace Exemplar::Testing
       bad.progress = "x";
       EXPECT_NE(error_of(bad).find("Handles/tip/Progress"), std::string::npos);
       bad             = good;
-      bad.follow_pose = directory / "absent.msh";
-      EXPECT_NE(error_of(bad).find("Handles/tip/Follow pose: "), std::string::npos);
-      EXPECT_NE(error_of(bad).find("absent.msh"), std::string::npos);
+      bad.follow_pose = "absent";
+      EXPECT_NE(error_of(bad).find("Handles/tip/Follow pose: there is no pose 'absent'"),
+                std::string::npos);
       follow(Mesh(box_mesh(4., 3, 2)));
-      EXPECT_NE(error_of(good).find("Handles/tip/Follow pose: "), std::string::npos);
+      EXPECT_NE(error_of(good).find("Handles/tip/Follow pose: the pose 'pose' has 36 nodes"),
+                std::string::npos);
     }
 
     TEST_F(FollowPose, AHandleThatDisagreesWithAnotherIsRefused)
     {
       HandleParameters other = tip("0; 0; 0", "box 3.9 -1 -1 5 1 1");
       other.name             = "other";
-      EXPECT_THROW(Handles({ follow(mesh), other }, mesh, increments(2)), UserError);
+      EXPECT_THROW(Handles({ follow(mesh), other }, mesh, increments(2), poses), UserError);
       HandleParameters same = follow(mesh);
       same.name             = "other";
-      EXPECT_NO_THROW(Handles({ follow(mesh), same }, mesh, increments(2)));
+      EXPECT_NO_THROW(Handles({ follow(mesh), same }, mesh, increments(2), poses));
     }
 
     TEST_F(FollowPose, SolvesAScene)
     {
       const HandleParameters parameters = follow(Mesh(box_mesh(4., 4, 1)));
       Scene scene("set Scene = static\n" + bar + "subsection Handles\n set Names = left, right\n"
-                  + held_left + "subsection right\n set Select = boundary 2\n set Follow pose = "
-                  + parameters.follow_pose + "\n set Progress = 0.2*t\nend\nend\n");
+                      + held_left
+                      + "subsection right\n set Select = boundary 2\n set Follow pose = "
+                      + parameters.follow_pose + "\n set Progress = 0.2*t\nend\nend\n",
+                  {}, { {}, poses, {} });
       EXPECT_TRUE(scene.problem.warnings().empty());
       EXPECT_NO_THROW(scene.solve());
     }

@@ -3,9 +3,10 @@
 #include <exemplar/body/time_axis.h>
 #include <exemplar/mesh/selection.h>
 #include <exemplar/prm/expression.h>
-#include <exemplar/prm/prm_tools.h>
+#include <exemplar/prm/key_table.h>
 
 #include "body.h"
+#include "expect_contains.h"
 
 #include <gtest/gtest.h>
 
@@ -111,39 +112,75 @@ namespace Exemplar::Testing
 
     TEST(PrmText, AppliesAndPrintsWhatItRead)
     {
-      dealii::ParameterHandler prm;
+      KeyTable                 keys;
       double                   number = 1.;
       std::string              input;
       std::vector<std::string> inputs;
-      prm.enter_subsection("S");
-      prm.add_parameter("Number", number, "A number.", dealii::Patterns::Double(0., 2.));
-      declare_input_file(prm, "File", input, "A file.");
-      declare_input_files(prm, "Files", inputs, "Files.");
-      prm.leave_subsection();
+      keys.enter_subsection("S");
+      keys.add("Number", number, "A number.", { 0., 2. });
+      keys.add_file("File", input, "A file.");
+      keys.add_files("Files", inputs, "Files.");
+      keys.leave_subsection();
 
-      apply_assignments(prm,
-                        read("subsection S\nset Number = 1.5\nset File = ../a.msh\n"
-                             "set Files = b.msh, /c/d.msh\nend\n"),
-                        "/scenes/here");
+      keys.apply(read("subsection S\nset Number = 1.5\nset File = ../a.msh\n"
+                      "set Files = b.msh, /c/d.msh\nend\n"),
+                 "/scenes/here");
       EXPECT_EQ(number, 1.5);
       EXPECT_EQ(input, "/scenes/a.msh");
       EXPECT_EQ(inputs, (std::vector<std::string>{ "/scenes/here/b.msh", "/c/d.msh" }));
 
       std::ostringstream printed;
-      print_keys(printed, declared_keys(prm), true);
+      print_keys(printed, keys.keys(), true);
       number = 0.;
-      apply_assignments(prm, read(printed.str()), "/elsewhere");
+      keys.apply(read(printed.str()), "/elsewhere");
       EXPECT_EQ(number, 1.5);
       EXPECT_EQ(input, "/scenes/a.msh");
 
-      EXPECT_NE(
-          message_of([&]
-                     { apply_assignments(prm, read("subsection S\nset Nunber = 1\nend\n"), "/"); })
-              .find("Did you mean 'S/Number'"),
-          std::string::npos);
-      EXPECT_NE(message_of([&] { apply_assignments(prm, { parse_override("S/Number=3") }, "/"); })
+      EXPECT_NE(message_of([&] { keys.apply(read("subsection S\nset Nunber = 1\nend\n"), "/"); })
+                    .find("Did you mean 'S/Number'"),
+                std::string::npos);
+      EXPECT_NE(message_of([&] { keys.apply({ parse_override("S/Number=3") }, "/"); })
                     .find("Allowed: a number in 0 ... 2"),
                 std::string::npos);
+    }
+
+    TEST(KeyTable, KeysOfASubsectionFollowOneAnother)
+    {
+      KeyTable    keys;
+      std::string text = "default";
+      for (const char *subsection : { "A", "B", "A" })
+      {
+        keys.enter_subsection(subsection);
+        keys.add("Key " + std::to_string(keys.keys().size()), text, "A text.");
+        keys.leave_subsection();
+      }
+      std::vector<std::string> paths;
+      for (const DeclaredKey &key : keys.keys())
+        paths.push_back(key.path());
+      EXPECT_EQ(paths, (std::vector<std::string>{ "A/Key 0", "A/Key 2", "B/Key 1" }));
+    }
+
+    TEST(KeyTable, SaysWhatIsAllowed)
+    {
+      KeyTable                    keys;
+      double                      positive = 1.;
+      unsigned int                count    = 1;
+      bool                        is_so    = false;
+      std::array<unsigned int, 3> three{};
+      keys.add("Positive", positive, "", Bounds::positive());
+      keys.add("Count", count, "", { 1 });
+      keys.add("Is so", is_so, "");
+      keys.add("Three", three, "", { 0 });
+      const auto refusal = [&](const std::string &assignment)
+      { return message_of([&] { keys.apply({ parse_override(assignment) }, ""); }); };
+      expect_contains(refusal("Positive=0"), "Allowed: a number > 0. Default: '1'");
+      expect_contains(refusal("Positive=1 m"), "Allowed: a number > 0");
+      expect_contains(refusal("Count=1.5"), "Allowed: an integer >= 1");
+      expect_contains(refusal("Count=99999999999"), "Allowed: an integer >= 1");
+      expect_contains(refusal("Is so=1"), "Allowed: true or false");
+      expect_contains(refusal("Three=1, 2"), "Allowed: three integers >= 0 separated by commas");
+      EXPECT_EQ(refusal("Three=1,2 , 3"), "no UserError");
+      EXPECT_EQ(three[2], 3u);
     }
 
     TEST(Selection, SelectsByPlaceAndId)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/prm/prm_tools.h>
+#include <exemplar/base/errors.h>
+#include <exemplar/prm/assignments.h>
 
 #include <algorithm>
 #include <cctype>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/body/model.h>
-#include <exemplar/prm/prm_tools.h>
+#include <exemplar/body/model_parameters.h>
+#include <exemplar/prm/key_table.h>
 
 namespace Exemplar
 {
@@ -15,19 +15,18 @@ namespace Exemplar
   } // namespace
 
   void
-  ModelParameters::declare(dealii::ParameterHandler &prm)
+  ModelParameters::declare(KeyTable &keys)
   {
-    prm.enter_subsection("Model");
-    declare_enum(
-        prm, "Strain", strain, strain_measures,
-        "corotational: S - I, the deformation freed of the cell's rotation; linear: sym(F) "
-        "- I, for comparison, wrong where cells turn; green: (F^T F - I)/2, that of "
-        "nonlinear example-based materials. Example strains are of the same measure.");
-    declare_enum(
-        prm, "Gradient", gradient, gradient_kinds,
+    keys.enter_subsection("Model");
+    keys.add("Strain", strain, strain_measures,
+             "corotational: S - I, the deformation freed of the cell's rotation; linear: sym(F) "
+             "- I, for comparison, wrong where cells turn; green: (F^T F - I)/2, that of "
+             "nonlinear example-based materials. Example strains are of the same measure.");
+    keys.add(
+        "Gradient", gradient, gradient_kinds,
         "consistent: the force is the gradient of the energy; frozen: the paper's force R T, "
         "which holds the rotation fixed while it differentiates the energy. The linear and green "
         "strains have no rotations and always use their gradient.");
-    prm.leave_subsection();
+    keys.leave_subsection();
   }
 } // namespace Exemplar

@@ -1,33 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
-#include <exemplar/body/state.h>
-#include <exemplar/prm/prm_tools.h>
+#include <exemplar/prm/expression.h>
+#include <exemplar/run/initial_state.h>
 
 namespace Exemplar
 {
-  void
-  InitialParameters::declare(dealii::ParameterHandler &prm)
-  {
-    prm.enter_subsection("Initial");
-    declare_input_file(
-        prm, "Pose", pose,
-        "Pose at t = 0, a .msh file with the nodes and tetrahedra of the mesh; empty: "
-        "the rest pose.");
-    prm.add_parameter("Pose function", pose_function,
-                      "Pose at t = 0 instead: x'; y'; z' as functions of the rest position x, y, z "
-                      "[m].");
-    prm.add_parameter("Velocity", velocity,
-                      "Velocity [m/s] at t = 0 of a dynamic scene: three functions of the rest "
-                      "position x, y, z [m].");
-    prm.leave_subsection();
-  }
-
   State
   initial_state(const InitialParameters &parameters,
                 const Mesh              &mesh,
                 const FESpace           &fe_space,
                 const ExampleWeights    *weights,
-                const bool               dynamic)
+                const bool               dynamic,
+                const NamedPoses        &poses)
   {
     if (!parameters.pose.empty() && !parameters.pose_function.empty())
       throw UserError("Initial/Pose and Initial/Pose function are both given. Keep one of them.");
@@ -45,7 +29,7 @@ namespace Exemplar
     };
     if (!parameters.pose.empty())
     {
-      const auto nodes = mesh.read_pose(parameters.pose);
+      const auto nodes = mesh.find_pose(poses, parameters.pose, "Initial/Pose");
       for (unsigned int dof = 0; dof < fe_space.n_dofs(); ++dof)
         state.positions[dof] = nodes[dof / 3][dof % 3];
     }

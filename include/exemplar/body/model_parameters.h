@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef exemplar_model_h
-#define exemplar_model_h
+#ifndef exemplar_model_parameters_h
+#define exemplar_model_parameters_h
 
 #include <exemplar/kernels/cell_model.h>
 
-#include <deal.II/base/parameter_handler.h>
-
 namespace Exemplar
 {
+  class KeyTable;
+
   enum class GradientKind
   {
     consistent,
@@ -21,7 +21,7 @@ namespace Exemplar
     GradientKind  gradient = GradientKind::consistent;
 
     void
-    declare(dealii::ParameterHandler &prm);
+    declare(KeyTable &keys);
 
     /// Whether forces are the paper's, which hold the rotations fixed: never in models without
     /// rotations.

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_example_parameters_h
+#define exemplar_example_parameters_h
+
+#include <string>
+#include <vector>
+
+namespace Exemplar
+{
+  class KeyTable;
+
+  enum class ExampleEnergy
+  {
+    scaled,
+    blended
+  };
+
+  enum class WeightRule
+  {
+    simplex,
+    free,
+    prescribed
+  };
+
+  /// Subsection Examples.
+  struct ExampleParameters
+  {
+    std::vector<std::string> poses;
+    std::string              pose_functions;
+    bool                     include_rest_pose = true;
+    double                   importance        = 0.8; ///< eta
+    std::string              weight_penalty    = "auto";
+    ExampleEnergy            energy            = ExampleEnergy::scaled;
+    WeightRule               weights           = WeightRule::simplex;
+    std::string              prescribed_weights;
+    bool                     weights_per_region  = false;
+    double                   region_blend_length = 0.; ///< [m]
+
+    void
+    declare(KeyTable &keys);
+
+    /// Whether any pose is given and its importance is not 0.
+    bool
+    in_use() const;
+
+    /// sigma [J] of the ridge on the weights; `unit_energy` is sum E V [J].
+    double
+    ridge(double unit_energy) const;
+
+    /// Throws UserError for what no pattern can tell.
+    void
+    check() const;
+  };
+} // namespace Exemplar
+
+#endif

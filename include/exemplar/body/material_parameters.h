@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_material_parameters_h
+#define exemplar_material_parameters_h
+
+#include <map>
+#include <set>
+#include <string>
+
+namespace Exemplar
+{
+  class KeyTable;
+
+  struct ElasticConstants
+  {
+    double youngs_modulus = 1e6;  ///< E [Pa]
+    double poissons_ratio = 0.45; ///< nu [-]
+    double density        = 1000; ///< rho [kg/m^3]
+  };
+
+  enum class MassMatrix
+  {
+    consistent,
+    lumped
+  };
+
+  /// Subsection Material.
+  struct MaterialParameters
+  {
+    ElasticConstants                         everywhere;
+    MassMatrix                               mass_matrix = MassMatrix::consistent;
+    std::map<unsigned int, ElasticConstants> regions; ///< by material id
+
+    void
+    declare(KeyTable &keys);
+
+    /// Declare subsections "region N"; what they do not set is as everywhere.
+    void
+    declare_regions(KeyTable &keys, const std::set<unsigned int> &ids);
+
+    /// The subsection of a material id.
+    static std::string
+    region_name(unsigned int id);
+
+    /// Throws UserError for a Poisson's ratio outside (-1, 0.5).
+    void
+    check() const;
+  };
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_time_parameters_h
+#define exemplar_time_parameters_h
+
+namespace Exemplar
+{
+  class KeyTable;
+
+  enum class TimeScheme
+  {
+    implicit_euler,
+    bdf2
+  };
+
+  /// Subsection Time.
+  struct TimeParameters
+  {
+    TimeScheme   scheme            = TimeScheme::implicit_euler;
+    double       step              = 0.01; ///< h [s]
+    double       end               = 1.;   ///< [s]
+    double       mass_damping      = 0.;   ///< [1/s]
+    double       stiffness_damping = 0.;   ///< [s]
+    unsigned int increments        = 10;   ///< of statics and interpolation
+
+    void
+    declare(KeyTable &keys);
+  };
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_mesh_inputs_h
+#define exemplar_mesh_inputs_h
+
+#include <exemplar/mesh/mesh_parameters.h>
+#include <exemplar/mesh/msh_file.h>
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+// What meshes and poses are made of: files, or arrays that stand in for them.
+
+namespace Exemplar
+{
+  /// Places of all nodes of a mesh in a pose, in the mesh's order and unit (Mesh/Scale comes
+  /// later), by the name that parameters call the pose by.
+  using NamedPoses = std::map<std::string, std::vector<dealii::Point<3>>>;
+
+  /// Indices of nodes, counted from 0, by the FILE of "nodes FILE".
+  using NamedNodes = std::map<std::string, std::vector<unsigned int>>;
+
+  /// A triangle of the boundary: three node indices, and its boundary id. Those of a Mesh are
+  /// counterclockwise seen from outside.
+  struct BoundaryFace
+  {
+    std::array<unsigned int, 3> nodes;
+    unsigned int                boundary_id;
+  };
+
+  /// Read, mesh with gmsh (.geo) or generate as the parameters say; not scaled. Throws UserError
+  /// unless there is exactly one of file and generator.
+  MshFile
+  load_mesh(const MeshParameters &parameters);
+
+  /// A mesh from arrays: n nodes [m], cells as four indices of nodes from 0 to n - 1, for each
+  /// cell a material id (none: all 0), and an id for those triangles of the boundary that have
+  /// one. Nodes, triangles and cells are numbered from 1 in this order. Throws UserError for an
+  /// index that is too large and for as many material ids as there are no cells.
+  MshFile
+  make_msh(std::vector<dealii::Point<3>>                   nodes,
+           const std::vector<std::array<unsigned int, 4>> &cells,
+           const std::vector<unsigned int>                &material_ids   = {},
+           const std::vector<BoundaryFace>                &boundary_faces = {});
+
+  /// Places of the nodes in a pose of `mesh`, not scaled: the file must have the same node
+  /// numbers and tetrahedra in the same order. Throws UserError naming the first difference;
+  /// `mesh_name` stands for the mesh there.
+  std::vector<dealii::Point<3>>
+  read_pose(const std::filesystem::path &file, const MshFile &mesh, const std::string &mesh_name);
+
+  /// Indices of the nodes that a file lists by their numbers in `mesh`, one a line, ascending.
+  /// Throws UserError, calling the list `key`.
+  std::vector<unsigned int>
+  read_nodes(const std::filesystem::path &file,
+             const MshFile               &mesh,
+             const std::string           &mesh_name,
+             const std::string           &key);
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_mesh_parameters_h
+#define exemplar_mesh_parameters_h
+
+#include <array>
+#include <string>
+
+namespace Exemplar
+{
+  class KeyTable;
+
+  enum class MeshGenerator
+  {
+    none,
+    box
+  };
+
+  /// Subsection Mesh. Exactly one of `file` and `generator` must be given, unless a program
+  /// hands in a mesh of its own.
+  ///
+  /// The box is [0,Lx] x [-Ly/2,Ly/2] x [-Lz/2,Lz/2], cut into nx x ny x nz bricks
+  /// of 6 tetrahedra each (Kuhn's subdivision, all along the diagonal from the
+  /// lowest to the highest corner). Its nodes are numbered from 1, x fastest; its
+  /// boundary ids are 1..6 for x-, x+, y-, y+, z-, z+, its material id is 1.
+  struct MeshParameters
+  {
+    std::string                 file;
+    MeshGenerator               generator = MeshGenerator::none;
+    std::array<double, 3>       box_size{ { 1., 1., 1. } };
+    std::array<unsigned int, 3> box_cells{ { 4, 4, 4 } };
+    double                      scale = 1.;
+
+    void
+    declare(KeyTable &keys);
+
+    /// What stands for the mesh in messages: the file, "box" or, with neither, "mesh".
+    std::string
+    name() const;
+  };
+} // namespace Exemplar
+
+#endif

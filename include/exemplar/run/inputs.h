@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_inputs_h
+#define exemplar_inputs_h
+
+#include <exemplar/mesh/mesh_inputs.h>
+
+namespace Exemplar
+{
+  struct SceneParameters;
+
+  /// What the files hold that a scene names, or arrays that stand in for them; make_msh() makes
+  /// a mesh of arrays. All lengths are in the mesh's unit: Mesh/Scale makes metres of them.
+  struct Inputs
+  {
+    MshFile    mesh;
+    NamedPoses poses; ///< of Examples/Poses, Handles/NAME/Follow pose and Initial/Pose
+    NamedNodes nodes; ///< of Select = nodes FILE
+  };
+
+  /// Read or generate what a scene needs and `given` does not hold. Without importance no
+  /// example pose is read. Throws UserError for a file that cannot be read or is none of the
+  /// mesh, naming what is wrong.
+  Inputs
+  read_inputs(SceneParameters scene, Inputs given = {});
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_scene_parameters_h
+#define exemplar_scene_parameters_h
+
+#include <exemplar/body/example_parameters.h>
+#include <exemplar/body/handle_parameters.h>
+#include <exemplar/body/load_parameters.h>
+#include <exemplar/body/material_parameters.h>
+#include <exemplar/body/model_parameters.h>
+#include <exemplar/body/time_parameters.h>
+#include <exemplar/mesh/mesh_parameters.h>
+#include <exemplar/run/initial_parameters.h>
+#include <exemplar/run/output_parameters.h>
+#include <exemplar/solvers/solver_parameters.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace Exemplar
+{
+  enum class SceneKind
+  {
+    interpolation,
+    statics,
+    dynamic
+  };
+
+  /// What a scene is, in numbers and formulas. A SceneFile fills it from text; a program may
+  /// as well fill it by hand.
+  struct SceneParameters
+  {
+    std::string                   name  = "scene"; ///< stands for the scene in messages
+    SceneKind                     scene = SceneKind::dynamic;
+    MeshParameters                mesh;
+    MaterialParameters            material;
+    ModelParameters               model;
+    ExampleParameters             examples;
+    std::vector<HandleParameters> handles;
+    std::array<double, 3>         gravity{}; ///< acceleration [m/s^2]
+    std::vector<LoadParameters>   loads;
+    InitialParameters             initial;
+    TimeParameters                time;
+    SolverParameters              solver;
+    OutputParameters              output;
+
+    bool
+    has_gravity() const;
+
+    /// Set what the kind of scene decides: importance 1 and prescribed weights of an
+    /// interpolation, and the method that `automatic` stands for. To do so twice changes nothing.
+    void
+    complete();
+
+    /// Throws UserError for values that contradict each other, which concern several sections,
+    /// or that no pattern can tell. To be called after complete().
+    void
+    check() const;
+
+  private:
+    void
+    check_interpolation() const;
+
+    void
+    check_solver() const;
+  };
+} // namespace Exemplar
+
+#endif

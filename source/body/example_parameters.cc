@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
+#include <exemplar/body/example_parameters.h>
+#include <exemplar/prm/key_table.h>
+
+#include <cmath>
+#include <optional>
+#include <sstream>
+
+namespace Exemplar
+{
+  namespace
+  {
+    const EnumTable<ExampleEnergy> energies
+        = { { ExampleEnergy::scaled, "scaled" }, { ExampleEnergy::blended, "blended" } };
+    const EnumTable<WeightRule> weight_kinds = { { WeightRule::simplex, "simplex" },
+                                                 { WeightRule::free, "free" },
+                                                 { WeightRule::prescribed, "prescribed" } };
+
+    /// sigma for "auto" and "paper", in units of sum E V.
+    double
+    default_penalty(const ExampleParameters &parameters)
+    {
+      const bool weak
+          = parameters.weight_penalty == "auto" && parameters.weights == WeightRule::simplex;
+      return weak ? 1e-9 : 1e-5;
+    }
+
+    /// The number in `text`, if it is one and not negative.
+    std::optional<double>
+    non_negative_number(const std::string &text)
+    {
+      std::istringstream in(text);
+      double             value = -1.;
+      if (in >> value && (in >> std::ws).eof() && value >= 0. && std::isfinite(value))
+        return value;
+      return {};
+    }
+  } // namespace
+
+  void
+  ExampleParameters::declare(KeyTable &keys)
+  {
+    keys.enter_subsection("Examples");
+    keys.add_files("Poses", poses,
+                   "Example poses: .msh files with the nodes and tetrahedra of the mesh, such "
+                   "as the final.msh of another scene.");
+    keys.add("Pose functions", pose_functions,
+             "Analytic example poses after those of Poses: x'; y'; z' as functions of the "
+             "rest position x, y, z [m]; poses separated by |.");
+    keys.add("Include rest pose", include_rest_pose,
+             "Whether the rest pose is example 0. Without it a single example is a "
+             "permanent pre-strain.");
+    keys.add("Importance", importance,
+             "eta [-]: 0 is plain elasticity (no pose file is opened), 1 lets the examples "
+             "alone be free of stress.",
+             Bounds{ 0., 1. });
+    keys.add("Weight penalty", weight_penalty,
+             "sigma [J] of the ridge sigma/2 sum w_i^2 on weights that are not prescribed: paper "
+             "(1e-5 sum E V over the cells), auto (1e-9 sum E V with simplex weights, which "
+             "decides ties and moves nothing; the paper's with free ones, which would "
+             "run away) or a number not less than 0.");
+    keys.add(
+        "Energy", energy, energies,
+        "scaled: V/2 (strain - eta E(w)) : C : (strain - eta E(w)), as the paper; blended: (1 - "
+        "eta) of the elastic energy and eta of the distance to E(w).");
+    keys.add(
+        "Weights", weights, weight_kinds,
+        "simplex: minimise the energy over weights that sum to one and are not negative; free: "
+        "that sum to one, as the paper; prescribed: as given.");
+    keys.add("Prescribed weights", prescribed_weights,
+             "One function of t for each example, the rest pose first where it is "
+             "included, separated by ;. They sum to one. With Weights per region either "
+             "the same for all, or one such list a region, in ascending order of material "
+             "ids, separated by |.");
+    keys.add("Weights per region", weights_per_region,
+             "Whether the cells of each material id have weights of their own "
+             "(statistics: weight_R_i for example i in region R).");
+    keys.add("Region blend length", region_blend_length,
+             "Distance [m] over which the weights of neighbouring regions pass into each "
+             "other; 0: at once, at the border. Below the size of a cell: over about a cell.",
+             Bounds{ 0. });
+    keys.leave_subsection();
+  }
+
+  bool
+  ExampleParameters::in_use() const
+  {
+    return importance > 0. && !(poses.empty() && pose_functions.empty());
+  }
+
+  double
+  ExampleParameters::ridge(const double unit_energy) const
+  {
+    return non_negative_number(weight_penalty).value_or(default_penalty(*this) * unit_energy);
+  }
+
+  void
+  ExampleParameters::check() const
+  {
+    if (weight_penalty != "auto" && weight_penalty != "paper"
+        && !non_negative_number(weight_penalty))
+      throw UserError("Examples/Weight penalty = '" + weight_penalty
+                      + "' is not allowed. Allowed: auto, paper or a number not less than 0 [J].");
+    if (weights == WeightRule::prescribed && in_use() && prescribed_weights.empty())
+      throw UserError("Examples/Weights = prescribed, but Examples/Prescribed weights is empty. "
+                      "Give one function of t for each example, for instance '1-t; t'.");
+    if (region_blend_length > 0. && !weights_per_region)
+      throw UserError("Examples/Region blend length is given, but Examples/Weights per region is "
+                      "false. Set it to true, or remove the length.");
+    if (weights != WeightRule::prescribed && !prescribed_weights.empty())
+      throw UserError("Examples/Prescribed weights is given, but Examples/Weights is not "
+                      "'prescribed'. Set it, or remove the weights.");
+  }
+} // namespace Exemplar

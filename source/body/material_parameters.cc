@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
+#include <exemplar/base/number_text.h>
+#include <exemplar/body/material_parameters.h>
+#include <exemplar/prm/key_table.h>
+
+namespace Exemplar
+{
+  namespace
+  {
+    const EnumTable<MassMatrix> mass_matrices
+        = { { MassMatrix::consistent, "consistent" }, { MassMatrix::lumped, "lumped" } };
+
+    void
+    declare_constants(KeyTable &keys, ElasticConstants &constants)
+    {
+      const Bounds positive = Bounds::positive();
+      keys.add("Young's modulus", constants.youngs_modulus, "E [Pa], greater than 0.", positive);
+      keys.add("Poisson's ratio", constants.poissons_ratio,
+               "nu [-], greater than -1 and less than 0.5.", Bounds{ -1., 0.5 });
+      keys.add("Density", constants.density,
+               "rho [kg/m^3], greater than 0. Used by dynamics and gravity.", positive);
+    }
+
+    void
+    check_poissons_ratio(const ElasticConstants &constants, const std::string &section)
+    {
+      if (!(constants.poissons_ratio > -1. && constants.poissons_ratio < 0.5))
+        throw UserError(section + "/Poisson's ratio = " + shortest_text(constants.poissons_ratio)
+                        + " is not allowed: it must lie strictly between -1 and 0.5. For a nearly "
+                          "incompressible material take 0.49.");
+    }
+  } // namespace
+
+  std::string
+  MaterialParameters::region_name(const unsigned int id)
+  {
+    return "region " + std::to_string(id);
+  }
+
+  void
+  MaterialParameters::declare(KeyTable &keys)
+  {
+    keys.enter_subsection("Material");
+    declare_constants(keys, everywhere);
+    keys.add("Mass matrix", mass_matrix, mass_matrices,
+             "consistent, or lumped at the nodes. Used by dynamics only.");
+    keys.leave_subsection();
+  }
+
+  void
+  MaterialParameters::declare_regions(KeyTable &keys, const std::set<unsigned int> &ids)
+  {
+    keys.enter_subsection("Material");
+    for (const unsigned int id : ids)
+    {
+      regions[id] = everywhere;
+      keys.enter_subsection(region_name(id));
+      declare_constants(keys, regions[id]);
+      keys.leave_subsection();
+    }
+    keys.leave_subsection();
+  }
+
+  void
+  MaterialParameters::check() const
+  {
+    check_poissons_ratio(everywhere, "Material");
+    for (const auto &[id, constants] : regions)
+      check_poissons_ratio(constants, "Material/" + region_name(id));
+  }
+} // namespace Exemplar

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
+#include <exemplar/mesh/mesh_generation.h>
+#include <exemplar/mesh/mesh_inputs.h>
+
+#include <fstream>
+#include <numeric>
+#include <set>
+#include <sstream>
+#include <unordered_map>
+
+namespace Exemplar
+{
+  namespace
+  {
+    std::filesystem::path
+    msh_of(const std::string &file)
+    {
+      const std::filesystem::path path(file);
+      return path.extension() == ".geo" ? mesh_geo_file(path) : path;
+    }
+
+    /// Append an element between nodes that exist.
+    template <std::size_t n>
+    void
+    add_element(MshFile                           &msh,
+                const unsigned int                 type,
+                const unsigned int                 tag,
+                const std::array<unsigned int, n> &nodes)
+    {
+      for (const unsigned int node : nodes)
+        if (node >= msh.nodes.size())
+          throw UserError(std::string("The mesh has ") + std::to_string(msh.nodes.size())
+                          + " nodes, but a " + find_msh_element_kind(type)->name + " has node "
+                          + std::to_string(node) + ". Nodes are counted from 0.");
+      const int id = static_cast<int>(tag);
+      msh.elements.push_back(
+          { msh.elements.size() + 1, type, id, id, { nodes.begin(), nodes.end() } });
+    }
+  } // namespace
+
+  MshFile
+  load_mesh(const MeshParameters &parameters)
+  {
+    const bool has_file = !parameters.file.empty();
+    const bool has_box  = parameters.generator == MeshGenerator::box;
+    if (has_file == has_box)
+      throw UserError(std::string("Mesh: ")
+                      + (has_file ? "both File and Generator are given" : "no mesh is given")
+                      + ". Set Mesh/File to a .msh or .geo file, or set Mesh/Generator = box; "
+                        "exactly one of them.");
+    return has_box ? generate_box(parameters.box_size, parameters.box_cells)
+                   : read_msh(msh_of(parameters.file));
+  }
+
+  MshFile
+  make_msh(std::vector<dealii::Point<3>>                   nodes,
+           const std::vector<std::array<unsigned int, 4>> &cells,
+           const std::vector<unsigned int>                &material_ids,
+           const std::vector<BoundaryFace>                &boundary_faces)
+  {
+    if (!material_ids.empty() && material_ids.size() != cells.size())
+      throw UserError("The mesh has " + std::to_string(cells.size()) + " cells, but "
+                      + std::to_string(material_ids.size())
+                      + " material ids. Give one for each cell, or none.");
+    MshFile msh;
+    msh.nodes = std::move(nodes);
+    msh.node_numbers.resize(msh.nodes.size());
+    std::iota(msh.node_numbers.begin(), msh.node_numbers.end(), 1);
+    msh.elements.reserve(boundary_faces.size() + cells.size());
+    for (const BoundaryFace &face : boundary_faces)
+      add_element(msh, MshElementType::triangle, face.boundary_id, face.nodes);
+    for (std::size_t c = 0; c < cells.size(); ++c)
+      add_element(msh, MshElementType::tetrahedron, material_ids.empty() ? 0 : material_ids[c],
+                  cells[c]);
+    return msh;
+  }
+
+  std::vector<unsigned int>
+  read_nodes(const std::filesystem::path &file,
+             const MshFile               &mesh,
+             const std::string           &mesh_name,
+             const std::string           &key)
+  {
+    std::ifstream in(file);
+    if (!in || std::filesystem::is_directory(file))
+      throw UserError(key + ": the file of nodes " + file.string()
+                      + " cannot be read. It lists node numbers of the mesh file, one a line.");
+    std::unordered_map<std::size_t, unsigned int> index;
+    for (unsigned int node = 0; node < mesh.node_numbers.size(); ++node)
+      index[mesh.node_numbers[node]] = node;
+    std::set<unsigned int> nodes;
+    for (std::string word; in >> word;)
+    {
+      std::size_t        number = 0;
+      std::istringstream digits(word);
+      if (!(digits >> number) || !digits.eof() || index.count(number) == 0)
+        throw UserError(key + ": '" + word + "' in " + file.string() + " is no node number of "
+                        + mesh_name + ". List node numbers of the mesh file, one a line.");
+      nodes.insert(index.at(number));
+    }
+    if (nodes.empty())
+      throw UserError(key + ": " + file.string()
+                      + " holds no node number. List node numbers of the "
+                        "mesh file, one a line.");
+    return { nodes.begin(), nodes.end() };
+  }
+} // namespace Exemplar

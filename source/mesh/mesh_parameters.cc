@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/mesh/mesh_parameters.h>
+#include <exemplar/prm/key_table.h>
+
+namespace Exemplar
+{
+  namespace
+  {
+    const EnumTable<MeshGenerator> generator_names{ { MeshGenerator::none, "none" },
+                                                    { MeshGenerator::box, "box" } };
+  } // namespace
+
+  void
+  MeshParameters::declare(KeyTable &keys)
+  {
+    keys.enter_subsection("Mesh");
+    keys.add_file("File", file,
+                  "The tetrahedral rest mesh: a gmsh .msh file of version 2.2 or 4.1, ASCII "
+                  "or binary, or a .geo file, which gmsh meshes (the result is kept in "
+                  "~/.cache/exemplar). Physical Volumes give material ids, Physical "
+                  "Surfaces boundary ids. Leave it empty if Generator = box.");
+    keys.add("Generator", generator, generator_names,
+             "box: generate a box instead of reading a file. It spans 0..Lx, -Ly/2..Ly/2, "
+             "-Lz/2..Lz/2, in bricks of 6 tetrahedra each; nodes are numbered from 1, x "
+             "fastest; boundary ids are 1, 2, 3, 4, 5, 6 for x-, x+, y-, y+, z-, z+; the "
+             "material id is 1.");
+    keys.add("Box size", box_size,
+             "Lengths Lx, Ly, Lz of the generated box [m before Scale], each > 0. It goes from x = "
+             "0 to Lx and lies symmetric to y = 0 and z = 0.",
+             Bounds{ 0. });
+    keys.add("Box cells", box_cells,
+             "Numbers of bricks of the generated box along x, y, z, each >= 1; every "
+             "brick has 6 tetrahedra.",
+             Bounds{ 1 });
+    keys.add("Scale", scale,
+             "Factor > 0 that makes metres of the coordinates of the mesh and of its "
+             "poses, e.g. 0.001 for millimetres. All other lengths are in metres; poses "
+             "are written in the mesh's own unit.",
+             Bounds{ 0. });
+    keys.leave_subsection();
+  }
+
+  std::string
+  MeshParameters::name() const
+  {
+    if (generator == MeshGenerator::box)
+      return "box";
+    return file.empty() ? "mesh" : file;
+  }
+} // namespace Exemplar

@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/prm/key_table.h>
+
+#include <deal.II/base/patterns.h>
+
+#include <algorithm>
+#include <memory>
+#include <numeric>
+#include <sstream>
+
+namespace Exemplar
+{
+  namespace
+  {
+    int
+    lower_case(const char c)
+    {
+      return std::tolower(static_cast<unsigned char>(c));
+    }
+
+    std::size_t
+    edit_distance(const std::string &a, const std::string &b)
+    {
+      std::vector<std::size_t> row(b.size() + 1);
+      std::iota(row.begin(), row.end(), 0);
+      for (std::size_t i = 1; i <= a.size(); ++i)
+      {
+        std::size_t diagonal = row[0]++;
+        for (std::size_t j = 1; j <= b.size(); ++j)
+        {
+          const std::size_t same = diagonal + (lower_case(a[i - 1]) != lower_case(b[j - 1]));
+          diagonal               = row[j];
+          row[j]                 = std::min({ same, row[j] + 1, row[j - 1] + 1 });
+        }
+      }
+      return row.back();
+    }
+
+    std::string
+    nearest_path(const std::string &path, const std::vector<DeclaredKey> &keys)
+    {
+      std::string best;
+      std::size_t best_distance = std::string::npos;
+      for (const DeclaredKey &key : keys)
+        if (const std::size_t distance = edit_distance(path, key.path()); distance < best_distance)
+        {
+          best          = key.path();
+          best_distance = distance;
+        }
+      return best;
+    }
+
+    std::string
+    bounds_in_words(const Bounds &bounds)
+    {
+      std::ostringstream words;
+      if (bounds.low == Bounds::positive().low)
+        words << " > 0";
+      else if (bounds.low == Bounds().low)
+        return "";
+      else if (bounds.high == Bounds().high)
+        words << " >= " << bounds.low;
+      else
+        words << " in " << bounds.low << " ... " << bounds.high;
+      return words.str();
+    }
+
+    std::string
+    three_in_words(const std::string &nouns, const Bounds &bounds)
+    {
+      return "three " + nouns + bounds_in_words(bounds) + " separated by commas";
+    }
+
+    dealii::Patterns::Double
+    real_number(const Bounds &bounds)
+    {
+      return { bounds.low, bounds.high };
+    }
+
+    dealii::Patterns::Integer
+    whole_number(const Bounds &bounds)
+    {
+      return { static_cast<int>(bounds.low), bounds.high == Bounds().high
+                                                 ? std::numeric_limits<int>::max()
+                                                 : static_cast<int>(bounds.high) };
+    }
+
+    /// A file name, absolute if there is a directory to start from; refused if a scene file could not hold it.
+    std::string
+    absolute_file(const std::string           &file,
+                  const std::filesystem::path &directory,
+                  const std::string           &unwanted)
+    {
+      const std::string path
+          = directory.empty()
+                ? file
+                : std::filesystem::absolute(directory / file).lexically_normal().string();
+      if (path.find_first_of(unwanted) != std::string::npos)
+        throw UserError("The path " + path + " holds one of the signs " + unwanted
+                        + " which mean something else in scene files. Rename the file or its "
+                          "directory.");
+      return path;
+    }
+
+    std::string
+    absolute_files(const DeclaredKey           &key,
+                   const std::string           &value,
+                   const std::filesystem::path &directory)
+    {
+      if (!key.is_list)
+        return value.empty() ? value : absolute_file(value, directory, "#");
+      std::string files;
+      for (const std::string &file : split_trimmed(value, ','))
+        files += (files.empty() ? "" : ", ") + absolute_file(file, directory, "#,");
+      return files;
+    }
+  } // namespace
+
+  void
+  KeyTable::enter_subsection(const std::string &name)
+  {
+    subsections.push_back(name);
+  }
+
+  void
+  KeyTable::leave_subsection()
+  {
+    subsections.pop_back();
+  }
+
+  void
+  KeyTable::insert(DeclaredKey declared, const Setter &set)
+  {
+    declared.subsections = subsections;
+    declared.value       = declared.default_value;
+    // after the last key of the present subsection, or else of the one around it
+    std::size_t position = entries.size(), depth = 0;
+    for (std::size_t i = 0; i < entries.size(); ++i)
+    {
+      const auto       &other = entries[i].declared.subsections;
+      const std::size_t common
+          = std::mismatch(other.begin(), other.end(), subsections.begin(), subsections.end()).first
+            - other.begin();
+      if (common > 0 && common >= depth)
+      {
+        depth    = common;
+        position = i + 1;
+      }
+    }
+    entries.insert(entries.begin() + position, { std::move(declared), set });
+  }
+
+  template <typename Value, typename Pattern>
+  void
+  KeyTable::add_pattern(DeclaredKey declared, Value &value, const Pattern &pattern)
+  {
+    using namespace dealii::Patterns::Tools;
+    declared.default_value = Convert<Value>::to_string(value, pattern);
+    insert(std::move(declared),
+           [&value, pattern](const std::string &text)
+           {
+             const bool allowed = pattern.match(text);
+             if (allowed)
+               value = Convert<Value>::to_value(text, pattern);
+             return allowed;
+           });
+  }
+
+  void
+  KeyTable::add(const std::string &key,
+                double            &value,
+                const std::string &documentation,
+                const Bounds      &bounds)
+  {
+    add_pattern({ {}, key, "", "", documentation, "a number" + bounds_in_words(bounds) }, value,
+                real_number(bounds));
+  }
+
+  void
+  KeyTable::add(const std::string &key,
+                unsigned int      &value,
+                const std::string &documentation,
+                const Bounds      &bounds)
+  {
+    add_pattern({ {}, key, "", "", documentation, "an integer" + bounds_in_words(bounds) }, value,
+                whole_number(bounds));
+  }
+
+  void
+  KeyTable::add(const std::string &key, bool &value, const std::string &documentation)
+  {
+    add_pattern({ {}, key, "", "", documentation, "true or false" }, value,
+                dealii::Patterns::Bool());
+  }
+
+  void
+  KeyTable::add(const std::string &key, std::string &value, const std::string &documentation)
+  {
+    add_pattern({ {}, key, "", "", documentation, "any text" }, value,
+                dealii::Patterns::Anything());
+  }
+
+  void
+  KeyTable::add(const std::string     &key,
+                std::array<double, 3> &value,
+                const std::string     &documentation,
+                const Bounds          &bounds)
+  {
+    add_pattern({ {}, key, "", "", documentation, three_in_words("numbers", bounds), false, true },
+                value, dealii::Patterns::List(real_number(bounds), 3, 3));
+  }
+
+  void
+  KeyTable::add(const std::string           &key,
+                std::array<unsigned int, 3> &value,
+                const std::string           &documentation,
+                const Bounds                &bounds)
+  {
+    add_pattern({ {}, key, "", "", documentation, three_in_words("integers", bounds), false, true },
+                value, dealii::Patterns::List(whole_number(bounds), 3, 3));
+  }
+
+  void
+  KeyTable::add_names(const std::string        &key,
+                      std::vector<std::string> &value,
+                      const std::string        &documentation)
+  {
+    add_pattern({ {}, key, "", "", documentation, "names separated by commas", false, true }, value,
+                dealii::Patterns::List(dealii::Patterns::Anything()));
+  }
+
+  void
+  KeyTable::add_file(const std::string &key, std::string &value, const std::string &documentation)
+  {
+    add_pattern({ {}, key, "", "", documentation, "a file name", true }, value,
+                dealii::Patterns::FileName());
+  }
+
+  void
+  KeyTable::add_files(const std::string        &key,
+                      std::vector<std::string> &value,
+                      const std::string        &documentation)
+  {
+    add_pattern({ {}, key, "", "", documentation, "file names separated by commas", true, true },
+                value, dealii::Patterns::List(dealii::Patterns::FileName()));
+  }
+
+  void
+  KeyTable::add_choice(const std::string              &key,
+                       const std::string              &name,
+                       const std::vector<std::string> &names,
+                       const std::string              &documentation,
+                       const Setter                   &set)
+  {
+    std::string allowed;
+    for (const std::string &other : names)
+      allowed += (allowed.empty() ? "" : ", ") + other;
+    insert({ {}, key, "", name, documentation, allowed }, set);
+  }
+
+  std::vector<DeclaredKey>
+  KeyTable::keys() const
+  {
+    std::vector<DeclaredKey> all;
+    for (const Entry &entry : entries)
+      all.push_back(entry.declared);
+    return all;
+  }
+
+  std::size_t
+  KeyTable::index_of(const std::string &path) const
+  {
+    return std::find_if(entries.begin(), entries.end(),
+                        [&](const Entry &entry) { return entry.declared.path() == path; })
+           - entries.begin();
+  }
+
+  const std::string &
+  KeyTable::get(const std::string &path) const
+  {
+    return entries.at(index_of(path)).declared.value;
+  }
+
+  void
+  KeyTable::set(const std::string &path, const std::string &text)
+  {
+    Entry &entry = entries.at(index_of(path));
+    if (!entry.set(text))
+      throw std::logic_error(path + " = '" + text + "' is not allowed");
+    entry.declared.value = text;
+  }
+
+  void
+  KeyTable::apply(const std::vector<Assignment> &assignments,
+                  const std::filesystem::path   &directory)
+  {
+    for (const Assignment &assignment : assignments)
+    {
+      const std::size_t index = index_of(assignment.path());
+      if (index == entries.size())
+        throw UnknownKey(assignment.place + ": there is no parameter '" + assignment.path()
+                         + "'. Did you mean '" + nearest_path(assignment.path(), keys())
+                         + "'? exemplar --print-parameters lists them all.");
+      DeclaredKey      &key = entries[index].declared;
+      const std::string value
+          = key.is_input_file ? absolute_files(key, assignment.value, directory) : assignment.value;
+      if (!entries[index].set(value))
+        throw UserError(assignment.place + ": " + key.path() + " = '" + value
+                        + "' is not allowed. Allowed: " + key.allowed + ". Default: '"
+                        + key.default_value + "'.");
+      key.value = value;
+    }
+  }
+} // namespace Exemplar

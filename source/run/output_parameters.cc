@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/prm/key_table.h>
+#include <exemplar/run/output_parameters.h>
+
+namespace Exemplar
+{
+  namespace
+  {
+    const EnumTable<FrameFormat> frame_formats = { { FrameFormat::vtu, "vtu" } };
+  } // namespace
+
+  void
+  OutputParameters::declare(KeyTable &keys)
+  {
+    keys.enter_subsection("Output");
+    keys.add("Directory", directory,
+             "Where results go, relative to the working directory; empty: "
+             "output/NAME of the scene file. An earlier run's files are cleared.");
+    keys.add("Every", every,
+             "A frame every so many steps, and of the last; 0: none (final.msh alone).",
+             Bounds{ 0 });
+    keys.add("Formats", format, frame_formats, "Format of the frames.");
+    keys.add("Checkpoint minutes", checkpoint_minutes,
+             "Minutes of run time between checkpoints. One is also written at the end and "
+             "on Ctrl-C.",
+             Bounds{ 0. });
+    keys.leave_subsection();
+  }
+} // namespace Exemplar

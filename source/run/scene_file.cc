@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
+#include <exemplar/run/scene_file.h>
+
+#include <algorithm>
+#include <set>
+
+namespace Exemplar
+{
+  namespace
+  {
+    const EnumTable<SceneKind> scene_kinds = { { SceneKind::interpolation, "interpolation" },
+                                               { SceneKind::statics, "static" },
+                                               { SceneKind::dynamic, "dynamic" } };
+
+    std::vector<Assignment>
+    parse_overrides(const std::vector<std::string> &texts)
+    {
+      std::vector<Assignment> overrides;
+      for (const std::string &text : texts)
+        overrides.push_back(parse_override(text));
+      return overrides;
+    }
+
+    /// Named subsections are the ones two deep: Handles/NAME, Loads/NAME, Material/region N.
+    bool
+    is_named(const Assignment &assignment)
+    {
+      return assignment.subsections.size() > 1;
+    }
+
+    void
+    check_names(const std::vector<std::string> &names, const std::string &section)
+    {
+      std::set<std::string> seen;
+      for (const std::string &name : names)
+      {
+        if (!seen.insert(name).second)
+          throw UserError(section + "/Names lists '" + name + "' twice. Names must differ.");
+        if (name.empty() || name.find_first_of("/\";|") != std::string::npos)
+          throw UserError(section + "/Names: '" + name
+                          + "' is no name. Use letters, digits, blanks, - and _.");
+      }
+    }
+
+    /// A subsection that Names does not list would be an unknown key without a hint.
+    void
+    check_listed(const std::vector<Assignment>  &assignments,
+                 const std::string              &section,
+                 const std::vector<std::string> &names)
+    {
+      std::string listed;
+      for (const std::string &name : names)
+        listed += (listed.empty() ? "" : ", ") + name;
+      for (const Assignment &a : assignments)
+        if (a.subsections[0] == section
+            && std::find(names.begin(), names.end(), a.subsections[1]) == names.end())
+          throw UnknownKey(a.place + ": subsection " + section + "/" + a.subsections[1]
+                           + " is not in " + section
+                           + "/Names (there: " + (listed.empty() ? "none" : listed)
+                           + "). Add it there, or remove the subsection.");
+    }
+
+    std::set<unsigned int>
+    material_regions(const std::vector<Assignment> &assignments)
+    {
+      const std::string      prefix = "region ";
+      std::set<unsigned int> ids;
+      for (const Assignment &a : assignments)
+        if (is_named(a) && a.subsections[0] == "Material")
+        {
+          const std::string &name = a.subsections[1];
+          if (name.compare(0, prefix.size(), prefix) != 0 || name.size() == prefix.size()
+              || name.size() > prefix.size() + 9
+              || name.find_first_not_of("0123456789", prefix.size()) != std::string::npos)
+            throw UnknownKey(a.place + ": subsection Material/" + name
+                             + " is not understood. Subsections of Material are 'region ID' with a "
+                               "material id of the mesh.");
+          ids.insert(static_cast<unsigned int>(std::stoul(name.substr(prefix.size()))));
+        }
+      return ids;
+    }
+  } // namespace
+
+  SceneFile::SceneFile(const std::filesystem::path &file, const std::vector<std::string> &overrides)
+      : SceneFile(file, read_prm(file), overrides)
+  {
+  }
+
+  SceneFile::SceneFile(const std::filesystem::path    &file,
+                       const std::string              &text,
+                       const std::vector<std::string> &overrides)
+      : SceneFile(file, text, parse_overrides(overrides))
+  {
+  }
+
+  SceneFile::SceneFile(const std::filesystem::path   &file,
+                       const std::string             &text,
+                       const std::vector<Assignment> &overrides)
+      : file(file), text(text)
+  {
+    if (!file.empty())
+      parameters.name = file.string();
+    std::vector<Assignment> assignments = read_assignments(text, parameters.name);
+    assignments.insert(assignments.end(), overrides.begin(), overrides.end());
+    if (find_assignment(assignments, "Scene") == nullptr)
+      throw UserError(parameters.name
+                      + ": Scene is not set. Add a line 'set Scene = dynamic' (or static, or "
+                        "interpolation).");
+
+    const auto first_named = std::stable_partition(
+        assignments.begin(), assignments.end(), [](const Assignment &a) { return !is_named(a); });
+    const std::vector<Assignment> named(first_named, assignments.end());
+    assignments.erase(first_named, assignments.end());
+
+    declare_sections();
+    keys.apply(assignments, directory());
+    check_names(handle_names, "Handles");
+    check_names(load_names, "Loads");
+    check_listed(named, "Handles", handle_names);
+    check_listed(named, "Loads", load_names);
+    declare_named_subsections(named);
+    keys.apply(named, directory());
+
+    make_selections_absolute();
+    const ExampleParameters given = parameters.examples;
+    parameters.complete(); // in the text Method stays auto, so that it says what the scene said
+    if (parameters.scene == SceneKind::interpolation)
+      set_interpolation(assignments, given);
+    if (parameters.output.directory.empty())
+      keys.set("Output/Directory",
+               "output/" + std::filesystem::path(parameters.name).stem().string());
+    parameters.check();
+  }
+
+  std::filesystem::path
+  SceneFile::directory() const
+  {
+    return file.empty() ? file : std::filesystem::absolute(file).parent_path();
+  }
+
+  void
+  SceneFile::declare_sections()
+  {
+    keys.add("Scene", parameters.scene, scene_kinds,
+             "What to solve: interpolation between poses, static equilibrium in increments, or "
+             "dynamic. To be set in every scene.");
+    parameters.mesh.declare(keys);
+    parameters.material.declare(keys);
+    parameters.model.declare(keys);
+    parameters.examples.declare(keys);
+    keys.enter_subsection("Handles");
+    keys.add_names("Names", handle_names,
+                   "Names of the handles, separated by commas; each has a subsection.");
+    keys.leave_subsection();
+    keys.enter_subsection("Loads");
+    keys.add("Gravity", parameters.gravity,
+             "Acceleration of gravity [m/s^2]. It acts in full from the start, also in a static "
+             "scene; a weight that grows is a force of Loads/Names on a region.");
+    keys.add_names("Names", load_names,
+                   "Names of dead forces, separated by commas; each has a subsection.");
+    keys.leave_subsection();
+    parameters.initial.declare(keys);
+    parameters.time.declare(keys);
+    parameters.solver.declare(keys);
+    parameters.output.declare(keys);
+  }
+
+  void
+  SceneFile::declare_named_subsections(const std::vector<Assignment> &assignments)
+  {
+    const std::set<unsigned int> regions = material_regions(assignments);
+    parameters.material.declare_regions(keys, regions);
+    // deal.II rounds the text of a default to six digits: take over the text that was set
+    for (const std::string key : { "Young's modulus", "Poisson's ratio", "Density" })
+      for (const unsigned int id : regions)
+        keys.set("Material/" + MaterialParameters::region_name(id) + "/" + key,
+                 keys.get("Material/" + key));
+    parameters.handles.resize(handle_names.size()); // before binding: entries must not move
+    parameters.loads.resize(load_names.size());
+    keys.enter_subsection("Handles");
+    for (unsigned int i = 0; i < handle_names.size(); ++i)
+    {
+      parameters.handles[i].name = handle_names[i];
+      parameters.handles[i].declare(keys);
+    }
+    keys.leave_subsection();
+    keys.enter_subsection("Loads");
+    for (unsigned int i = 0; i < load_names.size(); ++i)
+    {
+      parameters.loads[i].name = load_names[i];
+      parameters.loads[i].declare(keys);
+    }
+    keys.leave_subsection();
+  }
+
+  void
+  SceneFile::make_selections_absolute()
+  {
+    for (const HandleParameters &handle : parameters.handles)
+      keys.set("Handles/" + handle.name + "/Select",
+               Selection::absolute(handle.select.text, directory()));
+    for (const LoadParameters &load : parameters.loads)
+      keys.set("Loads/" + load.name + "/Select",
+               Selection::absolute(load.select.text, directory()));
+  }
+
+  void
+  SceneFile::set_interpolation(const std::vector<Assignment> &assignments,
+                               const ExampleParameters       &given)
+  {
+    const auto require = [&](const std::string &key, const std::string &value, const bool agrees)
+    {
+      const Assignment *assignment = find_assignment(assignments, "Examples/" + key);
+      if (assignment != nullptr && !agrees)
+        throw UserError(assignment->place + ": Examples/" + key + " = " + assignment->value
+                        + ", but an interpolation has " + key + " = " + value
+                        + ". Remove the line, or choose Scene = static.");
+      keys.set("Examples/" + key, value);
+    };
+    require("Importance", "1", given.importance == parameters.examples.importance);
+    require("Weights", "prescribed", given.weights == parameters.examples.weights);
+  }
+
+  std::vector<DeclaredKey>
+  SceneFile::reference()
+  {
+    SceneFile samples;
+    samples.declare_sections();
+    samples.handle_names = { "NAME" };
+    samples.load_names   = { "NAME" };
+    samples.declare_named_subsections({ { { "Material", "region 1" }, "", "", "" } });
+    return samples.get_keys();
+  }
+
+  std::vector<DeclaredKey>
+  SceneFile::get_keys() const
+  {
+    return keys.keys();
+  }
+
+  std::vector<std::filesystem::path>
+  SceneFile::input_files() const
+  {
+    std::vector<std::filesystem::path> files;
+    for (const DeclaredKey &key : get_keys())
+      if (key.path() == "Examples/Poses" && !parameters.examples.in_use())
+        continue; // with importance 0 the poses need not be there
+      else if (key.is_input_file)
+        for (const std::string &file : split_trimmed(key.value, key.is_list ? ',' : '\n'))
+          files.emplace_back(file);
+      else if (key.key == "Select" && key.value.compare(0, 6, "nodes ") == 0)
+        files.emplace_back(key.value.substr(6));
+    return files;
+  }
+} // namespace Exemplar

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
+#include <exemplar/run/scene_parameters.h>
+
+namespace Exemplar
+{
+  bool
+  SceneParameters::has_gravity() const
+  {
+    return gravity != std::array<double, 3>{};
+  }
+
+  void
+  SceneParameters::complete()
+  {
+    if (scene == SceneKind::interpolation)
+    {
+      examples.importance = 1.;
+      examples.weights    = WeightRule::prescribed;
+    }
+    if (solver.method != Method::automatic)
+      return;
+    if (model.is_frozen())
+      solver.method = Method::fixed_point;
+    else
+      solver.method = scene == SceneKind::dynamic && solver.linear_solver != LinearSolver::iterative
+                          ? Method::quasi_newton
+                          : Method::newton;
+  }
+
+  void
+  SceneParameters::check() const
+  {
+    if (scene == SceneKind::interpolation)
+      check_interpolation();
+    material.check();
+    examples.check();
+    check_solver();
+  }
+
+  void
+  SceneParameters::check_interpolation() const
+  {
+    if (!examples.in_use())
+      throw UserError("Scene = interpolation needs example poses. Give Examples/Poses or "
+                      "Examples/Pose functions.");
+    if (!handles.empty() || !loads.empty() || has_gravity())
+      throw UserError("Scene = interpolation has neither handles nor loads: it follows its "
+                      "prescribed weights. Remove Handles/Names and Loads, or choose Scene = "
+                      "static.");
+  }
+
+  void
+  SceneParameters::check_solver() const
+  {
+    const bool descends = solver.method == Method::newton || solver.method == Method::quasi_newton;
+    if (descends && model.is_frozen())
+      throw UserError("Solver/Method = " + method_name(solver.method)
+                      + " needs a force that is the gradient of an energy, but "
+                        "Model/Gradient = frozen is not. Set Model/Gradient = consistent, or "
+                        "Solver/Method = fixed point.");
+    if (solver.method == Method::quasi_newton && scene != SceneKind::dynamic)
+      throw UserError("Solver/Method = quasi newton goes from step to step of a dynamic scene; "
+                      "this one has none. Set Solver/Method = newton, or Scene = dynamic.");
+    if (solver.method == Method::quasi_newton && solver.linear_solver == LinearSolver::iterative)
+      throw UserError("Solver/Method = quasi newton keeps a factor, but Solver/Linear solver = "
+                      "iterative makes none. Set it to cholesky, or Solver/Method = newton.");
+    if (solver.rotations == PassRotations::predicted && scene != SceneKind::dynamic)
+      throw UserError(
+          "Solver/Rotations = predicted follows the velocities of a dynamic scene; this "
+          "one has none. Set Solver/Rotations = last, or Scene = dynamic.");
+    const bool bounded = examples.in_use() && examples.weights == WeightRule::simplex;
+    if (solver.linear_solver == LinearSolver::umfpack && (bounded || descends))
+      throw UserError("Solver/Linear solver = umfpack solves linear systems without bounds and "
+                      "cannot tell an indefinite one. Set Solver/Method = fixed point and "
+                      "Examples/Weights = free, or Solver/Linear solver = cholesky.");
+  }
+} // namespace Exemplar
