@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
 #include <exemplar/prm/key_table.h>
 #include <exemplar/run/initial_parameters.h>
 
@@ -18,5 +19,12 @@ namespace Exemplar
              "Velocity [m/s] at t = 0 of a dynamic scene: three functions of the rest "
              "position x, y, z [m].");
     keys.leave_subsection();
+  }
+
+  void
+  InitialParameters::check() const
+  {
+    if (!pose.empty() && !pose_function.empty())
+      throw UserError("Initial/Pose and Initial/Pose function are both given. Keep one of them.");
   }
 } // namespace Exemplar

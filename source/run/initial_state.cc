@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/base/errors.h>
 #include <exemplar/prm/expression.h>
 #include <exemplar/run/initial_state.h>
 
@@ -13,9 +12,6 @@ namespace Exemplar
                 const bool               dynamic,
                 const NamedPoses        &poses)
   {
-    if (!parameters.pose.empty() && !parameters.pose_function.empty())
-      throw UserError("Initial/Pose and Initial/Pose function are both given. Keep one of them.");
-
     State state;
     state.positions           = fe_space.rest_positions();
     const auto set_node_field = [&](const Expression &expression, dealii::Vector<double> &field)

@@ -35,6 +35,7 @@ namespace Exemplar
       check_interpolation();
     material.check();
     examples.check();
+    initial.check();
     check_solver();
   }
 

@@ -17,6 +17,10 @@ namespace Exemplar
 
     void
     declare(KeyTable &keys);
+
+    /// Throws UserError if there are two poses.
+    void
+    check() const;
   };
 } // namespace Exemplar
 

@@ -12,7 +12,7 @@ namespace Exemplar
   /// The state before the first step: the rest pose or the one that Initial asks
   /// for, moving with Initial/Velocity if `dynamic`; weight one on the first
   /// example, or the prescribed weights at t = 0. `weights` may be null,
-  /// the pose is among `poses`. Throws UserError if it is not, or if a function is given, too.
+  /// the pose is among `poses`. Throws UserError if it is not.
   State
   initial_state(const InitialParameters &parameters,
                 const Mesh              &mesh,
