@@ -6,7 +6,7 @@ namespace Exemplar
 {
   namespace
   {
-    // Nanoseconds on the machine of doc/results.md; only their ratio matters.
+    // Nanoseconds on the machine of doc/speed.md; only their ratio matters.
 
     double
     factorization_cost(const FactorPanels &panels)

@@ -148,7 +148,7 @@ namespace Exemplar
     }
 
     /// Operations of CHOLMOD's factorisation, for each degree of freedom and solve with it,
-    /// from which conjugate gradients are faster: measured, doc/results.md.
+    /// from which conjugate gradients are faster: measured, doc/speed.md.
     constexpr double operations_at_crossover = 4e5;
 
     /// Residual of a linear solve over its right side. Newton's method and the fixed point

@@ -271,7 +271,7 @@ namespace Exemplar::Verification
             const std::string     &model = "")
     {
       return { "derivatives-" + name,
-               "central differences, 4th order, " + state + "; doc/method.md, Eqs. (16) to (20)",
+               "central differences, 4th order, " + state + "; doc/model.md, Eqs. (16) to (20)",
                [=] { return derivatives_at(F, amplitude, model); } };
     }
   } // namespace
@@ -305,7 +305,7 @@ namespace Exemplar::Verification
       case_at("linear-random", "linear strain at random", I, 0.1, linear),
       case_at("linear-inverted", "linear strain, mirrored", mirrored, 0.02, linear),
       { "derivatives-frozen",
-        "central differences with kept rotations, at random; doc/method.md, Eqs. (6) to (9)",
+        "central differences with kept rotations, at random; doc/model.md, Eqs. (6) to (9)",
         frozen_derivatives }
     };
   }

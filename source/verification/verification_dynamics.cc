@@ -236,9 +236,9 @@ namespace Exemplar::Verification
   dynamic_cases()
   {
     return {
-      { "free-fall", "y_n = y_0 - g h^2 n (n+1) / 2; doc/method.md, closed forms", free_fall },
+      { "free-fall", "y_n = y_0 - g h^2 n (n+1) / 2; doc/model.md, closed forms", free_fall },
       { "implicit-euler-oscillator",
-        "amplitude (1+w^2 h^2)^(-1/2) and phase atan(w h) a step; doc/method.md, closed forms",
+        "amplitude (1+w^2 h^2)^(-1/2) and phase atan(w h) a step; doc/model.md, closed forms",
         implicit_euler_oscillator },
       { "implicit-euler-order", "first order in the step; self-convergence",
         [] { return order_in_time("implicit euler", 1.); } },

@@ -275,18 +275,18 @@ namespace Exemplar::Verification
   {
     return {
       { "example-recovery",
-        "a moved example is an equilibrium with w = e_i; doc/method.md, closed forms",
+        "a moved example is an equilibrium with w = e_i; doc/model.md, closed forms",
         example_recovery },
       { "importance-zero", "examples of importance 0 change no bit", importance_zero },
       { "one-region", "weights of one region are the global ones", one_region },
-      { "free-weights-undo-importance", "eta w does not depend on eta; doc/method.md, weights",
+      { "free-weights-undo-importance", "eta w does not depend on eta; doc/model.md, weights",
         free_weights_undo_importance },
-      { "permutation", "permuted examples permute the weights; doc/method.md, closed forms",
+      { "permutation", "permuted examples permute the weights; doc/model.md, closed forms",
         permutation },
       { "duplicate",
-        "every example twice with sigma is each once with sigma/2; doc/method.md, closed forms",
+        "every example twice with sigma is each once with sigma/2; doc/model.md, closed forms",
         duplicate },
-      { "dependent-examples", "refused without ridge; doc/method.md, weights", dependent_examples },
+      { "dependent-examples", "refused without ridge; doc/model.md, weights", dependent_examples },
       { "simplex-kkt", "300 random programs of up to 6 weights: KKT, and all active sets",
         simplex_kkt }
     };

@@ -165,16 +165,16 @@ namespace Exemplar::Verification
   kernel_cases()
   {
     return {
-      { "uniaxial", "pulled bar: E (s-1) and 1 - nu (s-1); doc/method.md, closed forms", uniaxial },
-      { "uniform-scale", "3 mu (s-1)^2 + 9/2 lambda (s-1)^2; doc/method.md, closed forms",
+      { "uniaxial", "pulled bar: E (s-1) and 1 - nu (s-1); doc/model.md, closed forms", uniaxial },
+      { "uniform-scale", "3 mu (s-1)^2 + 9/2 lambda (s-1)^2; doc/model.md, closed forms",
         uniform_scale },
-      { "simple-shear", "mu (4+g^2-2r) + lambda/2 (r-2)^2; doc/method.md, closed forms",
+      { "simple-shear", "mu (4+g^2-2r) + lambda/2 (r-2)^2; doc/model.md, closed forms",
         simple_shear },
-      { "own-example-strain", "(1 - eta)^2 of the energy; doc/method.md, closed forms",
+      { "own-example-strain", "(1 - eta)^2 of the energy; doc/model.md, closed forms",
         own_example_strain },
-      { "rigid-motion", "same energy, turned forces, no resultant; doc/method.md, closed forms",
+      { "rigid-motion", "same energy, turned forces, no resultant; doc/model.md, closed forms",
         rigid_motion },
-      { "ghost-torque", "that frozen rotations leave out W; doc/method.md, Eq. (17)", ghost_torque }
+      { "ghost-torque", "that frozen rotations leave out W; doc/model.md, Eq. (17)", ghost_torque }
     };
   }
 } // namespace Exemplar::Verification

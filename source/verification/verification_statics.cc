@@ -152,7 +152,7 @@ namespace Exemplar::Verification
   std::vector<Case>
   static_cases()
   {
-    return { { "patch", "affine boundary data give the affine field; doc/method.md, closed forms",
+    return { { "patch", "affine boundary data give the affine field; doc/model.md, closed forms",
                patch },
              { "newton-quadratic", "what a step with the tangent (18) leaves of a small error",
                newton_quadratic },

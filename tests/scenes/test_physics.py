@@ -46,7 +46,7 @@ class Physics(SceneTest):
     def test_free_spin(self):
         """A stiff body that spins freely loses angular momentum by the law of implicit Euler alone.
 
-        L_(n+1) = L_n + h sum v_(n+1) x M v_n (doc/method.md) says of a rigid body that turns by the angle a_n in a
+        L_(n+1) = L_n + h sum v_(n+1) x M v_n (doc/dynamics.md) says of a rigid body that turns by the angle a_n in a
         step: tan a_(n+1) = sin a_n / (2 - cos a_n) and L_n = J sin a_n / h, first tan a_1 = h omega.
         """
         h, omega = 0.02, 6.

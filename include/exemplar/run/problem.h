@@ -100,7 +100,7 @@ namespace Exemplar
     void
     check_supports() const;
 
-    /// Whether the energy bound of doc/method.md, Eq. (12), holds where handles rest.
+    /// Whether the energy bound of doc/dynamics.md, Eq. (12), holds where handles rest.
     bool
     energy_is_bounded() const;
 

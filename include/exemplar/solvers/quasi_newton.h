@@ -14,7 +14,7 @@ namespace Exemplar
   /// Steps of dynamics that seldom factorise: the exact gradient, and for the inverse of its
   /// derivative the inverse of an earlier tangent, rotated with the nodes and corrected by L-BFGS,
   /// whose pairs are kept in the frame of that inverse and so stay good for many steps. Newton's
-  /// method takes over where that does not converge. doc/method.md, "Steps without a
+  /// method takes over where that does not converge. doc/solver.md, "Steps without a
   /// factorisation".
   class QuasiNewton : public StepSolver
   {

@@ -34,7 +34,7 @@ namespace Exemplar
   {
     SolveStatus         status       = SolveStatus::initial;
     unsigned int        iterations   = 0;
-    double              residual     = 0.; ///< relative, doc/method.md Eq. (13)
+    double              residual     = 0.; ///< relative, doc/solver.md Eq. (13)
     double              kkt_residual = 0.; ///< of the weights, relative, Eq. (13)
     std::vector<double> residual_history;  ///< one entry an iteration
     double              step_length = 1.;  ///< of the last step, as the line search left it

@@ -362,7 +362,7 @@ namespace Exemplar::Testing
         EXPECT_NEAR(derivative, 0., 1e-12 * evaluation.weight_scale);
     }
 
-    // doc/method.md, "What is wrong in the print", 2: with q_i on the left and
+    // doc/paper-errata.md, 2: with q_i on the left and
     // (1-eta) R K X on the right a body at rest shrinks to (1-eta) X. Our right side
     // R K X leaves it where it is. Rollers on three faces through the origin hold it.
     TEST(ElasticPotential, ThePapersLiteralRightSideShrinksABodyAtRest)
