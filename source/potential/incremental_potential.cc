@@ -19,6 +19,18 @@ namespace Exemplar
       return a <= rounding ? 0. : a / b;
     }
 
+    std::vector<std::pair<unsigned int, unsigned int>>
+    couplings_of(const std::vector<std::unique_ptr<PotentialTerm>> &terms)
+    {
+      std::vector<std::pair<unsigned int, unsigned int>> couplings;
+      for (const auto &term : terms)
+      {
+        const auto more = term->couplings();
+        couplings.insert(couplings.end(), more.begin(), more.end());
+      }
+      return couplings;
+    }
+
     /// a + c (b - a)
     void
     mix(std::vector<double> &a, const std::vector<double> &b, const double c)
@@ -28,14 +40,16 @@ namespace Exemplar
     }
   } // namespace
 
-  IncrementalPotential::IncrementalPotential(ElasticPotential            &cells,
-                                             const ExampleWeights        *weights,
-                                             std::vector<PotentialTerm *> terms,
-                                             TimeIntegrator              *integrator,
-                                             const FreeDofs              &free_dofs)
-      : cells(cells), weights(weights), terms(std::move(terms)), integrator(integrator),
-        free_dofs(free_dofs)
+  IncrementalPotential::IncrementalPotential(const ElasticParts                         &parts,
+                                             std::vector<std::unique_ptr<PotentialTerm>> new_terms,
+                                             TimeIntegrator                             *integrator)
+      : terms(std::move(new_terms)),
+        pattern(make_pattern(parts.fe_space, couplings_of(terms), parts.free_dofs)),
+        cells(parts, pattern), weights(parts.weights), integrator(integrator),
+        free_dofs(parts.free_dofs)
   {
+    for (const auto &term : terms)
+      term->attach(pattern, free_dofs);
   }
 
   void
@@ -48,7 +62,7 @@ namespace Exemplar
       if (integrator->stiffness_damping_factor() > 0.)
         cells.set_damping(integrator->stiffness_damping_factor(), integrator->history(start));
     }
-    for (PotentialTerm *term : terms)
+    for (const auto &term : terms)
       term->begin_step(start);
   }
 
@@ -57,7 +71,7 @@ namespace Exemplar
   {
     in_dynamic_step = false;
     cells.set_damping(0., {});
-    for (PotentialTerm *term : terms)
+    for (const auto &term : terms)
       term->leave_step();
   }
 
@@ -65,7 +79,7 @@ namespace Exemplar
   IncrementalPotential::set_time(const double time, State &state)
   {
     state.time = time;
-    for (PotentialTerm *term : terms)
+    for (const auto &term : terms)
       term->set_time(time);
     if (weights != nullptr && !weights->are_unknown())
       state.weights = weights->at(time);
@@ -120,7 +134,7 @@ namespace Exemplar
     evaluation.force_scale = evaluation.elastic.force_scale;
     evaluation.potential   = evaluation.elastic.energy + evaluation.elastic.energy_damping;
     evaluation.term_energies.clear();
-    for (const PotentialTerm *term : terms)
+    for (const auto &term : terms)
     {
       const double energy = term->add(positions, evaluation.gradient, evaluation.force_scale);
       evaluation.term_energies.push_back(energy);
@@ -136,7 +150,7 @@ namespace Exemplar
                                          std::vector<double>       &columns)
   {
     std::fill(matrix_values.begin(), matrix_values.end(), 0.);
-    for (const PotentialTerm *term : terms)
+    for (const auto &term : terms)
       term->add_tangent(positions, matrix_values);
     cells.assemble_tangent(tangent, positions, at_weights, matrix_values, columns);
   }
@@ -173,7 +187,7 @@ namespace Exemplar
   IncrementalPotential::residual(const State &at, const Evaluation &evaluation) const
   {
     double rounding = cells.rounding_force();
-    for (const PotentialTerm *term : terms)
+    for (const auto &term : terms)
       rounding += term->rounding_force();
     Residual residual;
     residual.positions

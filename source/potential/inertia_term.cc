@@ -8,8 +8,10 @@
 
 namespace Exemplar
 {
-  InertiaTerm::InertiaTerm(const Mass &mass, const TimeIntegrator &integrator)
-      : mass(mass), integrator(integrator)
+  InertiaTerm::InertiaTerm(const Mass           &mass,
+                           const TimeIntegrator &integrator,
+                           const bool            is_reported)
+      : mass(mass), integrator(integrator), is_reported(is_reported)
   {
   }
 

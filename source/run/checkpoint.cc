@@ -109,6 +109,5 @@ namespace Exemplar
                    problem.resume_from(checkpoint.state, checkpoint.solver_memory);
                    return true;
                  });
-    problem.diagnostics.set_work(checkpoint.work);
   }
 } // namespace Exemplar

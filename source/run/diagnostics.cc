@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/number_text.h>
 #include <exemplar/run/diagnostics.h>
 
 #include <cmath>
@@ -21,82 +22,112 @@ namespace Exemplar
     }
   } // namespace
 
-  Diagnostics::Diagnostics(const Handles        *handles,
-                           const Loads          *loads,
-                           const ExampleWeights *weights,
-                           const Mass           *mass,
-                           const bool            energy_is_bounded)
-      : handles(handles), loads(loads), weights(weights), mass(mass),
-        energy_is_bounded(energy_is_bounded)
+  Diagnostics::Diagnostics(const Problem &problem)
+      : problem(problem), last_positions(problem.state.positions)
   {
   }
 
   void
-  Diagnostics::add_work(const dealii::Vector<double> &old_positions,
-                        const State                  &state,
-                        const dealii::Vector<double> &gradient)
+  Diagnostics::resume(const Work &earlier)
   {
-    dealii::Vector<double> displacement = state.positions;
-    displacement -= old_positions;
+    work           = earlier;
+    last_positions = problem.state.positions;
+  }
+
+  void
+  Diagnostics::add_step()
+  {
+    const State   &state        = problem.state;
+    const Handles *handles      = problem.constraints.handles.get();
+    const Loads   *loads        = problem.actions.loads.get();
+    Vector         displacement = state.positions;
+    displacement -= last_positions;
     if (handles != nullptr)
       for (const unsigned int dof : handles->held_dofs())
-        work.handles += gradient[dof] * displacement[dof];
+        work.handles += problem.evaluation.gradient[dof] * displacement[dof];
     if (loads != nullptr && loads->has_gravity())
       work.gravity += loads->gravity() * displacement;
     if (loads != nullptr && loads->has_named_loads())
     {
-      dealii::Vector<double> force(displacement.size());
+      Vector force(displacement.size());
       loads->named_loads(state.time, force);
       work.loads += force * displacement;
     }
+    last_positions = state.positions;
   }
 
   StatisticsRow
-  Diagnostics::row(const State       &state,
-                   const SolveReport &report,
-                   const Evaluation  &evaluation) const
+  Diagnostics::row(const State &shown, const SolveReport &report) const
   {
-    const ElasticEvaluation &elastic = evaluation.elastic;
-    StatisticsRow            row     = { { "step", std::to_string(state.step) },
-                                         { "time", shortest_text(state.time) },
-                                         { "status", status_name(report.status) },
-                                         { "iterations", std::to_string(report.iterations) } };
+    const ElasticEvaluation &elastic      = problem.evaluation.elastic;
+    const Mass              *mass         = problem.actions.mass.get();
+    const bool               has_examples = problem.examples.poses != nullptr;
+    const MotionSums         sums = mass != nullptr ? mass->motion_sums(shown) : MotionSums();
+    StatisticsRow            row  = { { "step", std::to_string(shown.step) },
+                                      { "time", shortest_text(shown.time) },
+                                      { "status", status_name(report.status) },
+                                      { "iterations", std::to_string(report.iterations) } };
     append(row, "residual", report.status == SolveStatus::failed ? std::nan("") : report.residual);
     append(row, "energy_elastic", elastic.energy_elastic);
-    if (weights != nullptr)
+    if (has_examples)
       append(row, "energy_example", elastic.energy_example());
-    const MotionSums sums = mass != nullptr ? mass->motion_sums(state) : MotionSums();
     if (mass != nullptr)
       append(row, "energy_kinetic", sums.kinetic_energy);
-    if (energy_is_bounded)
-      append(row, "energy_inertia", evaluation.term_energies.front());
-    for (unsigned int i = 0; i < state.weights.size(); ++i)
-      append(row, weights->weight_name("weight", i), state.weights[i]);
-    if (weights != nullptr && weights->are_unknown())
-    {
-      for (unsigned int region = 0; region < state.multipliers.size(); ++region)
-        append(row, weights->region_name("multiplier", region), state.multipliers[region]);
-      append(row, "kkt_residual", report.kkt_residual);
-    }
+    append_terms(row);
+    append_weights(row, shown, report);
     append(row, "min_det_F", elastic.min_det_F);
     row.emplace_back("inverted_cells", std::to_string(elastic.inverted_cells));
-    if (weights != nullptr)
+    if (has_examples)
       row.emplace_back("guarded_cells", std::to_string(elastic.guarded_cells));
     if (mass != nullptr)
     {
       append(row, "momentum", sums.momentum);
       append(row, "angular_momentum", sums.angular_momentum);
     }
-    if (handles != nullptr)
+    append_work(row);
+    if (const Handles *handles = problem.constraints.handles.get())
+      for (unsigned int h = 0; h < handles->size(); ++h)
+        append(row, "reaction_" + handles->name(h),
+               handles->sum_over(h, problem.evaluation.gradient));
+    return row;
+  }
+
+  void
+  Diagnostics::append_terms(StatisticsRow &row) const
+  {
+    const auto                                 &terms = problem.potential.get_terms();
+    std::vector<std::pair<std::string, double>> columns;
+    for (std::size_t i = 0; i < terms.size(); ++i)
+      terms[i]->append_columns(problem.evaluation.term_energies[i], columns);
+    for (const auto &[name, value] : columns)
+      append(row, name, value);
+  }
+
+  void
+  Diagnostics::append_weights(StatisticsRow     &row,
+                              const State       &shown,
+                              const SolveReport &report) const
+  {
+    const ExampleWeights *weights = problem.examples.weights.get();
+    for (unsigned int i = 0; i < shown.weights.size(); ++i)
+      append(row, weights->weight_name("weight", i), shown.weights[i]);
+    if (weights == nullptr || !weights->are_unknown())
+      return;
+    for (unsigned int region = 0; region < shown.multipliers.size(); ++region)
+      append(row, weights->region_name("multiplier", region), shown.multipliers[region]);
+    append(row, "kkt_residual", report.kkt_residual);
+  }
+
+  void
+  Diagnostics::append_work(StatisticsRow &row) const
+  {
+    const Loads *loads = problem.actions.loads.get();
+    if (problem.constraints.handles != nullptr)
       append(row, "work_handles", work.handles);
     if (loads != nullptr && loads->has_gravity())
       append(row, "work_gravity", work.gravity);
     if (loads != nullptr && loads->has_named_loads())
       append(row, "work_loads", work.loads);
-    if (handles != nullptr)
-      for (unsigned int h = 0; h < handles->size(); ++h)
-        append(row, "reaction_" + handles->name(h), handles->sum_over(h, evaluation.gradient));
-    return row;
   }
 
   void

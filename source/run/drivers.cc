@@ -47,13 +47,14 @@ namespace Exemplar
     {
       const BlasInfo blas = blas_info();
       std::cout << "Scene     " << problem.parameters.name << '\n'
-                << "Mesh      " << problem.mesh.get_name() << ": " << problem.mesh.n_cells()
-                << " cells, " << problem.mesh.n_nodes() << " nodes, " << problem.free_dofs.size()
-                << " of " << problem.fe_space.n_dofs() << " dofs free\n"
+                << "Mesh      " << problem.body.mesh.get_name() << ": "
+                << problem.body.mesh.n_cells() << " cells, " << problem.body.mesh.n_nodes()
+                << " nodes, " << problem.constraints.free_dofs.size() << " of "
+                << problem.body.fe_space.n_dofs() << " dofs free\n"
                 << "Examples  ";
-      if (problem.examples != nullptr)
-        std::cout << problem.examples->size() << ", importance " << problem.examples->importance()
-                  << '\n';
+      if (problem.examples.poses != nullptr)
+        std::cout << problem.examples.poses->size() << ", importance "
+                  << problem.examples.poses->importance() << '\n';
       else
         std::cout << "none\n";
       std::cout << "Solver    " << method_name(problem.parameters.solver.method) << ", "
@@ -115,7 +116,7 @@ namespace Exemplar
             + report.failure);
       std::ostringstream message;
       const bool         lacks_derivative = problem.parameters.solver.method == Method::fixed_point
-                                    && problem.examples != nullptr
+                                    && problem.examples.poses != nullptr
                                     && traits_of(problem.parameters.model.strain).has_rotations
                                     && !problem.parameters.model.is_frozen();
       message << "Step " << step
@@ -213,9 +214,9 @@ namespace Exemplar
   {
     const SceneFile scene(options.scene_file, options.overrides);
     const auto      problem = make_problem(scene.get_parameters());
-    std::cout << options.scene_file.string() << ": valid; " << problem->mesh.n_cells() << " cells, "
-              << problem->mesh.n_nodes() << " nodes, " << problem->time_axis.n_steps() << " steps"
-              << std::endl;
+    std::cout << options.scene_file.string() << ": valid; " << problem->body.mesh.n_cells()
+              << " cells, " << problem->body.mesh.n_nodes() << " nodes, "
+              << problem->time_axis.n_steps() << " steps" << std::endl;
   }
 
   void

@@ -118,10 +118,11 @@ namespace Exemplar
   } // namespace
 
   Results::Results(Problem &problem, const SceneFile &scene)
-      : problem(problem), scene(scene), directory(problem.parameters.output.directory),
-        input_digests(digests_of(scene)), last_checkpoint(std::chrono::steady_clock::now()),
+      : problem(problem), scene(scene), diagnostics(problem),
+        directory(problem.parameters.output.directory), input_digests(digests_of(scene)),
+        last_checkpoint(std::chrono::steady_clock::now()),
         vtu_writer(problem.parameters.output.every > 0
-                       ? std::make_unique<const VtuWriter>(problem.mesh)
+                       ? std::make_unique<const VtuWriter>(problem.body.mesh)
                        : nullptr),
         background(n_threads() > 1)
   {
@@ -142,7 +143,7 @@ namespace Exemplar
       statistics.emplace(directory.statistics());
       if (is_frame(0))
         write_frame();
-      StatisticsRow row = problem.diagnostics.row(problem.state, SolveReport(), problem.evaluation);
+      StatisticsRow row = diagnostics.row(problem.state, SolveReport());
       Diagnostics::append_seconds(row, {});
       statistics->write(row);
       accepted_bytes = statistics->n_bytes();
@@ -177,6 +178,7 @@ namespace Exemplar
     if (was_only_last && !is_frame(state.step)) // the run now ends later
       fs::remove(directory.get_path() / RunDirectory::frame_name(state.step));
     restore(checkpoint, directory.checkpoint(), problem);
+    diagnostics.resume(checkpoint.work);
     accepted_bytes         = checkpoint.statistics_bytes;
     totals                 = checkpoint.totals;
     earlier_factorizations = totals.factorizations;
@@ -224,6 +226,8 @@ namespace Exemplar
     totals.factorizations = earlier_factorizations + problem.system.n_factorizations();
     totals.worst_residual = std::max(totals.worst_residual, report.residual);
 
+    if (accepted)
+      diagnostics.add_step();
     if (accepted && is_frame(problem.state.step))
       write_frame();
     State shown = problem.state;
@@ -232,7 +236,7 @@ namespace Exemplar
       ++shown.step;
       shown.time = problem.time_axis.time(shown.step);
     }
-    StatisticsRow row = problem.diagnostics.row(shown, report, problem.evaluation);
+    StatisticsRow row = diagnostics.row(shown, report);
     if (!accepted)
       keep_only_report(row);
     Diagnostics::append_seconds(row, lap());
@@ -276,18 +280,18 @@ namespace Exemplar
     const State &state = problem.state;
     Frame frame = { directory.get_path() / RunDirectory::frame_name(state.step), state.positions,
                     state.positions, state.velocities,
-                    problem.elastic.cell_results(state.positions, state.weights) };
-    frame.displacement -= problem.fe_space.rest_positions();
+                    problem.potential.get_cells().cell_results(state.positions, state.weights) };
+    frame.displacement -= problem.body.fe_space.rest_positions();
     background.submit([frame = std::move(frame), &writer = *vtu_writer] { write(frame, writer); });
   }
 
   void
   Results::write_final_pose() const
   {
-    std::vector<dealii::Point<3>> nodes(problem.mesh.n_nodes());
-    for (unsigned int dof = 0; dof < problem.fe_space.n_dofs(); ++dof)
+    std::vector<dealii::Point<3>> nodes(problem.body.mesh.n_nodes());
+    for (unsigned int dof = 0; dof < problem.body.fe_space.n_dofs(); ++dof)
       nodes[dof / 3][dof % 3] = problem.state.positions[dof];
-    problem.mesh.write_pose(nodes, directory.final_pose());
+    problem.body.mesh.write_pose(nodes, directory.final_pose());
   }
 
   void
@@ -308,7 +312,7 @@ namespace Exemplar
     background.drain(); // a resumed run writes no frame anew
     last_checkpoint = std::chrono::steady_clock::now();
     save_checkpoint({ values_of(scene), input_digests, problem.state, problem.solver_memory(),
-                      problem.diagnostics.get_work(), totals, accepted_bytes },
+                      diagnostics.get_work(), totals, accepted_bytes },
                     directory.checkpoint());
   }
 } // namespace Exemplar

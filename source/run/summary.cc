@@ -2,6 +2,7 @@
 #include <exemplar/base/atomic_file.h>
 #include <exemplar/base/environment.h>
 #include <exemplar/base/version.h>
+#include <exemplar/run/inventory.h>
 #include <exemplar/run/summary.h>
 
 #include <deal.II/base/config.h>
@@ -21,8 +22,8 @@ namespace Exemplar
     support_nodes(const Problem &problem)
     {
       Json numbers = Json::array();
-      for (const unsigned int node : problem.support->nodes)
-        numbers.push_back(problem.mesh.get_contents().node_numbers[node]);
+      for (const unsigned int node : problem.constraints.support->nodes)
+        numbers.push_back(problem.body.mesh.get_contents().node_numbers[node]);
       return numbers;
     }
 
@@ -39,9 +40,21 @@ namespace Exemplar
     memory_of(const Problem &problem)
     {
       Json json;
-      for (const auto &[part, bytes] : problem.memory_of_parts())
-        json[part] = std::round(static_cast<double>(bytes) / 1048.576) / 1000.;
+      for (const PartOfProblem &part : inventory(problem))
+        if (part.bytes)
+          json[part.name] = std::round(static_cast<double>(*part.bytes) / 1048.576) / 1000.;
       return json;
+    }
+
+    /// Names of the parts that are there, or of those that are not.
+    Json
+    parts_of(const Problem &problem, const bool is_there)
+    {
+      Json names = Json::array();
+      for (const PartOfProblem &part : inventory(problem))
+        if (part.is_there == is_there)
+          names.push_back(part.name);
+      return names;
     }
   } // namespace
 
@@ -55,30 +68,31 @@ namespace Exemplar
     const BlasInfo blas = blas_info();
 
     Json json;
-    json["program"]          = "exemplar";
-    json["version"]          = EXEMPLAR_VERSION;
-    json["git"]              = EXEMPLAR_GIT_REVISION;
-    json["deal_ii"]          = DEAL_II_PACKAGE_VERSION;
-    json["blas"]             = blas.library;
-    json["blas_core"]        = blas.core;
-    json["blas_threads"]     = blas.threads;
-    json["threads"]          = n_threads();
-    json["scene"]            = problem.parameters.name;
-    json["mesh"]             = problem.mesh.get_name();
-    json["mesh_sha256"]      = mesh_sha256;
-    json["cells"]            = problem.mesh.n_cells();
-    json["nodes"]            = problem.mesh.n_nodes();
-    json["dofs"]             = problem.fe_space.n_dofs();
-    json["constrained_dofs"] = problem.fe_space.n_dofs() - problem.free_dofs.size();
-    if (problem.support)
+    json["program"]      = "exemplar";
+    json["version"]      = EXEMPLAR_VERSION;
+    json["git"]          = EXEMPLAR_GIT_REVISION;
+    json["deal_ii"]      = DEAL_II_PACKAGE_VERSION;
+    json["blas"]         = blas.library;
+    json["blas_core"]    = blas.core;
+    json["blas_threads"] = blas.threads;
+    json["threads"]      = n_threads();
+    json["scene"]        = problem.parameters.name;
+    json["mesh"]         = problem.body.mesh.get_name();
+    json["mesh_sha256"]  = mesh_sha256;
+    json["cells"]        = problem.body.mesh.n_cells();
+    json["nodes"]        = problem.body.mesh.n_nodes();
+    json["dofs"]         = problem.body.fe_space.n_dofs();
+    json["constrained_dofs"]
+        = problem.body.fe_space.n_dofs() - problem.constraints.free_dofs.size();
+    if (problem.constraints.support)
       json["support_nodes"] = support_nodes(problem);
-    json["linear_solver"]           = problem.system.bordered().traits().name;
-    json["examples"]                = problem.examples != nullptr ? problem.examples->size() : 0;
-    json["steps"]                   = problem.state.step;
-    json["iterations"]              = totals.iterations;
-    json["factorizations"]          = totals.factorizations;
-    json["status"]                  = status;
-    json["worst_residual"]          = totals.worst_residual;
+    json["linear_solver"]  = problem.system.bordered().traits().name;
+    json["examples"]       = problem.examples.poses != nullptr ? problem.examples.poses->size() : 0;
+    json["steps"]          = problem.state.step;
+    json["iterations"]     = totals.iterations;
+    json["factorizations"] = totals.factorizations;
+    json["status"]         = status;
+    json["worst_residual"] = totals.worst_residual;
     const Conditioning conditioning = problem.conditioning();
     if (conditioning.matrix > 0.)
       json["condition_matrix"] = conditioning.matrix; // null: not definite
@@ -86,10 +100,10 @@ namespace Exemplar
       json["condition_schur"] = conditioning.schur;
     json["seconds"]         = seconds_of(totals.seconds);
     json["peak_memory_mib"] = peak_memory_mib();
-    json["bytes_per_cell"]  = std::round(1048576. * peak_memory_mib() / problem.mesh.n_cells());
-    json["memory_mib"]      = memory_of(problem);
-    json["used"]            = problem.parts(true);
-    json["left_out"]        = problem.parts(false);
+    json["bytes_per_cell"] = std::round(1048576. * peak_memory_mib() / problem.body.mesh.n_cells());
+    json["memory_mib"]     = memory_of(problem);
+    json["used"]           = parts_of(problem, true);
+    json["left_out"]       = parts_of(problem, false);
 
     AtomicFile atomic_file(file);
     atomic_file.stream() << json.dump(2) << '\n';

@@ -35,10 +35,10 @@ namespace Exemplar::Verification
     mean_displacement(const Problem &p, const State &state, const std::string &boundary)
     {
       dealii::Tensor<1, 3> sum;
-      const auto           nodes = Selection{ boundary }.nodes(p.mesh, "verify");
+      const auto           nodes = Selection{ boundary }.nodes(p.body.mesh, "verify");
       for (const unsigned int node : nodes)
         for (unsigned int c = 0; c < 3; ++c)
-          sum[c] += state.positions[3 * node + c] - p.fe_space.rest_positions()[3 * node + c];
+          sum[c] += state.positions[3 * node + c] - p.body.fe_space.rest_positions()[3 * node + c];
       return sum / static_cast<double>(nodes.size());
     }
 
@@ -126,10 +126,10 @@ namespace Exemplar::Verification
         const unsigned int n    = cells[mesh];
         const std::string  text = set("Scene", "static") + beam(L, n) + clamp_and_plane;
         const Scene        unloaded(text);
-        Scene              scene(text + couple(unloaded.problem.mesh, L, n, angle) + increments(4));
-        const auto         tip = mean_displacement(scene.problem, scene.solve(), "boundary 2") / L;
-        w.values[mesh]         = tip[2];
-        u.values[mesh]         = -tip[0];
+        Scene      scene(text + couple(unloaded.problem.body.mesh, L, n, angle) + increments(4));
+        const auto tip = mean_displacement(scene.problem, scene.solve(), "boundary 2") / L;
+        w.values[mesh] = tip[2];
+        u.values[mesh] = -tip[0];
       }
       return {
         { "w/L", (1. - std::cos(angle)) / angle, w.smooth_limit(), Comparison::relative, 0.01 },
@@ -185,14 +185,14 @@ namespace Exemplar::Verification
     {
       Scene       scene(set("Scene", "static") + beam(slenderness, cells) + clamp_and_plane);
       Problem    &p    = scene.problem;
-      const auto &free = p.free_dofs.list();
-      const Mass  mass(p.fe_space, p.material, MassMatrix::consistent);
-      dealii::Vector<double> mode(p.fe_space.n_dofs());
+      const auto &free = p.constraints.free_dofs.list();
+      const Mass  mass(p.body.fe_space, p.body.material, MassMatrix::consistent);
+      dealii::Vector<double> mode(p.body.fe_space.n_dofs());
       for (const unsigned int dof : free)
         if (dof % 3 == 2)
-          mode[dof] = std::pow(p.fe_space.rest_positions()[dof - 2], 2);
-      p.elastic.update_rotations(p.fe_space.rest_positions());
-      p.system.factorize(p.fe_space.rest_positions(), {}, 0.);
+          mode[dof] = std::pow(p.body.fe_space.rest_positions()[dof - 2], 2);
+      p.potential.get_cells().update_rotations(p.body.fe_space.rest_positions());
+      p.system.factorize(p.body.fe_space.rest_positions(), {}, 0.);
       double omega_squared = 0.;
       for (unsigned int iteration = 0; iteration < 8; ++iteration) // f_2/f_1 = 6.3: 36^-8 is left
       {

@@ -54,16 +54,16 @@ namespace Exemplar::Verification
     {
     public:
       Differences(Problem &problem, const dealii::Vector<double> &positions, Rotations rotations)
-          : problem(problem), x(positions), w(problem.examples ? weights : std::vector<double>()),
-            rotations(rotations)
+          : problem(problem), x(positions),
+            w(problem.examples.poses ? weights : std::vector<double>()), rotations(rotations)
       {
-        problem.elastic.update_rotations(x);
+        problem.potential.get_cells().update_rotations(x);
         at = evaluate(x, w);
-        problem.elastic.update_rotations(x);
-        matrix.resize(problem.pattern.n_values());
-        problem.elastic.assemble_tangent(rotations == Rotations::followed ? Tangent::exact
-                                                                          : Tangent::convex,
-                                         x, w, matrix, columns);
+        problem.potential.get_cells().update_rotations(x);
+        matrix.resize(problem.potential.matrix_pattern().n_values());
+        problem.potential.get_cells().assemble_tangent(
+            rotations == Rotations::followed ? Tangent::exact : Tangent::convex, x, w, matrix,
+            columns);
       }
 
       /// Greatest error of the forces.
@@ -98,7 +98,7 @@ namespace Exemplar::Verification
       double
       of_tangent() const
       {
-        const auto &free     = problem.free_dofs.list();
+        const auto &free     = problem.constraints.free_dofs.list();
         double      greatest = 0., scale = 1.;
         for (unsigned int j = 0; j < free.size(); ++j)
         {
@@ -116,7 +116,7 @@ namespace Exemplar::Verification
       double
       of_weights() const
       {
-        const auto &free     = problem.free_dofs.list();
+        const auto &free     = problem.constraints.free_dofs.list();
         double      greatest = 0.;
         for (unsigned int k = 0; k < w.size(); ++k)
         {
@@ -133,8 +133,8 @@ namespace Exemplar::Verification
             const double change
                 = derivative([&](const double h) { return weight_moved(h).gradient[free[i]]; });
             const double entry
-                = problem.examples->is_strained(k)
-                      ? columns[problem.examples->strained_index(k) * free.size() + i]
+                = problem.examples.poses->is_strained(k)
+                      ? columns[problem.examples.poses->strained_index(k) * free.size() + i]
                       : 0.;
             greatest = std::max(greatest, std::abs(change + entry));
           }
@@ -190,9 +190,9 @@ namespace Exemplar::Verification
       evaluate(const dealii::Vector<double> &positions, const std::vector<double> &at_weights) const
       {
         if (rotations == Rotations::followed)
-          problem.elastic.update_rotations(positions);
+          problem.potential.get_cells().update_rotations(positions);
         ElasticEvaluation evaluation;
-        problem.elastic.evaluate(positions, at_weights, evaluation);
+        problem.potential.get_cells().evaluate(positions, at_weights, evaluation);
         return evaluation;
       }
 
@@ -201,7 +201,7 @@ namespace Exemplar::Verification
       {
         if (i < j)
           std::swap(i, j);
-        const auto &pattern  = problem.pattern;
+        const auto &pattern  = problem.potential.matrix_pattern();
         const int   position = pattern.position(i, j);
         const bool  is_there = position < pattern.column_start[j + 1]
                               && pattern.row[position] == static_cast<int>(i);
@@ -235,8 +235,8 @@ namespace Exemplar::Verification
     {
       std::vector<Measurement> all;
       Scene                    plain(short_bar + model), with(short_bar + mixed_examples + model);
-      const auto               x
-          = moved_rigidly(perturbed(plain.problem.fe_space.rest_positions(), amplitude), F, {});
+      const auto               x = moved_rigidly(
+                        perturbed(plain.problem.body.fe_space.rest_positions(), amplitude), F, {});
       measure(Differences(plain.problem, x, Rotations::followed), "", all);
       const Differences differences(with.problem, x, Rotations::followed);
       measure(differences, ", examples", all);
@@ -249,7 +249,7 @@ namespace Exemplar::Verification
     frozen_derivatives()
     {
       Scene                    scene(short_bar + mixed_examples + frozen_forces);
-      const auto               x = perturbed(scene.problem.fe_space.rest_positions(), 0.15);
+      const auto               x = perturbed(scene.problem.body.fe_space.rest_positions(), 0.15);
       const Differences        differences(scene.problem, x, Rotations::kept);
       std::vector<Measurement> all;
       measure(differences, ", examples", all);

@@ -51,7 +51,7 @@ namespace Exemplar::Verification
       Scene scene(falling_bar + section("Loads", set("Gravity", "0, 0, -9.81")) + time(h, n * h)
                   + section("Solver", set("Tolerance", 1e-12)));
       dealii::Vector<double> error = scene.solve().positions;
-      error -= scene.problem.fe_space.rest_positions();
+      error -= scene.problem.body.fe_space.rest_positions();
       const double fallen = error[2];
       for (unsigned int dof = 2; dof < error.size(); dof += 3)
         error[dof] -= drop;
@@ -82,17 +82,17 @@ namespace Exemplar::Verification
     double
     oscillator_frequency(const Problem &p)
     {
-      const unsigned int node = p.free_dofs.list()[0] / 3;
+      const unsigned int node = p.constraints.free_dofs.list()[0] / 3;
       double             K = 0., M = 0.;
-      for (unsigned int cell = 0; cell < p.mesh.n_cells(); ++cell)
+      for (unsigned int cell = 0; cell < p.body.mesh.n_cells(); ++cell)
         for (unsigned int a = 0; a < 4; ++a)
-          if (p.fe_space.nodes(cell)[a] == node)
+          if (p.body.fe_space.nodes(cell)[a] == node)
           {
-            const auto &C           = p.material.elasticity(cell);
-            const auto &tetrahedron = p.fe_space.tetrahedron(cell);
+            const auto &C           = p.body.material.elasticity(cell);
+            const auto &tetrahedron = p.body.fe_space.tetrahedron(cell);
             const auto &g           = tetrahedron.shape_gradient[a];
             K += tetrahedron.volume * ((C.lambda + C.mu) * g[0] * g[0] + C.mu * dot(g, g));
-            M += p.material.density(cell) * tetrahedron.volume / 10.;
+            M += p.body.material.density(cell) * tetrahedron.volume / 10.;
           }
       return std::sqrt(K / M);
     }
@@ -107,7 +107,7 @@ namespace Exemplar::Verification
       Scene               scene(oscillator(v, h, n));
       Problem            &p     = scene.problem;
       const double        omega = oscillator_frequency(p);
-      const unsigned int  dof   = p.free_dofs.list()[0];
+      const unsigned int  dof   = p.constraints.free_dofs.list()[0];
       const auto          x     = [&] { return p.state.positions[dof] - 1.; };
       std::vector<double> path  = { x() };
       for (unsigned int step = 0; step < n; ++step)
@@ -181,9 +181,9 @@ namespace Exemplar::Verification
         const State before = p.state;
         advance(p);
         const auto gain
-            = tensor(torque(p.state.velocities, mass_times(*p.mass, before.velocities)));
-        const auto law = p.mass->motion_sums(before).angular_momentum + h * gain;
-        const auto now = p.mass->motion_sums(p.state).angular_momentum;
+            = tensor(torque(p.state.velocities, mass_times(*p.actions.mass, before.velocities)));
+        const auto law = p.actions.mass->motion_sums(before).angular_momentum + h * gain;
+        const auto now = p.actions.mass->motion_sums(p.state).angular_momentum;
         greatest       = std::max(greatest, (now - law).norm() / now.norm());
       }
       return greatest;
@@ -220,12 +220,12 @@ namespace Exemplar::Verification
       {
         const State  before = p.state;
         const double bound
-            = p.evaluation.elastic.energy + p.mass->motion_sums(before).kinetic_energy;
+            = p.evaluation.elastic.energy + p.actions.mass->motion_sums(before).kinetic_energy;
         advance(p);
         State change = p.state;
         change.velocities -= before.velocities;
         const double left
-            = p.evaluation.elastic.energy + p.mass->motion_sums(change).kinetic_energy;
+            = p.evaluation.elastic.energy + p.actions.mass->motion_sums(change).kinetic_energy;
         greatest = std::max(greatest, left / bound - 1.);
       }
       return { { "greatest excess", 1e-12, greatest, Comparison::at_most } };

@@ -44,20 +44,20 @@ namespace Exemplar::Verification
                      + section("Solver", set("Tolerance", 1e-12)));
       Problem &p        = scene.problem;
       double   residual = 0., weight_error = 0., distance = 0.;
-      for (unsigned int i = 0; i < p.examples->size(); ++i)
+      for (unsigned int i = 0; i < p.examples.poses->size(); ++i)
       {
-        State start     = p.state;
-        start.positions = moved_rigidly(p.examples->pose(i), rotation_about({ { 1., 1., 0. } }, 2.),
-                                        { { 5., 5., 5. } });
+        State start      = p.state;
+        start.positions  = moved_rigidly(p.examples.poses->pose(i),
+                                         rotation_about({ { 1., 1., 0. } }, 2.), { { 5., 5., 5. } });
         start.velocities = 0.;
-        std::vector<double> unit(p.examples->size(), 0.);
+        std::vector<double> unit(p.examples.poses->size(), 0.);
         unit[i] = 1.;
         const ElasticEvaluation strained
             = evaluate(p, start.positions, std::vector<double>{ 1., 0., 0. });
-        const ElasticEvaluation at = evaluate(p, start.positions, unit);
-        const double            scale
-            = std::max(strained.force_scale.linfty_norm(), p.elastic.rounding_force() * 1e14);
-        residual = std::max(residual, at.gradient.linfty_norm() / scale);
+        const ElasticEvaluation at    = evaluate(p, start.positions, unit);
+        const double            scale = std::max(strained.force_scale.linfty_norm(),
+                                                 p.potential.get_cells().rounding_force() * 1e14);
+        residual                      = std::max(residual, at.gradient.linfty_norm() / scale);
         p.resume_from(start);
         if (!is_success(p.advance().status))
           throw SolverFailure("example " + std::to_string(i) + ": the step failed");

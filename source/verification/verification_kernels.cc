@@ -37,7 +37,7 @@ namespace Exemplar::Verification
     dealii::Vector<double>
     affine(const Problem &problem, const Matrix3<double> &F)
     {
-      return moved_rigidly(problem.fe_space.rest_positions(), F, {});
+      return moved_rigidly(problem.body.fe_space.rest_positions(), F, {});
     }
 
     dealii::Vector<double>
@@ -45,7 +45,7 @@ namespace Exemplar::Verification
     {
       std::mt19937                     generator(1);
       std::normal_distribution<double> normal;
-      dealii::Vector<double>           positions = problem.fe_space.rest_positions();
+      dealii::Vector<double>           positions = problem.body.fe_space.rest_positions();
       for (double &x : positions)
         x += 0.1 * normal(generator);
       return positions;
@@ -90,11 +90,12 @@ namespace Exemplar::Verification
           + section("Solver", set("Tolerance", 1e-12)));
       const State  state = scene.solve();
       const auto  &p     = scene.problem;
-      const auto  &nodes = p.mesh.get_nodes();
-      const auto   far   = p.mesh.n_nodes() - 1; // the corner x+, y+, z+
+      const auto  &nodes = p.body.mesh.get_nodes();
+      const auto   far   = p.body.mesh.n_nodes() - 1; // the corner x+, y+, z+
       const double width = state.positions[3 * far + 2] - (nodes[far][2] - 1.);
       return { { "force", youngs_modulus * (s - 1.),
-                 p.handles->sum_over(1, p.evaluation.gradient)[0], Comparison::relative, 1e-10 },
+                 p.constraints.handles->sum_over(1, p.evaluation.gradient)[0], Comparison::relative,
+                 1e-10 },
                { "lateral stretch", 1. - poissons_ratio * (s - 1.), width, Comparison::relative,
                  1e-10 } };
     }
@@ -106,7 +107,7 @@ namespace Exemplar::Verification
       Scene       scene(held_bar
                         + section("Examples", set("Pose functions", "1.2*x; 0.9*y; z+0.1*x")
                                                   + set("Importance", 0.7) + set("Weight penalty", "0")));
-      const auto &pose = scene.problem.examples->pose(1);
+      const auto &pose = scene.problem.examples.poses->pose(1);
       const auto  with = evaluate(scene.problem, pose, { 0., 1. });
       return { { "energy left", 0.09, with.energy / with.energy_elastic, Comparison::relative,
                  1e-12 } };
@@ -124,7 +125,7 @@ namespace Exemplar::Verification
     {
       const auto f     = evaluate(problem, x, { 0.2, 0.5, 0.3 }).gradient;
       double     scale = 0.;
-      for (unsigned int node = 0; node < problem.mesh.n_nodes(); ++node)
+      for (unsigned int node = 0; node < problem.body.mesh.n_nodes(); ++node)
         scale += length(skew_matrix(node_vector(x, node)) * node_vector(f, node));
       return length(torque(x, f)) / scale;
     }

@@ -182,8 +182,8 @@ namespace Exemplar::Verification
            const std::vector<double>    &weights)
   {
     ElasticEvaluation evaluation;
-    problem.elastic.update_rotations(positions);
-    problem.elastic.evaluate(positions, weights, evaluation);
+    problem.potential.get_cells().update_rotations(positions);
+    problem.potential.get_cells().evaluate(positions, weights, evaluation);
     return evaluation;
   }
 

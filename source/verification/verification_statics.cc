@@ -52,7 +52,7 @@ namespace Exemplar::Verification
                             + section("Solver", set("Tolerance", 1e-13)),
                         {}, irregular_box());
       const State state = scene.solve();
-      const auto  field = moved_rigidly(scene.problem.fe_space.rest_positions(), F, {});
+      const auto  field = moved_rigidly(scene.problem.body.fe_space.rest_positions(), F, {});
       return { { "inside less affine field", 0., max_difference(state.positions, field),
                  Comparison::absolute, 1e-12 } };
     }
@@ -64,11 +64,11 @@ namespace Exemplar::Verification
       const ElasticEvaluation at = evaluate(p, x, weights);
       p.system.factorize(x, weights, 0.);
       BorderedVector unknowns;
-      for (const unsigned int dof : p.free_dofs.list())
+      for (const unsigned int dof : p.constraints.free_dofs.list())
         unknowns.positions.push_back(-at.gradient[dof]);
       p.system.bordered().solve(unknowns, {});
-      for (unsigned int i = 0; i < p.free_dofs.size(); ++i)
-        x[p.free_dofs.list()[i]] += unknowns.positions[i];
+      for (unsigned int i = 0; i < p.constraints.free_dofs.size(); ++i)
+        x[p.constraints.free_dofs.list()[i]] += unknowns.positions[i];
     }
 
     /// Half the error leaves a quarter after the step.
@@ -87,7 +87,7 @@ namespace Exemplar::Verification
       std::mt19937                     generator(2);
       std::normal_distribution<double> normal;
       dealii::Vector<double>           direction(solution.positions.size());
-      for (const unsigned int dof : p.free_dofs.list())
+      for (const unsigned int dof : p.constraints.free_dofs.list())
         direction[dof] = normal(generator);
       auto exact = solution.positions;
       newton_step(p, exact, solution.weights); // to rounding
@@ -107,11 +107,11 @@ namespace Exemplar::Verification
     strain_error(const Problem &p, const State &state)
     {
       double greatest = 0.;
-      for (unsigned int cell = 0; cell < p.mesh.n_cells(); ++cell)
+      for (unsigned int cell = 0; cell < p.body.mesh.n_cells(); ++cell)
       {
-        const Matrix3<double> F     = p.fe_space.deformation_gradient(cell, state.positions);
+        const Matrix3<double> F     = p.body.fe_space.deformation_gradient(cell, state.positions);
         const Matrix3<double> error = combine(1., corotated_strain(closest_rotation(F), F), -1.,
-                                              p.examples->strain(cell, 1));
+                                              p.examples.poses->strain(cell, 1));
         greatest                    = std::max(greatest, std::sqrt(contract(error, error)));
       }
       return greatest;
@@ -141,10 +141,11 @@ namespace Exemplar::Verification
       const double           longest = *std::max_element(ways.begin(), ways.end());
       const double           mean    = std::accumulate(ways.begin(), ways.end(), 0.) / increments;
       dealii::Vector<double> aligned = p.state.positions;
-      align(p.examples->pose(1), aligned);
+      align(p.examples.poses->pose(1), aligned);
       return { { "|S - I - E|", 1e-12, strain_error(p, p.state), Comparison::at_most },
-               { "distance to the pose", 0., max_difference(aligned, p.examples->pose(1)) / 4.,
-                 Comparison::absolute, 1e-8 },
+               { "distance to the pose", 0.,
+                 max_difference(aligned, p.examples.poses->pose(1)) / 4., Comparison::absolute,
+                 1e-8 },
                { "longest increment, of the mean", 2., longest / mean, Comparison::at_most } };
     }
   } // namespace

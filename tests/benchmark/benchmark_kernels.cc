@@ -25,13 +25,14 @@ namespace Exemplar
     struct Scene
     {
       explicit Scene(const std::string &file)
-          : problem(problem_of(file)), batches(problem.fe_space, problem.material),
-            positions(problem.fe_space.rest_positions()), node_positions(4 * positions.size() / 3)
+          : problem(problem_of(file)), batches(problem.body.fe_space, problem.body.material),
+            positions(problem.body.fe_space.rest_positions()),
+            node_positions(4 * positions.size() / 3)
       {
         // strains and turns of some tenths, different in every cell
         for (unsigned int dof = 0; dof < positions.size(); ++dof)
           positions[dof] += 0.02 * std::sin(40. * positions[dof - dof % 3 + (dof + 1) % 3]);
-        problem.elastic.update_rotations(positions);
+        problem.potential.get_cells().update_rotations(positions);
         task.cells = batches.arrays(StrainMeasure::corotational, default_guard_bound);
         for (unsigned int dof = 0; dof < positions.size(); ++dof)
           node_positions[dof / 3 * 4 + dof % 3] = positions[dof];
@@ -85,16 +86,18 @@ namespace Exemplar
     {
       ElasticEvaluation evaluation;
       for (auto _ : state)
-        scene->problem.elastic.evaluate(scene->positions, {}, evaluation, RotationUse::update);
+        scene->problem.potential.get_cells().evaluate(scene->positions, {}, evaluation,
+                                                      RotationUse::update);
       report_cells(state);
     }
 
     void
     assembly(benchmark::State &state, const Tangent tangent)
     {
-      std::vector<double> values(scene->problem.pattern.n_values()), columns;
+      std::vector<double> values(scene->problem.potential.matrix_pattern().n_values()), columns;
       for (auto _ : state)
-        scene->problem.elastic.assemble_tangent(tangent, scene->positions, {}, values, columns);
+        scene->problem.potential.get_cells().assemble_tangent(tangent, scene->positions, {}, values,
+                                                              columns);
       report_cells(state);
     }
 
@@ -103,7 +106,7 @@ namespace Exemplar
     {
       std::vector<float> rotations;
       for (auto _ : state)
-        scene->problem.elastic.node_rotations(rotations);
+        scene->problem.potential.get_cells().node_rotations(rotations);
       report_cells(state);
     }
 
@@ -113,14 +116,14 @@ namespace Exemplar
       dealii::Vector<double> gradient(scene->positions.size()), scale(scene->positions.size() / 3);
       scene->problem.potential.begin_step(scene->problem.state, 0.01);
       for (auto _ : state)
-        scene->problem.terms.front()->add(scene->positions, gradient, scale);
+        scene->problem.potential.get_terms().front()->add(scene->positions, gradient, scale);
     }
 
     std::unique_ptr<SpdOperator>
     make_matrix()
     {
       auto matrix = make_cholmod_operator();
-      matrix->reinit(scene->problem.pattern);
+      matrix->reinit(scene->problem.potential.matrix_pattern());
       std::vector<double> no_columns;
       scene->problem.potential.assemble(scene->positions, {}, 1., matrix->values(), no_columns);
       return matrix;
@@ -139,7 +142,7 @@ namespace Exemplar
     {
       const auto matrix = make_matrix();
       matrix->factorize(scene->positions);
-      std::vector<double> column(scene->problem.free_dofs.size() * state.range(0), 1.);
+      std::vector<double> column(scene->problem.constraints.free_dofs.size() * state.range(0), 1.);
       for (auto _ : state)
         matrix->solve(column);
     }
@@ -150,7 +153,7 @@ namespace Exemplar
       const auto matrix = make_matrix();
       matrix->factorize(scene->positions);
       const auto          inverse = matrix->keep();
-      std::vector<double> column(scene->problem.free_dofs.size(), 1.);
+      std::vector<double> column(scene->problem.constraints.free_dofs.size(), 1.);
       for (auto _ : state)
         inverse->apply(column);
     }

@@ -2,7 +2,7 @@
 #include <exemplar/algebra/mpi_session.h>
 #include <exemplar/base/environment.h>
 #include <exemplar/base/errors.h>
-#include <exemplar/run/problem.h>
+#include <exemplar/run/diagnostics.h>
 #include <exemplar/run/scene_file.h>
 
 #include "benchmark_unit.h"
@@ -157,10 +157,9 @@ namespace Exemplar
             [&]
             {
               step_report = problem.advance();
-              StepClock::Scope    scope(problem.clock, Part::output);
-              const StatisticsRow row
-                  = problem.diagnostics.row(problem.state, step_report, problem.evaluation);
-              written += row.size();
+              StepClock::Scope scope(problem.clock, Part::output);
+              diagnostics.add_step();
+              written += diagnostics.row(problem.state, step_report).size();
             });
         const PartSeconds after = problem.clock.read();
         worst_status            = std::max(worst_status, step_report.status);
@@ -189,9 +188,9 @@ namespace Exemplar
       {
         json["scene"]    = std::filesystem::path(options.scene_file).stem().string();
         json["method"]   = method_name(problem.parameters.solver.method);
-        json["examples"] = problem.examples != nullptr ? problem.examples->size() : 0;
-        json["cells"]    = problem.mesh.n_cells();
-        json["dofs"]     = problem.free_dofs.size();
+        json["examples"] = problem.examples.poses != nullptr ? problem.examples.poses->size() : 0;
+        json["cells"]    = problem.body.mesh.n_cells();
+        json["dofs"]     = problem.constraints.free_dofs.size();
         json["steps"]    = steps.size();
         json["status"]   = status_name(worst_status);
         if (!is_success(worst_status))
@@ -227,7 +226,7 @@ namespace Exemplar
           json["units"] = total.cpu / n / median(unit.both).cpu;
         json["iterations"]       = iterations;
         json["factorizations"]   = problem.system.n_factorizations();
-        json["cells_per_second"] = n * problem.mesh.n_cells() / total.wall;
+        json["cells_per_second"] = n * problem.body.mesh.n_cells() / total.wall;
       }
 
       void
@@ -252,7 +251,7 @@ namespace Exemplar
         if (reference) // its memory cannot be told apart
           return;
         json["peak_memory_mib"] = peak_kib / 1024.;
-        json["bytes_per_cell"]  = 1024. * (peak_kib - resident_before) / problem.mesh.n_cells();
+        json["bytes_per_cell"] = 1024. * (peak_kib - resident_before) / problem.body.mesh.n_cells();
       }
 
       void
@@ -263,7 +262,7 @@ namespace Exemplar
         json["blas_core"]   = blas.core;
         if (options.no_unit)
           return;
-        const FactorSize size  = factor_size(problem.pattern);
+        const FactorSize size  = factor_size(problem.potential.matrix_pattern());
         json["factor_gflop"]   = 1e-9 * size.flops;
         json["factor_mib"]     = size.bytes / 1024. / 1024.;
         json["factor_gflop_s"] = 1e-9 * size.flops / median(unit.factorize).cpu;
@@ -275,6 +274,7 @@ namespace Exemplar
       const Options              options;
       const double               resident_before; ///< [KiB]
       Problem                    problem;
+      Diagnostics                diagnostics{ problem };
       std::unique_ptr<Reference> reference;
       Unit                       unit;
       std::vector<Duration>      steps;

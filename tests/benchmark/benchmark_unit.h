@@ -57,7 +57,7 @@ namespace Exemplar
       if (!matrix)
       {
         matrix = make_cholmod_operator();
-        matrix->reinit(problem.pattern);
+        matrix->reinit(problem.potential.matrix_pattern());
         measure_once(problem); // touches the factor's memory for the first time
       }
       const Sample sample = measure_once(problem);
@@ -91,7 +91,7 @@ namespace Exemplar
                                        coupling);
           });
       sample.factorize = duration_of([&] { matrix->factorize(state.positions); });
-      column.assign(problem.free_dofs.size(), 1.);
+      column.assign(problem.constraints.free_dofs.size(), 1.);
       sample.solve = duration_of([&] { matrix->solve(column); });
       return sample;
     }

@@ -5,6 +5,7 @@
 #include <exemplar/potential/elastic_potential.h>
 #include <exemplar/potential/potential_term.h>
 
+#include <memory>
 #include <vector>
 
 namespace Exemplar
@@ -22,13 +23,11 @@ namespace Exemplar
   class IncrementalPotential
   {
   public:
-    /// `weights` is null without examples, `integrator` unless the scene is dynamic. All must
+    /// `integrator` is null unless the scene is dynamic. The terms are nobody else's; all else must
     /// outlive the potential.
-    IncrementalPotential(ElasticPotential            &cells,
-                         const ExampleWeights        *weights,
-                         std::vector<PotentialTerm *> terms,
-                         TimeIntegrator              *integrator,
-                         const FreeDofs              &free_dofs);
+    IncrementalPotential(const ElasticParts                         &parts,
+                         std::vector<std::unique_ptr<PotentialTerm>> terms,
+                         TimeIntegrator                             *integrator);
 
     /// A step of length h [s] (of dynamics; not used otherwise) begins at `start`.
     void
@@ -126,6 +125,25 @@ namespace Exemplar
       return cells;
     }
 
+    const ElasticPotential &
+    get_cells() const
+    {
+      return cells;
+    }
+
+    const std::vector<std::unique_ptr<PotentialTerm>> &
+    get_terms() const
+    {
+      return terms;
+    }
+
+    /// Of A.
+    const SymmetricPattern &
+    matrix_pattern() const
+    {
+      return pattern;
+    }
+
   private:
     void
     assemble_tangent(Tangent                    tangent,
@@ -134,12 +152,13 @@ namespace Exemplar
                      std::vector<double>       &matrix_values,
                      std::vector<double>       &columns);
 
-    ElasticPotential                  &cells;
-    const ExampleWeights              *weights;
-    const std::vector<PotentialTerm *> terms;
-    TimeIntegrator                    *integrator;
-    const FreeDofs                    &free_dofs;
-    bool                               in_dynamic_step = false;
+    const std::vector<std::unique_ptr<PotentialTerm>> terms;
+    const SymmetricPattern                            pattern; ///< of cells and terms
+    ElasticPotential                                  cells;
+    const ExampleWeights                             *weights; ///< null without examples
+    TimeIntegrator                                   *integrator;
+    const FreeDofs                                   &free_dofs;
+    bool                                              in_dynamic_step = false;
   };
 } // namespace Exemplar
 

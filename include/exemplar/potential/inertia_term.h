@@ -13,8 +13,9 @@ namespace Exemplar
   class InertiaTerm : public PotentialTerm
   {
   public:
-    /// Both must outlive the term; the integrator's step is begun before the term's.
-    InertiaTerm(const Mass &mass, const TimeIntegrator &integrator);
+    /// Both must outlive the term; the integrator's step is begun before the term's. `is_reported`:
+    /// the energy has a column, energy_inertia.
+    InertiaTerm(const Mass &mass, const TimeIntegrator &integrator, bool is_reported = false);
 
     void
     begin_step(const State & /*start*/) override
@@ -40,12 +41,21 @@ namespace Exemplar
     double
     rounding_force() const override;
 
+    void
+    append_columns(double                                       energy,
+                   std::vector<std::pair<std::string, double>> &columns) const override
+    {
+      if (is_reported)
+        columns.emplace_back("energy_inertia", energy);
+    }
+
     std::size_t
     memory_consumption() const override;
 
   private:
     const Mass           &mass;
     const TimeIntegrator &integrator;
+    const bool            is_reported;
     std::vector<double>   mass_values; ///< M on the pattern [kg]
     bool                  in_step = false;
   };

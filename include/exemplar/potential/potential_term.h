@@ -69,12 +69,11 @@ namespace Exemplar
       return 0.;
     }
 
-    /// Append columns of statistics.csv with values at `state`, of which the term has the energy
+    /// Append what statistics.csv shall show of the term, names and values, where its energy is
     /// `energy` [J].
     virtual void
-    append_columns(std::vector<std::pair<std::string, double>> & /*columns*/,
-                   const State & /*state*/,
-                   double /*energy*/) const
+    append_columns(double /*energy*/,
+                   std::vector<std::pair<std::string, double>> & /*columns*/) const
     {
     }
 

@@ -3,7 +3,7 @@
 #define exemplar_checkpoint_h
 
 #include <exemplar/body/state.h>
-#include <exemplar/run/problem.h>
+#include <exemplar/run/diagnostics.h>
 
 #include <cstdint>
 #include <filesystem>

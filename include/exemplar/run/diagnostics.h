@@ -2,14 +2,7 @@
 #ifndef exemplar_diagnostics_h
 #define exemplar_diagnostics_h
 
-#include <exemplar/base/number_text.h>
-#include <exemplar/base/step_clock.h>
-#include <exemplar/body/example_weights.h>
-#include <exemplar/body/handles.h>
-#include <exemplar/body/loads.h>
-#include <exemplar/body/mass.h>
-#include <exemplar/potential/evaluation.h>
-#include <exemplar/solvers/solve_report.h>
+#include <exemplar/run/problem.h>
 
 #include <optional>
 #include <string>
@@ -35,19 +28,16 @@ namespace Exemplar
   class Diagnostics
   {
   public:
-    /// `energy_is_bounded`: steps minimise one energy, the same before and after the step, with
-    /// TimeIntegrator::is_undamped_implicit_euler().
-    Diagnostics(const Handles        *handles,
-                const Loads          *loads,
-                const ExampleWeights *weights,
-                const Mass           *mass,
-                bool                  energy_is_bounded);
+    /// The problem must outlive this.
+    explicit Diagnostics(const Problem &problem);
 
-    /// Add the work of the step from `old_positions` to `state`.
+    /// Add the work of the step that the problem has just made. To be called after each.
     void
-    add_work(const dealii::Vector<double> &old_positions,
-             const State                  &state,
-             const dealii::Vector<double> &gradient);
+    add_step();
+
+    /// Go on from the problem's state with work done before.
+    void
+    resume(const Work &earlier);
 
     const Work &
     get_work() const
@@ -55,26 +45,28 @@ namespace Exemplar
       return work;
     }
 
-    void
-    set_work(const Work &value)
-    {
-      work = value;
-    }
-
+    /// A row for the problem's present energies and forces; `shown` has the step, the time, the
+    /// velocities and the weights.
     StatisticsRow
-    row(const State &state, const SolveReport &report, const Evaluation &evaluation) const;
+    row(const State &shown, const SolveReport &report) const;
 
     /// The seconds of a step by part; without values in the row of the initial state.
     static void
     append_seconds(StatisticsRow &row, const std::optional<PartSeconds> &seconds);
 
   private:
-    const Handles        *handles;
-    const Loads          *loads;
-    const ExampleWeights *weights;
-    const Mass           *mass;
-    const bool            energy_is_bounded;
-    Work                  work;
+    void
+    append_terms(StatisticsRow &row) const;
+
+    void
+    append_weights(StatisticsRow &row, const State &shown, const SolveReport &report) const;
+
+    void
+    append_work(StatisticsRow &row) const;
+
+    const Problem &problem;
+    Vector         last_positions; ///< before the next step [m]
+    Work           work;
   };
 } // namespace Exemplar
 

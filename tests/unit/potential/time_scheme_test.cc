@@ -48,9 +48,9 @@ namespace Exemplar::Testing
                                         "Time/Stiffness damping=0.004", "Time/Step=0.01", "Time/End=0.06",
                                         std::string("Time/Scheme=") + (is_bdf2 ? "bdf2" : "implicit euler") });
         Problem         &p = scene.problem;
-        ElasticPotential undamped(
-            { p.parameters.model, p.fe_space, p.material, nullptr, nullptr, p.free_dofs },
-            p.pattern);
+        ElasticPotential undamped({ p.parameters.model, p.body.fe_space, p.body.material, nullptr,
+                                    nullptr, p.constraints.free_dofs },
+                                  p.potential.matrix_pattern());
         std::vector<Vector> x = { p.state.positions }, v = { p.state.velocities };
         while (p.state.step < p.time_axis.n_steps())
         {
@@ -63,8 +63,9 @@ namespace Exemplar::Testing
           strained.add(beta, v.back());
           ElasticEvaluation evaluation;
           undamped.evaluate(strained, {}, evaluation);
-          const Vector inertia = p.mass->times(combination({ { 1., &a }, { alpha, &v.back() } }));
-          for (const unsigned int dof : p.free_dofs.list())
+          const Vector inertia
+              = p.actions.mass->times(combination({ { 1., &a }, { alpha, &v.back() } }));
+          for (const unsigned int dof : p.constraints.free_dofs.list())
             EXPECT_NEAR(inertia[dof] + evaluation.gradient[dof], 0.,
                         1e-9 * evaluation.gradient.linfty_norm());
         }
@@ -174,9 +175,9 @@ namespace Exemplar::Testing
             "set Scene = dynamic\n" + bar + "subsection Initial\n set Velocity = " + velocity
             + "\nend\nsubsection Time\n set Step = 0.001\n set End = 0.02\n"
               "set Stiffness damping = 0.5\nend\nsubsection Solver\n set Tolerance = 1e-6\nend\n");
-        const auto  before = scene.problem.mass->motion_sums(scene.problem.state);
+        const auto  before = scene.problem.actions.mass->motion_sums(scene.problem.state);
         const State state  = scene.solve();
-        const auto  after  = scene.problem.mass->motion_sums(state);
+        const auto  after  = scene.problem.actions.mass->motion_sums(state);
         EXPECT_LT((after.momentum - before.momentum).norm(), 1e-7 * (before.momentum.norm() + 1.));
         EXPECT_NEAR(after.kinetic_energy, before.kinetic_energy, 2e-2 * before.kinetic_energy);
       }

@@ -137,7 +137,7 @@ namespace Exemplar::Testing
       EXPECT_TRUE(a.positions == b.positions);
       EXPECT_EQ(a.weights, b.weights);
       EXPECT_GT(a.weights[1], 0.5); // the handles lead to the first pose
-      by_arrays.mesh.write_pose(by_arrays.mesh.get_nodes(), directory / "again.msh");
+      by_arrays.body.mesh.write_pose(by_arrays.body.mesh.get_nodes(), directory / "again.msh");
       EXPECT_EQ(read_msh(directory / "again.msh").nodes, arrays.nodes);
     }
 

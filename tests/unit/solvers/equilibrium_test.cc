@@ -34,8 +34,9 @@ namespace Exemplar::Testing
           + examples("set Pose functions = " + twist(180.) + "\n set Prescribed weights = t; 1-t\n")
           + "subsection Time\n set Increments = 10\nend\n");
       State state = scene.solve();
-      align(scene.problem.fe_space.rest_positions(), state.positions);
-      EXPECT_LT(max_difference(state.positions, scene.problem.fe_space.rest_positions()), 1e-7);
+      align(scene.problem.body.fe_space.rest_positions(), state.positions);
+      EXPECT_LT(max_difference(state.positions, scene.problem.body.fe_space.rest_positions()),
+                1e-7);
     }
 
     TEST(Equilibrium, AnOverflowIsAFailureAndNoSolution)

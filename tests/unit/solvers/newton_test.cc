@@ -56,8 +56,8 @@ namespace Exemplar::Testing
           + examples("set Pose functions = " + twist(720.) + "\n set Prescribed weights = 1-t; t\n")
           + newton + "subsection Time\n set Increments = 20\nend\n");
       State state = scene.solve();
-      align(scene.problem.examples->pose(1), state.positions);
-      EXPECT_LT(max_difference(state.positions, scene.problem.examples->pose(1)), 1e-9);
+      align(scene.problem.examples.poses->pose(1), state.positions);
+      EXPECT_LT(max_difference(state.positions, scene.problem.examples.poses->pose(1)), 1e-9);
     }
 
     TEST(Newton, InterpolatesFromABodyCollapsedToALine)
@@ -113,7 +113,8 @@ namespace Exemplar::Testing
                         + held_left + "end\nsubsection Initial\n set Pose function = x; y; 0\nend\n"
                         + newton);
       const State state = scene.solve();
-      EXPECT_LT(max_difference(state.positions, scene.problem.fe_space.rest_positions()), 1e-8);
+      EXPECT_LT(max_difference(state.positions, scene.problem.body.fe_space.rest_positions()),
+                1e-8);
     }
 
     TEST(Newton, TheDefaultPenaltyLeavesAnUnloadedBodyAtRest)
@@ -121,7 +122,7 @@ namespace Exemplar::Testing
       Scene       scene("set Scene = static\n" + bar + examples(two_poses)
                         + "subsection Handles\n set Names = left\n" + held_left + "end\n" + newton);
       const State state = scene.solve();
-      EXPECT_LT(max_difference(state.positions, scene.problem.fe_space.rest_positions()),
+      EXPECT_LT(max_difference(state.positions, scene.problem.body.fe_space.rest_positions()),
                 1e-6 * 4.);
       EXPECT_GT(state.weights[0], 1. - 1e-4);
     }

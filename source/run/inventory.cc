@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/run/inventory.h>
+
+namespace Exemplar
+{
+  namespace
+  {
+    std::size_t
+    memory_of_mass(const Problem &problem)
+    {
+      const Actions &actions = problem.actions;
+      if (actions.mass == nullptr)
+        return 0;
+      std::size_t bytes
+          = actions.mass->memory_consumption() + actions.integrator->memory_consumption();
+      for (const auto &term : problem.potential.get_terms())
+        bytes += term->memory_consumption();
+      return bytes;
+    }
+
+    std::size_t
+    memory_of_quasi_newton(const Problem &problem)
+    {
+      return problem.parameters.solver.method == Method::quasi_newton
+                 ? problem.solver->memory_consumption()
+                 : 0;
+    }
+  } // namespace
+
+  std::vector<PartOfProblem>
+  inventory(const Problem &problem)
+  {
+    const TimeParameters &time         = problem.parameters.time;
+    const Actions        &actions      = problem.actions;
+    const ExamplePoses   *poses        = problem.examples.poses.get();
+    const bool            is_dynamic   = actions.mass != nullptr;
+    const bool            has_weights  = problem.potential.unknown_weights() != nullptr;
+    const OperatorTraits  solver       = problem.system.bordered().traits();
+    const auto            solver_is    = [&](const char *name) { return solver.name == name; };
+    const std::size_t     quasi_newton = memory_of_quasi_newton(problem);
+    const std::size_t     cells        = problem.body.fe_space.memory_consumption()
+                              + problem.potential.get_cells().memory_consumption();
+    std::vector<PartOfProblem> parts = {
+      { "mesh", {}, problem.body.mesh.memory_consumption() },
+      { "cells", {}, cells },
+      { "mass matrix", is_dynamic, memory_of_mass(problem) },
+      { "second-order time scheme", is_dynamic && time.scheme != TimeScheme::implicit_euler, {} },
+      { "mass damping", is_dynamic && time.mass_damping > 0., {} },
+      { "stiffness damping", is_dynamic && time.stiffness_damping > 0., {} },
+      { "handles", problem.constraints.handles != nullptr, {} },
+      { "own support of interpolation", problem.constraints.support.has_value(), {} },
+      { "gravity", actions.loads != nullptr && actions.loads->has_gravity(), {} },
+      { "loads", actions.loads != nullptr && actions.loads->has_named_loads(), {} },
+      { "example poses", poses != nullptr, poses == nullptr ? 0 : poses->memory_consumption() },
+      { "weight block", has_weights, problem.system.memory_of_weights() },
+      { "weights per region",
+        poses != nullptr && problem.parameters.examples.weights_per_region,
+        {} },
+      { "Schur complement", has_weights && !solver_is("umfpack"), {} },
+      { "CHOLMOD", solver_is("cholesky"), {} },
+      { "algebraic multigrid", solver_is("iterative"), {} },
+      { "UMFPACK", solver_is("umfpack"), {} },
+      { "quasi-Newton method", quasi_newton > 0, quasi_newton },
+      { "frame writer", problem.parameters.output.every > 0, {} }
+    };
+    if (solver.bytes > 0)
+      parts.push_back({ "linear solver", {}, solver.bytes });
+    return parts;
+  }
+} // namespace Exemplar

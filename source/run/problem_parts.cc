@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
+#include <exemplar/potential/inertia_term.h>
+#include <exemplar/potential/load_term.h>
+#include <exemplar/run/problem_parts.h>
+
+namespace Exemplar
+{
+  namespace
+  {
+    bool
+    is_dynamic(const SceneParameters &parameters)
+    {
+      return parameters.scene == SceneKind::dynamic;
+    }
+
+    std::unique_ptr<Handles>
+    make_handles(const SceneParameters &parameters,
+                 const Mesh            &mesh,
+                 const TimeAxis        &axis,
+                 const Inputs          &inputs)
+    {
+      if (parameters.handles.empty())
+        return nullptr;
+      return std::make_unique<Handles>(parameters.handles, mesh, axis, inputs.poses, inputs.nodes);
+    }
+
+    std::optional<StaticallyDeterminateSupport>
+    make_support(const SceneParameters &parameters, const Mesh &mesh)
+    {
+      if (parameters.scene != SceneKind::interpolation)
+        return {};
+      return support_near_centroid(mesh);
+    }
+
+    std::vector<unsigned int>
+    held_dofs(const SceneParameters &parameters, const Body &body, const Constraints &constraints)
+    {
+      if (constraints.support)
+        return constraints.support->held_dofs;
+      if (constraints.handles == nullptr)
+        return {};
+      const std::vector<unsigned int> held = constraints.handles->held_dofs();
+      if (held.size() == body.fe_space.n_dofs())
+        throw UserError(parameters.name
+                        + ": the handles hold every node, so there is nothing to solve. Make "
+                          "Handles/NAME/Select smaller.");
+      return held;
+    }
+
+    std::unique_ptr<Loads>
+    make_loads(const SceneParameters &parameters, const Body &body, const Inputs &inputs)
+    {
+      if (parameters.loads.empty() && !parameters.has_gravity())
+        return nullptr;
+      const auto &[x, y, z] = parameters.gravity;
+      return std::make_unique<Loads>(dealii::Tensor<1, 3>({ x, y, z }), parameters.loads, body.mesh,
+                                     body.fe_space, body.material, inputs.nodes);
+    }
+
+    /// Whether steps descend on one energy, the same before and after a step.
+    bool
+    has_one_energy(const SceneParameters &parameters)
+    {
+      return !parameters.examples.in_use()
+             || (parameters.examples.weights != WeightRule::prescribed
+                 && !parameters.model.is_frozen());
+    }
+
+    std::unique_ptr<ExamplePoses>
+    make_poses(const SceneParameters &parameters, const Body &body, const Inputs &inputs)
+    {
+      if (!parameters.examples.in_use())
+        return nullptr;
+      return std::make_unique<ExamplePoses>(parameters.examples, parameters.model.strain, body.mesh,
+                                            body.fe_space, body.material, inputs.poses);
+    }
+
+    std::unique_ptr<ExampleWeights>
+    make_weights(const SceneParameters &parameters,
+                 const Body            &body,
+                 const ExamplePoses    *poses,
+                 const TimeAxis        &axis)
+    {
+      if (poses == nullptr)
+        return nullptr;
+      return std::make_unique<ExampleWeights>(parameters.examples, *poses,
+                                              unit_energy(body.fe_space, body.material), axis);
+    }
+
+    /// Operations of CHOLMOD's factorisation, for each degree of freedom and solve with it,
+    /// from which conjugate gradients are faster: measured, doc/speed.md.
+    constexpr double operations_at_crossover = 4e5;
+
+    /// Residual of a linear solve over its right side. Newton's method and the fixed point
+    /// correct the rest in their next iteration; one pass has none, and Schur complements
+    /// are small differences of what these solves give.
+    constexpr double tolerance_of_iterations = 1e-4, tolerance_of_last_word = 1e-8;
+
+    /// CHOLMOD for a pattern, unless it is to be chosen and is not worth it.
+    std::unique_ptr<SpdOperator>
+    find_cholmod_operator(const SolverParameters &solver,
+                          const unsigned int      n_columns,
+                          const SymmetricPattern &pattern)
+    {
+      if (solver.linear_solver == LinearSolver::iterative)
+        return nullptr;
+      const bool may_choose = solver.linear_solver == LinearSolver::automatic
+                              && solver.method != Method::quasi_newton && has_iterative_operator();
+      auto matrix = make_cholmod_operator();
+      try
+      {
+        matrix->reinit(pattern);
+      }
+      catch (const SolverFailure &)
+      {
+        if (!may_choose)
+          throw;
+        return nullptr; // too large for CHOLMOD
+      }
+      if (may_choose
+          && matrix->traits().n_operations > operations_at_crossover * n_columns * pattern.n())
+        return nullptr;
+      return matrix;
+    }
+  } // namespace
+
+  TimeAxis
+  make_time_axis(const SceneParameters &parameters)
+  {
+    return is_dynamic(parameters) ? TimeAxis::of_dynamics(parameters.time)
+                                  : TimeAxis::of_increments(parameters.time);
+  }
+
+  Body::Body(const SceneParameters &parameters, Inputs &inputs)
+      : mesh(std::move(inputs.mesh), parameters.mesh.name(), parameters.mesh.scale),
+        material(parameters.material, mesh.get_material_ids()), fe_space(mesh)
+  {
+  }
+
+  Constraints::Constraints(const SceneParameters &parameters,
+                           const Body            &body,
+                           const TimeAxis        &axis,
+                           const Inputs          &inputs)
+      : handles(make_handles(parameters, body.mesh, axis, inputs)),
+        support(make_support(parameters, body.mesh)),
+        free_dofs(body.fe_space.n_dofs(), held_dofs(parameters, body, *this))
+  {
+  }
+
+  void
+  Constraints::check(const SceneParameters &parameters, const Body &body) const
+  {
+    if (parameters.scene != SceneKind::statics)
+      return;
+    const unsigned int n_free = n_free_rigid_motions(body.mesh, held_dofs(parameters, body, *this));
+    if (n_free > 0)
+      throw UserError(
+          parameters.name + ": the handles leave " + std::to_string(n_free)
+          + " of 6 rigid motions free, so a static scene has no unique equilibrium. Add a "
+            "subsection of Handles that holds three nodes not on a line (a box, a sphere "
+            "or a boundary), or hold more Components.");
+  }
+
+  Examples::Examples(const SceneParameters &parameters,
+                     const Body            &body,
+                     const TimeAxis        &axis,
+                     const Inputs          &inputs)
+      : poses(make_poses(parameters, body, inputs)),
+        weights(make_weights(parameters, body, poses.get(), axis))
+  {
+  }
+
+  Actions::Actions(const SceneParameters &parameters, const Body &body, const Inputs &inputs)
+      : loads(make_loads(parameters, body, inputs)),
+        mass(is_dynamic(parameters) ? std::make_unique<Mass>(
+                 body.fe_space, body.material, parameters.material.mass_matrix)
+                                    : nullptr),
+        integrator(is_dynamic(parameters) ? std::make_unique<TimeIntegrator>(parameters.time)
+                                          : nullptr),
+        energy_is_bounded(integrator != nullptr && integrator->is_undamped_implicit_euler()
+                          && has_one_energy(parameters))
+  {
+  }
+
+  std::vector<std::unique_ptr<PotentialTerm>>
+  Actions::make_terms(const Body &body) const
+  {
+    std::vector<std::unique_ptr<PotentialTerm>> terms;
+    if (mass != nullptr)
+      terms.push_back(std::make_unique<InertiaTerm>(*mass, *integrator, energy_is_bounded));
+    if (loads != nullptr)
+      terms.push_back(std::make_unique<LoadTerm>(*loads, body.fe_space.rest_positions()));
+    return terms;
+  }
+
+  std::unique_ptr<BorderedSystem>
+  make_bordered_system(const SolverParameters &solver, const IncrementalPotential &potential)
+  {
+    const SymmetricPattern &pattern = potential.matrix_pattern();
+    const ExampleWeights   *weights = potential.unknown_weights();
+    const WeightForm       *form    = weights != nullptr ? &weights->weight_form() : nullptr;
+    if (solver.linear_solver == LinearSolver::umfpack)
+      return make_umfpack_system(pattern, form);
+    const unsigned int n_examples = form != nullptr ? form->coupled.size() : 0;
+    auto               matrix     = find_cholmod_operator(solver, 1 + n_examples, pattern);
+    if (matrix == nullptr)
+    {
+      const bool is_last_word = solver.method == Method::one_pass || n_examples > 0;
+      matrix                  = make_iterative_operator(potential.get_free_dofs(), is_last_word
+                                                                                       ? tolerance_of_last_word
+                                                                                       : tolerance_of_iterations);
+      matrix->reinit(pattern);
+    }
+    return make_block_system(std::move(matrix), form);
+  }
+} // namespace Exemplar
