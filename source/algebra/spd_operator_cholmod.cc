@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/algebra/single_precision_inverse.h>
 #include <exemplar/algebra/spd_operator.h>
+#include <exemplar/base/environment.h>
 #include <exemplar/base/errors.h>
 
 #include <cholmod.h>
@@ -63,6 +64,7 @@ namespace Exemplar
         matrix.sorted = 1;
         matrix.packed = 1;
         cholmod_free_factor(&factor, &common);
+        const OpenMPScope scope(OpenMPScope::Threads::one);
         factor = cholmod_analyze(&matrix, &common);
         check("analysis");
       }
@@ -78,6 +80,7 @@ namespace Exemplar
       {
         if (pattern.n() == 0)
           return;
+        const OpenMPScope scope(OpenMPScope::Threads::one);
         cholmod_factorize(&matrix, factor, &common);
         check("factorisation");
       }
@@ -96,6 +99,7 @@ namespace Exemplar
         right_side.x     = columns.data();
         right_side.xtype = CHOLMOD_REAL;
         right_side.dtype = CHOLMOD_DOUBLE;
+        const OpenMPScope scope(OpenMPScope::Threads::one);
         cholmod_solve2(CHOLMOD_A, factor, &right_side, nullptr, &solution, nullptr, &workspace_y,
                        &workspace_e, &common);
         check("solve");

@@ -44,13 +44,6 @@ namespace Exemplar
           return true;
       return false;
     }
-
-    unsigned int &
-    thread_count()
-    {
-      static unsigned int n = std::max(1, omp_get_num_procs());
-      return n;
-    }
   } // namespace
 
   BlasInfo
@@ -87,25 +80,19 @@ namespace Exemplar
   }
 
   unsigned int
-  n_threads()
+  n_available_cores()
   {
-    return thread_count();
+    return static_cast<unsigned int>(std::max(1, omp_get_num_procs()));
   }
 
-  void
-  set_n_threads(const unsigned int n)
+  OpenMPScope::OpenMPScope(const Threads threads) : levels_before(omp_get_max_active_levels())
   {
-    thread_count() = std::max(1u, n);
+    omp_set_max_active_levels(threads == Threads::one ? 0 : 1);
   }
 
-  ParallelRegion::ParallelRegion()
+  OpenMPScope::~OpenMPScope()
   {
-    omp_set_max_active_levels(1);
-  }
-
-  ParallelRegion::~ParallelRegion()
-  {
-    omp_set_max_active_levels(0);
+    omp_set_max_active_levels(levels_before);
   }
 
   void

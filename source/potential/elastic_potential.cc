@@ -193,9 +193,9 @@ namespace Exemplar
     const std::size_t       n_lanes   = has_unknown_weights() ? batch_size * weights.size() : 0;
     std::vector<StripeSums> stripes(n_stripes);
     nodal_sums.fill(0.);
-    const ParallelRegion region;
+    const OpenMPScope scope(OpenMPScope::Threads::several);
     // to start a thread costs as much as a thousand cells
-    const int n_at_once = parts.fe_space.n_cells() < 4000 ? 1 : static_cast<int>(n_threads());
+    const int n_at_once = parts.fe_space.n_cells() < 4000 ? 1 : static_cast<int>(parts.n_threads);
 #pragma omp parallel for num_threads(n_at_once)
     for (std::size_t stripe = 0; stripe < n_stripes; ++stripe)
     {

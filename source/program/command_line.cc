@@ -18,10 +18,9 @@ namespace Exemplar
     /// What the command line can say.
     struct Arguments
     {
-      RunOptions   run;
-      std::string  output;
-      bool         validate = false, print = false;
-      unsigned int threads = n_threads();
+      RunOptions  run;
+      std::string output;
+      bool        validate = false, print = false;
 
       StudyOptions study;
       bool         print_study = false;
@@ -41,7 +40,7 @@ namespace Exemplar
                      "directory of the results instead of Output/Directory");
       app.add_flag("--resume", arguments.run.resume,
                    "go on from the checkpoint in the output directory");
-      app.add_option("--threads", arguments.threads,
+      app.add_option("--threads", arguments.run.n_threads,
                      "threads instead of one a core; results do not depend on it")
           ->check(CLI::Range(1, 1024));
       app.add_flag("--quiet", arguments.run.quiet, "print warnings and errors only");
@@ -128,7 +127,8 @@ namespace Exemplar
   run_command_line(const int argc, char *argv[])
   {
     Arguments arguments;
-    CLI::App  app("exemplar: elastic solids that deform the way their examples say");
+    arguments.run.n_threads = n_available_cores();
+    CLI::App app("exemplar: elastic solids that deform the way their examples say");
     app.set_version_flag("--version",
                          std::string("exemplar " EXEMPLAR_VERSION " (" EXEMPLAR_GIT_REVISION ")")
                              + (has_iterative_operator() ? "" : " without Trilinos"));
@@ -152,7 +152,6 @@ namespace Exemplar
     {
       throw UserError(std::string(error.what()) + ". exemplar --help lists what is allowed.");
     }
-    set_n_threads(arguments.threads);
     if (!arguments.output.empty())
       arguments.run.overrides.push_back("Output/Directory=" + arguments.output);
 

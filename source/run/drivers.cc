@@ -26,11 +26,12 @@ namespace Exemplar
     /// Whatever fails while the parts are built, the input is to blame: nothing has
     /// been solved yet.
     std::unique_ptr<Problem>
-    make_problem(const SceneParameters &parameters)
+    make_problem(SceneParameters parameters, const unsigned int n_threads = 1)
     {
       try
       {
         const StepClock clock(Part::read);
+        parameters.n_threads = n_threads;
         auto problem = std::make_unique<Problem>(parameters, read_inputs(parameters), clock);
         for (const std::string &warning : problem->warnings())
           warn(warning);
@@ -59,8 +60,9 @@ namespace Exemplar
         std::cout << "none\n";
       std::cout << "Solver    " << method_name(problem.parameters.solver.method) << ", "
                 << problem.system.bordered().traits().name << ", " << problem.time_axis.n_steps()
-                << " steps; " << n_threads() << (n_threads() == 1 ? " thread" : " threads")
-                << "; BLAS " << blas.library << ' ' << blas.core << '\n';
+                << " steps; " << problem.parameters.n_threads
+                << (problem.parameters.n_threads == 1 ? " thread" : " threads") << "; BLAS "
+                << blas.library << ' ' << blas.core << '\n';
       std::cout << "Output    " << problem.parameters.output.directory << std::endl;
     }
 
@@ -157,7 +159,7 @@ namespace Exemplar
   run_scene(const RunOptions &options)
   {
     const SceneFile scene(options.scene_file, options.overrides);
-    const auto      problem = make_problem(scene.get_parameters());
+    const auto      problem = make_problem(scene.get_parameters(), options.n_threads);
     Results         results(*problem, scene);
     try
     {

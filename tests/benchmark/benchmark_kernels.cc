@@ -175,7 +175,6 @@ main(int argc, char *argv[])
   using namespace Exemplar;
   restart_with_right_core_type(argv);
   use_one_blas_thread();
-  set_n_threads(1); // on one core
   dealii::MultithreadInfo::set_thread_limit(1);
   benchmark::Initialize(&argc, argv);
   Scene the_scene(argc > 1 ? argv[1] : EXEMPLAR_SOURCE_DIR "/tests/benchmark/scenes/cat_grav.prm");

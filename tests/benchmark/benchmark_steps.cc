@@ -325,7 +325,6 @@ main(int argc, char *argv[])
 {
   Exemplar::restart_with_right_core_type(argv);
   Exemplar::use_one_blas_thread();
-  Exemplar::set_n_threads(1); // on one core
   dealii::MultithreadInfo::set_thread_limit(1);
   dealii::deal_II_exceptions::disable_abort_on_exception();
   const Exemplar::MpiSession mpi; // for multigrid

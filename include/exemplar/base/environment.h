@@ -22,31 +22,36 @@ namespace Exemplar
   std::string
   blas_warning();
 
-  /// The threads of this program, those of BLAS aside: as many as cores are available
-  /// to the process, or what set_n_threads() says. Results do not depend on it.
+  /// Cores that are available to this process.
   unsigned int
-  n_threads();
+  n_available_cores();
 
-  /// To be called before any thread starts; at least 1.
-  void
-  set_n_threads(unsigned int n);
-
-  /// While it lives, OpenMP's parallel regions of this program may have n_threads() threads;
-  /// otherwise none has more than one, so that CHOLMOD's have not.
-  class ParallelRegion
+  /// While it lives, OpenMP's parallel regions that this thread begins may have several threads,
+  /// or have one each: libraries such as CHOLMOD begin regions of their own, whose threads cost
+  /// more than they bring.
+  class OpenMPScope
   {
   public:
-    ParallelRegion();
-    ~ParallelRegion();
+    enum class Threads
+    {
+      one,
+      several
+    };
 
-    ParallelRegion(const ParallelRegion &) = delete;
-    ParallelRegion &
-    operator=(const ParallelRegion &)
+    explicit OpenMPScope(Threads threads);
+    ~OpenMPScope();
+
+    OpenMPScope(const OpenMPScope &) = delete;
+    OpenMPScope &
+    operator=(const OpenMPScope &)
         = delete;
+
+  private:
+    const int levels_before;
   };
 
-  /// BLAS and CHOLMOD on one thread: results must not depend on how many there are,
-  /// and CHOLMOD's own threads cost more than they bring.
+  /// OpenBLAS on one thread in the whole process, and the parallel regions that libraries begin in
+  /// this thread: results must not depend on how many there are.
   void
   use_one_blas_thread();
 

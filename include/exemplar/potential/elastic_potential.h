@@ -31,6 +31,7 @@ namespace Exemplar
     const ExamplePoses   *examples;
     const ExampleWeights *weights;
     const FreeDofs       &free_dofs;
+    unsigned int          n_threads = 1; ///< of the loops; no result depends on it
   };
 
   /// Psi(x, w), Eqs. (5) and (16), with the stiffness damping: sums over the cells of energies and

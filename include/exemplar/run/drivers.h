@@ -15,9 +15,10 @@ namespace Exemplar
   {
     std::filesystem::path    scene_file;
     std::vector<std::string> overrides; ///< "Section/Key=value"
-    bool                     resume  = false;
-    bool                     quiet   = false;
-    bool                     verbose = false; ///< a line an iteration instead of the bar
+    bool                     resume    = false;
+    bool                     quiet     = false;
+    bool                     verbose   = false; ///< a line an iteration instead of the bar
+    unsigned int             n_threads = 1;
   };
 
   /// Solve a scene from its first (or, resumed, its next) step to the last and write

@@ -43,6 +43,7 @@ namespace Exemplar
     TimeParameters                time;
     SolverParameters              solver;
     OutputParameters              output;
+    unsigned int n_threads = 1; ///< at work; no key of scene files, as no result depends on it
 
     bool
     has_gravity() const;
