@@ -40,8 +40,8 @@ namespace Exemplar
     std::size_t greatest = 0;
     for (std::size_t s = 0; s + 1 < panels.first_row.size(); ++s)
       greatest = std::max(greatest, panels.first_row[s + 1] - panels.first_row[s]);
-    block.resize(greatest + FactorPanels::most_lanes);
-    panels.values.resize(panels.values.size() + FactorPanels::most_lanes, 0.f);
+    block.resize(greatest + FactorPanels::max_lanes);
+    panels.values.resize(panels.values.size() + FactorPanels::max_lanes, 0.f);
   }
 
   void

@@ -39,7 +39,7 @@ namespace Exemplar
   SinglePrecisionInverse::apply(std::vector<double> &vector)
   {
     // of forces that shrink by ten orders of magnitude single precision would lose the last
-    const double scale = greatest_entry(vector);
+    const double scale = max_entry(vector);
     if (scale == 0.)
       return;
     right_side.resize(vector.size());

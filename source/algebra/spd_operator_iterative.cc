@@ -26,7 +26,7 @@ namespace Exemplar
   {
     using Multigrid = ML_Epetra::MultiLevelPreconditioner;
 
-    constexpr unsigned int most_iterations = 1000;
+    constexpr unsigned int max_iterations = 1000;
 
     /// Not deal.II's product of vectors, because that asserts in Debug that it is finite. Here it
     /// may be infinite or NaN, which check_curvature() and solve() report.
@@ -283,7 +283,7 @@ namespace Exemplar
             = [this](const Epetra_Vector &x, Epetra_Vector &y) { matrix->Multiply(false, x, y); };
         const auto cycle
             = [this](const Epetra_Vector &x, Epetra_Vector &y) { multigrid->ApplyInverse(x, y); };
-        dealii::SolverControl                 control(most_iterations, tolerance * norm);
+        dealii::SolverControl                 control(max_iterations, tolerance * norm);
         dealii::PrimitiveVectorMemory<Vector> memory;
         try
         {
@@ -294,7 +294,7 @@ namespace Exemplar
         catch (const dealii::SolverControl::NoConvergence &)
         {
           throw SolverFailure(
-              "The conjugate gradients do not converge in " + std::to_string(most_iterations)
+              "The conjugate gradients do not converge in " + std::to_string(max_iterations)
               + " iterations. Flat cells and a Poisson's ratio near 0.5 make them slow: set "
                 "Solver/Linear solver to cholesky, or improve the mesh.");
         }

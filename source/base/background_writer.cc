@@ -40,7 +40,7 @@ namespace Exemplar
       thread = std::thread(&BackgroundWriter::work, this);
     waiting.push_back(std::move(job));
     changed.notify_all();
-    changed.wait(lock, [this] { return waiting.size() <= most_waiting; });
+    changed.wait(lock, [this] { return waiting.size() <= max_waiting; });
     throw_error();
   }
 

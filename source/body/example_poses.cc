@@ -44,6 +44,20 @@ namespace Exemplar
     return sum;
   }
 
+  namespace
+  {
+    /// What a pose function makes of points.
+    std::vector<dealii::Point<3>>
+    images(const std::string &function, const std::vector<dealii::Point<3>> &points)
+    {
+      const Expression              expression("Examples/Pose functions", function, "xyz", 3);
+      std::vector<dealii::Point<3>> images;
+      for (const dealii::Point<3> &x : points)
+        images.emplace_back(expression.vector(x, 0.));
+      return images;
+    }
+  } // namespace
+
   ExamplePoses::ExamplePoses(const ExampleParameters &parameters,
                              const StrainMeasure      measure,
                              const Mesh              &mesh,
@@ -58,7 +72,8 @@ namespace Exemplar
       add_pose("rest pose", mesh.get_nodes());
     for (const std::string &name : parameters.poses)
       add_pose(name, mesh.find_pose(poses, name, "Examples/Poses"));
-    add_pose_functions(parameters.pose_functions, mesh);
+    for (const std::string &function : split_trimmed(parameters.pose_functions, '|'))
+      add_pose("pose function '" + function + "'", images(function, mesh.get_nodes()));
     compute_strains();
     compute_gram_matrix(material);
   }
@@ -79,19 +94,6 @@ namespace Exemplar
     for (unsigned int node = 0; node < nodes.size(); ++node)
       for (unsigned int c = 0; c < 3; ++c)
         positions.back()[3 * node + c] = nodes[node][c];
-  }
-
-  void
-  ExamplePoses::add_pose_functions(const std::string &functions, const Mesh &mesh)
-  {
-    for (const std::string &function : split_trimmed(functions, '|'))
-    {
-      const Expression              expression("Examples/Pose functions", function, "xyz", 3);
-      std::vector<dealii::Point<3>> nodes;
-      for (const dealii::Point<3> &x : mesh.get_nodes())
-        nodes.emplace_back(expression.vector(x, 0.));
-      add_pose("pose function '" + function + "'", nodes);
-    }
   }
 
   void

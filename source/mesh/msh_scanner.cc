@@ -50,17 +50,11 @@ namespace Exemplar
     binary = binary_numbers;
   }
 
-  void
-  MshScanner::skip_white_space()
-  {
-    while (position < bytes.size() && is_space(bytes[position]))
-      ++position;
-  }
-
   bool
   MshScanner::at_end()
   {
-    skip_white_space();
+    while (position < bytes.size() && is_space(bytes[position]))
+      ++position;
     return position == bytes.size();
   }
 

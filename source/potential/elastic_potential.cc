@@ -46,6 +46,32 @@ namespace Exemplar
         sums[i / batch_size] += lanes[i];
       return sums;
     }
+
+    CellRounding
+    estimate_rounding(const ElasticParts &parts)
+    {
+      // F of Eq. (1) carries the rounding of the positions, divided by the cell's size
+      const FESpace &fe_space = parts.fe_space;
+      const double   of_positions
+          = 2. * std::numeric_limits<double>::epsilon() * fe_space.rest_positions().linfty_norm();
+      CellRounding rounding;
+      Vector       force(fe_space.n_nodes());
+      for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
+      {
+        const Tetrahedron<double> &tet      = fe_space.tetrahedron(cell);
+        double                     norms[4] = {};
+        for (unsigned int a = 0; a < 4; ++a)
+          norms[a] = std::sqrt(dot(tet.shape_gradient[a], tet.shape_gradient[a]));
+        const double strain = of_positions * *std::max_element(norms, norms + 4);
+        const double stress = strain * parts.material.elasticity(cell).norm_estimate();
+        rounding.stress_norm += tet.volume * stress * stress;
+        for (unsigned int a = 0; a < 4; ++a)
+          force[fe_space.nodes(cell)[a]] += std::pow(tet.volume * stress * norms[a], 2);
+      }
+      rounding.force       = std::sqrt(force.linfty_norm()); // cells round independently
+      rounding.stress_norm = std::sqrt(rounding.stress_norm);
+      return rounding;
+    }
   } // namespace
 
   ElasticPotential::ElasticPotential(const ElasticParts &parts, const SymmetricPattern &pattern)
@@ -60,32 +86,6 @@ namespace Exemplar
         n_stripes(choose_n_stripes(parts.fe_space.n_cells())),
         nodal_sums(4 * n_stripes * parts.fe_space.n_nodes()), rounding(estimate_rounding(parts))
   {
-  }
-
-  ElasticPotential::Rounding
-  ElasticPotential::estimate_rounding(const ElasticParts &parts)
-  {
-    // F of Eq. (1) carries the rounding of the positions, divided by the cell's size
-    const FESpace &fe_space = parts.fe_space;
-    const double   of_positions
-        = 2. * std::numeric_limits<double>::epsilon() * fe_space.rest_positions().linfty_norm();
-    Rounding rounding;
-    Vector   force(fe_space.n_nodes());
-    for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
-    {
-      const Tetrahedron<double> &tet      = fe_space.tetrahedron(cell);
-      double                     norms[4] = {};
-      for (unsigned int a = 0; a < 4; ++a)
-        norms[a] = std::sqrt(dot(tet.shape_gradient[a], tet.shape_gradient[a]));
-      const double strain = of_positions * *std::max_element(norms, norms + 4);
-      const double stress = strain * parts.material.elasticity(cell).norm_estimate();
-      rounding.stress_norm += tet.volume * stress * stress;
-      for (unsigned int a = 0; a < 4; ++a)
-        force[fe_space.nodes(cell)[a]] += std::pow(tet.volume * stress * norms[a], 2);
-    }
-    rounding.force       = std::sqrt(force.linfty_norm()); // cells round independently
-    rounding.stress_norm = std::sqrt(rounding.stress_norm);
-    return rounding;
   }
 
   double

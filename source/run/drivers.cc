@@ -31,7 +31,7 @@ namespace Exemplar
       try
       {
         const StepClock clock(Part::read);
-        parameters.n_threads = n_threads;
+        parameters.solver.n_threads = n_threads;
         auto problem = std::make_unique<Problem>(parameters, read_inputs(parameters), clock);
         for (const std::string &warning : problem->warnings())
           warn(warning);
@@ -60,8 +60,8 @@ namespace Exemplar
         std::cout << "none\n";
       std::cout << "Solver    " << method_name(problem.parameters.solver.method) << ", "
                 << problem.system.bordered().traits().name << ", " << problem.time_axis.n_steps()
-                << " steps; " << problem.parameters.n_threads
-                << (problem.parameters.n_threads == 1 ? " thread" : " threads") << "; BLAS "
+                << " steps; " << problem.parameters.solver.n_threads
+                << (problem.parameters.solver.n_threads == 1 ? " thread" : " threads") << "; BLAS "
                 << blas.library << ' ' << blas.core << '\n';
       std::cout << "Output    " << problem.parameters.output.directory << std::endl;
     }

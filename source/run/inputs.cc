@@ -61,7 +61,7 @@ namespace Exemplar
       reader.add_nodes(handle.select, "Handles/" + handle.name);
       reader.add_followed_pose(handle);
     }
-    for (const LoadParameters &load : scene.loads)
+    for (const LoadParameters &load : scene.loads.named)
       reader.add_nodes(load.select, "Loads/" + load.name);
     if (scene.examples.in_use())
       for (const std::string &pose : scene.examples.poses)

@@ -30,7 +30,7 @@ namespace Exemplar
         constraints(parameters, body, time_axis, inputs),
         examples(parameters, body, time_axis, inputs), actions(parameters, body, inputs),
         potential({ parameters.model, body.fe_space, body.material, examples.poses.get(),
-                    examples.weights.get(), constraints.free_dofs, parameters.n_threads },
+                    examples.weights.get(), constraints.free_dofs, parameters.solver.n_threads },
                   actions.make_terms(body),
                   actions.integrator.get()),
         system(potential,

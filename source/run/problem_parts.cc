@@ -51,11 +51,11 @@ namespace Exemplar
     std::unique_ptr<Loads>
     make_loads(const SceneParameters &parameters, const Body &body, const Inputs &inputs)
     {
-      if (parameters.loads.empty() && !parameters.has_gravity())
+      if (parameters.loads.empty())
         return nullptr;
-      const auto &[x, y, z] = parameters.gravity;
-      return std::make_unique<Loads>(dealii::Tensor<1, 3>({ x, y, z }), parameters.loads, body.mesh,
-                                     body.fe_space, body.material, inputs.nodes);
+      const auto &[x, y, z] = parameters.loads.gravity;
+      return std::make_unique<Loads>(dealii::Tensor<1, 3>({ x, y, z }), parameters.loads.named,
+                                     body.mesh, body.fe_space, body.material, inputs.nodes);
     }
 
     /// Whether steps descend on one energy, the same before and after a step.

@@ -124,7 +124,7 @@ namespace Exemplar
         vtu_writer(problem.parameters.output.every > 0
                        ? std::make_unique<const VtuWriter>(problem.body.mesh)
                        : nullptr),
-        background(problem.parameters.n_threads > 1)
+        background(problem.parameters.solver.n_threads > 1)
   {
   }
 

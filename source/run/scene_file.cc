@@ -154,7 +154,7 @@ namespace Exemplar
                    "Names of the handles, separated by commas; each has a subsection.");
     keys.leave_subsection();
     keys.enter_subsection("Loads");
-    keys.add("Gravity", parameters.gravity,
+    keys.add("Gravity", parameters.loads.gravity,
              "Acceleration of gravity [m/s^2]. It acts in full from the start, also in a static "
              "scene; a weight that grows is a force of Loads/Names on a region.");
     keys.add_names("Names", load_names,
@@ -177,7 +177,7 @@ namespace Exemplar
         keys.set("Material/" + MaterialParameters::region_name(id) + "/" + key,
                  keys.get("Material/" + key));
     parameters.handles.resize(handle_names.size()); // before binding: entries must not move
-    parameters.loads.resize(load_names.size());
+    parameters.loads.named.resize(load_names.size());
     keys.enter_subsection("Handles");
     for (unsigned int i = 0; i < handle_names.size(); ++i)
     {
@@ -188,8 +188,8 @@ namespace Exemplar
     keys.enter_subsection("Loads");
     for (unsigned int i = 0; i < load_names.size(); ++i)
     {
-      parameters.loads[i].name = load_names[i];
-      parameters.loads[i].declare(keys);
+      parameters.loads.named[i].name = load_names[i];
+      parameters.loads.named[i].declare(keys);
     }
     keys.leave_subsection();
   }
@@ -200,7 +200,7 @@ namespace Exemplar
     for (const HandleParameters &handle : parameters.handles)
       keys.set("Handles/" + handle.name + "/Select",
                Selection::absolute(handle.select.text, directory()));
-    for (const LoadParameters &load : parameters.loads)
+    for (const LoadParameters &load : parameters.loads.named)
       keys.set("Loads/" + load.name + "/Select",
                Selection::absolute(load.select.text, directory()));
   }

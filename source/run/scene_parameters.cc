@@ -4,12 +4,6 @@
 
 namespace Exemplar
 {
-  bool
-  SceneParameters::has_gravity() const
-  {
-    return gravity != std::array<double, 3>{};
-  }
-
   void
   SceneParameters::complete()
   {
@@ -45,7 +39,7 @@ namespace Exemplar
     if (!examples.in_use())
       throw UserError("Scene = interpolation needs example poses. Give Examples/Poses or "
                       "Examples/Pose functions.");
-    if (!handles.empty() || !loads.empty() || has_gravity())
+    if (!handles.empty() || !loads.empty())
       throw UserError("Scene = interpolation has neither handles nor loads: it follows its "
                       "prescribed weights. Remove Handles/Names and Loads, or choose Scene = "
                       "static.");

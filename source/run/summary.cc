@@ -75,7 +75,7 @@ namespace Exemplar
     json["blas"]         = blas.library;
     json["blas_core"]    = blas.core;
     json["blas_threads"] = blas.threads;
-    json["threads"]      = problem.parameters.n_threads;
+    json["threads"]      = problem.parameters.solver.n_threads;
     json["scene"]        = problem.parameters.name;
     json["mesh"]         = problem.body.mesh.get_name();
     json["mesh_sha256"]  = mesh_sha256;

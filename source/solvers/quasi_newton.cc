@@ -219,8 +219,8 @@ namespace Exemplar
                            const double       gradient_ratio,
                            Iteration         &iteration) const
   {
-    const Exchange &exchange = potential.get_free_dofs().exchange();
-    const double    length   = report.step_length * exchange.max(greatest_entry(iteration.direct));
+    const Exchange &exchange    = potential.get_free_dofs().exchange();
+    const double    length      = report.step_length * exchange.max(max_entry(iteration.direct));
     const double    contraction = std::min(
            std::max(gradient_ratio, iteration.last_length > 0. ? length / iteration.last_length : 0.),
            max_contraction);

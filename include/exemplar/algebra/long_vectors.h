@@ -34,7 +34,7 @@ namespace Exemplar
 
   /// max |a_i|.
   inline double
-  greatest_entry(const std::vector<double> &a)
+  max_entry(const std::vector<double> &a)
   {
     double greatest = 0.;
     for (const double entry : a)

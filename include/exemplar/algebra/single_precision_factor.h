@@ -20,9 +20,9 @@ namespace Exemplar
     std::vector<std::size_t> first_row;    ///< where its rows begin in `rows`, and the end
     std::vector<std::size_t> first_value;  ///< where its block begins in `values`
     std::vector<int>         rows;         ///< of L, ascending; the block's own columns first
-    std::vector<float>       values;       ///< and `most_lanes` more
+    std::vector<float>       values;       ///< and `max_lanes` more
 
-    static constexpr std::size_t most_lanes = 16; ///< in a register
+    static constexpr std::size_t max_lanes = 16; ///< in a register
   };
 
   class SinglePrecisionFactor
@@ -52,7 +52,7 @@ namespace Exemplar
   };
 
   /// The two triangular solves for an instruction set. `block` has as many entries as the
-  /// greatest supernode has rows, and `most_lanes` more.
+  /// greatest supernode has rows, and `max_lanes` more.
   struct TriangularKernels
   {
     void (*forward)(const FactorPanels &, float *vector, float *block);

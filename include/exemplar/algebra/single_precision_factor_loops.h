@@ -13,7 +13,7 @@ namespace Exemplar
   struct TriangularLoops
   {
     static constexpr std::size_t width = Batch::size;
-    static_assert(width <= FactorPanels::most_lanes);
+    static_assert(width <= FactorPanels::max_lanes);
     static constexpr int n_columns = 4; ///< that are treated at once
 
     // The last batch reaches beyond the rows, into what follows in memory: `values` and `block`

@@ -18,7 +18,7 @@ namespace Exemplar
   {
   public:
     /// Jobs that may wait while another is done.
-    static constexpr unsigned int most_waiting = 2;
+    static constexpr unsigned int max_waiting = 2;
 
     /// With a thread of its own, which starts with the first job, or with none: then
     /// submit() does the job.
@@ -32,7 +32,7 @@ namespace Exemplar
     /// Does the jobs that are left. Nobody learns of their errors: drain() before.
     ~BackgroundWriter();
 
-    /// Returns once no more than `most_waiting` jobs wait.
+    /// Returns once no more than `max_waiting` jobs wait.
     void
     submit(std::function<void()> job);
 

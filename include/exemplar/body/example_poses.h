@@ -195,9 +195,6 @@ namespace Exemplar
     add_pose(const std::string &name, const std::vector<dealii::Point<3>> &nodes);
 
     void
-    add_pose_functions(const std::string &functions, const Mesh &mesh);
-
-    void
     compute_strains();
 
     void

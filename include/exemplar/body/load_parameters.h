@@ -4,7 +4,9 @@
 
 #include <exemplar/mesh/selection.h>
 
+#include <array>
 #include <string>
+#include <vector>
 
 namespace Exemplar
 {
@@ -19,6 +21,25 @@ namespace Exemplar
 
     void
     declare(KeyTable &keys);
+  };
+
+  /// Section Loads.
+  struct LoadsParameters
+  {
+    std::array<double, 3>       gravity{}; ///< acceleration [m/s^2]
+    std::vector<LoadParameters> named;
+
+    bool
+    has_gravity() const
+    {
+      return gravity != std::array<double, 3>{};
+    }
+
+    bool
+    empty() const
+    {
+      return named.empty() && !has_gravity();
+    }
   };
 } // namespace Exemplar
 

@@ -27,7 +27,7 @@ namespace Exemplar
       return binary;
     }
 
-    /// Only white space is left.
+    /// Go behind the white space; whether nothing else is left.
     bool
     at_end();
 
@@ -106,9 +106,6 @@ namespace Exemplar
 
     [[noreturn]] void
     fail_at_end() const;
-
-    void
-    skip_white_space();
 
     /// " within section $Nodes after 17 of 2860 nodes"
     std::string

@@ -34,6 +34,13 @@ namespace Exemplar
     unsigned int          n_threads = 1; ///< of the loops; no result depends on it
   };
 
+  /// What the rounding of positions makes of the forces and stresses of the cells.
+  struct CellRounding
+  {
+    double force       = 0.; ///< greatest of a node [N]
+    double stress_norm = 0.; ///< (sum V T^2)^(1/2)
+  };
+
   /// Psi(x, w), Eqs. (5) and (16), with the stiffness damping: sums over the cells of energies and
   /// forces, the matrix A and the columns G of Eq. (10). Rotations are kept ("frozen") until
   /// update_rotations() or an evaluation that updates them. Positions, displacements and forces are
@@ -115,16 +122,6 @@ namespace Exemplar
     memory_consumption() const;
 
   private:
-    /// What the rounding of positions makes of the forces and stresses of the cells.
-    struct Rounding
-    {
-      double force       = 0.; ///< greatest of a node [N]
-      double stress_norm = 0.; ///< (sum V T^2)^(1/2)
-    };
-
-    static Rounding
-    estimate_rounding(const ElasticParts &parts);
-
     bool
     has_unknown_weights() const
     {
@@ -203,7 +200,7 @@ namespace Exemplar
     StrainDamping                 damping;
     const std::size_t             n_stripes;  ///< in which the cells are summed
     dealii::AlignedVector<double> nodal_sums; ///< of forces and scales, stripe by stripe
-    const Rounding                rounding;
+    const CellRounding            rounding;
   };
 } // namespace Exemplar
 

@@ -37,16 +37,11 @@ namespace Exemplar
     ModelParameters               model;
     ExampleParameters             examples;
     std::vector<HandleParameters> handles;
-    std::array<double, 3>         gravity{}; ///< acceleration [m/s^2]
-    std::vector<LoadParameters>   loads;
+    LoadsParameters               loads;
     InitialParameters             initial;
     TimeParameters                time;
     SolverParameters              solver;
     OutputParameters              output;
-    unsigned int n_threads = 1; ///< at work; no key of scene files, as no result depends on it
-
-    bool
-    has_gravity() const;
 
     /// Set what the kind of scene decides: importance 1 and prescribed weights of an
     /// interpolation, and the method that `automatic` stands for. To do so twice changes nothing.

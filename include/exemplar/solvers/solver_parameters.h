@@ -41,6 +41,7 @@ namespace Exemplar
     unsigned int  maximum_iterations = 50;
     PassRotations rotations          = PassRotations::last;
     LinearSolver  linear_solver      = LinearSolver::automatic;
+    unsigned int  n_threads = 1; ///< at work; no key of scene files, as no result depends on it
 
     void
     declare(KeyTable &keys);

@@ -92,7 +92,7 @@ namespace Exemplar
       BackgroundWriter   writer(true);
       writer.submit([&]
                     { status = caller_went_on.get_future().wait_for(std::chrono::minutes(1)); });
-      for (unsigned int i = 0; i < BackgroundWriter::most_waiting; ++i)
+      for (unsigned int i = 0; i < BackgroundWriter::max_waiting; ++i)
         writer.submit([] {});
       caller_went_on.set_value();
       writer.drain();
@@ -102,7 +102,7 @@ namespace Exemplar
     TEST(BackgroundWriterTest, IsBounded)
     {
       std::atomic<unsigned int> submitted{ 0 };
-      unsigned int              begun = 0, most_waiting = 0;
+      unsigned int              begun = 0, max_waiting = 0;
       BackgroundWriter          writer(true);
       for (unsigned int i = 0; i < 50; ++i)
       {
@@ -112,13 +112,13 @@ namespace Exemplar
               ++begun;
               take_a_moment(); // in which the caller runs ahead
               const unsigned int now = submitted;
-              most_waiting           = std::max(most_waiting, now > begun ? now - begun : 0);
+              max_waiting            = std::max(max_waiting, now > begun ? now - begun : 0);
             });
         ++submitted;
       }
       writer.drain();
       EXPECT_EQ(begun, 50);
-      EXPECT_LE(most_waiting, BackgroundWriter::most_waiting);
+      EXPECT_LE(max_waiting, BackgroundWriter::max_waiting);
     }
 
     TEST_P(BackgroundWriterTest, ThrowsWhatAJobThrew)

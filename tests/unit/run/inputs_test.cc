@@ -59,17 +59,17 @@ namespace Exemplar::Testing
       scene.material.regions[2]    = ElasticConstants{ 2e6, 0.3, 1000. };
       scene.initial.pose           = sheared;
       scene.time.increments        = 2;
-      scene.gravity                = { { 0., 0., -1. } };
+      scene.loads.gravity          = { { 0., 0., -1. } };
       scene.handles                = { HandleParameters(), HandleParameters() };
       scene.handles[0].name        = "left";
       scene.handles[0].select      = { "boundary 1" };
       scene.handles[1].name        = "right";
       scene.handles[1].select      = { "boundary 2" };
       scene.handles[1].follow_pose = stretched;
-      scene.loads                  = { LoadParameters() };
-      scene.loads[0].name          = "push";
-      scene.loads[0].select        = { "nodes " + loaded };
-      scene.loads[0].force         = "0; 0; 10*t";
+      scene.loads.named            = { LoadParameters() };
+      scene.loads.named[0].name    = "push";
+      scene.loads.named[0].select  = { "nodes " + loaded };
+      scene.loads.named[0].force   = "0; 0; 10*t";
       return scene;
     }
 

@@ -48,7 +48,7 @@ namespace Exemplar::Testing
     {
       SceneParameters scene;
       EXPECT_TRUE(scene.handles.empty());
-      EXPECT_FALSE(scene.has_gravity());
+      EXPECT_FALSE(scene.loads.has_gravity());
       scene.complete();
       EXPECT_NO_THROW(scene.check());
       EXPECT_EQ(scene.solver.method, Method::quasi_newton);
@@ -80,7 +80,7 @@ namespace Exemplar::Testing
       EXPECT_EQ(scene.mesh.file, "/scenes/b.msh");
       EXPECT_EQ(scene.handles.at(0).name, "a");
       EXPECT_EQ(scene.handles.at(0).select.text, "nodes /scenes/list");
-      EXPECT_EQ(scene.gravity[2], -9.81);
+      EXPECT_EQ(scene.loads.gravity[2], -9.81);
       EXPECT_EQ(scene.output.directory, "output/a");
     }
 
