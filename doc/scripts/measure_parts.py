@@ -42,19 +42,19 @@ KINDS = {
 # (part, key of memory_mib, functions); of the functions that called each other the innermost that fits counts
 PARTS = [
     ("start and reading (once)", "mesh", r"Problem::Problem|_dl_|call_init|Mesh::|Parameters::|sha256|OBJ_NAME"),
-    ("handles and loads", None, r"::(Handles|Loads|Expression)::|Equilibrium::update_loads"),
-    ("mass matrix and inertia", "mass matrix", r"::Inertia::"),
+    ("handles and loads", None, r"::(Handles|Loads|Expression)::|LoadTerm::"),
+    ("mass matrix and inertia", "mass matrix", r"::(InertiaTerm|Mass|TimeIntegrator)::"),
     ("rotations of the cells", None, r"closest_rotation|add_rotations|node_rotations|update_rotations"),
-    ("forces and energies of the cells", "cells", r"evaluate_group|gather_forces|Assembler::evaluate"),
-    ("example strains and weights", "example poses", r"weight_linear_term|ExamplePoses|minimize_over_weights"),
+    ("forces and energies of the cells", "cells", r"evaluate_group|gather_forces|ElasticPotential::evaluate"),
+    ("example strains and weights", "example poses", r"weight_linear_term|ExamplePoses|ExampleWeights|minimize_over_weights"),
     ("columns of the weights", "weight block", r"coupling|solve_weights"),
     ("frames", None, r"[Vv]tu|cell_results|write_frame|Frame"),
-    ("stiffness damping", None, r"set_damping"),
-    ("matrix", None, r"CellLoops|::Assembler::"),
+    ("stiffness damping", None, r"StrainDamping"),
+    ("matrix", None, r"StiffnessLoops|TangentLoops|add_tangent|add_rotated_stiffness|assemble|CellScatter"),
     ("factorisation and solves", "linear solver", r"CholmodOperator::(factorize|solve|reinit)|IterativeOperator"),
     ("kept factor, L-BFGS and prediction", "quasi-Newton method",
-     r"TriangularLoops|SinglePrecision|TurnedFactor|Lbfgs|LinearPrediction|quasi_newton|CholmodOperator::panels"),
-    ("statistics, final pose, checkpoint", None, r"Diagnostics|StatisticsFile|write_msh|write_checkpoint|write_summary|Results"),
+     r"TriangularLoops|SinglePrecision|RotatedMetric|Lbfgs|LinearPrediction|QuasiNewton|CholmodOperator::(panels|keep)"),
+    ("statistics, final pose, checkpoint", None, r"Diagnostics|StatisticsFile|write_msh|write_checkpoint|write_summary|RunWriter"),
 ]
 OTHER = "everything else"
 

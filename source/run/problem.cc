@@ -11,8 +11,9 @@ namespace Exemplar
 {
   namespace
   {
-    /// By which the cell of a support may have turned [rad]; the matrix gets singular at
-    /// 90 degrees. What frozen forces find depends on the support, so there it never may.
+    /// Angle [rad] by which the cell of a support may have turned before the body is turned back:
+    /// at 90 degrees the matrix gets singular. What frozen forces find depends on how the support
+    /// stands, so with them the body is turned back before every step.
     constexpr double max_turn = 0.7;
 
     SceneParameters

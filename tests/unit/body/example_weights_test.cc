@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/body/example_weights.h>
+
+#include "body.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+namespace Exemplar::Testing
+{
+  namespace
+  {
+    ExampleParameters
+    two_poses(const WeightRule rule)
+    {
+      ExampleParameters parameters;
+      parameters.pose_functions     = twist(60.) + " | 1.1*x; 0.9*y; z";
+      parameters.importance         = 0.7;
+      parameters.weights            = rule;
+      parameters.prescribed_weights = rule == WeightRule::prescribed ? "1-t; t; 0" : "";
+      return parameters;
+    }
+
+    TEST(ExampleWeights, KnowWhetherTheyAreUnknownAndBounded)
+    {
+      const Body                body;
+      const Examples            simplex    = body.examples(two_poses(WeightRule::simplex));
+      const Examples            free       = body.examples(two_poses(WeightRule::free));
+      const Examples            prescribed = body.examples(two_poses(WeightRule::prescribed));
+      const std::vector<double> some       = { 0.5, 0.2, 0.3 };
+      EXPECT_TRUE(simplex.weights->are_unknown());
+      EXPECT_TRUE(free.weights->are_unknown());
+      EXPECT_FALSE(prescribed.weights->are_unknown());
+      EXPECT_EQ(simplex.weights->lower_changes(some), (std::vector<double>{ -0.5, -0.2, -0.3 }));
+      EXPECT_TRUE(free.weights->lower_changes(some).empty());
+      EXPECT_EQ(simplex.weights->initial(), (std::vector<double>{ 1., 0., 0. }));
+      EXPECT_EQ(prescribed.weights->at(0.25), (std::vector<double>{ 0.75, 0.25, 0. }));
+      EXPECT_EQ(simplex.weights->weight_form().coupled, (std::vector<unsigned int>{ 1, 2 }));
+    }
+
+    TEST(ExampleWeights, TheBestHaveNoResidual)
+    {
+      const Body body;
+      for (const WeightRule rule : { WeightRule::simplex, WeightRule::free })
+      {
+        const Examples      examples = body.examples(two_poses(rule));
+        const auto         &H        = examples.weights->weight_form().H;
+        std::vector<double> c        = { 0., 0.9 * H(1, 1), -0.5 * H(2, 2) };
+        const auto          best     = examples.weights->best(c, { 1., 0., 0. });
+        std::vector<double> gradient(3);
+        for (unsigned int i = 0; i < 3; ++i)
+          for (unsigned int j = 0; j < 3; ++j)
+            gradient[i] += H(i, j) * best[j] - (j == 0 ? c[i] : 0.);
+        EXPECT_NEAR(std::accumulate(best.begin(), best.end(), 0.), 1., 1e-13);
+        EXPECT_EQ(best[2] < 0., rule == WeightRule::free);
+        EXPECT_LT(examples.weights->residual(best, gradient).deviation, 1e-9 * H(1, 1));
+        gradient[1] += 0.1 * H(1, 1);
+        EXPECT_GT(examples.weights->residual(best, gradient).deviation, 0.04 * H(1, 1));
+      }
+    }
+
+    TEST(ExampleWeights, ChangesEndAtTheirBounds)
+    {
+      const Body          body;
+      const Examples      examples = body.examples(two_poses(WeightRule::simplex));
+      std::vector<double> weights  = { 0.5, 0.2, 0.3 };
+      examples.weights->add({ 0.2, -0.2 - 1e-17, -1e-3 }, weights);
+      EXPECT_EQ(weights[1], 0.);
+      EXPECT_EQ(examples.weights->missing_sums(weights).size(), 1u);
+      EXPECT_NEAR(examples.weights->missing_sums(weights)[0], 1e-3, 1e-15);
+    }
+  } // namespace
+} // namespace Exemplar::Testing
