@@ -161,11 +161,15 @@ namespace Exemplar
       return add_guard_of_stretch(T_D, material, phi - Number(1.), S);
     }
 
-    /// R^T P without a target.
+    /// R^T P without a target, for a guard bound other than no_guard.
     Matrix3<Number>
     elastic_force() const
     {
-      return stress(material, e);
+      if constexpr (CellMaterial<Number>::is_isotropic)
+        return stress(material, e);
+      CorotationalCell without_target = *this;
+      without_target.set_target(Matrix3<Number>{});
+      return without_target.force();
     }
 
     /// Prepare force() and the responses for the target strain D.

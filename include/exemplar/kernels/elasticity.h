@@ -5,8 +5,8 @@
 #include <exemplar/kernels/matrix3.h>
 
 // The material of a cell as the kernels see it. Cells, loops and batches know it by what is here
-// alone, under the name CellMaterial; only the loop that adds R K R^T (loops_stiffness.h) also uses
-// that it is isotropic. No deal.II header here: see matrix3.h.
+// alone, under the name CellMaterial; only the loop that adds R K R^T (loops_stiffness.h) also knows
+// what its numbers are. No deal.II header here: see matrix3.h.
 
 namespace Exemplar
 {
@@ -14,6 +14,9 @@ namespace Exemplar
   template <typename Number>
   struct Isotropic
   {
+    /// Whether C:E has the principal axes of E: then W of Eq. (17) is 0 without a target.
+    static constexpr bool is_isotropic = true;
+
     /// That are stored for each cell.
     static constexpr std::size_t n_numbers = 2;
 
