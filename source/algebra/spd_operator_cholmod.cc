@@ -170,7 +170,7 @@ namespace Exemplar
   } // namespace
 
   std::unique_ptr<SpdOperator>
-  make_cholmod_operator()
+  make_cholesky_operator()
   {
     return std::make_unique<CholmodOperator>();
   }

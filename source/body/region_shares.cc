@@ -77,7 +77,7 @@ namespace Exemplar
   RegionShares::blend(const FESpace &fe_space, const double length)
   {
     const SymmetricPattern pattern = lower_pattern(fe_space.nodal_pattern());
-    const auto             filter  = make_cholmod_operator();
+    const auto             filter  = make_cholesky_operator();
     filter->reinit(pattern);
     assemble_filter(fe_space, length * length / 12., *filter, pattern);
     filter->factorize(fe_space.rest_positions());

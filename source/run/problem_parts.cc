@@ -88,7 +88,7 @@ namespace Exemplar
                                               unit_energy(body.fe_space, body.material), axis);
     }
 
-    /// Operations of CHOLMOD's factorisation, for each degree of freedom and solve with it,
+    /// Operations of a factorisation, for each degree of freedom and solve with it,
     /// from which conjugate gradients are faster: measured, doc/speed.md.
     constexpr double operations_at_crossover = 4e5;
 
@@ -97,17 +97,17 @@ namespace Exemplar
     /// are small differences of what these solves give.
     constexpr double tolerance_of_iterations = 1e-4, tolerance_of_last_word = 1e-8;
 
-    /// CHOLMOD for a pattern, unless it is to be chosen and is not worth it.
+    /// A Cholesky factorisation for a pattern, unless it is to be chosen and is not worth it.
     std::unique_ptr<SpdOperator>
-    find_cholmod_operator(const SolverParameters &solver,
-                          const unsigned int      n_columns,
-                          const SymmetricPattern &pattern)
+    find_cholesky_operator(const SolverParameters &solver,
+                           const unsigned int      n_columns,
+                           const SymmetricPattern &pattern)
     {
       if (solver.linear_solver == LinearSolver::iterative)
         return nullptr;
       const bool may_choose = solver.linear_solver == LinearSolver::automatic
                               && solver.method != Method::quasi_newton && has_iterative_operator();
-      auto matrix = make_cholmod_operator();
+      auto matrix = make_cholesky_operator();
       try
       {
         matrix->reinit(pattern);
@@ -116,7 +116,7 @@ namespace Exemplar
       {
         if (!may_choose)
           throw;
-        return nullptr; // too large for CHOLMOD
+        return nullptr; // too large for its library
       }
       if (may_choose
           && matrix->traits().n_operations > operations_at_crossover * n_columns * pattern.n())
@@ -203,7 +203,7 @@ namespace Exemplar
     if (solver.linear_solver == LinearSolver::umfpack)
       return make_umfpack_system(pattern, form);
     const unsigned int n_examples = form != nullptr ? form->coupled.size() : 0;
-    auto               matrix     = find_cholmod_operator(solver, 1 + n_examples, pattern);
+    auto               matrix     = find_cholesky_operator(solver, 1 + n_examples, pattern);
     if (matrix == nullptr)
     {
       const bool is_last_word = solver.method == Method::one_pass || n_examples > 0;

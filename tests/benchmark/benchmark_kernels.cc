@@ -122,7 +122,7 @@ namespace Exemplar
     std::unique_ptr<SpdOperator>
     make_matrix()
     {
-      auto matrix = make_cholmod_operator();
+      auto matrix = make_cholesky_operator();
       matrix->reinit(scene->problem.potential.matrix_pattern());
       std::vector<double> no_columns;
       scene->problem.potential.assemble(scene->positions, {}, 1., matrix->values(), no_columns);

@@ -56,7 +56,7 @@ namespace Exemplar
     {
       if (!matrix)
       {
-        matrix = make_cholmod_operator();
+        matrix = make_cholesky_operator();
         matrix->reinit(problem.potential.matrix_pattern());
         measure_once(problem); // touches the factor's memory for the first time
       }

@@ -103,9 +103,9 @@ namespace Exemplar
     keep() const = 0;
   };
 
-  /// CHOLMOD's sparse Cholesky factorisation.
+  /// A sparse Cholesky factorisation: CHOLMOD's, spd_operator_cholmod.cc.
   std::unique_ptr<SpdOperator>
-  make_cholmod_operator();
+  make_cholesky_operator();
 
   /// Conjugate gradients to a residual of `tolerance` times the right side, preconditioned
   /// with ML's smoothed aggregation, whose coarse spaces hold the six rigid motions of the

@@ -9,7 +9,7 @@
 
 // The models of a cell. CorotationalCell, LinearCell and GreenCell have the same members, so that
 // a further model is a header like theirs, a value of StrainMeasure, a case of with_cell_model()
-// and its name in body/model.cc.
+// and its name in body/model_parameters.cc.
 // No deal.II header here: see matrix3.h.
 
 namespace Exemplar

@@ -12,9 +12,10 @@
 // tangent. A cell's energy density is a function of S, the symmetric factor of F = R S,
 // through the strain e = S - I, and of the target strain D = eta E(w):
 //
-//   psi = 1/2 (e - D) : C : (e - D) + 2 mu (1 - phi) S : dev D,      Eq. (16)
+//   psi = 1/2 (e - D) : C : (e - D) + (1 - phi) S : dev(C:D),        Eq. (16)
 //
-// where the guard phi is 1 but in badly inverted cells. No deal.II header here: see
+// where the guard phi is 1 but in badly inverted cells; elasticity.h has dev(C:D), in an isotropic
+// material 2 mu dev D. No deal.II header here: see
 // matrix3.h.
 
 namespace Exemplar
@@ -48,17 +49,6 @@ namespace Exemplar
       for (int j = 0; j < 3; ++j)
         C[i][j] = AB[i][j] - BA[i][j];
     return C;
-  }
-
-  /// A - tr(A)/3 I.
-  template <typename Number>
-  Matrix3<Number>
-  deviator(Matrix3<Number> A)
-  {
-    const Number third = trace(A) / Number(3.);
-    for (int i = 0; i < 3; ++i)
-      A[i][i] -= third;
-    return A;
   }
 
   /// phi = z^2 (3 - 2 z), z = clamp(p/p_0, 0, 1), and its derivative by p. The product
@@ -158,7 +148,7 @@ namespace Exemplar
       const Number          psi = Number(0.5) * contract(stress(material, deviation), deviation);
       if (!any(is_guarded()))
         return psi;
-      return psi + material.guard_modulus() * (Number(1.) - phi) * contract(S, deviator(D));
+      return psi + guard_energy(material, Number(1.) - phi, S, D);
     }
 
     /// -d psi / dD. The derivative of psi by a weight w_i is -eta times this, contracted with E_i.
@@ -168,27 +158,31 @@ namespace Exemplar
       const Matrix3<Number> T_D = stress(material, combine(Number(1.), e, Number(-1.), D));
       if (!any(is_guarded()))
         return T_D;
-      return combine(Number(1.), T_D, -material.guard_modulus() * (Number(1.) - phi), deviator(S));
+      return add_guard_of_stretch(T_D, material, phi - Number(1.), S);
     }
 
-    /// R^T P without a target.
+    /// R^T P without a target, for a guard bound other than no_guard.
     Matrix3<Number>
     elastic_force() const
     {
-      return stress(material, e);
+      if constexpr (CellMaterial<Number>::is_isotropic)
+        return stress(material, e);
+      CorotationalCell without_target = *this;
+      without_target.set_target(Matrix3<Number>{});
+      return without_target.force();
     }
 
     /// Prepare force() and the responses for the target strain D.
     void
     set_target(const Matrix3<Number> &D)
     {
-      T = combine(Number(1.), stress(material, combine(Number(1.), e, Number(-1.), D)),
-                  material.guard_modulus() * (Number(1.) - phi), deviator(D));
+      T = add_guard_of_target(stress(material, combine(Number(1.), e, Number(-1.), D)), material,
+                              Number(1.) - phi, D);
       // W divides by s_i + s_j, but its numerator vanishes faster because of the guard, so that a
       // tiny bound suffices; responses need a greater one
       bound_inverse(Number(1e-8));
       W           = skew_matrix(B_inverse * axial_vector(commutator(S, T)));
-      guard_force = -material.guard_modulus() * phi_derivative * contract(S, deviator(D));
+      guard_force = -guard_energy(material, phi_derivative, S, D);
       if (any(is_guarded()))
         bound_inverse(Number(1e-2));
     }
@@ -233,8 +227,7 @@ namespace Exemplar
     example_response(const Matrix3<Number> &E) const
     {
       const Matrix3<Number> dT
-          = combine(Number(1.), stress(material, E), -material.guard_modulus() * (Number(1.) - phi),
-                    deviator(E));
+          = add_guard_of_target(stress(material, E), material, phi - Number(1.), E);
       return combine(Number(1.), dT, Number(1.),
                      skew_matrix(B_inverse * axial_vector(commutator(S, dT))));
     }

@@ -5,8 +5,8 @@
 #include <exemplar/kernels/matrix3.h>
 
 // The material of a cell as the kernels see it. Cells, loops and batches know it by what is here
-// alone, under the name CellMaterial; only the loop that adds R K R^T (loops_stiffness.h) also uses
-// that it is isotropic. No deal.II header here: see matrix3.h.
+// alone, under the name CellMaterial; only the loop that adds R K R^T (loops_stiffness.h) also knows
+// what its numbers are. No deal.II header here: see matrix3.h.
 
 namespace Exemplar
 {
@@ -14,6 +14,9 @@ namespace Exemplar
   template <typename Number>
   struct Isotropic
   {
+    /// Whether C:E has the principal axes of E: then W of Eq. (17) is 0 without a target.
+    static constexpr bool is_isotropic = true;
+
     /// That are stored for each cell.
     static constexpr std::size_t n_numbers = 2;
 
@@ -41,13 +44,6 @@ namespace Exemplar
       return { factor * lambda, factor * mu };
     }
 
-    /// 2 mu, by which the guard of Eq. (16) multiplies the deviator of the target strain [Pa].
-    Number
-    guard_modulus() const
-    {
-      return Number(2.) * mu;
-    }
-
     /// An estimate of the norm of C [Pa]: how much the rounding of a strain can grow in its stress.
     Number
     norm_estimate() const
@@ -70,6 +66,43 @@ namespace Exemplar
       for (int j = 0; j < 3; ++j)
         T[i][j] = Number(2.) * material.mu * strain[i][j] + (i == j ? pressure : Number(0.));
     return T;
+  }
+
+  // The guard of Eq. (16) takes from the energy what would jump where the rotation is ambiguous:
+  // with a factor 1 - phi it adds S : dev(C:D), for the stretch S and the target strain D. The
+  // three functions below are this and its derivatives; here dev(C:D) = 2 mu dev D.
+
+  /// factor S : dev(C:D) [Pa].
+  template <typename Number>
+  Number
+  guard_energy(const Isotropic<Number> &material,
+               const Number            &factor,
+               const Matrix3<Number>   &S,
+               const Matrix3<Number>   &D)
+  {
+    return Number(2.) * material.mu * factor * contract(S, deviator(D));
+  }
+
+  /// T + factor dev(C:D), the derivative of the guard's energy by S added to a stress T [Pa].
+  template <typename Number>
+  Matrix3<Number>
+  add_guard_of_target(const Matrix3<Number>   &T,
+                      const Isotropic<Number> &material,
+                      const Number            &factor,
+                      const Matrix3<Number>   &D)
+  {
+    return combine(Number(1.), T, Number(2.) * material.mu * factor, deviator(D));
+  }
+
+  /// T + factor C:dev(S), the derivative by D [Pa].
+  template <typename Number>
+  Matrix3<Number>
+  add_guard_of_stretch(const Matrix3<Number>   &T,
+                       const Isotropic<Number> &material,
+                       const Number            &factor,
+                       const Matrix3<Number>   &S)
+  {
+    return combine(Number(1.), T, Number(2.) * material.mu * factor, deviator(S));
   }
 } // namespace Exemplar
 

@@ -125,7 +125,7 @@ namespace Exemplar::Loops
     sums.elastic += elastic;
 
     // R^T P; without examples and damping this is all of it
-    Matrix3<Number> P = has_examples ? elastic_stress : cell.elastic_force();
+    Matrix3<Number> P = has_examples || frozen ? elastic_stress : cell.elastic_force();
     Matrix3<Number> D;
     if (has_examples)
     {

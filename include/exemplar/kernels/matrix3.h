@@ -139,6 +139,17 @@ namespace Exemplar
     return A[0][0] + A[1][1] + A[2][2];
   }
 
+  /// A - tr(A)/3 I.
+  template <typename Number>
+  Matrix3<Number>
+  deviator(Matrix3<Number> A)
+  {
+    const Number third = trace(A) / Number(3.);
+    for (int i = 0; i < 3; ++i)
+      A[i][i] -= third;
+    return A;
+  }
+
   /// A : B.
   template <typename Number>
   Number

@@ -73,7 +73,7 @@ namespace Exemplar::Testing
     std::unique_ptr<BorderedSystem>
     block_system(const SymmetricPattern &pattern, const WeightForm *form)
     {
-      auto matrix = make_cholmod_operator();
+      auto matrix = make_cholesky_operator();
       matrix->reinit(pattern);
       return make_block_system(std::move(matrix), form);
     }

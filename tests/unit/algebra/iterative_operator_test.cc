@@ -73,7 +73,7 @@ namespace Exemplar::Testing
       std::unique_ptr<SpdOperator>
       cholmod() const
       {
-        auto matrix = make_cholmod_operator();
+        auto matrix = make_cholesky_operator();
         matrix->reinit(elastic.matrix_pattern);
         return matrix;
       }

@@ -390,7 +390,7 @@ namespace Exemplar::Testing
       dealii::Vector<double> origin(rest.size());
       ElasticEvaluation      evaluation;
       elastic.evaluate(origin, { 1. }, evaluation);
-      auto matrix = make_cholmod_operator();
+      auto matrix = make_cholesky_operator();
       matrix->reinit(elastic.matrix_pattern);
       const auto          solver = make_block_system(std::move(matrix), nullptr);
       std::vector<double> columns;

@@ -106,7 +106,7 @@ namespace Exemplar::Testing
         integrator.begin_step(state, 0.1);
         inertia.begin_step(state);
         inertia.attach(elastic.matrix_pattern, free_dofs);
-        auto matrix = make_cholmod_operator();
+        auto matrix = make_cholesky_operator();
         matrix->reinit(elastic.matrix_pattern);
         system = make_block_system(std::move(matrix), nullptr);
         inertia.add_tangent(positions, system->matrix_values());
