@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/environment.h>
 #include <exemplar/base/errors.h>
-#include <exemplar/base/interrupt.h>
 #include <exemplar/base/progress.h>
-#include <exemplar/run/drivers.h>
+#include <exemplar/program/interrupt.h>
+#include <exemplar/program/run_scene.h>
 #include <exemplar/run/problem.h>
 #include <exemplar/run/results.h>
 
@@ -12,6 +12,7 @@
 #include <memory>
 #include <numeric>
 #include <sstream>
+#include <unistd.h>
 
 namespace Exemplar
 {
@@ -23,23 +24,13 @@ namespace Exemplar
       std::cerr << "Warning: " << warning << std::endl;
     }
 
-    /// Whatever fails while the parts are built, the input is to blame: nothing has
-    /// been solved yet.
     std::unique_ptr<Problem>
-    make_problem(const SceneParameters &parameters)
+    make_problem_and_warn(const SceneParameters &parameters)
     {
-      try
-      {
-        const StepClock clock(Part::read);
-        auto problem = std::make_unique<Problem>(parameters, read_inputs(parameters), clock);
-        for (const std::string &warning : problem->warnings())
-          warn(warning);
-        return problem;
-      }
-      catch (const SolverFailure &failure)
-      {
-        throw UserError(failure.what());
-      }
+      auto problem = make_problem(parameters);
+      for (const std::string &warning : problem->warnings())
+        warn(warning);
+      return problem;
     }
 
     void
@@ -138,7 +129,8 @@ namespace Exemplar
     {
       while (problem.state.step < problem.time_axis.n_steps())
       {
-        check_interrupt();
+        if (is_interrupted())
+          throw Interrupted("Interrupted.");
         const SolveReport report = problem.advance();
         results.add_step(report);
         if (!is_success(report.status))
@@ -157,7 +149,7 @@ namespace Exemplar
   run_scene(const RunOptions &options)
   {
     const SceneFile scene(options.scene_file, options.overrides);
-    const auto      problem = make_problem(scene.get_parameters());
+    const auto      problem = make_problem_and_warn(scene.get_parameters());
     Results         results(*problem, scene);
     try
     {
@@ -171,7 +163,6 @@ namespace Exemplar
       throw UserError(std::string("The output directory cannot be used: ") + error.what()
                       + ". Give another one by --output or Output/Directory.");
     }
-    note_interrupts();
     if (const std::string warning = blas_warning(); !warning.empty())
       warn(warning);
     if (!options.quiet)
@@ -186,8 +177,8 @@ namespace Exemplar
         print_iteration(*problem, report);
       return !is_interrupted();
     };
-    Progress progress(std::cout, options.quiet || options.verbose, problem->state.step,
-                      problem->time_axis.n_steps());
+    Progress progress(std::cout, isatty(STDOUT_FILENO) != 0, options.quiet || options.verbose,
+                      problem->state.step, problem->time_axis.n_steps());
     try
     {
       run_steps(*problem, results, progress);
@@ -213,16 +204,10 @@ namespace Exemplar
   validate_scene(const RunOptions &options)
   {
     const SceneFile scene(options.scene_file, options.overrides);
-    const auto      problem = make_problem(scene.get_parameters());
+    const auto      problem = make_problem_and_warn(scene.get_parameters());
     std::cout << options.scene_file.string() << ": valid; " << problem->body.mesh.n_cells()
               << " cells, " << problem->body.mesh.n_nodes() << " nodes, "
               << problem->time_axis.n_steps() << " steps" << std::endl;
-  }
-
-  void
-  check_parts(const SceneParameters &parameters)
-  {
-    make_problem(parameters);
   }
 
   void
