@@ -54,7 +54,7 @@ PARTS = [
     ("factorisation and solves", "linear solver", r"CholmodOperator::(factorize|solve|reinit)|IterativeOperator"),
     ("kept factor, L-BFGS and prediction", "quasi-Newton method",
      r"TriangularLoops|SinglePrecision|TurnedFactor|Lbfgs|LinearPrediction|quasi_newton|CholmodOperator::panels"),
-    ("statistics, final pose, checkpoint", None, r"Diagnostics|StatisticsFile|write_msh|write_checkpoint|write_summary|Results"),
+    ("statistics, final pose, checkpoint", None, r"Diagnostics|StatisticsFile|write_msh|write_checkpoint|write_summary|RunWriter"),
 ]
 OTHER = "everything else"
 

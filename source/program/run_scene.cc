@@ -5,7 +5,7 @@
 #include <exemplar/program/interrupt.h>
 #include <exemplar/program/run_scene.h>
 #include <exemplar/run/problem.h>
-#include <exemplar/run/results.h>
+#include <exemplar/run/run_writer.h>
 
 #include <iomanip>
 #include <iostream>
@@ -125,17 +125,17 @@ namespace Exemplar
     }
 
     void
-    run_steps(Problem &problem, Results &results, Progress &progress)
+    run_steps(Problem &problem, RunWriter &writer, Progress &progress)
     {
       while (problem.state.step < problem.time_axis.n_steps())
       {
         if (is_interrupted())
           throw Interrupted("Interrupted.");
         const SolveReport report = problem.advance();
-        results.add_step(report);
+        writer.add_step(report);
         if (!is_success(report.status))
         {
-          results.finish(status_name(report.status));
+          writer.finish(status_name(report.status));
           progress.finish();
           fail(problem, report);
         }
@@ -150,13 +150,13 @@ namespace Exemplar
   {
     const SceneFile scene(options.scene_file, options.overrides);
     const auto      problem = make_problem_and_warn(scene.get_parameters());
-    Results         results(*problem, scene);
+    RunWriter       writer(*problem, scene);
     try
     {
       if (options.resume)
-        results.resume();
+        writer.resume();
       else
-        results.begin();
+        writer.begin();
     }
     catch (const std::filesystem::filesystem_error &error)
     {
@@ -181,23 +181,23 @@ namespace Exemplar
                       problem->state.step, problem->time_axis.n_steps());
     try
     {
-      run_steps(*problem, results, progress);
+      run_steps(*problem, writer, progress);
     }
     catch (const Interrupted &)
     {
       progress.finish();
-      results.finish("interrupted");
+      writer.finish("interrupted");
       throw Interrupted("Interrupted after step " + std::to_string(problem->state.step)
                         + ". Go on with --resume.");
     }
     progress.finish();
-    results.finish(status_name(problem->parameters.solver.method == Method::one_pass
-                                   ? SolveStatus::one_pass
-                                   : SolveStatus::converged));
+    writer.finish(status_name(problem->parameters.solver.method == Method::one_pass
+                                  ? SolveStatus::one_pass
+                                  : SolveStatus::converged));
     for (const std::string &warning : problem->warnings_at_end())
       warn(warning);
     if (!options.quiet)
-      print_times(results.get_totals());
+      print_times(writer.get_totals());
   }
 
   void
