@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/child_process.h>
 #include <exemplar/base/errors.h>
-#include <exemplar/base/interrupt.h>
 
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -79,8 +78,7 @@ namespace Exemplar
         argv.push_back(const_cast<char *>(argument.c_str())); // execvp does not change it
       argv.push_back(nullptr);
       const pid_t parent = getpid();
-      std::signal(SIGCHLD, SIG_DFL); // if ignored, the kernel would take the status
-      const pid_t child = fork();
+      const pid_t child  = fork();
       if (child == 0)
         become(argv.data(), out.descriptor, parent);
       if (child < 0)
@@ -144,7 +142,10 @@ namespace Exemplar
     };
 
     ChildEnd
-    run(const std::vector<std::string> &command, const OpenFile &out, const double timeout)
+    run(const std::vector<std::string> &command,
+        const OpenFile                 &out,
+        const double                    timeout,
+        const std::function<bool()>    &stop)
     {
       ChildEnd   end;
       const auto begin = Clock::now();
@@ -153,7 +154,8 @@ namespace Exemplar
       Child child(command, out);
       while (!child.has_ended())
       {
-        check_interrupt();
+        if (stop && stop())
+          throw Interrupted("Interrupted.");
         if (timeout > 0. && !end.timed_out && seconds() > timeout)
         {
           end.timed_out = true;
@@ -173,18 +175,19 @@ namespace Exemplar
   ChildEnd
   run_child(const std::vector<std::string> &command,
             const std::filesystem::path    &log,
-            const double                    timeout)
+            const double                    timeout,
+            const std::function<bool()>    &stop)
   {
     const OpenFile out(open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666),
                        log.string());
-    return run(command, out, timeout);
+    return run(command, out, timeout, stop);
   }
 
   ChildOutput
   output_of_child(const std::vector<std::string> &command)
   {
     const OpenFile out(memfd_create("output", MFD_CLOEXEC), "the output of " + command.at(0));
-    const ChildEnd end = run(command, out, 0.);
+    const ChildEnd end = run(command, out, 0., {});
     return { end, out.text_from_begin() };
   }
 } // namespace Exemplar

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/progress.h>
 
-#include <iostream>
 #include <sstream>
-#include <unistd.h>
 
 namespace Exemplar
 {
@@ -32,12 +30,13 @@ namespace Exemplar
   } // namespace
 
   Progress::Progress(std::ostream      &out,
+                     const bool         is_terminal,
                      const bool         quiet,
                      const unsigned int first,
                      const unsigned int n_steps,
                      const std::string &unit)
-      : out(out), quiet(quiet), terminal(&out == &std::cout && isatty(STDOUT_FILENO) != 0),
-        first(first), n_steps(n_steps), unit(unit), begin(Clock::now()), last_shown(begin)
+      : out(out), is_terminal(is_terminal), quiet(quiet), first(first), n_steps(n_steps),
+        unit(unit), begin(Clock::now()), last_shown(begin)
   {
   }
 
@@ -45,25 +44,25 @@ namespace Exemplar
   Progress::update(const unsigned int step, const std::string &note)
   {
     const auto   now      = Clock::now();
-    const double interval = terminal ? 0.1 : 5.;
+    const double interval = is_terminal ? 0.1 : 5.;
     if (quiet || (step != n_steps && seconds_between(last_shown, now) < interval))
       return;
     last_shown = now;
 
     const double       left = seconds_between(begin, now) / (step - first) * (n_steps - step);
     std::ostringstream text;
-    if (terminal)
+    if (is_terminal)
     {
       const unsigned int width = 20, filled = width * step / n_steps;
       text << '[' << std::string(filled, '#') << std::string(width - filled, '.') << "] ";
     }
     text << unit << " " << step << " of " << n_steps << ", " << duration_text(left) << " left, "
          << note;
-    if (terminal) // one line, whatever stood there before; "\033[K" clears the rest of it
+    if (is_terminal) // one line, whatever stood there before; "\033[K" clears the rest of it
       out << '\r' << text.str().substr(0, 79) << "\033[K" << std::flush;
     else
       out << text.str() << std::endl;
-    line_open = terminal;
+    line_open = is_terminal;
   }
 
   void

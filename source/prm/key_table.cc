@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <memory>
 #include <numeric>
+#include <set>
 #include <sstream>
 
 namespace Exemplar
@@ -83,6 +84,15 @@ namespace Exemplar
       return { static_cast<int>(bounds.low), bounds.high == Bounds().high
                                                  ? std::numeric_limits<int>::max()
                                                  : static_cast<int>(bounds.high) };
+    }
+
+    std::string
+    joined(const std::vector<std::string> &names)
+    {
+      std::string text;
+      for (const std::string &name : names)
+        text += (text.empty() ? "" : ", ") + name;
+      return text;
     }
 
     /// A file name, absolute if there is a directory to start from; refused if a scene file could not hold it.
@@ -246,16 +256,42 @@ namespace Exemplar
   }
 
   void
+  KeyTable::add_choices(const std::string              &key,
+                        std::vector<std::string>       &value,
+                        const std::vector<std::string> &names,
+                        const std::string              &documentation)
+  {
+    insert({ {},
+             key,
+             "",
+             joined(value),
+             documentation,
+             "one or more of " + joined(names) + ", each once, separated by commas",
+             false,
+             true },
+           [&value, names](const std::string &text)
+           {
+             const std::vector<std::string> chosen = split_trimmed(text, ',');
+             const std::set<std::string>    once(chosen.begin(), chosen.end());
+             const bool                     allowed
+                 = !chosen.empty() && once.size() == chosen.size()
+                   && std::all_of(chosen.begin(), chosen.end(),
+                                  [&](const std::string &name)
+                                  { return std::count(names.begin(), names.end(), name) > 0; });
+             if (allowed)
+               value = chosen;
+             return allowed;
+           });
+  }
+
+  void
   KeyTable::add_choice(const std::string              &key,
                        const std::string              &name,
                        const std::vector<std::string> &names,
                        const std::string              &documentation,
                        const Setter                   &set)
   {
-    std::string allowed;
-    for (const std::string &other : names)
-      allowed += (allowed.empty() ? "" : ", ") + other;
-    insert({ {}, key, "", name, documentation, allowed }, set);
+    insert({ {}, key, "", name, documentation, joined(names) }, set);
   }
 
   std::vector<DeclaredKey>

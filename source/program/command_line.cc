@@ -4,7 +4,8 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/base/version.h>
 #include <exemplar/program/command_line.h>
-#include <exemplar/run/drivers.h>
+#include <exemplar/program/interrupt.h>
+#include <exemplar/program/run_scene.h>
 #include <exemplar/study/study.h>
 #include <exemplar/study/study_file.h>
 #include <exemplar/verification/verification.h>
@@ -128,6 +129,7 @@ namespace Exemplar
   {
     Arguments arguments;
     arguments.run.n_threads = n_available_cores();
+    arguments.study.stop = is_interrupted;
     CLI::App app("exemplar: elastic solids that deform the way their examples say");
     app.set_version_flag("--version",
                          std::string("exemplar " EXEMPLAR_VERSION " (" EXEMPLAR_GIT_REVISION ")")

@@ -17,6 +17,7 @@ main(int argc, char *argv[])
   Exemplar::use_one_blas_thread();
   dealii::MultithreadInfo::set_thread_limit(1);
   std::signal(SIGXFSZ, SIG_IGN); // a write beyond ulimit -f then fails like any other
+  std::signal(SIGCHLD, SIG_DFL); // if our parent ignored it, no child would tell how it ended
   dealii::deal_II_exceptions::disable_abort_on_exception();
   const Exemplar::MpiSession mpi; // scenes without multigrid never start it
   const auto                 report = [](const std::string &message, const int status)

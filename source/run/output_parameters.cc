@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/prm/key_table.h>
+#include <exemplar/run/frame_formats.h>
 #include <exemplar/run/output_parameters.h>
 
 namespace Exemplar
 {
-  namespace
-  {
-    const EnumTable<FrameFormat> frame_formats = { { FrameFormat::vtu, "vtu" } };
-  } // namespace
-
   void
   OutputParameters::declare(KeyTable &keys)
   {
@@ -19,7 +15,7 @@ namespace Exemplar
     keys.add("Every", every,
              "A frame every so many steps, and of the last; 0: none (final.msh alone).",
              Bounds{ 0 });
-    keys.add("Formats", format, frame_formats, "Format of the frames.");
+    keys.add_choices("Formats", formats, names_of(frame_formats()), "Formats of the frames.");
     keys.add("Checkpoint minutes", checkpoint_minutes,
              "Minutes of run time between checkpoints. One is also written at the end and "
              "on Ctrl-C.",

@@ -197,4 +197,18 @@ namespace Exemplar
           + " J, where the rest pose has less: Initial/Pose may be too far from it.");
     return all;
   }
+
+  std::unique_ptr<Problem>
+  make_problem(const SceneParameters &parameters)
+  {
+    try
+    {
+      const StepClock clock(Part::read);
+      return std::make_unique<Problem>(parameters, read_inputs(parameters), clock);
+    }
+    catch (const SolverFailure &failure)
+    {
+      throw UserError(failure.what());
+    }
+  }
 } // namespace Exemplar

@@ -4,7 +4,6 @@
 #include <exemplar/run/run_directory.h>
 
 #include <algorithm>
-#include <regex>
 
 namespace Exemplar
 {
@@ -15,25 +14,23 @@ namespace Exemplar
   namespace
   {
     const std::string remedy = " Give another one by --output or Output/Directory.";
-
-    bool
-    is_own_name(const std::string &name)
-    {
-      static const std::regex pattern(
-          "(frame_[0-9]+\\.vtu|animation\\.pvd|final\\.msh|statistics\\.csv|"
-          "summary\\.json|original\\.prm|parameters\\.prm|checkpoint\\.bin)"
-          "(\\.tmp)?");
-      return std::regex_match(name, pattern);
-    }
   } // namespace
 
-  RunDirectory::RunDirectory(fs::path path) : path(std::move(path)) {}
-
-  std::string
-  RunDirectory::frame_name(const unsigned int step)
+  RunDirectory::RunDirectory(fs::path path, const std::vector<FrameFormat> &formats)
+      : path(std::move(path)), formats(formats)
   {
-    const std::string digits = std::to_string(step);
-    return "frame_" + std::string(digits.size() < 4 ? 4 - digits.size() : 0, '0') + digits + ".vtu";
+  }
+
+  bool
+  RunDirectory::is_own_name(const std::string &name) const
+  {
+    const fs::path file
+        = path / (fs::path(name).extension() == ".tmp" ? fs::path(name).stem() : fs::path(name));
+    return file == original_prm() || file == parameters_prm() || file == statistics()
+           || file == summary() || file == final_pose() || file == checkpoint()
+           || std::any_of(formats.begin(), formats.end(),
+                          [&](const FrameFormat &format)
+                          { return format.owns(file.filename().string()); });
   }
 
   bool

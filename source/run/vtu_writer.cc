@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/atomic_file.h>
-#include <exemplar/run/vtu_writer.h>
+#include <exemplar/mesh/mesh.h>
+#include <exemplar/run/frame_writer.h>
 
 #include <deal.II/base/utilities.h>
 
 #include <cstdint>
 #include <cstring>
 #include <iomanip>
+#include <memory>
 #include <ostream>
 #include <sstream>
 #include <stdexcept>
@@ -92,43 +94,74 @@ namespace Exemplar
       write_array(out, "Int32", "region", 1, region.data(), region.size());
       return out.str();
     }
+
+    void
+    write_vector(std::ostream &out, const std::string &name, const Vector &values)
+    {
+      write_array(out, "Float64", name, 3, values.begin(), values.size());
+    }
+
+    void
+    write_scalars(std::ostream &out, const std::string &name, const std::vector<double> &values)
+    {
+      write_array(out, "Float64", name, 1, values.data(), values.size());
+    }
+
+    /// Writes VTU files: each node once and in file order, and true cell data (deal.II's DataOut
+    /// repeats nodes cell by cell and has no cell data). Arrays are binary, compressed by zlib.
+    /// The animation is a ParaView collection.
+    class VtuWriter : public FrameWriter
+    {
+    public:
+      explicit VtuWriter(const Mesh &mesh)
+          : head(head_of(mesh)), cells(cells_of(mesh)), regions(regions_of(mesh))
+      {
+      }
+
+      void
+      write(const Frame &frame, const std::filesystem::path &file) const override
+      {
+        AtomicFile    atomic_file(file);
+        std::ostream &out = atomic_file.stream();
+        out << head << "<Points>\n";
+        write_vector(out, "Points", frame.positions);
+        out << "</Points>\n" << cells << "<PointData>\n";
+        write_vector(out, "displacement", frame.displacement);
+        if (frame.velocities.size() > 0)
+          write_vector(out, "velocity", frame.velocities);
+        out << "</PointData>\n<CellData>\n";
+        write_scalars(out, "strain_energy_density", frame.cells.strain_energy_density);
+        write_scalars(out, "det_F", frame.cells.det_F);
+        write_scalars(out, "von_mises_stress", frame.cells.von_mises_stress);
+        out << regions << "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+        atomic_file.commit_without_sync();
+      }
+
+      void
+      write_animation(const std::vector<WrittenFrame> &frames,
+                      const std::filesystem::path     &file) const override
+      {
+        AtomicFile    atomic_file(file);
+        std::ostream &out = atomic_file.stream();
+        out << "<?xml version=\"1.0\"?>\n"
+            << "<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n"
+            << std::setprecision(12);
+        for (const auto &[time, frame] : frames)
+          out << "<DataSet timestep=\"" << time << "\" file=\"" << frame.filename().string()
+              << "\"/>\n";
+        out << "</Collection>\n</VTKFile>\n";
+        atomic_file.commit();
+      }
+
+    private:
+      const std::string head;           ///< to the points
+      const std::string cells, regions; ///< encoded once, as no frame changes them
+    };
   } // namespace
 
-  VtuWriter::VtuWriter(const Mesh &mesh)
-      : head(head_of(mesh)), cells(cells_of(mesh)), regions(regions_of(mesh))
+  std::unique_ptr<const FrameWriter>
+  make_vtu_writer(const Mesh &mesh)
   {
-  }
-
-  void
-  VtuWriter::write(const std::filesystem::path  &file,
-                   const dealii::Vector<double> &positions,
-                   const VtuFields              &fields) const
-  {
-    AtomicFile    atomic_file(file);
-    std::ostream &out = atomic_file.stream();
-    out << head << "<Points>\n";
-    write_array(out, "Float64", "Points", 3, positions.begin(), positions.size());
-    out << "</Points>\n" << cells << "<PointData>\n";
-    for (const auto &[name, values] : fields.point_vectors)
-      write_array(out, "Float64", name, 3, values->begin(), values->size());
-    out << "</PointData>\n<CellData>\n";
-    for (const auto &[name, values] : fields.cell_scalars)
-      write_array(out, "Float64", name, 1, values->data(), values->size());
-    out << regions << "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
-    atomic_file.commit_without_sync();
-  }
-
-  void
-  write_pvd(const std::filesystem::path                       &file,
-            const std::vector<std::pair<double, std::string>> &frames)
-  {
-    AtomicFile    atomic_file(file);
-    std::ostream &out = atomic_file.stream();
-    out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n"
-        << std::setprecision(12);
-    for (const auto &[time, name] : frames)
-      out << "<DataSet timestep=\"" << time << "\" file=\"" << name << "\"/>\n";
-    out << "</Collection>\n</VTKFile>\n";
-    atomic_file.commit();
+    return std::make_unique<const VtuWriter>(mesh);
   }
 } // namespace Exemplar

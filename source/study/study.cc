@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
-#include <exemplar/base/interrupt.h>
 #include <exemplar/base/median.h>
 #include <exemplar/base/number_text.h>
 #include <exemplar/base/progress.h>
@@ -20,6 +19,7 @@
 #include <iostream>
 #include <map>
 #include <memory>
+#include <unistd.h>
 
 namespace Exemplar
 {
@@ -142,14 +142,16 @@ namespace Exemplar
     /// The reference, then the first repeat of all runs, then the second: what slows the
     /// machine down for a while shall not meet all repeats of one run.
     void
-    make_runs(const StudyPlan &plan, StudyRuns &runs, const bool quiet)
+    make_runs(const StudyPlan &plan, StudyRuns &runs, const StudyOptions &options)
     {
-      Progress   progress(std::cout, quiet, count_done(plan, runs), plan.n_repeats(), "run");
+      Progress   progress(std::cout, isatty(STDOUT_FILENO) != 0, options.quiet,
+                          count_done(plan, runs), plan.n_repeats(), "run");
       const auto make = [&](const PlannedRun &run, const unsigned int repeat)
       {
         if (runs.is_done(run.name, repeat))
           return;
-        check_interrupt();
+        if (options.stop && options.stop())
+          throw Interrupted("Interrupted.");
         const StudyRecord &record = runs.run(run);
         progress.update(count_done(plan, runs),
                         values_text(plan.study, run.choice) + ": " + record.status);
@@ -195,6 +197,13 @@ namespace Exemplar
     {
       if (!warning.empty())
         std::cerr << "Warning: " << warning << std::endl;
+    }
+
+    void
+    warn_of(const StudyPlan &plan)
+    {
+      for (const std::string &warning : plan.warnings)
+        warn(warning);
     }
 
     void
@@ -244,8 +253,9 @@ namespace Exemplar
   void
   run_study(const StudyOptions &options)
   {
-    const Study          study(options.file);
-    const StudyPlan      plan(study);
+    const Study     study(options.file);
+    const StudyPlan plan(study);
+    warn_of(plan);
     const StudyDirectory directory(options.output.empty() ? fs::path("output") / options.file.stem()
                                                           : options.output);
     directory.check(options.file);
@@ -253,12 +263,11 @@ namespace Exemplar
     const FileLock lock = directory.lock();
     directory.write_study(study.text);
 
-    StudyRuns runs(directory.runs(), study);
+    StudyRuns runs(directory.runs(), study, options.stop);
     if (!options.quiet)
       print_header(plan, runs, directory);
-    note_interrupts();
     directory.remove_results();
-    make_runs(plan, runs, options.quiet);
+    make_runs(plan, runs, options);
 
     const StudyTable table = make_table(plan, runs);
     write_study_csv(table, directory.csv());
@@ -275,6 +284,7 @@ namespace Exemplar
   {
     const Study     study(file);
     const StudyPlan plan(study);
+    warn_of(plan);
     std::cout << file.string() << ": valid; " << plan.runs.size() << " combinations, "
               << plan.n_repeats() << " runs with repeats"
               << (plan.reference ? " and the reference" : "") << std::endl;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/run/drivers.h>
+#include <exemplar/run/problem.h>
 #include <exemplar/run/scene_file.h>
 #include <exemplar/study/study_plan.h>
 #include <exemplar/study/study_table.h>
@@ -30,13 +30,14 @@ namespace Exemplar
       }
     }
 
-    /// Whether a run can be built; why not is in `refusal`, if nothing is there yet.
+    /// Whether a run can be built, with what warnings; why not is in `refusal`, if nothing is
+    /// there yet.
     bool
-    can_be_built(const SceneFile &scene, std::string &refusal)
+    can_be_built(const SceneFile &scene, std::vector<std::string> &warnings, std::string &refusal)
     {
       try
       {
-        check_parts(scene.get_parameters());
+        warnings = make_problem(scene.get_parameters())->warnings();
         return true;
       }
       catch (const UserError &error)
@@ -57,9 +58,10 @@ namespace Exemplar
     std::string refusal;
     const auto  plan = [&](const std::vector<unsigned int> &choice, const auto &assignments)
     {
-      const auto scene  = scene_of(assignments, study, scene_text);
-      parts_are_checked = parts_are_checked || (scene != nullptr && can_be_built(*scene, refusal));
-      using Files       = std::vector<std::filesystem::path>;
+      const auto scene = scene_of(assignments, study, scene_text);
+      parts_are_checked
+          = parts_are_checked || (scene != nullptr && can_be_built(*scene, warnings, refusal));
+      using Files = std::vector<std::filesystem::path>;
       return PlannedRun{ names.name(assignments, scene != nullptr ? scene->input_files() : Files()),
                          choice, assignments };
     };

@@ -134,7 +134,8 @@ namespace Exemplar
     return sha256_of_text(text).substr(0, 16);
   }
 
-  StudyRuns::StudyRuns(fs::path path, const Study &study) : directory(std::move(path)), study(study)
+  StudyRuns::StudyRuns(fs::path path, const Study &study, std::function<bool()> stop)
+      : directory(std::move(path)), study(study), stop(std::move(stop))
   {
     if (fs::exists(directory))
       for (const auto &entry : fs::directory_iterator(directory))
@@ -182,7 +183,7 @@ namespace Exemplar
     const fs::path log = directory / "running.log"; // a run wants its directory for itself
 
     fs::remove_all(scratch());
-    const ChildEnd end = run_child(command, log, study.timeout);
+    const ChildEnd end = run_child(command, log, study.timeout, stop);
     if (end.exit_status == 130)
       throw Interrupted("A run has been interrupted.");
 

@@ -231,6 +231,15 @@ class Outputs(SceneTest):
         self.assertEqual(self.call("scenes/bend.prm", "--quiet").status, 0)
         self.assertTrue((self.directory / "output/bend/final.msh").exists())
 
+    def test_formats(self):
+        self.solve({**BAR, "Output/Formats": "vtu"})
+        self.assertTrue((self.directory / "out/animation.pvd").exists())
+        for formats in ("wobble", "vtu, wobble", "vtu, vtu", "vtu,", ""):
+            run = self.attempt({**BAR, "Output/Formats": formats})
+            self.assertEqual(run.status, 1)
+            self.assertIn(f"Output/Formats = '{formats}' is not allowed. Allowed: one or more of vtu, each once",
+                          run.stderr)
+
     def test_set_overrides_the_scene(self):
         self.write("scene.prm", prm(BAR))
         run = self.call("scene.prm", "--set", "Time/Increments=3", "--set",

@@ -3,6 +3,7 @@
 #define exemplar_child_process_h
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -22,11 +23,13 @@ namespace Exemplar
 
   /// Run a program (found in PATH, like in a shell) to its end, its output and errors going
   /// to `log`. It is killed after `timeout` seconds (0: never), when this process ends in
-  /// whatever way, and on an interrupt, upon which this throws Interrupted.
+  /// whatever way, and once `stop` returns true, upon which this throws Interrupted; `stop` is
+  /// asked every few milliseconds. Needs the status of children: SIGCHLD must not be ignored.
   ChildEnd
   run_child(const std::vector<std::string> &command,
             const std::filesystem::path    &log,
-            double                          timeout);
+            double                          timeout,
+            const std::function<bool()>    &stop = {});
 
   /// How a process ended, and its output and errors.
   struct ChildOutput

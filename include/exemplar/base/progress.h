@@ -13,8 +13,10 @@ namespace Exemplar
   class Progress
   {
   public:
-    /// `first` steps are done already, of `n_steps`; `unit` is what a step is called.
+    /// `out` shows the bar if it is a terminal; if `quiet`, nothing is shown. `first` steps are
+    /// done already, of `n_steps`; `unit` is what a step is called.
     Progress(std::ostream      &out,
+             bool               is_terminal,
              bool               quiet,
              unsigned int       first,
              unsigned int       n_steps,
@@ -32,8 +34,8 @@ namespace Exemplar
     using Clock = std::chrono::steady_clock;
 
     std::ostream           &out;
+    const bool              is_terminal;
     const bool              quiet;
-    const bool              terminal;
     const unsigned int      first;
     const unsigned int      n_steps;
     const std::string       unit;

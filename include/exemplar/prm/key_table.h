@@ -129,6 +129,13 @@ namespace Exemplar
               std::vector<std::string> &value,
               const std::string        &documentation);
 
+    /// One or more of `names`, each once, separated by commas.
+    void
+    add_choices(const std::string              &key,
+                std::vector<std::string>       &value,
+                const std::vector<std::string> &names,
+                const std::string              &documentation);
+
     /// The name of an input file.
     void
     add_file(const std::string &key, std::string &value, const std::string &documentation);

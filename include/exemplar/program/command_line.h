@@ -5,7 +5,7 @@
 namespace Exemplar
 {
   /// Do what the command line asks for and return the exit status. Throws what the
-  /// drivers throw.
+  /// commands throw.
   int
   run_command_line(int argc, char *argv[]);
 } // namespace Exemplar

@@ -3,23 +3,19 @@
 #define exemplar_output_parameters_h
 
 #include <string>
+#include <vector>
 
 namespace Exemplar
 {
   class KeyTable;
 
-  enum class FrameFormat
-  {
-    vtu
-  };
-
   /// Subsection Output.
   struct OutputParameters
   {
-    std::string  directory;
-    unsigned int every              = 1;
-    FrameFormat  format             = FrameFormat::vtu;
-    double       checkpoint_minutes = 5.;
+    std::string              directory;
+    unsigned int             every              = 1;
+    std::vector<std::string> formats            = { "vtu" }; ///< names in frame_formats()
+    double                   checkpoint_minutes = 5.;
 
     void
     declare(KeyTable &keys);

@@ -76,6 +76,11 @@ namespace Exemplar
     void
     start(State &at);
   };
+
+  /// The problem of a scene and of the files that it names. Throws UserError whatever fails, as
+  /// the scene is to blame before the first step is solved.
+  std::unique_ptr<Problem>
+  make_problem(const SceneParameters &parameters);
 } // namespace Exemplar
 
 #endif

@@ -2,17 +2,21 @@
 #ifndef exemplar_run_directory_h
 #define exemplar_run_directory_h
 
+#include <exemplar/run/frame_formats.h>
+
 #include <filesystem>
 #include <string>
 #include <vector>
 
 namespace Exemplar
 {
-  /// Where a run writes, and the names of what it writes.
+  /// Where a run writes, and the names of what it writes, those of frames excepted.
   class RunDirectory
   {
   public:
-    explicit RunDirectory(std::filesystem::path path);
+    /// Keeps a reference to `formats`, all that frames of an earlier run may have.
+    explicit RunDirectory(std::filesystem::path           path,
+                          const std::vector<FrameFormat> &formats = frame_formats());
 
     /// Throws UserError if a new run may not write here: the directory holds foreign
     /// files, is no directory or cannot be written, or one of the run's inputs is
@@ -66,27 +70,22 @@ namespace Exemplar
       return path / "checkpoint.bin";
     }
 
-    std::filesystem::path
-    animation() const
-    {
-      return path / "animation.pvd";
-    }
-
-    /// The name of a step's frame, without the directory.
-    static std::string
-    frame_name(unsigned int step);
-
     /// The first line of parameters.prm: by it a directory is known as ours.
     static const std::string mark;
 
   private:
+    /// Whether a run writes a file of this name, or leaves one if it is killed.
+    bool
+    is_own_name(const std::string &name) const;
+
     std::vector<std::filesystem::path>
     own_files() const;
 
     bool
     is_ours() const;
 
-    std::filesystem::path path;
+    std::filesystem::path           path;
+    const std::vector<FrameFormat> &formats;
   };
 } // namespace Exemplar
 

@@ -3,6 +3,7 @@
 #define exemplar_study_h
 
 #include <filesystem>
+#include <functional>
 
 namespace Exemplar
 {
@@ -12,6 +13,7 @@ namespace Exemplar
     std::filesystem::path file;
     std::filesystem::path output; ///< empty: output/NAME of the study file
     bool                  quiet = false;
+    std::function<bool()> stop; ///< asked from the first run on: true interrupts the study
   };
 
   /// Make the runs of a study that are not there yet, each in a process of its own, and write

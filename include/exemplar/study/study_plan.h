@@ -31,6 +31,7 @@ namespace Exemplar
     const std::string         scene_text;
     std::optional<PlannedRun> reference;
     std::vector<PlannedRun>   runs;
+    std::vector<std::string>  warnings; ///< of the parts that were built
   };
 } // namespace Exemplar
 

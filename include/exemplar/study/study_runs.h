@@ -5,6 +5,7 @@
 #include <exemplar/study/study_file.h>
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -55,7 +56,8 @@ namespace Exemplar
   class StudyRuns
   {
   public:
-    StudyRuns(std::filesystem::path directory, const Study &study);
+    /// A run is interrupted once `stop` returns true.
+    StudyRuns(std::filesystem::path directory, const Study &study, std::function<bool()> stop);
 
     /// Whether as many repeats are there as are asked for. What fails is not repeated.
     bool
@@ -99,6 +101,7 @@ namespace Exemplar
 
     const std::filesystem::path        directory;
     const Study                       &study;
+    const std::function<bool()>        stop;
     std::map<std::string, StudyRecord> records;
   };
 } // namespace Exemplar

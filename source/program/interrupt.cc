@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/base/errors.h>
-#include <exemplar/base/interrupt.h>
+#include <exemplar/program/interrupt.h>
 
 #include <atomic>
 #include <csignal>
@@ -14,30 +13,25 @@ namespace Exemplar
     static_assert(std::atomic<bool>::is_always_lock_free, "as signal handlers need it");
 
     void
-    note(const int signal)
+    note_interrupt(const int signal)
     {
       interrupted = true;
       std::signal(signal, SIG_DFL); // a second one ends the program at once
     }
-  } // namespace
 
-  void
-  note_interrupts()
-  {
-    std::signal(SIGINT, note);
-    std::signal(SIGTERM, note);
-  }
+    bool
+    note_interrupts()
+    {
+      std::signal(SIGINT, note_interrupt);
+      std::signal(SIGTERM, note_interrupt);
+      return true;
+    }
+  } // namespace
 
   bool
   is_interrupted()
   {
-    return interrupted;
-  }
-
-  void
-  check_interrupt()
-  {
-    if (interrupted)
-      throw Interrupted("Interrupted.");
+    static const bool noting = note_interrupts();
+    return noting && interrupted;
   }
 } // namespace Exemplar

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/environment.h>
 #include <exemplar/base/errors.h>
-#include <exemplar/base/interrupt.h>
 #include <exemplar/base/progress.h>
-#include <exemplar/run/drivers.h>
+#include <exemplar/program/interrupt.h>
+#include <exemplar/program/run_scene.h>
 #include <exemplar/run/problem.h>
-#include <exemplar/run/results.h>
+#include <exemplar/run/run_writer.h>
 
 #include <iomanip>
 #include <iostream>
 #include <memory>
 #include <numeric>
 #include <sstream>
+#include <unistd.h>
 
 namespace Exemplar
 {
@@ -23,24 +24,14 @@ namespace Exemplar
       std::cerr << "Warning: " << warning << std::endl;
     }
 
-    /// Whatever fails while the parts are built, the input is to blame: nothing has
-    /// been solved yet.
     std::unique_ptr<Problem>
-    make_problem(SceneParameters parameters, const unsigned int n_threads = 1)
+    make_problem_and_warn(SceneParameters parameters, const unsigned int n_threads = 1)
     {
-      try
-      {
-        const StepClock clock(Part::read);
-        parameters.solver.n_threads = n_threads;
-        auto problem = std::make_unique<Problem>(parameters, read_inputs(parameters), clock);
-        for (const std::string &warning : problem->warnings())
-          warn(warning);
-        return problem;
-      }
-      catch (const SolverFailure &failure)
-      {
-        throw UserError(failure.what());
-      }
+      parameters.solver.n_threads = n_threads;
+      auto problem                = make_problem(parameters);
+      for (const std::string &warning : problem->warnings())
+        warn(warning);
+      return problem;
     }
 
     void
@@ -136,16 +127,17 @@ namespace Exemplar
     }
 
     void
-    run_steps(Problem &problem, Results &results, Progress &progress)
+    run_steps(Problem &problem, RunWriter &writer, Progress &progress)
     {
       while (problem.state.step < problem.time_axis.n_steps())
       {
-        check_interrupt();
+        if (is_interrupted())
+          throw Interrupted("Interrupted.");
         const SolveReport report = problem.advance();
-        results.add_step(report);
+        writer.add_step(report);
         if (!is_success(report.status))
         {
-          results.finish(status_name(report.status));
+          writer.finish(status_name(report.status));
           progress.finish();
           fail(problem, report);
         }
@@ -159,21 +151,20 @@ namespace Exemplar
   run_scene(const RunOptions &options)
   {
     const SceneFile scene(options.scene_file, options.overrides);
-    const auto      problem = make_problem(scene.get_parameters(), options.n_threads);
-    Results         results(*problem, scene);
+    const auto      problem = make_problem_and_warn(scene.get_parameters(), options.n_threads);
+    RunWriter       writer(*problem, scene);
     try
     {
       if (options.resume)
-        results.resume();
+        writer.resume();
       else
-        results.begin();
+        writer.begin();
     }
     catch (const std::filesystem::filesystem_error &error)
     {
       throw UserError(std::string("The output directory cannot be used: ") + error.what()
                       + ". Give another one by --output or Output/Directory.");
     }
-    note_interrupts();
     if (const std::string warning = blas_warning(); !warning.empty())
       warn(warning);
     if (!options.quiet)
@@ -188,43 +179,37 @@ namespace Exemplar
         print_iteration(*problem, report);
       return !is_interrupted();
     };
-    Progress progress(std::cout, options.quiet || options.verbose, problem->state.step,
-                      problem->time_axis.n_steps());
+    Progress progress(std::cout, isatty(STDOUT_FILENO) != 0, options.quiet || options.verbose,
+                      problem->state.step, problem->time_axis.n_steps());
     try
     {
-      run_steps(*problem, results, progress);
+      run_steps(*problem, writer, progress);
     }
     catch (const Interrupted &)
     {
       progress.finish();
-      results.finish("interrupted");
+      writer.finish("interrupted");
       throw Interrupted("Interrupted after step " + std::to_string(problem->state.step)
                         + ". Go on with --resume.");
     }
     progress.finish();
-    results.finish(status_name(problem->parameters.solver.method == Method::one_pass
-                                   ? SolveStatus::one_pass
-                                   : SolveStatus::converged));
+    writer.finish(status_name(problem->parameters.solver.method == Method::one_pass
+                                  ? SolveStatus::one_pass
+                                  : SolveStatus::converged));
     for (const std::string &warning : problem->warnings_at_end())
       warn(warning);
     if (!options.quiet)
-      print_times(results.get_totals());
+      print_times(writer.get_totals());
   }
 
   void
   validate_scene(const RunOptions &options)
   {
     const SceneFile scene(options.scene_file, options.overrides);
-    const auto      problem = make_problem(scene.get_parameters());
+    const auto      problem = make_problem_and_warn(scene.get_parameters());
     std::cout << options.scene_file.string() << ": valid; " << problem->body.mesh.n_cells()
               << " cells, " << problem->body.mesh.n_nodes() << " nodes, "
               << problem->time_axis.n_steps() << " steps" << std::endl;
-  }
-
-  void
-  check_parts(const SceneParameters &parameters)
-  {
-    make_problem(parameters);
   }
 
   void

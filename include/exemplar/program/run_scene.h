@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef exemplar_drivers_h
-#define exemplar_drivers_h
+#ifndef exemplar_run_scene_h
+#define exemplar_run_scene_h
 
 #include <filesystem>
 #include <string>
@@ -8,8 +8,6 @@
 
 namespace Exemplar
 {
-  struct SceneParameters;
-
   /// What the command line says of a run.
   struct RunOptions
   {
@@ -30,11 +28,6 @@ namespace Exemplar
   /// Read and check a scene and its files; compute and write nothing. Throws UserError.
   void
   validate_scene(const RunOptions &options);
-
-  /// Build the parts of a scene and let them go: its files are read and checked. Throws
-  /// UserError.
-  void
-  check_parts(const SceneParameters &parameters);
 
   /// Print every parameter with its default, range, unit and meaning, as a .prm.
   void

@@ -1,32 +1,34 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef exemplar_results_h
-#define exemplar_results_h
+#ifndef exemplar_run_writer_h
+#define exemplar_run_writer_h
 
-#include <exemplar/base/background_writer.h>
 #include <exemplar/run/checkpoint.h>
+#include <exemplar/run/frame_output.h>
 #include <exemplar/run/problem.h>
 #include <exemplar/run/run_directory.h>
 #include <exemplar/run/scene_file.h>
 #include <exemplar/run/statistics_file.h>
-#include <exemplar/run/vtu_writer.h>
 
 #include <chrono>
 #include <map>
-#include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace Exemplar
 {
-  /// Everything that a run of a problem leaves on disk. With more than one thread, frames
+  /// Writes everything that a run of a problem leaves on disk. With more than one thread, frames
   /// are written while the next step is computed; what begin(), add_step() and finish()
   /// throw may then be the error of an earlier frame. Checkpoints and what finish()
   /// writes wait for all frames before them.
-  class Results
+  class RunWriter
   {
   public:
-    /// Keeps references to both.
-    Results(Problem &problem, const SceneFile &scene);
+    /// Keeps references to all three. Throws UserError if the scene asks for a format that is
+    /// not among `formats`.
+    RunWriter(Problem                        &problem,
+              const SceneFile                &scene,
+              const std::vector<FrameFormat> &formats = frame_formats());
 
     /// Begin a new run: check and clear the directory, write the scene and the
     /// initial state. Throws UserError, with nothing written.
@@ -43,7 +45,7 @@ namespace Exemplar
     void
     add_step(const SolveReport &report);
 
-    /// Write final.msh, the animation, a checkpoint and the summary.
+    /// Write final.msh, the animations, a checkpoint and the summary.
     void
     finish(const std::string &status);
 
@@ -54,22 +56,11 @@ namespace Exemplar
     }
 
   private:
-    /// Every so many steps, and the last.
-    bool
-    is_frame(unsigned int step) const;
-
     void
     write_original() const;
 
-    /// Take what the next step changes and have it written.
-    void
-    write_frame();
-
     void
     write_final_pose() const;
-
-    void
-    write_animation() const;
 
     void
     save();
@@ -92,9 +83,8 @@ namespace Exemplar
     std::uintmax_t accepted_bytes         = 0; ///< of statistics.csv, less a failed row
     unsigned int   earlier_factorizations = 0; ///< before a resume
     PartSeconds    last_lap{};
-    std::chrono::steady_clock::time_point  last_checkpoint;
-    const std::unique_ptr<const VtuWriter> vtu_writer; ///< null without frames
-    BackgroundWriter                       background; ///< last, as its jobs use the others
+    std::chrono::steady_clock::time_point last_checkpoint;
+    FrameOutput                           frames;
   };
 } // namespace Exemplar
 

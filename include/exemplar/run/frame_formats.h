@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_frame_formats_h
+#define exemplar_frame_formats_h
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace Exemplar
+{
+  class FrameWriter;
+  class Mesh;
+
+  /// A format that frames can be written in: its files and who writes them.
+  struct FrameFormat
+  {
+    using MakeWriter = std::function<std::unique_ptr<const FrameWriter>(const Mesh &)>;
+
+    std::string name;      ///< in Output/Formats, and what the names of frames end in
+    std::string animation; ///< name of the file that shows all frames; empty: there is none
+    MakeWriter  make_writer;
+
+    /// The name of a step's frame, without the directory.
+    std::string
+    frame_name(unsigned int step) const;
+
+    /// Whether a run may have written a file of this name (without the directory).
+    bool
+    owns(const std::string &file) const;
+  };
+
+  /// All formats.
+  const std::vector<FrameFormat> &
+  frame_formats();
+
+  /// Of formats, as Output/Formats has them.
+  std::vector<std::string>
+  names_of(const std::vector<FrameFormat> &formats);
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_frame_output_h
+#define exemplar_frame_output_h
+
+#include <exemplar/base/background_writer.h>
+#include <exemplar/run/frame_formats.h>
+#include <exemplar/run/frame_writer.h>
+#include <exemplar/run/problem.h>
+
+#include <filesystem>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace Exemplar
+{
+  /// The frames of a run, in the formats of Output/Formats. With more than one thread they are
+  /// written while the next step is computed; write() and drain() may then throw the error of
+  /// an earlier frame.
+  class FrameOutput
+  {
+  public:
+    /// Keeps references to the problem and to `formats`, all that there are. Throws UserError
+    /// if the scene asks for another one.
+    FrameOutput(Problem                        &problem,
+                std::filesystem::path           directory,
+                const std::vector<FrameFormat> &formats);
+
+    /// Whether a step has a frame: every so many steps, and the last.
+    bool
+    is_due(unsigned int step) const;
+
+    /// Take what the next step changes from the problem's state and have it written.
+    void
+    write();
+
+    /// Return when all frames are on disk.
+    void
+    drain();
+
+    /// Write the files that show all frames, also those that an earlier part of a resumed run
+    /// has left. To be called after drain().
+    void
+    write_animations() const;
+
+    /// Remove a step's frame, in whatever format.
+    void
+    remove(unsigned int step) const;
+
+  private:
+    /// The frames on disk, in order of time.
+    std::vector<WrittenFrame>
+    written_frames(const FrameFormat &format) const;
+
+    Problem                        &problem;
+    const std::filesystem::path     directory;
+    const std::vector<FrameFormat> &formats;
+
+    using Writer = std::pair<const FrameFormat *, std::unique_ptr<const FrameWriter>>;
+    std::vector<Writer> writers;    ///< of the formats in use; empty without frames
+    BackgroundWriter    background; ///< last, as its jobs use the others
+  };
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_resume_checks_h
+#define exemplar_resume_checks_h
+
+#include <exemplar/run/checkpoint.h>
+#include <exemplar/run/scene_file.h>
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+// By what a checkpoint knows the scene that it belongs to.
+
+namespace Exemplar
+{
+  /// The text of every key in force, by its path.
+  std::map<std::string, std::string>
+  values_of(const SceneFile &scene);
+
+  /// The SHA-256 of every input file.
+  std::map<std::string, std::string>
+  digests_of(const SceneFile &scene);
+
+  /// Throws UserError if the checkpoint in `file` is none of this scene and its input files, or
+  /// does not stand at a step of it. A resumed run may end later and write differently; all else
+  /// must be the same.
+  void
+  check_resumable(const Checkpoint                         &checkpoint,
+                  const SceneFile                          &scene,
+                  const std::map<std::string, std::string> &input_digests,
+                  const TimeAxis                           &time_axis,
+                  const std::filesystem::path              &file);
+} // namespace Exemplar
+
+#endif

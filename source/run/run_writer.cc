@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/atomic_file.h>
+#include <exemplar/run/resume_checks.h>
+#include <exemplar/run/run_writer.h>
+#include <exemplar/run/summary.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace Exemplar
+{
+  namespace fs = std::filesystem;
+
+  namespace
+  {
+    /// The row of a failed step: neither its forces nor the state before would be true.
+    void
+    keep_only_report(StatisticsRow &row)
+    {
+      for (auto &[column, value] : row)
+        if (column != "step" && column != "time" && column != "status" && column != "iterations"
+            && column != "residual")
+          value.clear();
+    }
+
+    void
+    write_parameters(const SceneFile &scene, const fs::path &file)
+    {
+      AtomicFile atomic_file(file);
+      atomic_file.stream() << RunDirectory::mark << '\n';
+      print_keys(atomic_file.stream(), scene.get_keys(), false);
+      atomic_file.commit();
+    }
+  } // namespace
+
+  RunWriter::RunWriter(Problem                        &problem,
+                       const SceneFile                &scene,
+                       const std::vector<FrameFormat> &formats)
+      : problem(problem), scene(scene), diagnostics(problem),
+        directory(problem.parameters.output.directory, formats), input_digests(digests_of(scene)),
+        last_checkpoint(std::chrono::steady_clock::now()),
+        frames(problem, directory.get_path(), formats)
+  {
+  }
+
+  void
+  RunWriter::begin()
+  {
+    auto inputs = scene.input_files();
+    inputs.push_back(scene.get_path());
+    directory.check_for_new_run(inputs);
+
+    {
+      StepClock::Scope scope(problem.clock, Part::output);
+      directory.clear();
+      write_parameters(scene, directory.parameters_prm());
+      write_original();
+      statistics.emplace(directory.statistics());
+      if (frames.is_due(0))
+        frames.write();
+      StatisticsRow row = diagnostics.row(problem.state, SolveReport());
+      Diagnostics::append_seconds(row, {});
+      statistics->write(row);
+      accepted_bytes = statistics->n_bytes();
+      save(); // so that a crash before the first interval can be resumed, too
+    }
+    end_reading();
+    lap();
+  }
+
+  void
+  RunWriter::resume()
+  {
+    const Checkpoint checkpoint = load_checkpoint(directory.checkpoint());
+    check_resumable(checkpoint, scene, input_digests, problem.time_axis, directory.checkpoint());
+    {
+      StepClock::Scope scope(problem.clock, Part::output);
+      statistics.emplace(directory.statistics(), checkpoint.statistics_bytes);
+      write_original();
+      write_parameters(scene, directory.parameters_prm());
+    }
+    const auto earlier_every = checkpoint.parameters.find("Output/Every");
+    const bool was_only_last
+        = earlier_every != checkpoint.parameters.end()
+          && checkpoint.state.step % std::max(1, std::stoi(earlier_every->second)) != 0;
+    if (was_only_last && !frames.is_due(checkpoint.state.step)) // the run now ends later
+      frames.remove(checkpoint.state.step);
+    restore(checkpoint, directory.checkpoint(), problem);
+    diagnostics.resume(checkpoint.work);
+    accepted_bytes         = checkpoint.statistics_bytes;
+    totals                 = checkpoint.totals;
+    earlier_factorizations = totals.factorizations;
+    end_reading();
+    last_lap = problem.clock.read();
+    for (unsigned int part = 0; part < n_parts; ++part)
+      totals.seconds[part] += last_lap[part];
+  }
+
+  void
+  RunWriter::end_reading()
+  {
+    problem.clock.switch_to(Part::evaluate);
+  }
+
+  void
+  RunWriter::write_original() const
+  {
+    AtomicFile file(directory.original_prm());
+    file.stream() << scene.get_text();
+    file.commit();
+  }
+
+  PartSeconds
+  RunWriter::lap()
+  {
+    const PartSeconds now = problem.clock.read();
+    PartSeconds       seconds;
+    for (unsigned int part = 0; part < n_parts; ++part)
+    {
+      seconds[part] = now[part] - last_lap[part];
+      totals.seconds[part] += seconds[part];
+    }
+    last_lap = now;
+    return seconds;
+  }
+
+  void
+  RunWriter::add_step(const SolveReport &report)
+  {
+    const bool       accepted = is_success(report.status);
+    StepClock::Scope scope(problem.clock, Part::output);
+
+    totals.iterations += report.iterations;
+    totals.factorizations = earlier_factorizations + problem.system.n_factorizations();
+    totals.worst_residual = std::max(totals.worst_residual, report.residual);
+
+    if (accepted)
+      diagnostics.add_step();
+    if (accepted && frames.is_due(problem.state.step))
+      frames.write();
+    State shown = problem.state;
+    if (!accepted) // the row of a step that failed has its number and time
+    {
+      ++shown.step;
+      shown.time = problem.time_axis.time(shown.step);
+    }
+    StatisticsRow row = diagnostics.row(shown, report);
+    if (!accepted)
+      keep_only_report(row);
+    Diagnostics::append_seconds(row, lap());
+    statistics->write(row);
+    if (accepted)
+      accepted_bytes = statistics->n_bytes();
+
+    const std::chrono::duration<double> since = std::chrono::steady_clock::now() - last_checkpoint;
+    if (accepted && since.count() > 60. * problem.parameters.output.checkpoint_minutes)
+      save();
+  }
+
+  void
+  RunWriter::finish(const std::string &status)
+  {
+    {
+      StepClock::Scope scope(problem.clock, Part::output);
+      frames.drain();
+      write_final_pose();
+      frames.write_animations();
+      save();
+    }
+    lap();
+    const auto mesh_digest = input_digests.find(problem.parameters.mesh.file);
+    write_summary(problem, totals,
+                  mesh_digest != input_digests.end() ? mesh_digest->second : "generated", status,
+                  directory.summary());
+  }
+
+  void
+  RunWriter::write_final_pose() const
+  {
+    std::vector<dealii::Point<3>> nodes(problem.body.mesh.n_nodes());
+    for (unsigned int dof = 0; dof < problem.body.fe_space.n_dofs(); ++dof)
+      nodes[dof / 3][dof % 3] = problem.state.positions[dof];
+    problem.body.mesh.write_pose(nodes, directory.final_pose());
+  }
+
+  void
+  RunWriter::save()
+  {
+    frames.drain(); // a resumed run writes no frame anew
+    last_checkpoint = std::chrono::steady_clock::now();
+    save_checkpoint({ values_of(scene), input_digests, problem.state, problem.solver_memory(),
+                      diagnostics.get_work(), totals, accepted_bytes },
+                    directory.checkpoint());
+  }
+} // namespace Exemplar
