@@ -4,6 +4,7 @@
 #include <exemplar/body/handles.h>
 #include <exemplar/prm/assignments.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -35,6 +36,24 @@ namespace Exemplar
         chosen.push_back(all[node]);
       return chosen;
     }
+
+    /// The displacements that a program's function has given for `n_points`.
+    std::vector<dealii::Tensor<1, 3>>
+    checked(std::vector<dealii::Tensor<1, 3>> displacements,
+            const std::size_t                 n_points,
+            const std::string                &key,
+            const double                      time)
+    {
+      if (displacements.size() != n_points)
+        throw UserError(key + ": the function of its motion gives "
+                        + std::to_string(displacements.size()) + " displacements, but it holds "
+                        + std::to_string(n_points) + " nodes.");
+      for (const dealii::Tensor<1, 3> &displacement : displacements)
+        if (!std::isfinite(displacement.norm_square()))
+          throw SolverFailure(key + ": the function of its motion gives what is not finite at t = "
+                              + shortest_text(time) + ".");
+      return displacements;
+    }
   } // namespace
 
   Handles::Handles(const std::vector<HandleParameters> &parameters,
@@ -51,7 +70,7 @@ namespace Exemplar
     move(axis.time(axis.n_steps()), anywhere);
     const std::set<unsigned int> shared = shared_nodes();
     for (unsigned int step = 0; step <= axis.n_steps() && !shared.empty(); ++step)
-      check_agreement(shared, axis.time(step));
+      check_agreement(shared, displacements(axis.time(step)), axis.time(step));
     look_for_straight_turns(axis);
   }
 
@@ -67,6 +86,7 @@ namespace Exemplar
                    parse_components(p.components, key),
                    Expression(key + "/Motion", p.motion, "xyzt", 3),
                    Expression(key + "/Progress", p.progress, "t", 1),
+                   {},
                    {} };
     if (!p.follow_pose.empty())
       handle.path.emplace(
@@ -81,13 +101,42 @@ namespace Exemplar
     return choose(mesh.get_nodes(), handle.nodes);
   }
 
-  dealii::Tensor<1, 3>
-  Handles::Handle::displacement(const unsigned int      point,
-                                const dealii::Point<3> &rest,
-                                const double            time) const
+  std::vector<dealii::Tensor<1, 3>>
+  Handles::Handle::displacements(const std::vector<dealii::Point<3>> &rest, const double time) const
   {
-    return path ? path->displacement(point, progress.values(rest, time)[0])
-                : motion.vector(rest, time);
+    if (function)
+      return checked(function(rest, time), rest.size(), "Handles/" + name, time);
+    std::vector<dealii::Tensor<1, 3>> result;
+    for (unsigned int point = 0; point < nodes.size(); ++point)
+      result.push_back(path ? path->displacement(point, progress.values(rest[point], time)[0])
+                            : motion.vector(rest[point], time));
+    return result;
+  }
+
+  Handles::Displacements
+  Handles::displacements(const double time) const
+  {
+    Displacements all;
+    for (const Handle &handle : handles)
+      all.push_back(handle.displacements(rest_positions(handle), time));
+    return all;
+  }
+
+  void
+  Handles::set_motion(const std::string &name, Motion motion)
+  {
+    std::string names;
+    for (Handle &handle : handles)
+    {
+      if (handle.name == name)
+      {
+        handle.function = std::move(motion);
+        return;
+      }
+      names += (names.empty() ? "" : ", ") + handle.name;
+    }
+    throw UserError("There is no handle '" + name + "' to be moved. Handles/Names has: " + names
+                    + ".");
   }
 
   std::set<unsigned int>
@@ -102,7 +151,9 @@ namespace Exemplar
   }
 
   void
-  Handles::check_agreement(const std::set<unsigned int> &shared, const double time) const
+  Handles::check_agreement(const std::set<unsigned int> &shared,
+                           const Displacements          &displacements,
+                           const double                  time) const
   {
     const double tolerance = 1e-10 * mesh.diameter();
     struct Target
@@ -117,8 +168,7 @@ namespace Exemplar
         const unsigned int node = handles[h].nodes[point];
         if (shared.count(node) == 0)
           continue;
-        const dealii::Tensor<1, 3> displacement
-            = handles[h].displacement(point, mesh.get_nodes()[node], time);
+        const dealii::Tensor<1, 3> &displacement = displacements[h][point];
         for (const unsigned int c : handles[h].components)
         {
           const auto [first, is_new] = targets.emplace(3 * node + c, Target{ displacement[c], h });
@@ -146,15 +196,17 @@ namespace Exemplar
   void
   Handles::move(const double time, dealii::Vector<double> &positions) const
   {
-    for (const Handle &handle : handles)
-      for (unsigned int point = 0; point < handle.nodes.size(); ++point)
+    const Displacements all = displacements(time);
+    for (unsigned int h = 0; h < handles.size(); ++h)
+      for (unsigned int point = 0; point < handles[h].nodes.size(); ++point)
       {
-        const unsigned int         node         = handle.nodes[point];
-        const dealii::Point<3>    &rest         = mesh.get_nodes()[node];
-        const dealii::Tensor<1, 3> displacement = handle.displacement(point, rest, time);
-        for (const unsigned int c : handle.components)
-          positions[3 * node + c] = rest[c] + displacement[c];
+        const unsigned int node = handles[h].nodes[point];
+        for (const unsigned int c : handles[h].components)
+          positions[3 * node + c] = mesh.get_nodes()[node][c] + all[h][point][c];
       }
+    // what is no formula could not be checked at all times before
+    if (std::any_of(handles.begin(), handles.end(), [](const Handle &h) { return h.function; }))
+      check_agreement(shared_nodes(), all, time);
   }
 
   dealii::Tensor<1, 3>

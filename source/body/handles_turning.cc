@@ -145,15 +145,17 @@ namespace Exemplar
       // long runs of large handles: not in all steps, to stay below a tenth of a second
       const std::size_t   most_samples = std::max<std::size_t>(20, 100000 / handle.nodes.size());
       const std::size_t   n_samples    = std::min<std::size_t>(axis.n_steps(), most_samples);
+      const Points        rest         = rest_positions(handle);
       std::vector<Points> places;
       for (std::size_t k = 0; k <= n_samples; ++k)
       {
-        places.push_back(rest_positions(handle));
+        places.push_back(rest);
         const double time = axis.time(static_cast<unsigned int>(k * axis.n_steps() / n_samples));
-        for (unsigned int point = 0; point < handle.nodes.size(); ++point)
-          places.back()[point] += handle.displacement(point, places.back()[point], time);
+        const Arms   displacements = handle.displacements(rest, time);
+        for (std::size_t point = 0; point < rest.size(); ++point)
+          places.back()[point] += displacements[point];
       }
-      const StraightTurn turn = find_straight_turn(rest_positions(handle), places);
+      const StraightTurn turn = find_straight_turn(rest, places);
       const std::string  key  = "Handles/" + handle.name;
       if (turn.angle > 0.)
         warnings.push_back(

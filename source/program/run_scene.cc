@@ -98,34 +98,6 @@ namespace Exemplar
       std::cout << line.str() << std::endl;
     }
 
-    [[noreturn]] void
-    fail(const Problem &problem, const SolveReport &report)
-    {
-      const std::string step = std::to_string(problem.state.step + 1);
-      if (report.status == SolveStatus::failed || report.status == SolveStatus::indefinite)
-        throw SolverFailure(
-            "Step " + step
-            + (report.status == SolveStatus::failed ? " failed: " : " has no descent: ")
-            + report.failure);
-      std::ostringstream message;
-      const bool         lacks_derivative = problem.parameters.solver.method == Method::fixed_point
-                                    && problem.examples.poses != nullptr
-                                    && traits_of(problem.parameters.model.strain).has_rotations
-                                    && !problem.parameters.model.is_frozen();
-      message << "Step " << step
-              << (report.status == SolveStatus::stalled ? " stalled"
-                                                        : " stopped at its iteration limit")
-              << ": residual " << report.residual << " after " << report.iterations
-              << " iterations, tolerance " << problem.parameters.solver.tolerance
-              << (lacks_derivative
-                      ? ". The matrix of a fixed point lacks a part of the consistent force's "
-                        "derivative, so it may never converge: set Solver/Method = newton, "
-                        "or Model/Gradient = frozen."
-                      : ". Take smaller steps (Time/Step or Time/Increments), or change "
-                        "Solver/Tolerance or Solver/Maximum iterations.");
-      throw SolverFailure(message.str());
-    }
-
     void
     run_steps(Problem &problem, RunWriter &writer, Progress &progress)
     {
@@ -139,7 +111,7 @@ namespace Exemplar
         {
           writer.finish(status_name(report.status));
           progress.finish();
-          fail(problem, report);
+          throw SolverFailure(problem.failure_message(report));
         }
         StepClock::Scope scope(problem.clock, Part::output);
         progress.update(problem.state.step, note(report));

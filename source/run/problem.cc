@@ -112,6 +112,14 @@ namespace Exemplar
   }
 
   void
+  Problem::set_motion(const std::string &handle, Motion motion)
+  {
+    if (constraints.handles == nullptr)
+      throw UserError("There is no handle '" + handle + "' to be moved. Add it to Handles/Names.");
+    constraints.handles->set_motion(handle, std::move(motion));
+  }
+
+  void
   Problem::resume_from(const State &earlier, const std::string &solver_memory)
   {
     state = earlier;
@@ -134,6 +142,31 @@ namespace Exemplar
       solver->save(archive);
     }
     return bytes.str();
+  }
+
+  std::string
+  Problem::failure_message(const SolveReport &report) const
+  {
+    const std::string step = "Step " + std::to_string(state.step + 1);
+    if (report.status == SolveStatus::failed || report.status == SolveStatus::indefinite)
+      return step + (report.status == SolveStatus::failed ? " failed: " : " has no descent: ")
+             + report.failure;
+    std::ostringstream message;
+    const bool         lacks_derivative
+        = parameters.solver.method == Method::fixed_point && examples.poses != nullptr
+          && traits_of(parameters.model.strain).has_rotations && !parameters.model.is_frozen();
+    message << step
+            << (report.status == SolveStatus::stalled ? " stalled"
+                                                      : " stopped at its iteration limit")
+            << ": residual " << report.residual << " after " << report.iterations
+            << " iterations, tolerance " << parameters.solver.tolerance
+            << (lacks_derivative
+                    ? ". The matrix of a fixed point lacks a part of the consistent force's "
+                      "derivative, so it may never converge: set Solver/Method = newton, "
+                      "or Model/Gradient = frozen."
+                    : ". Take smaller steps (Time/Step or Time/Increments), or change "
+                      "Solver/Tolerance or Solver/Maximum iterations.");
+    return message.str();
   }
 
   Conditioning

@@ -10,6 +10,7 @@
 
 #include <deal.II/lac/vector.h>
 
+#include <functional>
 #include <optional>
 #include <set>
 #include <string>
@@ -31,6 +32,11 @@ namespace Exemplar
   find_straight_turn(const std::vector<dealii::Point<3>>              &rest,
                      const std::vector<std::vector<dealii::Point<3>>> &places);
 
+  /// Where a program moves a handle: the displacements [m] at time t [s] of points that are at
+  /// `rest` [m] at rest, one for each. May be called several times for one t.
+  using Motion = std::function<std::vector<dealii::Tensor<1, 3>>(
+      const std::vector<dealii::Point<3>> &rest, double time)>;
+
   /// Nodes held at places that move in time: hard constraints.
   class Handles
   {
@@ -48,7 +54,14 @@ namespace Exemplar
     std::vector<unsigned int>
     held_dofs() const;
 
-    /// Put the held degrees of freedom where they are at time t [s].
+    /// From now on `motion` moves a handle instead of its formulas. Throws UserError if no handle
+    /// has this name.
+    void
+    set_motion(const std::string &name, Motion motion);
+
+    /// Put the held degrees of freedom where they are at time t [s]. Throws SolverFailure if a
+    /// motion is not finite and, of motions that a program has set, UserError if one gives not as
+    /// many displacements as there are points, or if handles that overlap disagree.
     void
     move(double time, dealii::Vector<double> &positions) const;
 
@@ -84,11 +97,14 @@ namespace Exemplar
       Expression                motion;
       Expression                progress; ///< on the path, if there is one
       std::optional<RigidPath>  path;     ///< to the pose that is followed
+      Motion                    function; ///< a program's, instead of all these
 
-      /// Of a point of `nodes` that is at `rest` at rest, at time t [s].
-      dealii::Tensor<1, 3>
-      displacement(unsigned int point, const dealii::Point<3> &rest, double time) const;
+      /// Of `nodes`, which are at `rest` at rest, at time t [s].
+      std::vector<dealii::Tensor<1, 3>>
+      displacements(const std::vector<dealii::Point<3>> &rest, double time) const;
     };
+
+    using Displacements = std::vector<std::vector<dealii::Tensor<1, 3>>>;
 
     Handle
     make_handle(const HandleParameters &parameters,
@@ -102,8 +118,14 @@ namespace Exemplar
     std::set<unsigned int>
     shared_nodes() const;
 
+    /// Of all handles at time t [s].
+    Displacements
+    displacements(double time) const;
+
     void
-    check_agreement(const std::set<unsigned int> &shared, double time) const;
+    check_agreement(const std::set<unsigned int> &shared,
+                    const Displacements          &displacements,
+                    double                        time) const;
 
     /// Fill `warnings`.
     void

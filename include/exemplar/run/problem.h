@@ -27,6 +27,11 @@ namespace Exemplar
     SolveReport
     advance();
 
+    /// From the next step on `motion` moves a handle instead of its formulas. Throws UserError if
+    /// no handle has this name.
+    void
+    set_motion(const std::string &handle, Motion motion);
+
     /// Go on from a state of an earlier run.
     void
     resume_from(const State &earlier, const std::string &solver_memory = "");
@@ -34,6 +39,11 @@ namespace Exemplar
     /// What the solver remembers beside the state, for resume_from().
     std::string
     solver_memory() const;
+
+    /// What to tell the user of a step that advance() could not make: what happened in which step,
+    /// and the remedy.
+    std::string
+    failure_message(const SolveReport &report) const;
 
     /// Of the systems that were solved last.
     Conditioning

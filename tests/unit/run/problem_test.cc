@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
+
+#include "expect_contains.h"
+#include "scene.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <thread>
+
+namespace Exemplar::Testing
+{
+  namespace
+  {
+    const std::string twisted_bar = "set Scene = dynamic\n" + bar + drag
+                                    + examples("set Pose functions = x; y+0.1*x*z; z-0.1*x*y\n")
+                                    + "subsection Time\n set Step = 0.1\n set End = 1\nend\n";
+
+    const std::string static_bar
+        = "set Scene = static\n" + bar + drag + "subsection Time\n set Increments = 4\nend\n";
+
+    void
+    expect_same_bytes(const State &a, const State &b)
+    {
+      EXPECT_EQ(a.positions, b.positions);
+      EXPECT_EQ(a.velocities, b.velocities);
+      EXPECT_EQ(a.weights, b.weights);
+    }
+
+    TEST(Problem, TwoInTwoThreadsGiveTheBytesOfOneAfterTheOther)
+    {
+      const State dynamic = Scene(twisted_bar).solve(), statics = Scene(static_bar).solve();
+      for (unsigned int repetition = 0; repetition < 5; ++repetition)
+      {
+        State       dynamic_beside, statics_beside;
+        std::thread first([&] { dynamic_beside = Scene(twisted_bar).solve(); });
+        std::thread second([&] { statics_beside = Scene(static_bar).solve(); });
+        first.join();
+        second.join();
+        expect_same_bytes(dynamic, dynamic_beside);
+        expect_same_bytes(statics, statics_beside);
+      }
+    }
+
+    TEST(Problem, AMotionThatIsSetStandsForTheFormula)
+    {
+      const State by_formula = Scene(static_bar).solve();
+      Scene       by_function("set Scene = static\n" + bar
+                              + "subsection Handles\n set Names = left, right\n" + held_left
+                              + "subsection right\n set Select = boundary 2\nend\nend\n"
+                              + "subsection Time\n set Increments = 4\nend\n");
+      by_function.problem.set_motion(
+          "right",
+          [](const std::vector<dealii::Point<3>> &rest, const double t)
+          {
+            const dealii::Tensor<1, 3> way({ 0.2 * t, 0.6 * t, 0.3 * t });
+            return std::vector<dealii::Tensor<1, 3>>(rest.size(), way);
+          });
+      EXPECT_LT(max_difference(by_function.solve().positions, by_formula.positions), 1e-12);
+    }
+
+    std::string
+    message_of(const std::function<void()> &function)
+    {
+      try
+      {
+        function();
+      }
+      catch (const std::exception &error)
+      {
+        return error.what();
+      }
+      return "no exception";
+    }
+
+    TEST(Problem, MotionsThatAreNoneAreRefused)
+    {
+      Scene      scene(static_bar);
+      const auto give = [](const std::size_t n, const double x)
+      {
+        return [=](const std::vector<dealii::Point<3>> &, double) {
+          return std::vector<dealii::Tensor<1, 3>>(n, dealii::Tensor<1, 3>({ x, 0., 0. }));
+        };
+      };
+      expect_contains(message_of([&] { scene.problem.set_motion("top", give(1, 0.)); }),
+                      "Handles/Names has: left, right.");
+      scene.problem.set_motion("right", give(1, 0.));
+      expect_contains(message_of([&] { scene.solve(); }), "gives 1 displacements, but it holds 4");
+      scene.problem.set_motion("right", give(4, std::nan("")));
+      const SolveReport report = scene.problem.advance();
+      expect_contains(scene.problem.failure_message(report), "Step 1 failed: Handles/right");
+    }
+
+    TEST(Problem, MotionsOfHandlesThatOverlapMustAgree)
+    {
+      Scene scene("set Scene = static\n" + bar + "subsection Handles\n set Names = left, all left\n"
+                  + held_left + "subsection all left\n set Select = boundary 1\nend\nend\n");
+      scene.problem.set_motion("left",
+                               [](const std::vector<dealii::Point<3>> &rest, const double t) {
+                                 return std::vector<dealii::Tensor<1, 3>>(
+                                     rest.size(), dealii::Tensor<1, 3>({ t, 0., 0. }));
+                               });
+      expect_contains(message_of([&] { scene.solve(); }), "both hold node");
+    }
+  } // namespace
+} // namespace Exemplar::Testing
