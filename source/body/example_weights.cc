@@ -17,7 +17,7 @@ namespace Exemplar
     double
     greater(const double a, const double b)
     {
-      return a <= b ? b : a;
+      return a > b || std::isnan(a) ? a : b;
     }
   } // namespace
 

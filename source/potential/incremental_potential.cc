@@ -178,8 +178,9 @@ namespace Exemplar
   {
     double greatest = 0.;
     for (const unsigned int dof : free_dofs.list())
-      if (const double size = std::abs(evaluation.gradient[dof]); !(size <= greatest))
-        greatest = size; // also a NaN, which std::max may pass over
+      if (const double size = std::abs(evaluation.gradient[dof]);
+          size > greatest || std::isnan(size))
+        greatest = size; // a NaN stays, which std::max may pass over
     return free_dofs.exchange().max(greatest);
   }
 

@@ -129,7 +129,7 @@ namespace Exemplar
   {
     Arguments arguments;
     arguments.run.n_threads = n_available_cores();
-    arguments.study.stop = is_interrupted;
+    arguments.study.stop    = is_interrupted;
     CLI::App app("exemplar: elastic solids that deform the way their examples say");
     app.set_version_flag("--version",
                          std::string("exemplar " EXEMPLAR_VERSION " (" EXEMPLAR_GIT_REVISION ")")
