@@ -13,7 +13,7 @@ cd "$(dirname "$(readlink -f "$0")")"
 
 packages=(git g++ cmake ninja-build libdeal.ii-dev libsuitesparse-dev libopenblas0-pthread
           libmuparser-dev libcli11-dev nlohmann-json3-dev libssl-dev zlib1g-dev
-          libgtest-dev libxsimd-dev python3 gmsh gnuplot-nox)
+          libgtest-dev libxsimd-dev python3 python3-dev python3-numpy pybind11-dev gmsh gnuplot-nox)
 
 install_missing() {
   if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_held_problem_h
+#define exemplar_held_problem_h
+
+#include <exemplar/algebra/mpi_session.h>
+#include <exemplar/run/diagnostics.h>
+#include <exemplar/run/problem.h>
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <memory>
+#include <string>
+#include <thread>
+
+namespace Exemplar::Python
+{
+  /// A problem that Python holds. Steps are made without Python's lock; meanwhile other threads
+  /// are refused, and callbacks of the step may only look.
+  class HeldProblem : public std::enable_shared_from_this<HeldProblem>
+  {
+  public:
+    /// As from_python(). Throws UserError.
+    HeldProblem(const pybind11::object &scene,
+                const pybind11::object &mesh,
+                const pybind11::object &poses);
+
+    /// Throws SolverFailure, Interrupted and whatever callbacks throw; the problem is then as it
+    /// was before the step.
+    SolveReport
+    step();
+
+    /// All steps that are left; returns the report of the last one.
+    SolveReport
+    run();
+
+    void
+    set_motion(const std::string &handle, const pybind11::function &function);
+
+    /// None: nothing is called.
+    void
+    on_iteration(const pybind11::object &function);
+
+    /// To look at the problem. Throws RuntimeError while another thread makes a step.
+    const Problem &
+    get() const;
+
+    const SolveReport &
+    get_report() const
+    {
+      return report;
+    }
+
+    /// (n,3) without a copy, read only. They stay what they are when steps replace the state:
+    /// then the problem leaves them the memory.
+    pybind11::array
+    positions();
+
+    pybind11::object
+    velocities();
+
+    /// (n,3) and (m,4), read only, in the memory of the problem, which lives as long as they do.
+    pybind11::array
+    rest_positions();
+
+    pybind11::array
+    cells();
+
+    /// The numbers of a row of statistics.csv, seconds aside, whose columns begin with `prefix`.
+    pybind11::dict
+    statistics(const std::string &prefix) const;
+
+  private:
+    /// A field of the state that arrays show.
+    struct Shown
+    {
+      Vector memory; ///< of a state that is no more; empty: the problem has it
+    };
+
+    pybind11::array
+    show(const Vector &field, std::shared_ptr<Shown> &shown);
+
+    /// Leave to arrays the memory that the next step would free.
+    static void
+    let_go(Vector &field, std::shared_ptr<Shown> &shown);
+
+    /// Called after each iteration; whether to go on.
+    bool
+    observe(const SolveReport &iteration);
+
+    /// A step of the solver that leaves the problem as it was if it throws.
+    SolveReport
+    advance();
+
+    const std::shared_ptr<MpiSession> mpi; ///< ends after the last problem
+    std::unique_ptr<Problem>          problem;
+    Diagnostics                       diagnostics;
+    SolveReport                       report;
+    pybind11::object                  callback;
+    std::shared_ptr<Shown>            shown_positions, shown_velocities;
+    std::thread::id stepping;           ///< the thread that makes a step; none: no step is made
+    bool            is_stopped = false; ///< by the callback
+  };
+} // namespace Exemplar::Python
+
+#endif

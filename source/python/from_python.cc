@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
+#include <exemplar/python/from_python.h>
+#include <exemplar/run/scene_file.h>
+
+#include <pybind11/numpy.h>
+
+namespace Exemplar::Python
+{
+  namespace py = pybind11;
+
+  namespace
+  {
+    /// What separates the entries of a list in the text of a scene.
+    std::string
+    separator(const std::string &key)
+    {
+      if (key == "Select")
+        return " ";
+      for (const char *formulas :
+           { "Motion", "Force", "Velocity", "Pose function", "Prescribed weights" })
+        if (key == formulas)
+          return "; ";
+      return key == "Pose functions" ? " | " : ", ";
+    }
+
+    std::string
+    text_of(const py::handle &value, const std::string &separator)
+    {
+      if (py::isinstance<py::bool_>(value))
+        return value.cast<bool>() ? "true" : "false";
+      const bool is_list = py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value)
+                           || py::isinstance<py::array>(value);
+      if (!is_list)
+        return py::str(value);
+      std::string text;
+      for (const py::handle entry : value)
+        // a list in a list is a pose's three formulas
+        text += (text.empty() ? "" : separator) + text_of(entry, "; ");
+      return text;
+    }
+
+    /// Sections of a dictionary that name their subsections: who leaves out Names has listed all.
+    void
+    add_names(const py::dict                 &section,
+              const std::vector<std::string> &path,
+              std::vector<Assignment>        &assignments)
+    {
+      if (path.size() != 1 || (path[0] != "Handles" && path[0] != "Loads")
+          || section.contains("Names"))
+        return;
+      std::string names;
+      for (const auto &[key, value] : section)
+        if (py::isinstance<py::dict>(value))
+          names += (names.empty() ? "" : ", ") + std::string(py::str(key));
+      assignments.push_back({ path, "Names", names, "scene" });
+    }
+
+    void
+    add_section(const py::dict                 &section,
+                const std::vector<std::string> &path,
+                std::vector<Assignment>        &assignments)
+    {
+      add_names(section, path, assignments);
+      for (const auto &[key, value] : section)
+      {
+        const std::string name = py::str(key);
+        if (!py::isinstance<py::dict>(value))
+        {
+          assignments.push_back({ path, name, text_of(value, separator(name)), "scene" });
+          continue;
+        }
+        std::vector<std::string> deeper = path;
+        deeper.push_back(name);
+        add_section(py::reinterpret_borrow<py::dict>(value), deeper, assignments);
+      }
+    }
+
+    SceneParameters
+    read_scene(const py::object &scene, std::vector<Assignment> assignments)
+    {
+      if (py::isinstance<py::dict>(scene))
+      {
+        std::vector<Assignment> sections;
+        add_section(scene, {}, sections);
+        sections.insert(sections.end(), assignments.begin(), assignments.end());
+        return SceneFile({}, "", sections).get_parameters();
+      }
+      // a str or a path
+      const std::string text = py::module_::import("os").attr("fspath")(scene).cast<std::string>();
+      if (text.find('\n') != std::string::npos)
+        return SceneFile({}, text, assignments).get_parameters();
+      return SceneFile(text, read_prm(text), assignments).get_parameters();
+    }
+
+    /// The rows of an array (n, width); `what` stands for it in messages.
+    template <typename Number>
+    py::array_t<Number, py::array::c_style | py::array::forcecast>
+    rows_of(const py::handle &object, const std::string &what, const py::ssize_t width)
+    {
+      const auto any = py::array::ensure(object);
+      if (!any || any.ndim() != 2 || any.shape(1) != width)
+        throw UserError(what + " must be an array of shape (n, " + std::to_string(width) + ").");
+      if (std::is_integral_v<Number> && any.dtype().kind() != 'i' && any.dtype().kind() != 'u')
+        throw UserError(what + " must be an array of integers.");
+      const auto rows = py::array_t<Number, py::array::c_style | py::array::forcecast>::ensure(any);
+      if (!rows)
+        throw UserError(what + " must be an array of numbers.");
+      return rows;
+    }
+
+    std::vector<dealii::Point<3>>
+    points_of(const py::handle &object, const std::string &what)
+    {
+      const auto                    rows = rows_of<double>(object, what, 3);
+      const auto                    x    = rows.unchecked<2>();
+      std::vector<dealii::Point<3>> points;
+      for (py::ssize_t i = 0; i < x.shape(0); ++i)
+        points.emplace_back(x(i, 0), x(i, 1), x(i, 2));
+      return points;
+    }
+
+    /// Refuses what is negative, which would become large.
+    unsigned int
+    index_of(const long long value, const std::string &what)
+    {
+      if (value < 0 || value > std::numeric_limits<unsigned int>::max())
+        throw UserError(what + " has " + std::to_string(value)
+                        + ", which is not allowed. Allowed: indices from 0.");
+      return static_cast<unsigned int>(value);
+    }
+
+    MshFile
+    mesh_of(const py::object &mesh)
+    {
+      const auto parts = py::tuple(mesh);
+      if (parts.size() != 2 && parts.size() != 3)
+        throw UserError(
+            "mesh must be (nodes (n, 3), cells (m, 4)) or (nodes, cells, material ids (m)).");
+      const auto rows  = rows_of<long long>(parts[1], "mesh: cells", 4);
+      const auto nodes = rows.unchecked<2>();
+      std::vector<std::array<unsigned int, 4>> cells(nodes.shape(0));
+      for (py::ssize_t c = 0; c < nodes.shape(0); ++c)
+        for (py::ssize_t v = 0; v < 4; ++v)
+          cells[c][v] = index_of(nodes(c, v), "mesh: cells");
+      std::vector<unsigned int> material_ids;
+      if (parts.size() == 3)
+        for (const py::handle id : parts[2])
+          material_ids.push_back(index_of(id.cast<long long>(), "mesh: material ids"));
+      return make_msh(points_of(parts[0], "mesh: nodes"), cells, material_ids);
+    }
+  } // namespace
+
+  Given
+  from_python(const py::object &scene, const py::object &mesh, const py::object &poses)
+  {
+    Given                   given;
+    std::vector<Assignment> assignments;
+    const auto              list = poses.is_none() ? py::list() : py::list(poses);
+    if (!poses.is_none())
+    {
+      std::string names;
+      for (std::size_t i = 0; i < list.size(); ++i)
+        names += (i == 0 ? "pose_" : ", pose_") + std::to_string(i);
+      assignments.push_back({ { "Examples" }, "Poses", names, "poses" });
+    }
+    given.scene = read_scene(scene, assignments);
+    for (std::size_t i = 0; i < list.size(); ++i)
+      given.inputs.poses[given.scene.examples.poses[i]]
+          = points_of(list[i], "poses[" + std::to_string(i) + "]");
+    if (!mesh.is_none())
+      given.inputs.mesh = mesh_of(mesh);
+    return given;
+  }
+
+  Motion
+  motion_of(const py::function &function)
+  {
+    // whoever drops the last copy may not hold Python's lock
+    const std::shared_ptr<py::function> shared(new py::function(function),
+                                               [](py::function *last)
+                                               {
+                                                 const py::gil_scoped_acquire lock;
+                                                 delete last;
+                                               });
+    return [shared](const std::vector<dealii::Point<3>> &rest, const double time)
+    {
+      const py::gil_scoped_acquire lock;
+      py::array_t<double>          points({ py::ssize_t(rest.size()), py::ssize_t(3) });
+      auto                         x = points.mutable_unchecked<2>();
+      for (std::size_t i = 0; i < rest.size(); ++i)
+        for (unsigned int c = 0; c < 3; ++c)
+          x(i, c) = rest[i][c];
+      std::vector<dealii::Tensor<1, 3>> displacements;
+      for (const dealii::Point<3> &u :
+           points_of((*shared)(points, time), "What the function of a motion returns"))
+        displacements.push_back(u);
+      return displacements;
+    };
+  }
+} // namespace Exemplar::Python

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
+#include <exemplar/python/from_python.h>
+#include <exemplar/python/held_problem.h>
+
+#include <utility>
+
+namespace Exemplar::Python
+{
+  namespace py = pybind11;
+
+  namespace
+  {
+    std::unique_ptr<Problem>
+    make_problem(const py::object &scene, const py::object &mesh, const py::object &poses)
+    {
+      Given                        given = from_python(scene, mesh, poses);
+      const py::gil_scoped_release unlocked;
+      try
+      {
+        Inputs inputs = read_inputs(given.scene, std::move(given.inputs));
+        return std::make_unique<Problem>(std::move(given.scene), std::move(inputs));
+      }
+      catch (const SolverFailure &failure)
+      {
+        throw UserError(failure.what()); // nothing has been solved yet: the input is to blame
+      }
+    }
+
+    /// MPI cannot start twice, so that it ends with the process.
+    std::shared_ptr<MpiSession>
+    mpi_session()
+    {
+      static const auto session = std::make_shared<MpiSession>();
+      return session;
+    }
+
+    /// An array in memory that `owner` keeps.
+    template <typename Number>
+    py::array
+    read_only_rows(const Number     *memory,
+                   const std::size_t n,
+                   const py::ssize_t width,
+                   py::object        owner)
+    {
+      py::array_t<Number> rows({ py::ssize_t(n), width }, memory, std::move(owner));
+      rows.attr("flags").attr("writeable") = false;
+      return std::move(rows);
+    }
+
+    /// An object that keeps what `pointer` shares.
+    template <typename T>
+    py::capsule
+    keeper(std::shared_ptr<T> pointer)
+    {
+      return py::capsule(new std::shared_ptr<T>(std::move(pointer)),
+                         [](void *kept) { delete static_cast<std::shared_ptr<T> *>(kept); });
+    }
+  } // namespace
+
+  HeldProblem::HeldProblem(const py::object &scene, const py::object &mesh, const py::object &poses)
+      : mpi(mpi_session()), problem(make_problem(scene, mesh, poses)), diagnostics(*problem),
+        callback(py::none())
+  {
+    problem->solver->observe = [this](const SolveReport &iteration) { return observe(iteration); };
+  }
+
+  const Problem &
+  HeldProblem::get() const
+  {
+    if (stepping != std::thread::id() && stepping != std::this_thread::get_id())
+      throw std::runtime_error("Another thread is making a step of this problem.");
+    return *problem;
+  }
+
+  bool
+  HeldProblem::observe(const SolveReport &iteration)
+  {
+    const py::gil_scoped_acquire lock;
+    if (PyErr_CheckSignals() != 0)
+      throw py::error_already_set(); // Ctrl-C
+    if (callback.is_none())
+      return true;
+    const py::object function = callback; // which it may replace
+    is_stopped                = is_stopped || function(iteration).is(py::bool_(false));
+    return !is_stopped;
+  }
+
+  SolveReport
+  HeldProblem::advance()
+  {
+    try
+    {
+      SolveReport result = problem->advance();
+      if (!is_success(result.status))
+        throw SolverFailure(problem->failure_message(result));
+      return result;
+    }
+    catch (...)
+    {
+      problem->resume_from(State(problem->state)); // evaluation and memory are of the failed step
+      throw;
+    }
+  }
+
+  SolveReport
+  HeldProblem::step()
+  {
+    if (stepping != std::thread::id())
+      throw std::runtime_error("A step of this problem is being made.");
+    if (problem->state.step >= problem->time_axis.n_steps())
+      throw UserError(
+          "All " + std::to_string(problem->time_axis.n_steps())
+          + " steps of the scene are made. Change Time/End or Time/Increments for more.");
+    let_go(problem->state.positions, shown_positions);
+    let_go(problem->state.velocities, shown_velocities);
+    const auto keep_alive = shared_from_this(); // a callback may drop the last other owner
+    is_stopped            = false;
+    stepping              = std::this_thread::get_id();
+    try
+    {
+      const py::gil_scoped_release unlocked;
+      report = advance();
+      diagnostics.add_step();
+    }
+    catch (...)
+    {
+      stepping = std::thread::id();
+      throw;
+    }
+    stepping = std::thread::id();
+    if (is_stopped)
+      throw Interrupted("Interrupted after step " + std::to_string(problem->state.step) + ".");
+    return report;
+  }
+
+  SolveReport
+  HeldProblem::run()
+  {
+    while (problem->state.step < problem->time_axis.n_steps())
+      step();
+    return report;
+  }
+
+  void
+  HeldProblem::set_motion(const std::string &handle, const py::function &function)
+  {
+    if (stepping != std::thread::id())
+      throw std::runtime_error("A step of this problem is being made: set motions between steps.");
+    problem->set_motion(handle, motion_of(function));
+  }
+
+  void
+  HeldProblem::on_iteration(const py::object &function)
+  {
+    if (!function.is_none() && !PyCallable_Check(function.ptr()))
+      throw py::type_error("on_iteration needs a function or None.");
+    callback = function;
+  }
+
+  void
+  HeldProblem::let_go(Vector &field, std::shared_ptr<Shown> &shown)
+  {
+    if (shown.use_count() > 1)
+    {
+      shown->memory.swap(field);
+      field = shown->memory;
+    }
+    shown.reset();
+  }
+
+  py::array
+  HeldProblem::show(const Vector &field, std::shared_ptr<Shown> &shown)
+  {
+    if (stepping != std::thread::id()) // the step will free this memory
+      return py::array_t<double>({ py::ssize_t(field.size() / 3), py::ssize_t(3) }, field.begin());
+    if (shown == nullptr)
+      shown = std::make_shared<Shown>();
+    // the memory is of the problem until a step leaves it to the array
+    return read_only_rows(
+        field.begin(), field.size() / 3, 3,
+        keeper(std::make_shared<std::pair<std::shared_ptr<HeldProblem>, std::shared_ptr<Shown>>>(
+            shared_from_this(), shown)));
+  }
+
+  py::array
+  HeldProblem::positions()
+  {
+    return show(get().state.positions, shown_positions);
+  }
+
+  py::object
+  HeldProblem::velocities()
+  {
+    const Vector &field = get().state.velocities;
+    return field.size() == 0 ? py::object(py::none()) : show(field, shown_velocities);
+  }
+
+  py::array
+  HeldProblem::rest_positions()
+  {
+    const auto &nodes = problem->body.mesh.get_nodes();
+    static_assert(sizeof(nodes[0]) == 3 * sizeof(double));
+    return read_only_rows(&nodes[0][0], nodes.size(), 3, keeper(shared_from_this()));
+  }
+
+  py::array
+  HeldProblem::cells()
+  {
+    const auto &cells = problem->body.mesh.get_cells();
+    return read_only_rows(cells[0].data(), cells.size(), 4, keeper(shared_from_this()));
+  }
+
+  py::dict
+  HeldProblem::statistics(const std::string &prefix) const
+  {
+    py::dict numbers;
+    for (const auto &[column, value] : diagnostics.row(get().state, report))
+      if (column.compare(0, prefix.size(), prefix) == 0 && column != "status")
+        numbers[py::str(column)] = py::float_(py::str(value));
+    return numbers;
+  }
+} // namespace Exemplar::Python

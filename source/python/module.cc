@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/environment.h>
+#include <exemplar/base/errors.h>
+#include <exemplar/base/version.h>
+#include <exemplar/python/held_problem.h>
+
+#include <deal.II/base/exceptions.h>
+#include <deal.II/base/multithread_info.h>
+
+#include <pybind11/stl.h>
+
+namespace py = pybind11;
+
+namespace Exemplar::Python
+{
+  namespace
+  {
+    void
+    add_exceptions(py::module_ &module)
+    {
+      const auto add
+          = [&module](const auto *type, const char *name, const py::handle &base, const char *doc)
+      {
+        using Exception = std::remove_const_t<std::remove_pointer_t<decltype(type)>>;
+        py::register_exception<Exception>(module, name, base).attr("__doc__") = doc;
+      };
+      add(static_cast<UserError *>(nullptr), "UserError", PyExc_ValueError,
+          "The input is wrong; the message says what, where, what is allowed and the remedy.");
+      add(static_cast<SolverFailure *>(nullptr), "SolverFailure", PyExc_ArithmeticError,
+          "A step could not be solved. The problem is as it was before the step.");
+      add(static_cast<Interrupted *>(nullptr), "Interrupted", PyExc_RuntimeError,
+          "A callback has returned False.");
+    }
+
+    void
+    add_report(py::module_ &module)
+    {
+      py::class_<SolveReport>(module, "Report", "How a step was solved, or how far it is.")
+          .def_property_readonly(
+              "status", [](const SolveReport &report) { return status_name(report.status); },
+              "'converged' or 'one pass'; 'initial' before it ends.")
+          .def_readonly("iterations", &SolveReport::iterations)
+          .def_readonly("residual", &SolveReport::residual,
+                        "Of the forces, relative: doc/solver.md, Eq. (13).")
+          .def_readonly("kkt_residual", &SolveReport::kkt_residual, "Of the weights, relative.")
+          .def_readonly("residual_history", &SolveReport::residual_history,
+                        "A list, one residual an iteration.")
+          .def_readonly("step_length", &SolveReport::step_length,
+                        "Of the last iteration, as the line search left it; 1 is all of it.")
+          .def("__repr__",
+               [](const SolveReport &report)
+               {
+                 return py::str("<exemplar.Report: {}, {} iterations, residual {:.2g}>")
+                     .format(status_name(report.status), report.iterations, report.residual);
+               });
+    }
+
+    using Class = py::class_<HeldProblem, std::shared_ptr<HeldProblem>>;
+
+    void
+    add_actions(Class &problem)
+    {
+      problem.def(
+          "step", &HeldProblem::step,
+          "Make the next step and return its Report. Raises SolverFailure if it cannot be\n"
+          "solved, Interrupted if a callback stopped it, KeyboardInterrupt, and whatever a\n"
+          "callback raises; the problem is then as it was before, unless step_number says\n"
+          "that the step was made. Other Python threads run meanwhile.");
+      problem.def("run", &HeldProblem::run,
+                  "Make all steps that are left; return the last Report.");
+      problem.def(
+          "set_motion", &HeldProblem::set_motion, py::arg("name"), py::arg("function"),
+          "From the next step on let a function move the handle `name`.\n\n"
+          "function(rest, t) gets the rest positions (k, 3) [m] of the handle's nodes and the\n"
+          "time t [s], and returns their displacements (k, 3) [m]. It may be called several\n"
+          "times for one t, and must then return the same. Raises UserError for a name\n"
+          "that is no handle's.");
+      problem.def(
+          "on_iteration", &HeldProblem::on_iteration, py::arg("function"),
+          "Call function(report) after each iteration of a step; None: call nothing.\n\n"
+          "A function that refers to the problem keeps it alive until another is set. If it\n"
+          "returns False, the step is left and Interrupted raised; methods that cannot\n"
+          "stop within a step finish it before.");
+    }
+
+    void
+    add_state(Class &problem)
+    {
+      problem.def_property_readonly(
+          "positions", &HeldProblem::positions,
+          "Positions (n, 3) [m] of the nodes, read only, in the mesh's order. No copy is made. "
+          "The\n"
+          "array shows the state at which it was asked for, also after later steps: ask again for\n"
+          "the new one.");
+      problem.def_property_readonly("velocities", &HeldProblem::velocities,
+                                    "Velocities (n, 3) [m/s], as positions; None unless dynamic.");
+      problem.def_property_readonly("rest_positions", &HeldProblem::rest_positions,
+                                    "Rest positions (n, 3) [m], read only, no copy.");
+      problem.def_property_readonly("cells", &HeldProblem::cells,
+                                    "Nodes (m, 4) of the tetrahedra, from 0, each positively\n"
+                                    "oriented; uint32, read only, no copy.");
+      problem.def_property_readonly(
+          "weights",
+          [](const HeldProblem &held)
+          {
+            const std::vector<double> &weights = held.get().state.weights;
+            return py::array_t<double>(static_cast<py::ssize_t>(weights.size()), weights.data());
+          },
+          "Weights of the examples, the rest pose first if it is one; of each region one after "
+          "the\n"
+          "other if there are several. Empty without examples. A copy.");
+      problem.def_property_readonly(
+          "time", [](const HeldProblem &held) { return held.get().state.time; },
+          "[s] in a dynamic scene, else from 0 to 1.");
+      problem.def_property_readonly(
+          "step_number", [](const HeldProblem &held) { return held.get().state.step; },
+          "How many steps are made.");
+      problem.def_property_readonly(
+          "n_steps", [](const HeldProblem &held) { return held.get().time_axis.n_steps(); },
+          "How many steps the scene has.");
+    }
+
+    void
+    add_measures(Class &problem)
+    {
+      problem.def_property_readonly(
+          "residual", [](const HeldProblem &held) { return held.get_report().residual; },
+          "Relative residual of the last step, doc/solver.md, Eq. (13); 0 before the first.");
+      problem.def_property_readonly(
+          "energies", [](const HeldProblem &held) { return held.statistics("energy_"); },
+          "The energies [J] of the state by their columns in statistics.csv: energy_elastic, ...");
+      problem.def_property_readonly(
+          "statistics", [](const HeldProblem &held) { return held.statistics(""); },
+          "All numbers of the state's row in statistics.csv, seconds aside: reactions of handles,\n"
+          "work, momenta, ... doc/output.md explains them.");
+      problem.def_property_readonly(
+          "warnings", [](const HeldProblem &held) { return held.get().warnings(); },
+          "What the program would warn of: a list of strings.");
+    }
+
+    void
+    add_problem(py::module_ &module)
+    {
+      Class problem(module, "Problem",
+                    "An elastic body with example poses, as a scene describes it.");
+      problem.def(
+          py::init<const py::object &, const py::object &, const py::object &>(), py::arg("scene"),
+          py::arg("mesh") = py::none(), py::arg("poses") = py::none(),
+          "scene: the path of a .prm file, its text (of several lines), or a dictionary of "
+          "sections\n"
+          "with the keys of doc/parameters.md. Lists are joined as the key needs it; Handles and\n"
+          "Loads need no Names.\n"
+          "mesh: (nodes (n, 3) float, cells (m, 4) int from 0), or with material ids (m) as a "
+          "third,\n"
+          "instead of a file; in metres, unless Mesh/Scale makes metres of them.\n"
+          "poses: a list of arrays (n, 3) as the nodes, instead of Examples/Poses.\n"
+          "Raises UserError.");
+      add_actions(problem);
+      add_state(problem);
+      add_measures(problem);
+    }
+  } // namespace
+} // namespace Exemplar::Python
+
+PYBIND11_MODULE(exemplar, module)
+{
+  using namespace Exemplar;
+  module.doc()
+      = "Elastic solids that deform the way their examples say. doc/python.md has examples.";
+  module.attr("__version__") = EXEMPLAR_VERSION;
+  Python::add_exceptions(module);
+  Python::add_report(module);
+  Python::add_problem(module);
+  module.def(
+      "use_one_blas_thread", &use_one_blas_thread,
+      "Let BLAS use one thread in the whole process, numpy with it if it uses the same BLAS.\n"
+      "Results are then the same bytes as the program's. Importing exemplar does not do so.");
+  dealii::MultithreadInfo::set_thread_limit(1);
+  dealii::deal_II_exceptions::disable_abort_on_exception();
+}

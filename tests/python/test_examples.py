@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Run the examples of doc/python and look at what they print."""
+import re
+import subprocess
+import sys
+import unittest
+from pathlib import Path
+
+EXAMPLES = Path(__file__).resolve().parents[2] / "doc/python"
+
+
+def rows_of(*command):
+    """The lines that are numbers alone, as lists of these."""
+    done = subprocess.run([sys.executable, EXAMPLES / command[0], *command[1:]], capture_output=True, text=True)
+    if done.returncode != 0 or done.stderr:
+        raise AssertionError(done.stdout + done.stderr)
+    return [[float(word) for word in line.split()] for line in done.stdout.splitlines()
+            if re.fullmatch(r"[-\d. nae]+", line)]
+
+
+class Examples(unittest.TestCase):
+    def test_bar_by_hand(self):
+        rows = rows_of("bar_by_hand.py")
+        self.assertEqual(len(rows), 5)
+        for _, rest, bent, _ in rows:
+            self.assertAlmostEqual(rest + bent, 1, delta=2e-3)
+        self.assertGreater(rows[-1][2], rows[0][2] + 0.2)
+
+    def test_cat_by_function(self):
+        rows = rows_of("cat_by_function.py", "3")
+        self.assertEqual(len(rows), 3)
+        self.assertGreater(rows[-1][2], 0.9)  # the end pulls the paws back by 22 cm: it arches its back
+        self.assertGreater(rows[-1][4], rows[0][4])
+
+    def test_sweep(self):
+        rows = rows_of("sweep.py")
+        self.assertEqual(len(rows), 5)
+        forces = [force for _, _, force, _ in rows]
+        self.assertGreater(forces[0], 1.5 * forces[1])
+        self.assertEqual(forces, sorted(forces, reverse=True))
+
+
+if __name__ == "__main__":
+    unittest.main()

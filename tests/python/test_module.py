@@ -1,0 +1,238 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Drive the Python module: arrays, errors, motions, views, callbacks, threads."""
+import gc
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+import exemplar
+
+HANDLES = {"left": {"Select": "box 0 -1 -1 0 1 1"},
+           "right": {"Select": ["box", 2, -1, -1, 2, 1, 1], "Motion": ["0.2*t", 0, "0.3*t"]}}
+BAR = {"Scene": "static", "Mesh": {"Generator": "box", "Box size": [2, 1, 1], "Box cells": (4, 2, 2)},
+       "Handles": HANDLES, "Time": {"Increments": 3}}
+DYNAMIC = {**BAR, "Scene": "dynamic", "Time": {"Step": 0.05, "End": 0.3}}
+
+
+def without_mesh(scene):
+    return {key: value for key, value in scene.items() if key != "Mesh"}
+
+
+def box():
+    problem = exemplar.Problem(BAR)
+    return problem.rest_positions.copy(), problem.cells.copy()
+
+
+def twisted(nodes):
+    x, y, z = nodes.T
+    return np.column_stack([x, y + 0.2 * x * z, z - 0.2 * x * y])
+
+
+def solved(*arguments, **options):
+    problem = exemplar.Problem(*arguments, **options)
+    problem.run()
+    return problem
+
+
+def write_msh(file, nodes, cells):
+    lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$Nodes", len(nodes)]
+    lines += [f"{i + 1} {x!r} {y!r} {z!r}" for i, (x, y, z) in enumerate(nodes.tolist())]
+    lines += ["$EndNodes", "$Elements", len(cells)]
+    lines += [f"{c + 1} 4 2 0 1 " + " ".join(str(node + 1) for node in cell) for c, cell in enumerate(cells.tolist())]
+    Path(file).write_text("\n".join(map(str, [*lines, "$EndElements"])) + "\n")
+
+
+class Scenes(unittest.TestCase):
+    def test_arrays_give_the_bytes_of_files(self):
+        nodes, cells = box()
+        with tempfile.TemporaryDirectory() as directory:
+            mesh, pose = Path(directory, "mesh.msh"), Path(directory, "pose.msh")
+            write_msh(mesh, nodes, cells)
+            write_msh(pose, twisted(nodes), cells)
+            files = solved({**BAR, "Mesh": {"File": mesh}, "Examples": {"Poses": [pose]}})
+        arrays = solved(without_mesh(BAR), mesh=(nodes, cells), poses=[twisted(nodes)])
+        self.assertEqual(files.positions.tobytes(), arrays.positions.tobytes())
+        self.assertEqual(files.weights.tobytes(), arrays.weights.tobytes())
+        self.assertAlmostEqual(arrays.weights.sum(), 1)
+
+    def test_text_file_and_dictionary_are_one_scene(self):
+        text = ("set Scene = static\nsubsection Mesh\nset Generator = box\nset Box size = 2, 1, 1\n"
+                "set Box cells = 4, 2, 2\nend\nsubsection Handles\nset Names = left, right\nsubsection left\n"
+                "set Select = box 0 -1 -1 0 1 1\nend\nsubsection right\nset Select = box 2 -1 -1 2 1 1\n"
+                "set Motion = 0.2*t; 0; 0.3*t\nend\nend\nsubsection Time\nset Increments = 3\nend\n")
+        with tempfile.TemporaryDirectory() as directory:
+            file = Path(directory, "bar.prm")
+            file.write_text(text)
+            from_file, from_path = solved(str(file)), solved(file)
+        for problem in solved(text), from_file, from_path:
+            self.assertEqual(problem.positions.tobytes(), solved(BAR).positions.tobytes())
+
+    def test_poses_that_formulas_give(self):
+        formulas = ["x", "y+0.2*x*z", "z-0.2*x*y"]
+        by_formulas = solved({**BAR, "Examples": {"Pose functions": [formulas]}})
+        by_array = solved(BAR, poses=[twisted(box()[0])])
+        np.testing.assert_allclose(by_formulas.weights, by_array.weights, atol=1e-9)
+
+    def test_materials_by_cell(self):
+        nodes, cells = box()
+        soft = {**without_mesh(BAR), "Material": {"region 2": {"Young's modulus": 10}}}
+        ids = np.where(np.arange(len(cells)) % 2 == 0, 1, 2)
+        self.assertLess(solved(soft, mesh=(nodes, cells, ids)).energies["energy_elastic"],
+                        0.9 * solved(BAR).energies["energy_elastic"])
+
+    def test_errors(self):
+        nodes, cells = box()
+        bare = without_mesh(BAR)
+        for message, arguments in {
+            "Scene is not set": ({"Mesh": BAR["Mesh"]},),
+            "nonsense": ({**BAR, "Model": {"Strain": "nonsense"}},),
+            "absent.prm": ("absent.prm",),
+            "shape \\(n, 3\\)": (bare, (nodes[:, :2], cells)),
+            "has node 99": (bare, (nodes, np.array([[0, 1, 2, 99]]))),
+            "has -1": (bare, (nodes, np.array([[0, 1, 2, -1]]))),
+            "array of integers": (bare, (nodes, cells + 0.5)),
+            "mesh must be": (bare, (nodes,)),
+            "has 3 nodes, the mesh 45": (bare, (nodes, cells), [nodes[:3]]),
+        }.items():
+            with self.subTest(message), self.assertRaisesRegex(exemplar.UserError, message):
+                exemplar.Problem(*arguments)
+        with self.assertRaises(exemplar.SolverFailure) as caught:
+            solved({**BAR, "Solver": {"Method": "fixed point", "Maximum iterations": 1}})
+        self.assertIn("Step 1 stopped at its iteration limit", str(caught.exception))
+        problem = solved(BAR)
+        with self.assertRaisesRegex(exemplar.UserError, "All 3 steps"):
+            problem.step()
+
+
+class State(unittest.TestCase):
+    def test_measures(self):
+        problem = exemplar.Problem(DYNAMIC, poses=[twisted(box()[0])])
+        self.assertEqual((problem.step_number, problem.n_steps, problem.time), (0, 6, 0))
+        report = problem.step()
+        self.assertEqual(report.status, "converged")
+        self.assertEqual(len(report.residual_history), report.iterations + 1)
+        self.assertLess(report.residual, 1e-3)
+        self.assertEqual(problem.residual, report.residual)
+        self.assertEqual(set(problem.energies) & {"energy_elastic", "energy_example", "energy_kinetic"},
+                         {"energy_elastic", "energy_example", "energy_kinetic"})
+        self.assertEqual(problem.statistics["step"], 1)
+        self.assertIn("reaction_right_x", problem.statistics)
+        self.assertEqual(problem.velocities.shape, (45, 3))
+        self.assertIsNone(exemplar.Problem(BAR).velocities)
+
+    def test_views_outlive_steps_and_problem(self):
+        problem = exemplar.Problem(BAR)
+        nodes, first, again = problem.rest_positions, problem.positions, problem.positions
+        self.assertEqual(first.ctypes.data, again.ctypes.data)  # no copy
+        with self.assertRaises(ValueError):
+            first[0] = 0
+        before = first.copy()
+        problem.step()
+        second = problem.positions
+        np.testing.assert_array_equal(first, before)
+        self.assertGreater(abs(second - first).max(), 0.05)
+        after, address = second.copy(), first.ctypes.data
+        self.assertEqual(again.ctypes.data, address)
+        del problem
+        gc.collect()
+        np.testing.assert_array_equal(second, after)
+        np.testing.assert_array_equal(first, nodes)
+
+    def test_views_do_not_change_what_is_computed(self):
+        watched = exemplar.Problem(DYNAMIC)
+        kept = []
+        while watched.step_number < watched.n_steps:
+            kept.append((watched.positions, watched.velocities))
+            watched.step()
+        self.assertEqual(watched.positions.tobytes(), solved(DYNAMIC).positions.tobytes())
+        self.assertEqual(len({positions.tobytes() for positions, _ in kept}), 6)
+
+
+class Callbacks(unittest.TestCase):
+    def test_motion_equals_formula(self):
+        problem = exemplar.Problem({**BAR, "Handles": {**HANDLES, "right": {"Select": "box 2 -1 -1 2 1 1"}}})
+        problem.set_motion("right", lambda rest, t: np.tile([0.2 * t, 0, 0.3 * t], (len(rest), 1)))
+        problem.run()
+        np.testing.assert_allclose(problem.positions, solved(BAR).positions, atol=1e-10)
+
+    def test_motions_that_are_none(self):
+        problem = exemplar.Problem(BAR)
+        with self.assertRaisesRegex(exemplar.UserError, "Handles/Names has: left, right"):
+            problem.set_motion("top", lambda rest, t: rest)
+        for error, function in {ZeroDivisionError: lambda rest, t: 1 / 0,
+                                exemplar.UserError: lambda rest, t: rest[1:],
+                                exemplar.SolverFailure: lambda rest, t: rest * np.nan}.items():
+            problem.set_motion("right", function)
+            with self.assertRaises(error):
+                problem.step()
+            self.assertEqual(problem.step_number, 0)
+        problem.set_motion("right", lambda rest, t: np.tile([0.2 * t, 0, 0.3 * t], (len(rest), 1)))
+        problem.run()
+        np.testing.assert_allclose(problem.positions, solved(BAR).positions, atol=1e-10)
+
+    def test_callback_sees_iterations_and_may_stop(self):
+        problem = exemplar.Problem(BAR)
+        residuals = []
+        problem.on_iteration(lambda report: residuals.append((report.residual, problem.positions[0, 0])))
+        report = problem.step()
+        self.assertEqual([residual for residual, _ in residuals], report.residual_history)
+        problem.on_iteration(lambda report: False)
+        with self.assertRaises(exemplar.Interrupted):
+            problem.step()
+        self.assertEqual(problem.step_number, 1)
+        problem.on_iteration(None)
+        problem.run()
+        np.testing.assert_allclose(problem.positions, solved(BAR).positions, atol=1e-8)
+
+    def test_callback_may_not_step(self):
+        problem = exemplar.Problem(BAR)
+        problem.on_iteration(lambda report: problem.step())
+        with self.assertRaisesRegex(RuntimeError, "is being made"):
+            problem.step()
+
+    def test_control_c(self):
+        problem = exemplar.Problem(BAR)
+        problem.on_iteration(lambda report: os.kill(os.getpid(), signal.SIGINT))
+        with self.assertRaises(KeyboardInterrupt):
+            problem.run()
+
+
+class Processes(unittest.TestCase):
+    def test_two_problems_in_two_threads(self):
+        exemplar.use_one_blas_thread()
+        scenes = [BAR, DYNAMIC]
+        expected = [solved(scene).positions.tobytes() for scene in scenes]
+        got = [None, None]
+
+        def solve(i):
+            for _ in range(5):
+                got[i] = solved(scenes[i]).positions.tobytes()
+
+        threads = [threading.Thread(target=solve, args=(i,)) for i in range(2)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(got, expected)
+
+    def test_multigrid_ends_with_the_interpreter(self):
+        code = ("import exemplar, sys\n"
+                f"scene = {BAR!r}\n"
+                "try:\n"
+                "    problem = exemplar.Problem({**scene, 'Solver': {'Linear solver': 'iterative', 'Method': 'newton'}})\n"
+                "except exemplar.UserError as error:\n"
+                "    sys.exit(0 if 'without Trilinos' in str(error) else str(error))\n"
+                "problem.run()\n")
+        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+
+if __name__ == "__main__":
+    unittest.main()
