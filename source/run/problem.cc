@@ -11,8 +11,9 @@ namespace Exemplar
 {
   namespace
   {
-    /// By which the cell of a support may have turned [rad]; the matrix gets singular at
-    /// 90 degrees. What frozen forces find depends on the support, so there it never may.
+    /// Angle [rad] by which the cell that holds an interpolation may have turned before the body
+    /// is turned back, because the matrix becomes singular at 90 degrees. With frozen forces the
+    /// body is always turned back, because what they find depends on that cell's rotation.
     constexpr double max_turn = 0.7;
 
     SceneParameters
