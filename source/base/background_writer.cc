@@ -76,7 +76,7 @@ namespace Exemplar
       {
         job_error = std::current_exception();
       }
-      job = nullptr; // its data go before the lock comes back
+      job = nullptr; // frees its data while the lock is open
       lock.lock();
 
       busy = false;

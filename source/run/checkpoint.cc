@@ -37,7 +37,9 @@ namespace Exemplar
         archive &seconds;
       archive &checkpoint.solver_memory &checkpoint.statistics_bytes;
     }
-    /// What `load` returns; a UserError if the bytes of the file are none of a checkpoint.
+
+    /// What `load` returns. Throws UserError if the bytes of the file are not a checkpoint's: the
+    /// archive notices it, or takes some of them for the size of a vector that is too large.
     template <typename Load>
     auto
     guarded_load(const std::filesystem::path &file, const Load &load)
@@ -52,11 +54,11 @@ namespace Exemplar
       {
         throw broken;
       }
-      catch (const std::length_error &) // wrong bytes, taken for the size of a vector
+      catch (const std::length_error &)
       {
         throw broken;
       }
-      catch (const std::bad_alloc &) // the same
+      catch (const std::bad_alloc &)
       {
         throw broken;
       }

@@ -11,9 +11,9 @@ namespace Exemplar
 {
   namespace
   {
-    /// Angle [rad] by which the cell of a support may have turned before the body is turned back:
-    /// at 90 degrees the matrix gets singular. What frozen forces find depends on how the support
-    /// stands, so with them the body is turned back before every step.
+    /// Angle [rad] by which the cell that holds an interpolation may have turned before the body
+    /// is turned back, because the matrix becomes singular at 90 degrees. With frozen forces the
+    /// body is always turned back, because what they find depends on that cell's rotation.
     constexpr double max_turn = 0.7;
 
     SceneParameters

@@ -13,7 +13,8 @@ namespace Exemplar
 
   namespace
   {
-    /// The row of a failed step: neither its forces nor the state before would be true.
+    /// Empty the cells of a failed step but for its report: the problem is still in the state
+    /// before the step, and its forces are those of the last attempt, so neither belongs there.
     void
     keep_only_report(StatisticsRow &row)
     {
@@ -21,6 +22,15 @@ namespace Exemplar
         if (column != "step" && column != "time" && column != "status" && column != "iterations"
             && column != "residual")
           value.clear();
+    }
+
+    /// Whether the checkpoint's step had a frame only because the run ended there.
+    bool
+    is_only_last_frame(const Checkpoint &checkpoint)
+    {
+      const auto every = checkpoint.parameters.find("Output/Every");
+      return every != checkpoint.parameters.end()
+             && checkpoint.state.step % std::max(1, std::stoi(every->second)) != 0;
     }
 
     void
@@ -79,11 +89,7 @@ namespace Exemplar
       write_original();
       write_parameters(scene, directory.parameters_prm());
     }
-    const auto earlier_every = checkpoint.parameters.find("Output/Every");
-    const bool was_only_last
-        = earlier_every != checkpoint.parameters.end()
-          && checkpoint.state.step % std::max(1, std::stoi(earlier_every->second)) != 0;
-    if (was_only_last && !frames.is_due(checkpoint.state.step)) // the run now ends later
+    if (is_only_last_frame(checkpoint) && !frames.is_due(checkpoint.state.step))
       frames.remove(checkpoint.state.step);
     restore(checkpoint, directory.checkpoint(), problem);
     diagnostics.resume(checkpoint.work);
@@ -139,7 +145,7 @@ namespace Exemplar
     if (accepted && frames.is_due(problem.state.step))
       frames.write();
     State shown = problem.state;
-    if (!accepted) // the row of a step that failed has its number and time
+    if (!accepted) // the problem stands before the step that failed
     {
       ++shown.step;
       shown.time = problem.time_axis.time(shown.step);
@@ -186,7 +192,7 @@ namespace Exemplar
   void
   RunWriter::save()
   {
-    frames.drain(); // a resumed run writes no frame anew
+    frames.drain(); // because a resumed run does not write them again
     last_checkpoint = std::chrono::steady_clock::now();
     save_checkpoint({ values_of(scene), input_digests, problem.state, problem.solver_memory(),
                       diagnostics.get_work(), totals, accepted_bytes },

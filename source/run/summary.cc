@@ -36,6 +36,7 @@ namespace Exemplar
         json[part_names[part]] = seconds[part];
       return json;
     }
+
     Json
     memory_of(const Problem &problem)
     {

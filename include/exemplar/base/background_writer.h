@@ -49,10 +49,10 @@ namespace Exemplar
     throw_error() const;
 
     const bool                        has_thread;
-    std::mutex                        mutex; ///< for what follows
+    std::mutex                        mutex; ///< guards the members below
     std::condition_variable           changed;
     std::deque<std::function<void()>> waiting;
-    bool                              busy    = false; ///< with a job that waits no more
+    bool                              busy    = false; ///< a job has been taken and is not done
     bool                              closing = false;
     std::exception_ptr                error;
     std::thread                       thread;

@@ -21,14 +21,15 @@ namespace Exemplar
     PartSeconds  seconds{};
   };
 
-  /// What a resumed run needs to end in the same bytes as one never stopped. The
-  /// rotations and the factor are functions of the state and are computed anew.
+  /// What a resumed run needs to end in the same bytes as one that was never stopped. Rotations
+  /// and matrices are not here, because they follow from the state and from what the step solver
+  /// remembers.
   struct Checkpoint
   {
     std::map<std::string, std::string> parameters;    ///< key path -> value
     std::map<std::string, std::string> input_digests; ///< input file -> SHA-256
     State                              state;
-    std::string                        solver_memory; ///< StepSolver::save()
+    std::string                        solver_memory; ///< Problem::solver_memory()
     Work                               work;
     RunTotals                          totals;
     std::uintmax_t                     statistics_bytes = 0; ///< of statistics.csv at this state

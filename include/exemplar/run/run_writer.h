@@ -65,7 +65,8 @@ namespace Exemplar
     void
     save();
 
-    /// From now on what no part claims, such as moving the handles, is evaluation.
+    /// The clock counts as evaluation what follows and no other part claims, such as moving the
+    /// handles.
     void
     end_reading();
 
@@ -80,7 +81,7 @@ namespace Exemplar
     const std::map<std::string, std::string> input_digests; ///< SHA-256 of the files read
     std::optional<StatisticsFile>            statistics;
     RunTotals                                totals;
-    std::uintmax_t accepted_bytes         = 0; ///< of statistics.csv, less a failed row
+    std::uintmax_t accepted_bytes = 0; ///< of statistics.csv, without the row of a failed step
     unsigned int   earlier_factorizations = 0; ///< before a resume
     PartSeconds    last_lap{};
     std::chrono::steady_clock::time_point last_checkpoint;
