@@ -113,11 +113,15 @@ namespace Exemplar
   void
   QuasiNewton::find_metric(const State &trial)
   {
-    const bool is_slow
-        = history.steps > 0
-          && history.last_iterations
-                 > (metric.cost_in_iterations() + history.iterations) / history.steps;
-    if (history.positions.size() == 0 || history.mass_factor != potential.mass_factor() || is_slow)
+    const auto is_slow = [this]
+    {
+      return history.steps > 0
+             && history.last_iterations
+                    > (metric.cost_in_iterations() + history.iterations) / history.steps;
+    };
+    // where Newton's method has taken over, there is no metric, but steps since it was made
+    if (history.positions.size() == 0 || history.mass_factor != potential.mass_factor()
+        || is_slow())
       renew_metric(trial);
     else
     {

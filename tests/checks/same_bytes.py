@@ -38,6 +38,7 @@ VARIANTS = {
     "green": (BAR, ["Model/Strain=green"]),
     "linear": (BAR, ["Model/Strain=linear"]),
     "green newton": (BAR, ["Model/Strain=green", "Solver/Method=newton", "Examples/Energy=blended"]),
+    "taken over by newton": (BAR, ["Time/Step=0.3", "Time/End=3", "Material/Density=1e-3"]),
     "bdf2": (BAR, ["Time/Scheme=bdf2", "Time/Mass damping=0.5", "Time/Stiffness damping=0.002"]),
     "bdf2 newton": (BAR, ["Time/Scheme=bdf2", "Solver/Method=newton", "Time/Stiffness damping=0.002"]),
     "static green": (CAT, ["Model/Strain=green", "Time/Increments=2"]),

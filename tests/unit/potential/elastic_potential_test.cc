@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/algebra/bordered_system.h>
 #include <exemplar/potential/elastic_potential.h>
 #include <exemplar/potential/inertia_term.h>
 
@@ -48,48 +47,6 @@ namespace Exemplar::Testing
     {
       const std::size_t n = columns.size() / examples.n_strained_weights();
       return examples.is_strained(weight) ? columns[examples.strained_index(weight) * n + i] : 0.;
-    }
-
-    TEST(FESpace, TakesTheMeshAsItIs)
-    {
-      const Body body;
-      EXPECT_NEAR(body.fe_space.total_volume(), 4., 1e-13);
-      for (unsigned int cell = 0; cell < body.fe_space.n_cells(); ++cell)
-      {
-        const Matrix3<double> F
-            = body.fe_space.deformation_gradient(cell, body.fe_space.rest_positions());
-        EXPECT_LT(max_difference(F, identity_matrix<double>()), 1e-13);
-      }
-    }
-
-    TEST(FESpace, MassMatrixIsExact)
-    {
-      // rho V / 20 (1 + delta_ab) in each tetrahedron
-      const Body                 body;
-      const Mass                 mass(body.fe_space, body.material, MassMatrix::consistent);
-      dealii::FullMatrix<double> expected(body.fe_space.n_nodes(), body.fe_space.n_nodes());
-      for (unsigned int cell = 0; cell < body.fe_space.n_cells(); ++cell)
-        for (const unsigned int a : body.fe_space.nodes(cell))
-          for (const unsigned int b : body.fe_space.nodes(cell))
-            expected(a, b)
-                += 1000. * body.fe_space.tetrahedron(cell).volume / 20. * (a == b ? 2. : 1.);
-      for (unsigned int a = 0; a < expected.m(); ++a)
-        for (unsigned int b = 0; b < expected.m(); ++b)
-          EXPECT_NEAR(mass.nodal().el(a, b), expected(a, b), 1e-12);
-    }
-
-    TEST(FESpace, LumpedMassIsTheRowSum)
-    {
-      const Body body;
-      const Mass mass(body.fe_space, body.material, MassMatrix::lumped);
-      double     total = 0.;
-      for (unsigned int a = 0; a < body.fe_space.n_nodes(); ++a)
-        for (unsigned int b = 0; b < body.fe_space.n_nodes(); ++b)
-        {
-          total += mass.nodal().el(a, b);
-          EXPECT_TRUE(a == b || mass.nodal().el(a, b) == 0.);
-        }
-      EXPECT_NEAR(total, 4000., 1e-9);
     }
 
     // The frozen energy is quadratic in (x, w), so central differences are exact.
@@ -360,56 +317,6 @@ namespace Exemplar::Testing
       EXPECT_LT(evaluation.gradient.linfty_norm(), 1e-12 * evaluation.force_scale.linfty_norm());
       for (const double derivative : evaluation.weight_gradient)
         EXPECT_NEAR(derivative, 0., 1e-12 * evaluation.weight_scale);
-    }
-
-    // doc/paper-errata.md, 2: with q_i on the left and
-    // (1-eta) R K X on the right a body at rest shrinks to (1-eta) X. Our right side
-    // R K X leaves it where it is. Rollers on three faces through the origin hold it.
-    TEST(ElasticPotential, ThePapersLiteralRightSideShrinksABodyAtRest)
-    {
-      MeshParameters    mesh = box_mesh(2., 2, 2);
-      const Body        body(mesh);
-      ExampleParameters parameters; // only the rest pose: q_0 = 0
-      parameters.importance              = 0.5;
-      const auto                examples = body.examples(parameters);
-      std::vector<unsigned int> rollers;
-      for (unsigned int node = 0; node < body.mesh.n_nodes(); ++node)
-      {
-        if (std::abs(body.mesh.get_nodes()[node][0]) < 1e-12)
-          rollers.push_back(3 * node);
-        for (unsigned int c = 1; c < 3; ++c)
-          if (std::abs(body.mesh.get_nodes()[node][c]) < 1e-12)
-            rollers.push_back(3 * node + c);
-      }
-      const FreeDofs free_dofs(body.fe_space.n_dofs(), rollers);
-      BodyPotential  elastic(body, frozen_model(), examples, free_dofs);
-      const auto    &rest = body.fe_space.rest_positions();
-      elastic.update_rotations(rest); // R = I
-
-      // the internal forces at x = 0 are -R K X: strain -I
-      dealii::Vector<double> origin(rest.size());
-      ElasticEvaluation      evaluation;
-      elastic.evaluate(origin, { 1. }, evaluation);
-      auto matrix = make_cholesky_operator();
-      matrix->reinit(elastic.matrix_pattern);
-      const auto          solver = make_block_system(std::move(matrix), nullptr);
-      std::vector<double> columns;
-      elastic.assemble_tangent(Tangent::convex, origin, { 1. }, solver->matrix_values(), columns);
-      solver->factorize(origin);
-      const auto solve = [&](const double factor)
-      {
-        BorderedVector unknowns;
-        for (const unsigned int dof : free_dofs.list())
-          unknowns.positions.push_back(-factor * evaluation.gradient[dof]);
-        solver->solve(unknowns, {});
-        return unknowns.positions;
-      };
-      const auto ours = solve(1.), printed = solve(1. - parameters.importance);
-      for (unsigned int i = 0; i < free_dofs.size(); ++i)
-      {
-        EXPECT_NEAR(ours[i], rest[free_dofs.list()[i]], 1e-12);
-        EXPECT_NEAR(printed[i], 0.5 * rest[free_dofs.list()[i]], 1e-12);
-      }
     }
   } // namespace
 } // namespace Exemplar::Testing
