@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/long_vectors.h>
 #include <exemplar/algebra/weight_qp.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
@@ -11,16 +12,6 @@
 
 namespace Exemplar
 {
-  namespace
-  {
-    /// The greater of two numbers; a NaN is the greatest, which std::max may pass over.
-    double
-    greater(const double a, const double b)
-    {
-      return a > b || std::isnan(a) ? a : b;
-    }
-  } // namespace
-
   ExampleWeights::ExampleWeights(const ExampleParameters &parameters,
                                  const ExamplePoses      &poses,
                                  const double             unit_energy,
@@ -185,8 +176,8 @@ namespace Exemplar
       for (unsigned int weight = region * k; weight < (region + 1) * k; ++weight)
       {
         const double excess = gradient[weight] + multiplier;
-        result.deviation
-            = greater(is_off(weight) ? std::abs(excess) : std::max(-excess, 0.), result.deviation);
+        result.deviation    = max_or_nan(is_off(weight) ? std::abs(excess) : std::max(-excess, 0.),
+                                      result.deviation);
       }
     }
     return result;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/long_vectors.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/potential/incremental_potential.h>
 
@@ -178,9 +179,7 @@ namespace Exemplar
   {
     double greatest = 0.;
     for (const unsigned int dof : free_dofs.list())
-      if (const double size = std::abs(evaluation.gradient[dof]);
-          size > greatest || std::isnan(size))
-        greatest = size; // a NaN stays, which std::max may pass over
+      greatest = max_or_nan(std::abs(evaluation.gradient[dof]), greatest);
     return free_dofs.exchange().max(greatest);
   }
 

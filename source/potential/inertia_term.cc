@@ -58,8 +58,9 @@ namespace Exemplar
   void
   InertiaTerm::add_tangent(const Vector & /*positions*/, std::vector<double> &values) const
   {
+    const double factor = integrator.mass_factor();
     for (std::size_t i = 0; i < values.size(); ++i)
-      values[i] += integrator.mass_factor() * mass_values[i];
+      values[i] += factor * mass_values[i];
   }
 
   double

@@ -38,10 +38,10 @@ namespace Exemplar
     }
 
     Json
-    memory_of(const Problem &problem)
+    memory_of(const std::vector<PartOfProblem> &parts)
     {
       Json json;
-      for (const PartOfProblem &part : inventory(problem))
+      for (const PartOfProblem &part : parts)
         if (part.bytes)
           json[part.name] = std::round(static_cast<double>(*part.bytes) / 1048.576) / 1000.;
       return json;
@@ -49,10 +49,10 @@ namespace Exemplar
 
     /// Names of the parts that are there, or of those that are not.
     Json
-    parts_of(const Problem &problem, const bool is_there)
+    names_of(const std::vector<PartOfProblem> &parts, const bool is_there)
     {
       Json names = Json::array();
-      for (const PartOfProblem &part : inventory(problem))
+      for (const PartOfProblem &part : parts)
         if (part.is_there == is_there)
           names.push_back(part.name);
       return names;
@@ -67,6 +67,8 @@ namespace Exemplar
                 const std::filesystem::path &file)
   {
     const BlasInfo blas = blas_info();
+
+    const std::vector<PartOfProblem> parts = inventory(problem);
 
     Json json;
     json["program"]      = "exemplar";
@@ -102,9 +104,9 @@ namespace Exemplar
     json["seconds"]         = seconds_of(totals.seconds);
     json["peak_memory_mib"] = peak_memory_mib();
     json["bytes_per_cell"] = std::round(1048576. * peak_memory_mib() / problem.body.mesh.n_cells());
-    json["memory_mib"]     = memory_of(problem);
-    json["used"]           = parts_of(problem, true);
-    json["left_out"]       = parts_of(problem, false);
+    json["memory_mib"]     = memory_of(parts);
+    json["used"]           = names_of(parts, true);
+    json["left_out"]       = names_of(parts, false);
 
     AtomicFile atomic_file(file);
     atomic_file.stream() << json.dump(2) << '\n';

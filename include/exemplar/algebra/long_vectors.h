@@ -32,6 +32,13 @@ namespace Exemplar
     return dot(a, b.data());
   }
 
+  /// The greater of two numbers; a NaN is the greatest, which std::max may pass over.
+  inline double
+  max_or_nan(const double a, const double b)
+  {
+    return a > b || std::isnan(a) ? a : b;
+  }
+
   /// max |a_i|.
   inline double
   max_entry(const std::vector<double> &a)
