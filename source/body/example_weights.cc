@@ -161,6 +161,7 @@ namespace Exemplar
     const unsigned int k = n_per_region();
     const auto is_off = [&](const unsigned int weight) { return !bounded || weights[weight] > 0.; };
     WeightResidual result;
+    MaxMagnitude   deviation;
     for (unsigned int region = 0; region < n_regions(); ++region)
     {
       double       sum = 0.;
@@ -176,10 +177,10 @@ namespace Exemplar
       for (unsigned int weight = region * k; weight < (region + 1) * k; ++weight)
       {
         const double excess = gradient[weight] + multiplier;
-        result.deviation    = max_or_nan(is_off(weight) ? std::abs(excess) : std::max(-excess, 0.),
-                                      result.deviation);
+        deviation.add(is_off(weight) ? excess : std::max(-excess, 0.));
       }
     }
+    result.deviation = deviation.value();
     return result;
   }
 

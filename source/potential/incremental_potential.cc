@@ -3,7 +3,6 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/potential/incremental_potential.h>
 
-#include <cmath>
 
 namespace Exemplar
 {
@@ -177,10 +176,10 @@ namespace Exemplar
   double
   IncrementalPotential::max_free_gradient(const Evaluation &evaluation) const
   {
-    double greatest = 0.;
+    MaxMagnitude greatest;
     for (const unsigned int dof : free_dofs.list())
-      greatest = max_or_nan(std::abs(evaluation.gradient[dof]), greatest);
-    return free_dofs.exchange().max(greatest);
+      greatest.add(evaluation.gradient[dof]);
+    return free_dofs.exchange().max(greatest.value());
   }
 
   Residual

@@ -3,8 +3,9 @@
 #define exemplar_long_vectors_h
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <vector>
 
 namespace Exemplar
@@ -32,21 +33,42 @@ namespace Exemplar
     return dot(a, b.data());
   }
 
-  /// The greater of two numbers; a NaN is the greatest, which std::max may pass over.
-  inline double
-  max_or_nan(const double a, const double b)
+  /// The greatest magnitude of numbers; a NaN counts as greater than all, and std::max would lose it.
+  class MaxMagnitude
   {
-    return a > b || std::isnan(a) ? a : b;
-  }
+  public:
+    void
+    add(const double number)
+    {
+      // In IEEE 754 the bits of magnitudes, read as integers, are in the order of the magnitudes:
+      // numbers, infinity, NaNs. Integers are compared in a cycle, and no NaN needs a branch.
+      std::uint64_t bits;
+      std::memcpy(&bits, &number, sizeof bits);
+      greatest = std::max(greatest, bits & ~sign_bit);
+    }
 
-  /// max |a_i|.
+    /// 0 if there were no numbers.
+    double
+    value() const
+    {
+      double magnitude;
+      std::memcpy(&magnitude, &greatest, sizeof magnitude);
+      return magnitude;
+    }
+
+  private:
+    static constexpr std::uint64_t sign_bit = std::uint64_t(1) << 63;
+    std::uint64_t                  greatest = 0;
+  };
+
+  /// max |a_i|, or NaN if one of them is.
   inline double
   max_entry(const std::vector<double> &a)
   {
-    double greatest = 0.;
+    MaxMagnitude greatest;
     for (const double entry : a)
-      greatest = std::max(greatest, std::abs(entry));
-    return greatest;
+      greatest.add(entry);
+    return greatest.value();
   }
 
   /// a += factor b.

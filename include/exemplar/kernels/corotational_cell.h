@@ -181,10 +181,11 @@ namespace Exemplar
       // W divides by s_i + s_j, but its numerator vanishes faster because of the guard, so that a
       // tiny bound suffices; responses need a greater one
       bound_inverse(Number(1e-8));
-      W           = skew_matrix(B_inverse * axial_vector(commutator(S, T)));
+      W = skew_matrix(B_inverse * axial_vector(commutator(S, T)));
+      if (!any(is_guarded()))
+        return;
       guard_force = -guard_energy(material, phi_derivative, S, D);
-      if (any(is_guarded()))
-        bound_inverse(Number(1e-2));
+      bound_inverse(Number(1e-2));
     }
 
     /// R^T P = T + W + guard, Eq. (17), with P the derivative of psi by F.
