@@ -22,11 +22,17 @@ namespace Exemplar
     static const CellKernels         baseline = cell_kernels_baseline();
     std::vector<const CellKernels *> all      = { &scalar, &baseline };
 #ifdef __x86_64__
-    static const CellKernels avx2 = cell_kernels_avx2(), avx512 = cell_kernels_avx512();
+    // even the function that names the loops is compiled with the instructions of its set
     if (best_instruction_set() >= InstructionSet::avx2)
+    {
+      static const CellKernels avx2 = cell_kernels_avx2();
       all.push_back(&avx2);
+    }
     if (best_instruction_set() >= InstructionSet::avx512)
+    {
+      static const CellKernels avx512 = cell_kernels_avx512();
       all.push_back(&avx512);
+    }
 #endif
     return all;
   }
