@@ -161,12 +161,12 @@ namespace Exemplar
       return add_guard_of_stretch(T_D, material, phi - Number(1.), S);
     }
 
-    /// R^T P without a target, for a guard bound other than no_guard.
+    /// R^T P without a target, for a guard bound other than no_guard, from C:e.
     Matrix3<Number>
-    elastic_force() const
+    elastic_force(const Matrix3<Number> &elastic_stress) const
     {
       if constexpr (CellMaterial<Number>::is_isotropic)
-        return stress(material, e);
+        return elastic_stress;
       CorotationalCell without_target = *this;
       without_target.set_target(Matrix3<Number>{});
       return without_target.force();

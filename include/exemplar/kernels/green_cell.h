@@ -58,9 +58,9 @@ namespace Exemplar
     }
 
     Matrix3<Number>
-    elastic_force() const
+    elastic_force(const Matrix3<Number> &elastic_stress) const
     {
-      return F * stress(this->material, this->e);
+      return F * elastic_stress;
     }
 
     /// P = F T with the second Piola-Kirchhoff stress T = C:(e - D), Eq. (19).

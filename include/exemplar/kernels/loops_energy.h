@@ -125,7 +125,9 @@ namespace Exemplar::Loops
     sums.elastic += elastic;
 
     // R^T P; without examples and damping this is all of it
-    Matrix3<Number> P = has_examples || frozen ? elastic_stress : cell.elastic_force();
+    Matrix3<Number> P = elastic_stress;
+    if (!has_examples && !frozen)
+      P = cell.elastic_force(elastic_stress);
     Matrix3<Number> D;
     if (has_examples)
     {

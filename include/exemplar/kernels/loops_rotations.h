@@ -45,7 +45,8 @@ namespace Exemplar::Loops
         });
   }
 
-  using FourFloats = float __attribute__((vector_size(16)));
+  using FourFloats         = float __attribute__((vector_size(16)));
+  using FourFloatsInMemory = float __attribute__((vector_size(16), aligned(4), may_alias));
 
   /// R of four cells, each in three vectors of which the last holds one number.
   template <typename Number>
@@ -67,12 +68,7 @@ namespace Exemplar::Loops
   add_to(float *sums, const FourFloats (&R)[3])
   {
     for (int part = 0; part < 3; ++part)
-    {
-      FourFloats sum;
-      __builtin_memcpy(&sum, sums + 4 * part, sizeof(sum));
-      sum += R[part];
-      __builtin_memcpy(sums + 4 * part, &sum, sizeof(sum));
-    }
+      *reinterpret_cast<FourFloatsInMemory *>(sums + 4 * part) += R[part];
   }
 
   template <typename Number>
