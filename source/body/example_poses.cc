@@ -2,6 +2,7 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
 #include <exemplar/body/example_poses.h>
+#include <exemplar/body/pose_checks.h>
 #include <exemplar/prm/assignments.h>
 #include <exemplar/prm/expression.h>
 
@@ -74,6 +75,9 @@ namespace Exemplar
       add_pose(name, mesh.find_pose(poses, name, "Examples/Poses"));
     for (const std::string &function : split_trimmed(parameters.pose_functions, '|'))
       add_pose("pose function '" + function + "'", images(function, mesh.get_nodes()));
+    for (unsigned int i = first_strained; i < size(); ++i)
+      if (const std::string problem = describe_pose(mesh, fe_space, positions[i]); !problem.empty())
+        warnings.push_back("Example " + std::to_string(i) + " (" + names[i] + ") " + problem);
     compute_strains();
     compute_gram_matrix(material);
   }
@@ -101,7 +105,6 @@ namespace Exemplar
   {
     strains.resize(batched_size(fe_space.n_cells(), 6 * n_strained()), 0.);
     strain_norms.assign(n_weights(), 0.);
-    std::vector<unsigned int> n_inverted(size(), 0);
     for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
     {
       for (unsigned int i = first_strained; i < size(); ++i)
@@ -109,7 +112,6 @@ namespace Exemplar
         const Matrix3<double> F = fe_space.deformation_gradient(cell, positions[i]);
         const Matrix3<double> E = model_strain(measure, model_rotation(measure, F), F);
         add_to_stored(strains.data(), cell, n_strained(), i - first_strained, 1., E);
-        n_inverted[i] += (determinant(F) <= 0.);
         if (traits_of(measure).has_guard)
           p_0 = std::min(p_0, 0.5 * guard_product(E));
       }
@@ -123,11 +125,6 @@ namespace Exemplar
     }
     for (double &norm : strain_norms)
       norm = std::sqrt(norm);
-    for (unsigned int i = 0; i < size(); ++i)
-      if (n_inverted[i] > 0)
-        warnings.push_back("Example " + std::to_string(i) + " (" + names[i] + ") has "
-                           + std::to_string(n_inverted[i])
-                           + " inverted cells; their strain is ambiguous.");
   }
 
   void

@@ -209,6 +209,14 @@ namespace Exemplar
       check_agreement(shared_nodes(), all, time);
   }
 
+  bool
+  Handles::are_elsewhere(const double time, const dealii::Vector<double> &positions) const
+  {
+    dealii::Vector<double> moved = positions;
+    move(time, moved);
+    return moved != positions;
+  }
+
   dealii::Tensor<1, 3>
   Handles::sum_over(const unsigned int handle, const dealii::Vector<double> &field) const
   {

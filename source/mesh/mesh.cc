@@ -168,6 +168,7 @@ namespace Exemplar
     check_orphan_nodes(contents, name, tetrahedra);
     const std::vector<CellFace> faces = sorted_faces(tetrahedra);
     check_faces(contents, name, tetrahedra, faces);
+    check_overlaps(contents, name, tetrahedra, faces, swapped);
     check_connected(contents, name, tetrahedra, faces);
 
     BoundaryIds boundary_ids(faces);
@@ -176,9 +177,10 @@ namespace Exemplar
         boundary_ids.add(element);
     boundary_ids.report(name, warnings);
 
-    cells          = std::move(tetrahedra.nodes);
-    material_ids   = std::move(tetrahedra.material_ids);
-    boundary_faces = boundary_ids.boundary_faces(cells);
+    cells           = std::move(tetrahedra.nodes);
+    material_ids    = std::move(tetrahedra.material_ids);
+    element_numbers = std::move(tetrahedra.element_numbers);
+    boundary_faces  = boundary_ids.boundary_faces(cells);
     build_triangulation();
   }
 
@@ -224,6 +226,7 @@ namespace Exemplar
         = triangulation.memory_consumption() + contents.nodes.capacity() * sizeof(contents.nodes[0])
           + contents.node_numbers.capacity() * sizeof(contents.node_numbers[0])
           + cells.capacity() * sizeof(cells[0]) + material_ids.capacity() * sizeof(material_ids[0])
+          + element_numbers.capacity() * sizeof(element_numbers[0])
           + boundary_faces.capacity() * sizeof(boundary_faces[0]);
     for (const MshElement &element : contents.elements)
       bytes += sizeof(element) + element.nodes.capacity() * sizeof(element.nodes[0]);

@@ -3,6 +3,7 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/potential/incremental_potential.h>
 
+#include <algorithm>
 
 namespace Exemplar
 {
@@ -83,6 +84,15 @@ namespace Exemplar
       term->set_time(time);
     if (weights != nullptr && !weights->are_unknown())
       state.weights = weights->at(time);
+  }
+
+  bool
+  IncrementalPotential::is_driven(const State &from, const double time) const
+  {
+    if (weights != nullptr && !weights->are_unknown() && weights->at(time) != from.weights)
+      return true;
+    return std::any_of(terms.begin(), terms.end(),
+                       [&](const auto &term) { return term->differs(from.time, time); });
   }
 
   void

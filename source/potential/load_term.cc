@@ -23,6 +23,15 @@ namespace Exemplar
       force_norms[node] = std::hypot(force[3 * node], force[3 * node + 1], force[3 * node + 2]);
   }
 
+  bool
+  LoadTerm::differs(const double time, const double other_time) const
+  {
+    Vector here(rest_positions.size()), there(rest_positions.size());
+    loads.named_loads(time, here);
+    loads.named_loads(other_time, there);
+    return here != there;
+  }
+
   double
   LoadTerm::add(const Vector &positions, Vector &gradient, Vector &force_scale) const
   {

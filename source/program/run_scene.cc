@@ -6,6 +6,7 @@
 #include <exemplar/program/run_scene.h>
 #include <exemplar/run/problem.h>
 #include <exemplar/run/run_writer.h>
+#include <exemplar/run/state_review.h>
 
 #include <iomanip>
 #include <iostream>
@@ -99,7 +100,7 @@ namespace Exemplar
     }
 
     void
-    run_steps(Problem &problem, RunWriter &writer, Progress &progress)
+    run_steps(Problem &problem, RunWriter &writer, Progress &progress, StateReview &review)
     {
       while (problem.state.step < problem.time_axis.n_steps())
       {
@@ -114,6 +115,7 @@ namespace Exemplar
           throw SolverFailure(problem.failure_message(report));
         }
         StepClock::Scope scope(problem.clock, Part::output);
+        review.add_step();
         progress.update(problem.state.step, note(report));
       }
     }
@@ -151,11 +153,12 @@ namespace Exemplar
         print_iteration(*problem, report);
       return !is_interrupted();
     };
-    Progress progress(std::cout, isatty(STDOUT_FILENO) != 0, options.quiet || options.verbose,
-                      problem->state.step, problem->time_axis.n_steps());
+    Progress    progress(std::cout, isatty(STDOUT_FILENO) != 0, options.quiet || options.verbose,
+                         problem->state.step, problem->time_axis.n_steps());
+    StateReview review(*problem);
     try
     {
-      run_steps(*problem, writer, progress);
+      run_steps(*problem, writer, progress, review);
     }
     catch (const Interrupted &)
     {
@@ -168,7 +171,7 @@ namespace Exemplar
     writer.finish(status_name(problem->parameters.solver.method == Method::one_pass
                                   ? SolveStatus::one_pass
                                   : SolveStatus::converged));
-    for (const std::string &warning : problem->warnings_at_end())
+    for (const std::string &warning : review.warnings())
       warn(warning);
     if (!options.quiet)
       print_times(writer.get_totals());

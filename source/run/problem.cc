@@ -199,38 +199,6 @@ namespace Exemplar
     return all;
   }
 
-  bool
-  Problem::is_unloaded() const
-  {
-    if (parameters.scene != SceneKind::statics || actions.loads != nullptr
-        || (examples.weights != nullptr && !examples.weights->are_unknown()))
-      return false;
-    Vector held = body.fe_space.rest_positions();
-    constraints.handles->move(state.time, held);
-    held -= body.fe_space.rest_positions();
-    return held.linfty_norm() < 1e-10 * body.mesh.diameter();
-  }
-
-  std::vector<std::string>
-  Problem::warnings_at_end() const
-  {
-    std::vector<std::string> all;
-    if (const unsigned int inverted = evaluation.elastic.inverted_cells)
-      all.push_back(
-          std::to_string(inverted)
-          + " cells are inverted at the end. The state is an equilibrium, but there may be "
-            "one of less energy: look at the frames, or take smaller steps.");
-    // strains of 1e-4 are no accident
-    if (is_unloaded()
-        && evaluation.elastic.energy > 1e-8 * unit_energy(body.fe_space, body.material))
-      all.push_back(
-          "Nothing loads the body, but it has come to rest in a local minimum of its energy "
-          "at "
-          + shortest_text(evaluation.elastic.energy)
-          + " J, where the rest pose has less: Initial/Pose may be too far from it.");
-    return all;
-  }
-
   std::unique_ptr<Problem>
   make_problem(const SceneParameters &parameters)
   {

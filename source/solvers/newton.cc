@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/solvers/newton.h>
+#include <exemplar/solvers/saddle.h>
 
 #include <boost/serialization/vector.hpp>
 #include <deal.II/base/memory_consumption.h>
@@ -13,8 +14,13 @@ namespace Exemplar
   namespace
   {
     constexpr unsigned int max_halvings_of_increment = 6;
-    constexpr unsigned int max_halvings_of_step      = 30;
-    constexpr double       max_step_length           = 64.;
+
+    /// As many times the maximum of iterations are allowed where halving an increment cannot help,
+    /// because the potential falls in each.
+    constexpr unsigned int patience = 20;
+
+    constexpr unsigned int max_halvings_of_step = 30;
+    constexpr double       max_step_length      = 64.;
   } // namespace
 
   Newton::Newton(const SolverParameters &parameters,
@@ -56,12 +62,15 @@ namespace Exemplar
                   const unsigned int halvings,
                   SolveReport       &report)
   {
-    Trial trial   = start;
-    report.status = SolveStatus::initial;
+    Trial trial     = start;
+    bool  can_halve = false;
+    report.status   = SolveStatus::initial;
     try
     {
+      can_halve = halvings < max_halvings_of_increment && is_driven(start.state, time);
       predict(start, time, halvings == 0, trial, evaluation);
-      iterate(trial, evaluation, report);
+      iterate((can_halve ? 1 : patience) * parameters.maximum_iterations, trial, evaluation,
+              report);
     }
     catch (const SolverFailure &failure)
     {
@@ -74,12 +83,20 @@ namespace Exemplar
       return true;
     }
     start.linearization = {}; // the factor is that of a failed trial
-    if (halvings == max_halvings_of_increment)
-      return false;
+    if (!can_halve)           // but a dynamic step can begin elsewhere: see predict()
+      return halvings == 0 && potential.inertial_positions() != nullptr
+             && advance(start, evaluation, time, halvings + 1, report);
     // from the same state again, with half the way of handles, loads and weights
     const double middle = 0.5 * (start.state.time + time);
     return advance(start, evaluation, middle, halvings + 1, report)
            && advance(start, evaluation, time, halvings + 1, report);
+  }
+
+  bool
+  Newton::is_driven(const State &from, const double time) const
+  {
+    return potential.is_driven(from, time)
+           || (handles != nullptr && handles->are_elsewhere(time, from.positions));
   }
 
   void
@@ -175,7 +192,10 @@ namespace Exemplar
   }
 
   void
-  Newton::iterate(Trial &trial, Evaluation &evaluation, SolveReport &report)
+  Newton::iterate(const unsigned int max_iterations,
+                  Trial             &trial,
+                  Evaluation        &evaluation,
+                  SolveReport       &report)
   {
     evaluate(trial.state, evaluation);
     for (unsigned int iteration = 0;; ++iteration)
@@ -185,7 +205,7 @@ namespace Exemplar
         report.status = SolveStatus::converged;
       else if (!goes_on && may_be_interrupted)
         throw Interrupted("Interrupted.");
-      else if (iteration == parameters.maximum_iterations)
+      else if (iteration == max_iterations)
         report.status = SolveStatus::iteration_limit;
       else
         take_step(trial, evaluation, report);
@@ -278,7 +298,31 @@ namespace Exemplar
     }
     state = start;
     evaluate(state, evaluation);
+    if (report.convexity > 0. && leave_saddle(state, evaluation))
+      return true;
     report.status = SolveStatus::stalled;
+    return false;
+  }
+
+  bool
+  Newton::leave_saddle(State &state, Evaluation &evaluation)
+  {
+    const State  start = state;
+    const Merit  before(potential, evaluation);
+    const Vector down = downward_curvature(system, potential, start, evaluation);
+    const double size = extent(start.positions);
+    for (const double length : { 1e-4 * size, -1e-4 * size, 1e-2 * size, -1e-2 * size })
+    {
+      if (down.size() == 0)
+        break;
+      state = start;
+      state.positions.add(length, down);
+      evaluate(state, evaluation);
+      if (evaluation.potential < before.potential - 1e-12 * std::abs(before.potential))
+        return true;
+    }
+    state = start;
+    evaluate(state, evaluation);
     return false;
   }
 

@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <string>
 
@@ -19,6 +20,15 @@ namespace Exemplar
     char       buffer[32];
     const auto end = std::to_chars(buffer, buffer + sizeof(buffer), value).ptr;
     return { buffer, end };
+  }
+
+  /// A number with three digits, for messages.
+  inline std::string
+  short_text(const double value)
+  {
+    char buffer[32];
+    std::snprintf(buffer, sizeof(buffer), "%.3g", value);
+    return buffer;
   }
 
   /// NaN unless the whole text is a number.

@@ -65,6 +65,10 @@ namespace Exemplar
     void
     move(double time, dealii::Vector<double> &positions) const;
 
+    /// Whether move() would change these positions.
+    bool
+    are_elsewhere(double time, const dealii::Vector<double> &positions) const;
+
     unsigned int
     size() const
     {

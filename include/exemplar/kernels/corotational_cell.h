@@ -4,6 +4,7 @@
 
 #include <exemplar/kernels/elasticity.h>
 #include <exemplar/kernels/model_traits.h>
+#include <exemplar/kernels/stretch_guard.h>
 #include <exemplar/kernels/tetrahedron.h>
 
 #include <limits>
@@ -113,9 +114,19 @@ namespace Exemplar
       B = combine(Number(-1.), S, Number(0.), S);
       for (int i = 0; i < 3; ++i)
         B[i][i] += trace(S);
-      const Guard<Number> g = guard(determinant(B), Number(p_0));
+      const Number        p = determinant(B);
+      const Guard<Number> g = guard(p, Number(p_0));
       phi                   = g.phi;
       phi_derivative        = g.derivative;
+      stretch               = StretchGuard<Number>(material, S, p);
+    }
+
+    /// Make C `factor` times what it was, as damping does. The guard of the stretch belongs to the
+    /// elasticity and stays.
+    void
+    scale_material(const Number &factor)
+    {
+      material = material.scaled(factor);
     }
 
     /// Whether the guard acts, for each lane.
@@ -151,6 +162,20 @@ namespace Exemplar
       return psi + guard_energy(material, Number(1.) - phi, S, D);
     }
 
+    /// Whether the guard of the stretch acts in some lane.
+    bool
+    is_stretched() const
+    {
+      return stretch.acts();
+    }
+
+    /// G of Eq. (24) of a cell that is stretched; not part of energy().
+    Number
+    stretch_energy() const
+    {
+      return stretch.energy();
+    }
+
     /// -d psi / dD. The derivative of psi by a weight w_i is -eta times this, contracted with E_i.
     Matrix3<Number>
     weight_stress(const Matrix3<Number> &D) const
@@ -166,7 +191,7 @@ namespace Exemplar
     elastic_force(const Matrix3<Number> &elastic_stress) const
     {
       if constexpr (CellMaterial<Number>::is_isotropic)
-        return elastic_stress;
+        return add_stretch_force(elastic_stress);
       CorotationalCell without_target = *this;
       without_target.set_target(Matrix3<Number>{});
       return without_target.force();
@@ -188,14 +213,14 @@ namespace Exemplar
       bound_inverse(Number(1e-2));
     }
 
-    /// R^T P = T + W + guard, Eq. (17), with P the derivative of psi by F.
+    /// R^T P = T + W + guards, Eq. (17), with P the derivative of psi by F.
     Matrix3<Number>
     force() const
     {
       Matrix3<Number> P = combine(Number(1.), T, Number(1.), W);
       if (any(is_guarded()))
-        P = combine(Number(1.), P, guard_force, p_derivative());
-      return P;
+        P = combine(Number(1.), P, guard_force, p_derivative(S));
+      return add_stretch_force(P);
     }
 
     /// R^T dP for R^T dF = M, Eq. (18); symmetric in M. In guarded cells the derivative of
@@ -218,8 +243,13 @@ namespace Exemplar
         for (int j = 0; j < 3; ++j)
           skew[i][j] = right[i][j] - dS_W[i][j] - W_dS[i][j];
       const Matrix3<Number> dW = skew_matrix(B_inverse * axial_vector(skew));
-      return combine(Number(1.), Omega * combine(Number(1.), T, Number(1.), W), Number(1.),
-                     combine(Number(1.), dT, Number(1.), dW));
+      const Matrix3<Number> dP = combine(Number(1.), Omega * combine(Number(1.), T, Number(1.), W),
+                                         Number(1.), combine(Number(1.), dT, Number(1.), dW));
+      if (!stretch.acts())
+        return dP;
+      return combine(
+          Number(1.), dP, Number(1.),
+          combine(Number(1.), Omega * stretch.force(), Number(1.), stretch.response(dS)));
     }
 
     /// R^T dP of a change of the target by -E. A column of the coupling is eta times this, with
@@ -247,16 +277,10 @@ namespace Exemplar
         B_inverse = select_matrix(is_guarded(), bounded_inverse(B, least), B_inverse);
     }
 
-    /// dp/dS = I_2 I + I_1 (I_1 I - S) - cof S.
     Matrix3<Number>
-    p_derivative() const
+    add_stretch_force(const Matrix3<Number> &P) const
     {
-      const Number    I_1 = trace(S);
-      const Number    I_2 = Number(0.5) * (I_1 * I_1 - contract(S, S));
-      Matrix3<Number> D   = combine(Number(-1.) * I_1, S, Number(-1.), cofactors(S));
-      for (int i = 0; i < 3; ++i)
-        D[i][i] += I_2 + I_1 * I_1;
-      return D;
+      return stretch.acts() ? combine(Number(1.), P, Number(1.), stretch.force()) : P;
     }
 
     CellMaterial<Number> material;
@@ -269,6 +293,7 @@ namespace Exemplar
     Matrix3<Number>      W;
     Matrix3<Number>      B_inverse;
     Number               guard_force;
+    StretchGuard<Number> stretch;
   };
 } // namespace Exemplar
 

@@ -104,6 +104,24 @@ namespace Exemplar
   {
     return combine(Number(1.), T, Number(2.) * material.mu * factor, deviator(S));
   }
+
+  /// What the guard of stretch_guard.h knows of a material.
+  template <typename Number>
+  struct KinkSlope
+  {
+    Number slope;   ///< c(|F|), above the slope of the energy across the kink [Pa]
+    Number by_norm; ///< its derivative by |F| [Pa]
+    Number margin;  ///< the guard begins where the slope is minus this [Pa]
+  };
+
+  /// tr S = s_1 <= |F| at the kink; with this margin the guard begins at |F| = 1 + 0.8/nu.
+  template <typename Number>
+  KinkSlope<Number>
+  kink_slope(const Isotropic<Number> &material, const Number &norm)
+  {
+    return { material.lambda * (norm - Number(3.)) - Number(2.) * material.mu, material.lambda,
+             Number(0.4) * (material.lambda + material.mu) };
+  }
 } // namespace Exemplar
 
 #endif

@@ -147,6 +147,13 @@ namespace Exemplar::Loops
     else
       sums.energy += elastic;
 
+    if (cell.is_stretched())
+    {
+      const Number stretch = tet.volume * cell.stretch_energy();
+      sums.elastic += stretch;
+      sums.energy += stretch;
+    }
+
     if (task.damping.factors != nullptr)
     {
       const Number          s    = load(task.damping.factors, group, 1, 0);
@@ -155,8 +162,8 @@ namespace Exemplar::Loops
       scale += s * (norm(elastic_stress) + norm(stress(material, past)));
       if (!has_examples)
         D = Matrix3<Number>{};
-      D    = damped_target(D, s, past);
-      cell = Cell(damped_material(material, s), R, F, task.cells.guard_bound);
+      D = damped_target(D, s, past);
+      cell.scale_material(Number(1.) + s);
       if (frozen)
         P = cell.weight_stress(D);
     }

@@ -100,17 +100,9 @@ namespace Exemplar::Loops
     }
   }
 
-  /// The elastic constants of a cell with stiffness damping. The energies of elasticity and of
+  /// The target strain of a cell with stiffness damping. The energies of elasticity and of
   /// damping are 1/2 (e-D):C:(e-D) and s/2 (e-e_past):C:(e-e_past). Up to a constant their sum is
-  /// (1+s)/2 (e-D'):C:(e-D') with D' of damped_target().
-  template <typename Number>
-  inline CellMaterial<Number>
-  damped_material(const CellMaterial<Number> &material, const Number &s)
-  {
-    return material.scaled(Number(1.) + s);
-  }
-
-  /// D' = (D + s e_past) / (1+s).
+  /// (1+s)/2 (e-D'):C:(e-D') with D' = (D + s e_past) / (1+s).
   template <typename Number>
   inline Matrix3<Number>
   damped_target(const Matrix3<Number> &target, const Number &s, const Matrix3<Number> &past)

@@ -17,15 +17,15 @@ namespace Exemplar::Loops
               const Tetrahedron<Number> &tet,
               const Matrix3<Number>     &R)
   {
-    CellMaterial<Number> material = load_material(task.cells, group);
-    Matrix3<Number>      D        = target(task, group);
+    Cell cell(load_material(task.cells, group), R, deformation_gradient(task, group, tet),
+              task.cells.guard_bound);
+    Matrix3<Number> D = target(task, group);
     if (task.damping.factors != nullptr)
     {
       const Number s = load(task.damping.factors, group, 1, 0);
-      material       = damped_material(material, s);
       D              = damped_target(D, s, load_strain(task.damping.strains, group, 1, 0));
+      cell.scale_material(Number(1.) + s);
     }
-    Cell cell(material, R, deformation_gradient(task, group, tet), task.cells.guard_bound);
     cell.set_target(D);
     if constexpr (!Cell::traits.convex_is_rotated)
       if (tangent.convex)

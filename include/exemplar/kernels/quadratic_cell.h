@@ -22,6 +22,24 @@ namespace Exemplar
       return Number(0.) > Number(1.); // false in every lane
     }
 
+    void
+    scale_material(const Number &factor)
+    {
+      material = material.scaled(factor);
+    }
+
+    bool
+    is_stretched() const
+    {
+      return false;
+    }
+
+    Number
+    stretch_energy() const
+    {
+      return Number(0.);
+    }
+
     const Matrix3<Number> &
     strain() const
     {

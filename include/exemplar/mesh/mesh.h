@@ -52,6 +52,13 @@ namespace Exemplar
       return material_ids;
     }
 
+    /// The number of a cell in the mesh file.
+    std::size_t
+    element_number(const unsigned int cell) const
+    {
+      return element_numbers[cell];
+    }
+
     /// Every boundary face; those without a physical surface have id 0.
     const std::vector<BoundaryFace> &
     get_boundary_faces() const
@@ -128,6 +135,7 @@ namespace Exemplar
     double                                   scale;
     std::vector<std::array<unsigned int, 4>> cells;
     std::vector<unsigned int>                material_ids;
+    std::vector<std::size_t>                 element_numbers;
     std::vector<BoundaryFace>                boundary_faces;
     std::vector<std::string>                 warnings;
     dealii::Triangulation<3>                 triangulation;

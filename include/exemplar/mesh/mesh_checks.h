@@ -63,6 +63,16 @@ namespace Exemplar
               const Tetrahedra            &tetrahedra,
               const std::vector<CellFace> &faces);
 
+  /// Refuse neighbours that lie on the same side of their common face: a cell there is inside out.
+  /// The order of a cell's nodes does not tell, because that of valid cells may differ, too.
+  /// `swapped` are the element numbers that orient_tetrahedra() has returned.
+  void
+  check_overlaps(const MshFile                  &contents,
+                 const std::string              &name,
+                 const Tetrahedra               &tetrahedra,
+                 const std::vector<CellFace>    &faces,
+                 const std::vector<std::size_t> &swapped);
+
   /// Refuse a mesh of several bodies: cells must hang together through faces.
   void
   check_connected(const MshFile               &contents,

@@ -43,6 +43,10 @@ namespace Exemplar
     void
     set_time(double time, State &state);
 
+    /// Whether the loads or prescribed weights of time t [s] are others than those of a state.
+    bool
+    is_driven(const State &from, double time) const;
+
     /// Everything at a state. Throws nothing: whoever needs finite numbers asks residual().
     void
     evaluate(const State &at, RotationUse rotations, Evaluation &evaluation);

@@ -18,6 +18,9 @@ namespace Exemplar
     void
     set_time(double time) override;
 
+    bool
+    differs(double time, double other_time) const override;
+
     double
     add(const Vector &positions, Vector &gradient, Vector &force_scale) const override;
 

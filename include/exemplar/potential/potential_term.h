@@ -38,6 +38,13 @@ namespace Exemplar
     {
     }
 
+    /// Whether set_time() for these two times [s] makes different terms.
+    virtual bool
+    differs(double /*time*/, double /*other_time*/) const
+    {
+      return false;
+    }
+
     /// Add the derivative by the positions [N] to `gradient`, and the size of its forces at each
     /// node to `force_scale` [N]. Returns the energy [J].
     virtual double

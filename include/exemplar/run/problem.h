@@ -53,10 +53,6 @@ namespace Exemplar
     std::vector<std::string>
     warnings() const;
 
-    /// What looks wrong in the state that the last step has led to.
-    std::vector<std::string>
-    warnings_at_end() const;
-
     const SceneParameters             parameters; ///< completed
     StepClock                         clock;
     const TimeAxis                    time_axis;
@@ -71,10 +67,6 @@ namespace Exemplar
     Evaluation                        evaluation; ///< at the state
 
   private:
-    /// Whether nothing acts on the body that the rest pose could not bear without strain.
-    bool
-    is_unloaded() const;
-
     /// Whether the body stands on a support of its own, which must not decide how it is turned.
     bool
     turns_freely() const;

@@ -13,7 +13,8 @@ namespace Exemplar
   /// Newton's method on the potential as a function of the positions alone: the weights are the
   /// best ones at every evaluation. Steps come from the exact tangent; where that is indefinite,
   /// from a mixture with the convex one. A line search makes each a descent. Where a step does not
-  /// converge, handles, loads and prescribed weights go half the way first.
+  /// converge, handles, loads and prescribed weights go half the way first. Where none of them
+  /// moves, it goes on as long as the potential falls.
   class Newton : public StepSolver
   {
   public:
@@ -77,6 +78,11 @@ namespace Exemplar
             unsigned int halvings,
             SolveReport &report);
 
+    /// Whether handles, loads or prescribed weights have another place or value at `time`, so that
+    /// half the way there is another problem.
+    bool
+    is_driven(const State &from, double time) const;
+
     /// Put `trial`, a copy of `start`, near its minimum at `time`.
     void
     predict(Trial &start, double time, bool is_whole_step, Trial &trial, Evaluation &evaluation);
@@ -98,7 +104,7 @@ namespace Exemplar
     find_factor(Linearization &linearization);
 
     void
-    iterate(Trial &trial, Evaluation &evaluation, SolveReport &report);
+    iterate(unsigned int max_iterations, Trial &trial, Evaluation &evaluation, SolveReport &report);
 
     void
     take_step(Trial &trial, Evaluation &evaluation, SolveReport &report);
@@ -114,6 +120,11 @@ namespace Exemplar
                  State                &state,
                  Evaluation           &evaluation,
                  SolveReport          &report);
+
+    /// Near a saddle point neither the potential nor the gradient tells which way is down, but the
+    /// curvature does. False if it does not, or the potential does not fall there.
+    bool
+    leave_saddle(State &state, Evaluation &evaluation);
 
     /// One more step with the same factor from the new gradient (Shamanskii's method), if it
     /// halves the gradient.

@@ -18,10 +18,10 @@ namespace Exemplar::Testing
     EXPECT_EQ(max_entry({ 5e-324, -1e-320, 0. }), 1e-320);
     EXPECT_EQ(max_entry({ 1e308, -infinity, 1. }), infinity);
     for (const double not_a_number : { nan, -nan })
-      {
-        EXPECT_TRUE(std::isnan(max_entry({ not_a_number, 1., -infinity })));
-        EXPECT_TRUE(std::isnan(max_entry({ -infinity, not_a_number, 1. })));
-        EXPECT_TRUE(std::isnan(max_entry({ 1., -infinity, not_a_number })));
-      }
+    {
+      EXPECT_TRUE(std::isnan(max_entry({ not_a_number, 1., -infinity })));
+      EXPECT_TRUE(std::isnan(max_entry({ -infinity, not_a_number, 1. })));
+      EXPECT_TRUE(std::isnan(max_entry({ 1., -infinity, not_a_number })));
+    }
   }
 } // namespace Exemplar::Testing

@@ -38,7 +38,8 @@ namespace Exemplar::Testing
     double
     energy(const Matrix3<double> &F, const Matrix3<double> &D)
     {
-      return cell_at<Cell>(F).energy(D);
+      const Cell cell = cell_at<Cell>(F);
+      return cell.energy(D) + (cell.is_stretched() ? cell.stretch_energy() : 0.);
     }
 
     /// P.
@@ -96,7 +97,11 @@ namespace Exemplar::Testing
               { "inverted", turned(diagonal(1.5, 1.2, -0.4)) },
               { "inverted, guarded", turned(diagonal(1.1, 0.7, -0.5)) },
               { "compressed", turned(diagonal(0.4, 0.3, 0.2)) },
-              { "line", turned(diagonal(1.2, 0.3, 0.1)) } };
+              { "line", turned(diagonal(1.2, 0.3, 0.1)) },
+              { "pulled, where its guard begins", turned(diagonal(4., 0.15, 0.1)) },
+              { "pulled", turned(diagonal(6., 0.2, 0.1)) },
+              { "pulled, inverted", turned(diagonal(6., 0.4, -0.3)) },
+              { "pulled to a line", turned(diagonal(9., 0.1, 0.)) } };
       for (int sample = 0; sample < 6; ++sample)
         all.emplace_back("random", combine(1., I, 0.4, random_matrix(generator)));
       return all;
@@ -303,12 +308,57 @@ namespace Exemplar::Testing
     {
       for (const auto &[name, F] : states())
       {
+        if (cell_at<Corotational>(F).is_stretched())
+          continue; // the frozen force has no guards
         const Matrix3<double> R = closest_rotation(F);
         EXPECT_LT(max_difference(force<Corotational>(F, Matrix3<double>{}),
                                  R * stress(material, corotated_strain(R, F))),
                   1e-12)
             << name;
       }
+    }
+
+    Matrix3<double>
+    diagonal(const double a, const double b, const double c)
+    {
+      return { { { a, 0., 0. }, { 0., b, 0. }, { 0., 0., c } } };
+    }
+
+    const double nu = material.lambda / (2. * (material.lambda + material.mu));
+
+    TEST(StretchGuard, BeginsAtItsBound)
+    {
+      // |F| = 1 + 0.8/nu
+      const double bound = 1. + 0.8 / nu;
+      for (const double flatness : { 0., 0.01, 0.1, 0.5, 1. })
+        for (const double mirrored : { 1., -1. })
+        {
+          Matrix3<double> F    = diagonal(1., flatness, mirrored * flatness);
+          const double    norm = std::sqrt(contract(F, F));
+          EXPECT_FALSE(
+              cell_at<Corotational>(combine((1. - 1e-9) * bound / norm, F, 0., F)).is_stretched());
+          EXPECT_EQ(
+              cell_at<Corotational>(combine((1. + 1e-9) * bound / norm, F, 0., F)).is_stretched(),
+              mirrored < 0. || flatness < 0.05)
+              << flatness;
+        }
+    }
+
+    TEST(StretchGuard, NoMinimumOfTheEnergyIsAtTheKink)
+    {
+      // from S = diag(s_1, s, -s) the energy falls to both sides, as s_2 + s_3 grows from 0
+      const auto energy_at = [](const double s_1, const double s, const double sum)
+      { return energy<Corotational>(diagonal(s_1, s + sum, -s), Matrix3<double>{}); };
+      for (const double pull : { 1.01, 1.5, 4., 10., 100. })
+        for (const double s : { 0., 0.1, 0.5 })
+        {
+          const double s_1 = pull * (1. + 1. / nu);
+          EXPECT_LT(energy_at(s_1, s, 1e-4), energy_at(s_1, s, 0.)) << s_1 << ' ' << s;
+          // which without the guard it would not
+          const Corotational at   = cell_at<Corotational>(diagonal(s_1, s, -s)),
+                             next = cell_at<Corotational>(diagonal(s_1, s + 1e-6, -s));
+          EXPECT_TRUE(s > 0. || next.energy({}) > at.energy({}));
+        }
     }
 
     TEST(ConsistentForce, StaysBoundedAndContinuousWhereTheRotationIsAmbiguous)

@@ -61,6 +61,22 @@ namespace Exemplar::Testing
       expect_contains(mesh.get_warnings()[0], "element 102.");
     }
 
+    TEST(MeshTest, RefusesCellsThatAreInsideOut)
+    {
+      MshFile msh  = two_tetrahedra();
+      msh.nodes[4] = { 0.1, 0.1, 0.05 }; // node 14 on the other side of the face to its neighbour
+      expect_contains(error_of(msh), "1 of 2 tetrahedra are inside out");
+      expect_contains(error_of(msh), "element 102.");
+      for (auto &node : msh.nodes)
+        node[0] = -node[0]; // in a mirrored mesh the wrong one has a positive volume
+      expect_contains(error_of(msh), "inside out");
+
+      msh = two_tetrahedra();
+      for (auto &node : msh.nodes)
+        node[0] = -node[0];
+      EXPECT_EQ(error_of(msh), ""); // all cells are mirrored: only the order of nodes is another
+    }
+
     TEST(MeshTest, RefusesOtherElements)
     {
       MshFile msh = two_tetrahedra();

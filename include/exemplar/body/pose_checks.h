@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_pose_checks_h
+#define exemplar_pose_checks_h
+
+#include <exemplar/body/fe_space.h>
+#include <exemplar/mesh/mesh.h>
+
+#include <string>
+#include <vector>
+
+namespace Exemplar
+{
+  /// What looks wrong in an example pose, by its size and its cells' volumes: collapsed, of other
+  /// units, flat, mirrored, with inverted cells, or the rest pose moved rigidly. `positions` are
+  /// by degree of freedom [m]. A clause that follows the example's name in a warning; empty if
+  /// nothing looks wrong.
+  std::string
+  describe_pose(const Mesh                   &mesh,
+                const FESpace                &fe_space,
+                const dealii::Vector<double> &positions);
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_stretch_guard_h
+#define exemplar_stretch_guard_h
+
+#include <exemplar/kernels/elasticity.h>
+
+// The guard of strongly stretched cells. The energy (5) of plain elasticity is
+// mu (|F|^2 + 3) - 2 mu tr S + lambda/2 (tr S - 3)^2. All of it is smooth in F but tr S, which has
+// a kink like |s_2 + s_3| where the least singular values of F cancel (s_3 < 0 in a mirrored cell)
+// and S is not unique. The slope of the energy by s_2 + s_3 is
+//
+//   c = lambda (tr S - 3) - 2 mu
+//
+// there, positive once s_1 > 1 + 1/nu: then the kink is a minimum at which no gradient vanishes,
+// and no method converges. The guard adds, Eq. (24),
+//
+//   G = 4 q(c(|F|)) r(y),   r(y) = y_0/3 (1 - y/y_0)^3 for y < y_0, else 0,   y = p / |F|^2,
+//
+// with p = (s_1+s_2)(s_2+s_3)(s_3+s_1) and a smooth q >= max(c, 0). At the kink y is about
+// s_2 + s_3 and r' = -1, so that the slope of the whole is about c - 4 q < 0: cells are pushed off
+// the kink to where the energy has a smooth minimum. G is 0 unless |F| > 1 + 0.8/nu and y < y_0.
+// No deal.II header here: see matrix3.h.
+
+namespace Exemplar
+{
+  /// dp/dS = tr(S)^2 I - S^2 for the product p of the sums of two eigenvalues of S.
+  template <typename Number>
+  Matrix3<Number>
+  p_derivative(const Matrix3<Number> &S)
+  {
+    const Number    I_1 = trace(S);
+    Matrix3<Number> D   = S * S;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        D[i][j] = (i == j ? I_1 * I_1 : Number(0.)) - D[i][j];
+    return D;
+  }
+
+  /// The change of p_derivative() with S.
+  template <typename Number>
+  Matrix3<Number>
+  p_second_derivative(const Matrix3<Number> &S, const Matrix3<Number> &dS)
+  {
+    const Number          change_of_square = Number(2.) * trace(S) * trace(dS);
+    const Matrix3<Number> SdS              = S * dS;
+    Matrix3<Number>       dD;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        dD[i][j] = (i == j ? change_of_square : Number(0.)) - SdS[i][j] - SdS[j][i];
+    return dD;
+  }
+
+  template <typename Number>
+  class StretchGuard
+  {
+  public:
+    /// That of an undeformed cell, which does nothing.
+    StretchGuard() = default;
+
+    /// `p` is the product of the sums of two eigenvalues of S.
+    StretchGuard(const CellMaterial<Number> &material, const Matrix3<Number> &S, const Number &p)
+        : S(S)
+    {
+      const Number u = contract(S, S);
+      is_acting      = p < Number(y_0) * u;
+      if (!any(is_acting))
+        return;
+      norm                         = sqrt(u);
+      y                            = p / u;
+      const KinkSlope<Number> kink = kink_slope(material, norm);
+      const Number            rise = kink.slope + kink.margin;
+      is_acting                    = is_acting & (rise > Number(0.));
+      if (!any(is_acting))
+        return;
+      // 4 q = (c + m)^2 / m for |c| < m, then 4 c
+      const auto is_beyond = kink.slope >= kink.margin;
+      const auto keep = [&](const Number &number) { return select(is_acting, number, Number(0.)); };
+      q[0]            = keep(select(is_beyond, Number(4.) * kink.slope, rise * rise / kink.margin));
+      q[1] = keep(select(is_beyond, Number(4.), Number(2.) * rise / kink.margin)) * kink.by_norm;
+      q[2] = keep(select(is_beyond, Number(0.), Number(2.) / kink.margin)) * kink.by_norm
+             * kink.by_norm;
+      const Number z = Number(1.) - y / Number(y_0);
+      r[0]           = Number(y_0 / 3.) * z * z * z;
+      r[1]           = -z * z;
+      r[2]           = Number(2. / y_0) * z;
+      y_derivative   = combine(Number(1.) / u, p_derivative(S), Number(-2.) * y / u, S);
+    }
+
+    /// Whether it acts in some lane.
+    bool
+    acts() const
+    {
+      return any(is_acting);
+    }
+
+    /// G, where it acts [Pa].
+    Number
+    energy() const
+    {
+      return q[0] * r[0];
+    }
+
+    /// R^T dG/dF, where it acts.
+    Matrix3<Number>
+    force() const
+    {
+      return combine(q[1] * r[0] / norm, S, q[0] * r[1], y_derivative);
+    }
+
+    /// The change of force() with S, where it acts.
+    Matrix3<Number>
+    response(const Matrix3<Number> &dS) const
+    {
+      const Number d_norm = contract(S, dS) / norm;
+      const Number dy     = contract(y_derivative, dS);
+      // of y_derivative = (dp/dS - 2 y S) / |F|^2
+      const Matrix3<Number> dD = p_second_derivative(S, dS);
+      Matrix3<Number>       d_derivative;
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+          d_derivative[i][j] = ((dD[i][j] - Number(2.) * (dy * S[i][j] + y * dS[i][j])) / norm
+                                - Number(2.) * d_norm * y_derivative[i][j])
+                               / norm;
+      const Number          a  = q[1] * r[0] / norm; // force() is a S + b y_derivative
+      const Number          b  = q[0] * r[1];
+      const Number          da = (q[2] * r[0] * d_norm + q[1] * r[1] * dy - a * d_norm) / norm;
+      const Number          db = q[1] * r[1] * d_norm + q[0] * r[2] * dy;
+      const Matrix3<Number> of_factors = combine(da, S, db, y_derivative);
+      const Matrix3<Number> of_vectors = combine(a, dS, b, d_derivative);
+      return combine(Number(1.), of_factors, Number(1.), of_vectors);
+    }
+
+  private:
+    static constexpr double y_0 = 0.4; ///< of 8/3 at rest
+
+    using Mask = decltype(Number() < Number());
+
+    Mask            is_acting = Number(0.) > Number(0.);
+    Matrix3<Number> S;
+    Number          norm; ///< |F|
+    Number          y;
+    Number          q[3], r[3];   ///< 4 q and its derivatives by |F|; r and its derivatives by y
+    Matrix3<Number> y_derivative; ///< by S
+  };
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/number_text.h>
+#include <exemplar/body/pose_checks.h>
+#include <exemplar/kernels/matrix3.h>
+#include <exemplar/mesh/mesh_checks.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Exemplar
+{
+  namespace
+  {
+    /// Beyond a factor of this, either way, a size is no deformation but another unit.
+    constexpr double max_size_ratio = 100.;
+
+    /// Of the volume that a cell of the pose's size would have.
+    constexpr double flat_tolerance = 1e-9;
+
+    /// Of the Green strain.
+    constexpr double rigid_tolerance = 1e-9;
+
+    struct PoseMeasures
+    {
+      double                   size_ratio; ///< of the pose to the rest pose
+      double                   max_strain     = 0.;
+      double                   max_abs_volume = 0.; ///< det F over size_ratio^3
+      std::vector<std::size_t> inverted;            ///< element numbers
+    };
+
+    PoseMeasures
+    measure(const Mesh &mesh, const FESpace &fe_space, const dealii::Vector<double> &positions)
+    {
+      PoseMeasures pose;
+      double       square = 0., volume = 0.;
+      for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
+      {
+        const Matrix3<double> F = fe_space.deformation_gradient(cell, positions);
+        square += fe_space.tetrahedron(cell).volume * contract(F, F) / 3.;
+        volume += fe_space.tetrahedron(cell).volume;
+        const double det    = determinant(F);
+        pose.max_abs_volume = std::max(pose.max_abs_volume, std::abs(det));
+        if (det <= 0.)
+          pose.inverted.push_back(mesh.element_number(cell));
+        const Matrix3<double> C = transpose_times(F, F);
+        for (int i = 0; i < 3; ++i)
+          for (int j = 0; j < 3; ++j)
+            pose.max_strain
+                = std::max(pose.max_strain, std::abs(C[i][j] - (i == j ? 1. : 0.)) / 2.);
+      }
+      pose.size_ratio = std::sqrt(square / volume);
+      pose.max_abs_volume /= std::pow(std::max(pose.size_ratio, 1e-100), 3);
+      return pose;
+    }
+
+    std::string
+    describe_inverted(const PoseMeasures &pose, const unsigned int n_cells)
+    {
+      if (pose.max_abs_volume < flat_tolerance)
+        return "is flat: none of its cells has a volume, and their strain is ambiguous. Give "
+               "another pose.";
+      if (pose.inverted.size() == n_cells)
+        return "is a mirror image: all of its cells are inside out, and their strain is ambiguous. "
+               "Mirror it back: negate one coordinate.";
+      return "has " + std::to_string(pose.inverted.size()) + " inverted cells: element "
+             + list_numbers(pose.inverted) + "; their strain is ambiguous.";
+    }
+  } // namespace
+
+  std::string
+  describe_pose(const Mesh &mesh, const FESpace &fe_space, const dealii::Vector<double> &positions)
+  {
+    const PoseMeasures pose  = measure(mesh, fe_space, positions);
+    const std::string  ratio = short_text(pose.size_ratio);
+    if (pose.size_ratio * max_size_ratio < 1.)
+      return "has collapsed: it has " + ratio
+             + " of the rest pose's size. If its unit of length is another one, scale it.";
+    if (pose.size_ratio > max_size_ratio)
+      return "is " + ratio
+             + " times as large as the rest pose. If its unit of length is another one, scale it.";
+    if (!pose.inverted.empty())
+      return describe_inverted(pose, fe_space.n_cells());
+    if (pose.max_strain < rigid_tolerance)
+      return "is the rest pose, moved rigidly at most: it has no strain, and pulls the body "
+             "nowhere.";
+    return "";
+  }
+} // namespace Exemplar

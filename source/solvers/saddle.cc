@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/solvers/saddle.h>
+
+#include <algorithm>
+#include <random>
+
+namespace Exemplar
+{
+  namespace
+  {
+    constexpr unsigned int max_power_iterations = 60;
+
+    /// Above the ratios v.K v / v.A v of convex parts: K has at most 8/7 of a mixture with an
+    /// eighth of the convex tangent.
+    constexpr double shift = 1.2;
+
+    Vector
+    arbitrary_displacement(const IncrementalPotential &potential, const unsigned int n)
+    {
+      Vector       displacement(n);
+      std::mt19937 generator(1); // gives the same numbers everywhere
+      for (const unsigned int dof : potential.get_free_dofs().list())
+        displacement[dof] = static_cast<double>(generator()) / 4294967296. - 0.5;
+      return displacement;
+    }
+
+    /// K v, by central differences; only what belongs to free degrees of freedom means anything.
+    Vector
+    times_tangent(IncrementalPotential &potential,
+                  const State          &at,
+                  const Vector         &displacement,
+                  Evaluation           &evaluation)
+    {
+      const double length = 1e-6 * extent(at.positions);
+      Vector       change;
+      for (const double side : { length, -length })
+      {
+        State beside = at;
+        beside.positions.add(side, displacement);
+        potential.minimize_over_weights(beside, RotationUse::update, evaluation);
+        if (change.size() == 0)
+          change = evaluation.gradient;
+        else
+          change -= evaluation.gradient;
+      }
+      change /= 2. * length;
+      return change;
+    }
+
+    double
+    free_product(const IncrementalPotential &potential, const Vector &a, const Vector &b)
+    {
+      double sum = 0.;
+      for (const unsigned int dof : potential.get_free_dofs().list())
+        sum += a[dof] * b[dof];
+      return potential.get_free_dofs().exchange().sum(sum);
+    }
+  } // namespace
+
+  Vector
+  downward_curvature(StepSystem           &system,
+                     IncrementalPotential &potential,
+                     const State          &at,
+                     Evaluation           &evaluation)
+  {
+    Vector v = arbitrary_displacement(potential, at.positions.size());
+    for (unsigned int i = 0; i < max_power_iterations; ++i)
+    {
+      evaluation.gradient = times_tangent(potential, at, v, evaluation);
+      evaluation.elastic.weight_gradient.assign(evaluation.elastic.weight_gradient.size(), 0.);
+      if (i > 0 && free_product(potential, v, evaluation.gradient) < 0.)
+        return v;
+      v *= shift;
+      v += system.displacement(at, system.solve(at, evaluation)); // -A^-1 K v
+      const double greatest = potential.get_free_dofs().exchange().max(v.linfty_norm());
+      if (!(greatest > 0.))
+        break;
+      v /= greatest;
+    }
+    return {};
+  }
+
+  double
+  extent(const Vector &positions)
+  {
+    double greatest = 0.;
+    for (unsigned int c = 0; c < 3; ++c)
+    {
+      double least = positions[c], most = positions[c];
+      for (unsigned int dof = c; dof < positions.size(); dof += 3)
+      {
+        least = std::min(least, positions[dof]);
+        most  = std::max(most, positions[dof]);
+      }
+      greatest = std::max(greatest, most - least);
+    }
+    return greatest;
+  }
+} // namespace Exemplar
