@@ -19,8 +19,6 @@ namespace Exemplar
     /// because the potential falls in each.
     constexpr unsigned int patience = 20;
 
-    constexpr unsigned int max_halvings_of_step = 30;
-    constexpr double       max_step_length      = 64.;
   } // namespace
 
   Newton::Newton(const SolverParameters &parameters,
@@ -201,7 +199,8 @@ namespace Exemplar
     for (unsigned int iteration = 0;; ++iteration)
     {
       const bool goes_on = report_iteration(potential, evaluation, trial.state, report);
-      if (has_met(parameters.tolerance, report))
+      const bool is_met  = has_met(parameters.tolerance, report);
+      if (is_met && (iteration == max_iterations || is_placed(trial.state, evaluation)))
         report.status = SolveStatus::converged;
       else if (!goes_on && may_be_interrupted)
         throw Interrupted("Interrupted.");
@@ -209,9 +208,28 @@ namespace Exemplar
         report.status = SolveStatus::iteration_limit;
       else
         take_step(trial, evaluation, report);
+      if (is_met && report.status != SolveStatus::initial)
+        report.status = SolveStatus::converged; // as near as rounding lets it come
       if (report.status != SolveStatus::initial)
         return;
       ++report.iterations;
+    }
+  }
+
+  bool
+  Newton::is_placed(const State &state, const Evaluation &evaluation)
+  {
+    // inertia holds a body, but in statics small forces can move soft or thin parts far
+    if (potential.inertial_positions() != nullptr || system.n_factorizations() == 0)
+      return true;
+    try
+    {
+      const Vector error = system.displacement(state, system.solve(state, evaluation));
+      return error.linfty_norm() <= parameters.tolerance * extent(state.positions);
+    }
+    catch (const SolverFailure &)
+    {
+      return false; // the factor is not one for these weights
     }
   }
 
@@ -229,126 +247,6 @@ namespace Exemplar
     // statics predict with the factor, if it is that of the exact tangent
     const bool is_used_again = potential.inertial_positions() == nullptr && report.convexity == 0.;
     trial.linearization      = is_used_again ? std::move(here) : Linearization();
-  }
-
-  bool
-  Newton::find_step(const State      &state,
-                    const Evaluation &evaluation,
-                    BorderedVector   &step,
-                    SolveReport      &report)
-  {
-    // the least part of the convex tangent that makes the mixture definite
-    for (const double convexity : { 0., 0.125, 0.5, 1. })
-    {
-      report.convexity = convexity;
-      try
-      {
-        system.factorize(state.positions, state.weights, convexity);
-        step = system.solve(state, evaluation);
-      }
-      catch (const SolverFailure &failure)
-      {
-        report.failure = failure.what();
-        continue; // indefinite
-      }
-      report.failure.clear();
-      if (system.slope(evaluation, step) < 0.)
-        return true;
-    }
-    report.status = report.failure.empty() ? SolveStatus::stalled : SolveStatus::indefinite;
-    return false;
-  }
-
-  bool
-  Newton::search_along(const BorderedVector &step,
-                       State                &state,
-                       Evaluation           &evaluation,
-                       SolveReport          &report)
-  {
-    const State  start        = state;
-    const Vector displacement = system.displacement(state, step);
-    const double slope        = system.slope(evaluation, step);
-    const Merit  before(potential, evaluation);
-    double      &length     = report.step_length;
-    const auto   try_length = [&](const double new_length)
-    {
-      length = new_length;
-      state  = start;
-      state.positions.add(length, displacement);
-      evaluate(state, evaluation);
-    };
-    for (unsigned int halving = 0; halving < max_halvings_of_step; ++halving)
-    {
-      try_length(std::pow(0.5, halving));
-      if (!is_better({ potential, evaluation }, before, length * slope))
-        continue;
-      // the convex tangent is too stiff near a saddle: go on as long as it goes down
-      double reached = evaluation.potential;
-      while (report.convexity > 0. && length >= 1. && length < max_step_length)
-      {
-        try_length(2. * length);
-        if (!(evaluation.potential < reached))
-        {
-          try_length(0.5 * length);
-          break;
-        }
-        reached = evaluation.potential;
-      }
-      return true;
-    }
-    state = start;
-    evaluate(state, evaluation);
-    if (report.convexity > 0. && leave_saddle(state, evaluation))
-      return true;
-    report.status = SolveStatus::stalled;
-    return false;
-  }
-
-  bool
-  Newton::leave_saddle(State &state, Evaluation &evaluation)
-  {
-    const State  start = state;
-    const Merit  before(potential, evaluation);
-    const Vector down = downward_curvature(system, potential, start, evaluation);
-    const double size = extent(start.positions);
-    for (const double length : { 1e-4 * size, -1e-4 * size, 1e-2 * size, -1e-2 * size })
-    {
-      if (down.size() == 0)
-        break;
-      state = start;
-      state.positions.add(length, down);
-      evaluate(state, evaluation);
-      if (evaluation.potential < before.potential - 1e-12 * std::abs(before.potential))
-        return true;
-    }
-    state = start;
-    evaluate(state, evaluation);
-    return false;
-  }
-
-  void
-  Newton::correct_with_same_factor(State &state, Evaluation &evaluation)
-  {
-    const State    start = state;
-    const Merit    before(potential, evaluation);
-    BorderedVector step;
-    try
-    {
-      step = system.solve(state, evaluation);
-    }
-    catch (const SolverFailure &)
-    {
-      return; // for other active weights the Schur complement may be indefinite
-    }
-    const double slope = system.slope(evaluation, step);
-    state.positions += system.displacement(state, step);
-    evaluate(state, evaluation);
-    const Merit now(potential, evaluation);
-    if (slope < 0. && now.max_free_gradient < 0.5 * before.max_free_gradient
-        && is_better(now, before, slope))
-      return;
-    state = start;
-    evaluate(state, evaluation);
   }
 
   void

@@ -36,7 +36,9 @@ namespace Exemplar
         "forces, for which nothing else converges.");
     keys.add("Tolerance", tolerance,
              "Relative residual at which a step has converged: the greatest free residual "
-             "force over the greatest nodal force scale. Not used by one pass.",
+             "force over the greatest nodal force scale. With newton, in static scenes and "
+             "interpolations, also the error of the positions over the body's size, estimated by a "
+             "further step with the same matrix. Not used by one pass.",
              Bounds{ 1e-16, 1. });
     keys.add("Step tolerance", step_tolerance,
              "Error of the positions at which a step of quasi newton has converged, "

@@ -106,6 +106,11 @@ namespace Exemplar
     void
     iterate(unsigned int max_iterations, Trial &trial, Evaluation &evaluation, SolveReport &report);
 
+    /// Whether the error of the positions in statics, estimated by a step with the last factor, is
+    /// at most the tolerance, relative to the body's size. A small residual does not promise it.
+    bool
+    is_placed(const State &state, const Evaluation &evaluation);
+
     void
     take_step(Trial &trial, Evaluation &evaluation, SolveReport &report);
 

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
+#include <exemplar/solvers/newton.h>
+#include <exemplar/solvers/saddle.h>
+
+#include <cmath>
+
+// A step of Newton's method: its direction, its length, and the way off a saddle point.
+
+namespace Exemplar
+{
+  namespace
+  {
+    constexpr unsigned int max_halvings_of_step = 30;
+    constexpr double       max_step_length      = 64.;
+  } // namespace
+
+  bool
+  Newton::find_step(const State      &state,
+                    const Evaluation &evaluation,
+                    BorderedVector   &step,
+                    SolveReport      &report)
+  {
+    // the least part of the convex tangent that makes the mixture definite
+    for (const double convexity : { 0., 0.125, 0.5, 1. })
+    {
+      report.convexity = convexity;
+      try
+      {
+        system.factorize(state.positions, state.weights, convexity);
+        step = system.solve(state, evaluation);
+      }
+      catch (const SolverFailure &failure)
+      {
+        report.failure = failure.what();
+        continue; // indefinite
+      }
+      report.failure.clear();
+      if (system.slope(evaluation, step) < 0.)
+        return true;
+    }
+    report.status = report.failure.empty() ? SolveStatus::stalled : SolveStatus::indefinite;
+    return false;
+  }
+
+  bool
+  Newton::search_along(const BorderedVector &step,
+                       State                &state,
+                       Evaluation           &evaluation,
+                       SolveReport          &report)
+  {
+    const State  start        = state;
+    const Vector displacement = system.displacement(state, step);
+    const double slope        = system.slope(evaluation, step);
+    const Merit  before(potential, evaluation);
+    double      &length     = report.step_length;
+    const auto   try_length = [&](const double new_length)
+    {
+      length = new_length;
+      state  = start;
+      state.positions.add(length, displacement);
+      evaluate(state, evaluation);
+    };
+    for (unsigned int halving = 0; halving < max_halvings_of_step; ++halving)
+    {
+      try_length(std::pow(0.5, halving));
+      if (!is_better({ potential, evaluation }, before, length * slope))
+        continue;
+      // the convex tangent is too stiff near a saddle: go on as long as it goes down
+      double reached = evaluation.potential;
+      while (report.convexity > 0. && length >= 1. && length < max_step_length)
+      {
+        try_length(2. * length);
+        if (!(evaluation.potential < reached))
+        {
+          try_length(0.5 * length);
+          break;
+        }
+        reached = evaluation.potential;
+      }
+      return true;
+    }
+    state = start;
+    evaluate(state, evaluation);
+    if (report.convexity > 0. && leave_saddle(state, evaluation))
+      return true;
+    report.status = SolveStatus::stalled;
+    return false;
+  }
+
+  bool
+  Newton::leave_saddle(State &state, Evaluation &evaluation)
+  {
+    const State  start = state;
+    const Merit  before(potential, evaluation);
+    const Vector down = downward_curvature(system, potential, start, evaluation);
+    const double size = extent(start.positions);
+    for (const double length : { 1e-4 * size, -1e-4 * size, 1e-2 * size, -1e-2 * size })
+    {
+      if (down.size() == 0)
+        break;
+      state = start;
+      state.positions.add(length, down);
+      evaluate(state, evaluation);
+      if (evaluation.potential < before.potential - 1e-12 * std::abs(before.potential))
+        return true;
+    }
+    state = start;
+    evaluate(state, evaluation);
+    return false;
+  }
+
+  void
+  Newton::correct_with_same_factor(State &state, Evaluation &evaluation)
+  {
+    const State    start = state;
+    const Merit    before(potential, evaluation);
+    BorderedVector step;
+    try
+    {
+      step = system.solve(state, evaluation);
+    }
+    catch (const SolverFailure &)
+    {
+      return; // for other active weights the Schur complement may be indefinite
+    }
+    const double slope = system.slope(evaluation, step);
+    state.positions += system.displacement(state, step);
+    evaluate(state, evaluation);
+    const Merit now(potential, evaluation);
+    if (slope < 0. && now.max_free_gradient < 0.5 * before.max_free_gradient
+        && is_better(now, before, slope))
+      return;
+    state = start;
+    evaluate(state, evaluation);
+  }
+} // namespace Exemplar
