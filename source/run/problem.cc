@@ -174,6 +174,9 @@ namespace Exemplar
   {
     Conditioning result;
     result.matrix                           = system.bordered().traits().pivot_ratio;
+      if (bytes.peek() != std::char_traits<char>::eof())
+        throw boost::archive::archive_exception(
+            boost::archive::archive_exception::input_stream_error);
     const dealii::FullMatrix<double> &schur = solver->schur_complement();
     if (schur.m() > 0)
       result.schur = condition_number(form_of_differences(schur, examples.weights->n_per_region()));

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/atomic_file.h>
+#include <exemplar/base/digest.h>
+#include <exemplar/base/errors.h>
 #include <exemplar/run/resume_checks.h>
 #include <exemplar/run/run_writer.h>
 #include <exemplar/run/summary.h>
@@ -82,7 +84,9 @@ namespace Exemplar
   RunWriter::resume()
   {
     const Checkpoint checkpoint = load_checkpoint(directory.checkpoint());
-    check_resumable(checkpoint, scene, input_digests, problem.time_axis, directory.checkpoint());
+    check_resumable(checkpoint, scene, input_digests, problem, directory.checkpoint());
+    check_statistics(directory.statistics(), checkpoint);
+    restore(checkpoint, directory.checkpoint(), problem); // the last thing that may refuse
     {
       StepClock::Scope scope(problem.clock, Part::output);
       statistics.emplace(directory.statistics(), checkpoint.statistics_bytes);
@@ -91,7 +95,6 @@ namespace Exemplar
     }
     if (is_only_last_frame(checkpoint) && !frames.is_due(checkpoint.state.step))
       frames.remove(checkpoint.state.step);
-    restore(checkpoint, directory.checkpoint(), problem);
     diagnostics.resume(checkpoint.work);
     accepted_bytes         = checkpoint.statistics_bytes;
     totals                 = checkpoint.totals;
@@ -195,7 +198,8 @@ namespace Exemplar
     frames.drain(); // because a resumed run does not write them again
     last_checkpoint = std::chrono::steady_clock::now();
     save_checkpoint({ values_of(scene), input_digests, problem.state, problem.solver_memory(),
-                      diagnostics.get_work(), totals, accepted_bytes },
+                      diagnostics.get_work(), totals, accepted_bytes,
+                      sha256_of_begin(directory.statistics(), accepted_bytes) },
                     directory.checkpoint());
   }
 } // namespace Exemplar
