@@ -14,10 +14,10 @@ namespace Exemplar
   namespace
   {
     std::filesystem::path
-    msh_of(const std::string &file)
+    msh_of(const MeshParameters &parameters)
     {
-      const std::filesystem::path path(file);
-      return path.extension() == ".geo" ? mesh_geo_file(path) : path;
+      const std::filesystem::path path(parameters.file);
+      return path.extension() == ".geo" ? mesh_geo_file(path, parameters.allow_commands) : path;
     }
 
     /// Append an element between nodes that exist.
@@ -50,7 +50,7 @@ namespace Exemplar
                       + ". Set Mesh/File to a .msh or .geo file, or set Mesh/Generator = box; "
                         "exactly one of them.");
     return has_box ? generate_box(parameters.box_size, parameters.box_cells)
-                   : read_msh(msh_of(parameters.file));
+                   : read_msh(msh_of(parameters));
   }
 
   MshFile
