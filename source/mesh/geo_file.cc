@@ -135,7 +135,7 @@ namespace Exemplar
       const bool no_error = (gmsh.text.find("Error ") == std::string::npos);
       if (gmsh.end.exit_status != 0 || !no_error || !fs::exists(made))
         throw UserError(geo.string() + ": gmsh could not mesh it:" + telling_lines(gmsh.text)
-                        + "\nTry it with: gmsh -3 " + geo.string());
+                        + "\n  Try it with: gmsh -3 " + geo.string());
       seal_file(made);
       fs::rename(made, msh); // whole or not at all: several runs may mesh the same file at once
     }

@@ -86,7 +86,7 @@ namespace Exemplar
     for (std::size_t i = 0; i < n_names; ++i, in.count())
     {
       const int dimension                           = in.text_int();
-      const int tag                                 = in.text_int();
+      const int tag                                 = in.checked_tag(in.text_int());
       msh.physical_names[std::pair(dimension, tag)] = in.text_quoted();
     }
   }
