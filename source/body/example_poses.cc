@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/long_vectors.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
 #include <exemplar/body/example_poses.h>
@@ -111,7 +112,7 @@ namespace Exemplar
         add_to_stored(strains.data(), cell, n_strained(), i - first_strained, 1., E);
         n_inverted[i] += (determinant(F) <= 0.);
         if (traits_of(measure).has_guard)
-          p_0 = std::min(p_0, 0.5 * guard_product(E));
+          p_0 = min_or_nan(p_0, 0.5 * guard_product(E));
       }
       for_each_weight(cell,
                       [&](const unsigned int weight, const unsigned int i, const double share)
@@ -123,6 +124,9 @@ namespace Exemplar
     }
     for (double &norm : strain_norms)
       norm = std::sqrt(norm);
+    if (!std::isfinite(max_entry(strain_norms)) || !std::isfinite(p_0))
+      throw UserError("Examples: the strains of the poses are not finite numbers, or too large to "
+                      "compute with. Are all poses in the unit of the mesh?");
     for (unsigned int i = 0; i < size(); ++i)
       if (n_inverted[i] > 0)
         warnings.push_back("Example " + std::to_string(i) + " (" + names[i] + ") has "

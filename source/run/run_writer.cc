@@ -26,6 +26,17 @@ namespace Exemplar
           value.clear();
     }
 
+    /// Throws SolverFailure if a cell is empty, because its number is not finite.
+    void
+    require_numbers(const StatisticsRow &row)
+    {
+      for (const auto &[column, value] : row)
+        if (value.empty())
+          throw SolverFailure("Step " + row.front().second + " failed: its " + column
+                              + " is not a finite number. Take smaller steps, and look at what "
+                                "handles, loads and Initial do.");
+    }
+
     /// Whether the checkpoint's step had a frame only because the run ended there.
     bool
     is_only_last_frame(const Checkpoint &checkpoint)
@@ -145,8 +156,6 @@ namespace Exemplar
 
     if (accepted)
       diagnostics.add_step();
-    if (accepted && frames.is_due(problem.state.step))
-      frames.write();
     State shown = problem.state;
     if (!accepted) // the problem stands before the step that failed
     {
@@ -156,6 +165,10 @@ namespace Exemplar
     StatisticsRow row = diagnostics.row(shown, report);
     if (!accepted)
       keep_only_report(row);
+    else
+      require_numbers(row);
+    if (accepted && frames.is_due(problem.state.step))
+      frames.write();
     Diagnostics::append_seconds(row, lap());
     statistics->write(row);
     if (accepted)
