@@ -24,6 +24,7 @@ EXTREMES = [
       for value in ("1e-300", "1e-160", "1e160", "1e300")),
     *({**scene, "Loads/Gravity": f"0, 0, {value}"} for scene in (BAR, DYNAMIC) for value in ("1e100", "1e160", "1e300")),
     *({**DYNAMIC, "Material/Density": value} for value in ("1e-300", "1e160", "1e300")),
+    {**PULLED, "Handles/right/Motion": "t; 0; 0", "Material/Young's modulus": "1e160"},
     *({**DYNAMIC, "Time/Step": value, "Time/End": value} for value in ("1e-160", "1e-300", "1e160")),
 ]
 
@@ -31,8 +32,10 @@ EXTREMES = [
 class Extremes(SceneTest):
     def check_finite(self, output):
         """Every number of the files of a run."""
-        for position in nodes_of(output / "final.msh").values():
-            self.assertTrue(all(map(math.isfinite, position)), "final.msh")
+        if (output / "final.msh").exists():
+            for position in nodes_of(output / "final.msh").values():
+                self.assertTrue(all(map(math.isfinite, position)), "final.msh")
+            json.loads((output / "summary.json").read_text(), parse_constant=self.fail)
         for row in read_csv(output):
             for name, value in row.items():
                 self.assertTrue(not isinstance(value, float) or math.isfinite(value), name)
@@ -41,7 +44,6 @@ class Extremes(SceneTest):
         for frame in output.glob("*.vtu"):
             for name, values in read_vtu(frame)[0].items():
                 self.assertTrue(all(map(math.isfinite, values)), f"{name} of {frame.name}")
-        json.loads((output / "summary.json").read_text(), parse_constant=self.fail)
 
     def test_no_file_holds_what_is_not_finite(self):
         for i, scene in enumerate(EXTREMES):
