@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
-#include <limits>
 
 namespace Exemplar
 {
@@ -176,15 +175,6 @@ namespace Exemplar
     if (value < 0)
       fail("expected a count or number >= 0, found " + std::to_string(value) + ".");
     return static_cast<std::size_t>(value);
-  }
-
-  int
-  MshScanner::checked_tag(const int tag) const
-  {
-    if (tag == std::numeric_limits<int>::min())
-      fail("a tag of " + std::to_string(tag)
-           + " is not allowed, as there is no such positive number. Give the group another one.");
-    return tag;
   }
 
   double

@@ -55,10 +55,6 @@ namespace Exemplar
     std::size_t
     read_int_as_size();
 
-    /// A physical tag, which may be negative: refuses the int whose magnitude is none.
-    int
-    checked_tag(int tag) const;
-
     /// Numbers and names that are text even in a binary file.
     int
     text_int();
