@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/algebra/dense.h>
+#include <exemplar/algebra/long_vectors.h>
 #include <exemplar/algebra/weight_qp.h>
 
 #include <algorithm>
@@ -186,10 +187,7 @@ namespace Exemplar
       bool
       release_a_bound(const std::vector<double> &g, const std::vector<double> &multipliers)
       {
-        double scale = 0.;
-        for (const double entry : g)
-          scale = std::max(scale, std::abs(entry));
-        double       worst   = -1e-13 * scale;
+        double       worst   = -1e-13 * max_entry(g);
         unsigned int release = c.size();
         for (unsigned int i = 0; i < c.size(); ++i)
           if (const double excess = g[i] + multipliers[i / group_size];

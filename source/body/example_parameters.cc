@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/body/example_parameters.h>
+#include <exemplar/prm/assignments.h>
 #include <exemplar/prm/key_table.h>
 
 #include <cmath>
@@ -70,7 +71,8 @@ namespace Exemplar
         "that sum to one, as the paper; prescribed: as given.");
     keys.add("Prescribed weights", prescribed_weights,
              "One function of t for each example, the rest pose first where it is "
-             "included, separated by ;. They sum to one. With Weights per region either "
+             "included, separated by ;. They sum to one. Empty in an interpolation between two "
+             "examples: 1-t; t. With Weights per region either "
              "the same for all, or one such list a region, in ascending order of material "
              "ids, separated by |.");
     keys.add("Weights per region", weights_per_region,
@@ -87,6 +89,12 @@ namespace Exemplar
   ExampleParameters::in_use() const
   {
     return importance > 0. && !(poses.empty() && pose_functions.empty());
+  }
+
+  std::size_t
+  ExampleParameters::n_examples() const
+  {
+    return (include_rest_pose ? 1 : 0) + poses.size() + split_trimmed(pose_functions, '|').size();
   }
 
   double

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/long_vectors.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
 #include <exemplar/body/example_poses.h>
@@ -113,7 +114,7 @@ namespace Exemplar
         const Matrix3<double> E = model_strain(measure, model_rotation(measure, F), F);
         add_to_stored(strains.data(), cell, n_strained(), i - first_strained, 1., E);
         if (traits_of(measure).has_guard)
-          p_0 = std::min(p_0, 0.5 * guard_product(E));
+          p_0 = min_or_nan(p_0, 0.5 * guard_product(E));
       }
       for_each_weight(cell,
                       [&](const unsigned int weight, const unsigned int i, const double share)
@@ -125,6 +126,9 @@ namespace Exemplar
     }
     for (double &norm : strain_norms)
       norm = std::sqrt(norm);
+    if (!std::isfinite(max_entry(strain_norms)) || !std::isfinite(p_0))
+      throw UserError("Examples: the strains of the poses are not finite numbers, or too large to "
+                      "compute with. Are all poses in the unit of the mesh?");
   }
 
   void

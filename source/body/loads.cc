@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
+#include <exemplar/base/number_text.h>
 #include <exemplar/body/loads.h>
 
+#include <cmath>
 #include <numeric>
 
 namespace Exemplar
@@ -43,6 +45,10 @@ namespace Exemplar
                const NamedNodes                  &named_nodes)
   {
     const std::vector<double> masses = nodal_masses(fe_space, material);
+    if (const double total = std::accumulate(masses.begin(), masses.end(), 0.);
+        !std::isfinite(total * gravity.norm()))
+      throw UserError("Loads/Gravity: the weight of the body is not a finite number. Look at "
+                      "Material/Density, and at the mesh's unit.");
     if (gravity.norm() > 0.)
     {
       gravity_force.reinit(fe_space.n_dofs());
@@ -60,6 +66,12 @@ namespace Exemplar
       for (const unsigned int node : nodes)
         shares.push_back(weights[node]);
       const double sum = std::accumulate(shares.begin(), shares.end(), 0.);
+      if (!(sum > 0. && std::isfinite(sum)))
+        throw UserError(
+            key + ": the selected part has the " + (p.select.is_boundary() ? "area " : "mass ")
+            + shortest_text(sum)
+            + ", so the force cannot be shared out. Look at Material/Density, and at the "
+              "mesh's unit.");
       for (double &share : shares)
         share /= sum;
       loads.push_back({ nodes, shares, Expression(key + "/Force", p.force, "t", 3) });

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
 #include <exemplar/body/mass.h>
 
 #include <deal.II/base/memory_consumption.h>
@@ -33,6 +34,9 @@ namespace Exemplar
       density[cell] = material.density(cell);
     fe_space.compute_mass_matrix(density, matrix);
     max_row_sum = matrix.linfty_norm();
+    if (!std::isfinite(max_row_sum))
+      throw UserError("Material/Density: the mass of the body is not a finite number. Look at the "
+                      "density, and at the mesh's unit.");
     if (kind == MassMatrix::lumped)
       lump(matrix);
     copy_rows();

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
+#include <exemplar/base/number_text.h>
 #include <exemplar/body/material.h>
+#include <exemplar/mesh/physical_names.h>
 
+#include <cmath>
+#include <map>
 #include <set>
 #include <string>
 
@@ -13,19 +17,41 @@ namespace Exemplar
     elasticity_of(const ElasticConstants &constants)
     {
       const double E = constants.youngs_modulus, nu = constants.poissons_ratio;
-      return { E * nu / ((1. + nu) * (1. - 2. * nu)), E / (2. * (1. + nu)) };
+      const double lambda = E * nu / ((1. + nu) * (1. - 2. * nu)), mu = E / (2. * (1. + nu));
+      if (!std::isfinite(lambda) || !std::isfinite(mu))
+        throw UserError("Material: with Young's modulus " + shortest_text(E)
+                        + " Pa and Poisson's ratio " + shortest_text(nu)
+                        + " the body is too stiff to compute with. Lower one of them.");
+      return { lambda, mu };
+    }
+
+    /// All regions by their material ids.
+    std::map<unsigned int, ElasticConstants>
+    regions_by_id(const MaterialParameters &parameters, const MshFile &names)
+    {
+      auto regions = parameters.regions;
+      for (const auto &[name, constants] : parameters.named_regions)
+      {
+        const std::string  key = "Material/" + MaterialParameters::region_name(name);
+        const unsigned int id  = find_id(names, 3, name, key);
+        if (!regions.emplace(id, constants).second)
+          throw UserError(key + ": the region of this name has material id " + std::to_string(id)
+                          + ", which another subsection sets, too. Keep one of the two.");
+      }
+      return regions;
     }
   } // namespace
 
   Material::Material(const MaterialParameters        &parameters,
-                     const std::vector<unsigned int> &material_ids)
+                     const std::vector<unsigned int> &material_ids,
+                     const MshFile                   &names)
       : constants_of_cell(material_ids.size(), 0)
   {
     const auto add = [this](const ElasticConstants &c) {
       constants.push_back({ elasticity_of(c), c.density, c.youngs_modulus });
     };
     add(parameters.everywhere);
-    for (const auto &[id, region] : parameters.regions)
+    for (const auto &[id, region] : regions_by_id(parameters, names))
     {
       bool found = false;
       for (unsigned int cell = 0; cell < material_ids.size(); ++cell)

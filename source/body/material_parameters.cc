@@ -35,7 +35,13 @@ namespace Exemplar
   std::string
   MaterialParameters::region_name(const unsigned int id)
   {
-    return "region " + std::to_string(id);
+    return region_name(std::to_string(id));
+  }
+
+  std::string
+  MaterialParameters::region_name(const std::string &name)
+  {
+    return "region " + name;
   }
 
   void
@@ -49,16 +55,22 @@ namespace Exemplar
   }
 
   void
-  MaterialParameters::declare_regions(KeyTable &keys, const std::set<unsigned int> &ids)
+  MaterialParameters::declare_regions(KeyTable                     &keys,
+                                      const std::set<unsigned int> &ids,
+                                      const std::set<std::string>  &names)
   {
+    const auto declare_region = [&](ElasticConstants &constants, const std::string &subsection)
+    {
+      constants = everywhere;
+      keys.enter_subsection(subsection);
+      declare_constants(keys, constants);
+      keys.leave_subsection();
+    };
     keys.enter_subsection("Material");
     for (const unsigned int id : ids)
-    {
-      regions[id] = everywhere;
-      keys.enter_subsection(region_name(id));
-      declare_constants(keys, regions[id]);
-      keys.leave_subsection();
-    }
+      declare_region(regions[id], region_name(id));
+    for (const std::string &name : names)
+      declare_region(named_regions[name], region_name(name));
     keys.leave_subsection();
   }
 
@@ -68,5 +80,7 @@ namespace Exemplar
     check_poissons_ratio(everywhere, "Material");
     for (const auto &[id, constants] : regions)
       check_poissons_ratio(constants, "Material/" + region_name(id));
+    for (const auto &[name, constants] : named_regions)
+      check_poissons_ratio(constants, "Material/" + region_name(name));
   }
 } // namespace Exemplar

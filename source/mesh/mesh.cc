@@ -158,6 +158,7 @@ namespace Exemplar
                       + ". Leave it at 1 if the mesh is in metres.");
     for (auto &node : contents.nodes)
       node *= scale;
+    check_places(contents.nodes, contents, name);
 
     Tetrahedra tetrahedra = extract_tetrahedra(contents, name);
     const auto swapped    = orient_tetrahedra(contents, name, tetrahedra);

@@ -13,6 +13,7 @@ namespace Exemplar
   namespace
   {
     constexpr double flat_tolerance = 1e-12;
+    constexpr double largest_place  = 1e50; ///< [m]; energies are made of its fifth power
 
     std::string
     in_words(const std::size_t n, const std::string &noun)
@@ -135,6 +136,20 @@ namespace Exemplar
                       + list_numbers(flat)
                       + ". Remesh, e.g. with Mesh.OptimizeNetgen = 1, or coarser.");
     return swapped;
+  }
+
+  void
+  check_places(const std::vector<dealii::Point<3>> &nodes,
+               const MshFile                       &contents,
+               const std::string                   &name)
+  {
+    for (std::size_t node = 0; node < nodes.size(); ++node)
+      for (unsigned int d = 0; d < 3; ++d)
+        if (!(std::abs(nodes[node][d]) < largest_place))
+          throw UserError(
+              name + ": node " + std::to_string(contents.node_numbers[node])
+              + " lies at a coordinate that is no finite number, or larger than 1e50 m. "
+                "Look at the file, and at Mesh/Scale.");
   }
 
   void

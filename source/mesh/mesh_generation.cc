@@ -1,17 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/base/child_process.h>
-#include <exemplar/base/digest.h>
 #include <exemplar/base/errors.h>
-#include <exemplar/base/text_file.h>
 #include <exemplar/mesh/mesh_generation.h>
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <cstdlib>
 #include <limits>
-#include <regex>
-#include <sstream>
 #include <utility>
 
 namespace Exemplar
@@ -142,89 +134,6 @@ namespace Exemplar
         throw UserError("Mesh/Box cells: these are more than 1e9 tetrahedra (6 a brick), which no "
                         "machine would hold. Give smaller counts.");
     }
-
-    /// gmsh's errors, or else the last lines that it wrote.
-    std::string
-    telling_lines(const std::string &output)
-    {
-      std::vector<std::string> lines, errors;
-      std::istringstream       in(output);
-      for (std::string line; std::getline(in, line);)
-      {
-        lines.push_back(line);
-        if (line.rfind("Error", 0) == 0)
-          errors.push_back(line);
-      }
-      const auto       &shown = errors.empty() ? lines : errors;
-      const std::size_t n     = std::min<std::size_t>(shown.size(), 5);
-      std::string       text;
-      for (std::size_t i = shown.size() - n; i < shown.size(); ++i)
-        text += "\n  " + shown[i];
-      return text;
-    }
-
-    std::filesystem::path
-    cache_directory()
-    {
-      const char *const cache = std::getenv("XDG_CACHE_HOME");
-      if (cache != nullptr && cache[0] == '/') // the XDG standard ignores relative ones
-        return std::filesystem::path(cache) / "exemplar";
-      const char *const home = std::getenv("HOME");
-      if (home != nullptr && home[0] != '\0')
-        return std::filesystem::path(home) / ".cache" / "exemplar";
-      throw UserError("There is no place to keep the mesh that gmsh makes: neither XDG_CACHE_HOME "
-                      "nor HOME is set. Set one of them to a directory.");
-    }
-
-    std::string
-    gmsh_version(const std::filesystem::path &geo)
-    {
-      const ChildOutput gmsh = output_of_child({ "gmsh", "--version" });
-      if (gmsh.end.exit_status == no_such_program)
-        throw UserError(geo.string()
-                        + ": meshing it needs gmsh, which cannot be started. Install "
-                          "the package gmsh, or mesh it elsewhere and set Mesh/File "
-                          "to the .msh.");
-      return gmsh.text;
-    }
-
-    std::string
-    read_geo(const std::filesystem::path &file)
-    {
-      std::string reason;
-      if (auto text = read_text_file(file, &reason))
-        return *text;
-      throw UserError("Mesh/File: " + file.string() + " cannot be opened (" + reason
-                      + "). Give a .msh or .geo file; relative names start from the .prm.");
-    }
-
-    /// A file that is removed in the end, if it is still there under its name.
-    struct TemporaryFile
-    {
-      ~TemporaryFile()
-      {
-        std::error_code ignored;
-        std::filesystem::remove(path, ignored);
-      }
-
-      const std::filesystem::path path;
-    };
-
-    void
-    run_gmsh(const std::filesystem::path &geo, const std::filesystem::path &msh)
-    {
-      // Absolute, so that no name is taken for an option. The temporary is this
-      // process's own: several runs may mesh the same file at once.
-      const TemporaryFile temporary{ msh.string() + "." + std::to_string(::getpid()) + ".tmp" };
-      const ChildOutput   gmsh
-          = output_of_child({ "gmsh", "-3", std::filesystem::absolute(geo).string(), "-format",
-                              "msh22", "-o", temporary.path.string() });
-      const bool no_error = (gmsh.text.find("Error ") == std::string::npos);
-      if (gmsh.end.exit_status == 0 && no_error && std::filesystem::exists(temporary.path))
-        return std::filesystem::rename(temporary.path, msh);
-      throw UserError(geo.string() + ": gmsh could not mesh it:" + telling_lines(gmsh.text)
-                      + "\nTry it with: gmsh -3 " + geo.string());
-    }
   } // namespace
 
   MshFile
@@ -253,26 +162,5 @@ namespace Exemplar
       box.physical_names[std::pair(2, tag)] = name;
     box.physical_names[std::pair(3, 1)] = "box";
     return box;
-  }
-
-  std::filesystem::path
-  mesh_geo_file(const std::filesystem::path &geo)
-  {
-    const std::string           text = read_geo(geo); // first: a missing file needs no gmsh
-    const std::string           key  = sha256_of_text(text + "\n" + gmsh_version(geo));
-    const std::filesystem::path msh  = cache_directory() / (key + ".msh");
-    // what a file includes or merges is not in the key, so such meshes are made anew
-    static const std::regex others("Include|Merge");
-    if (!std::filesystem::exists(msh) || std::regex_search(text, others))
-    {
-      std::error_code error;
-      std::filesystem::create_directories(msh.parent_path(), error);
-      if (error)
-        throw UserError(msh.parent_path().string() + ": cannot be made (" + error.message()
-                        + "), but is where meshes made by gmsh are kept. Set XDG_CACHE_HOME to a "
-                          "directory that can be written.");
-      run_gmsh(geo, msh);
-    }
-    return msh;
   }
 } // namespace Exemplar

@@ -3,21 +3,17 @@
 #include <exemplar/mesh/mesh_generation.h>
 #include <exemplar/mesh/mesh_inputs.h>
 
-#include <fstream>
 #include <numeric>
-#include <set>
-#include <sstream>
-#include <unordered_map>
 
 namespace Exemplar
 {
   namespace
   {
     std::filesystem::path
-    msh_of(const std::string &file)
+    msh_of(const MeshParameters &parameters)
     {
-      const std::filesystem::path path(file);
-      return path.extension() == ".geo" ? mesh_geo_file(path) : path;
+      const std::filesystem::path path(parameters.file);
+      return path.extension() == ".geo" ? mesh_geo_file(path, parameters.allow_commands) : path;
     }
 
     /// Append an element between nodes that exist.
@@ -50,7 +46,7 @@ namespace Exemplar
                       + ". Set Mesh/File to a .msh or .geo file, or set Mesh/Generator = box; "
                         "exactly one of them.");
     return has_box ? generate_box(parameters.box_size, parameters.box_cells)
-                   : read_msh(msh_of(parameters.file));
+                   : read_msh(msh_of(parameters));
   }
 
   MshFile
@@ -74,35 +70,5 @@ namespace Exemplar
       add_element(msh, MshElementType::tetrahedron, material_ids.empty() ? 0 : material_ids[c],
                   cells[c]);
     return msh;
-  }
-
-  std::vector<unsigned int>
-  read_nodes(const std::filesystem::path &file,
-             const MshFile               &mesh,
-             const std::string           &mesh_name,
-             const std::string           &key)
-  {
-    std::ifstream in(file);
-    if (!in || std::filesystem::is_directory(file))
-      throw UserError(key + ": the file of nodes " + file.string()
-                      + " cannot be read. It lists node numbers of the mesh file, one a line.");
-    std::unordered_map<std::size_t, unsigned int> index;
-    for (unsigned int node = 0; node < mesh.node_numbers.size(); ++node)
-      index[mesh.node_numbers[node]] = node;
-    std::set<unsigned int> nodes;
-    for (std::string word; in >> word;)
-    {
-      std::size_t        number = 0;
-      std::istringstream digits(word);
-      if (!(digits >> number) || !digits.eof() || index.count(number) == 0)
-        throw UserError(key + ": '" + word + "' in " + file.string() + " is no node number of "
-                        + mesh_name + ". List node numbers of the mesh file, one a line.");
-      nodes.insert(index.at(number));
-    }
-    if (nodes.empty())
-      throw UserError(key + ": " + file.string()
-                      + " holds no node number. List node numbers of the "
-                        "mesh file, one a line.");
-    return { nodes.begin(), nodes.end() };
   }
 } // namespace Exemplar

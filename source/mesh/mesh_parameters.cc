@@ -17,7 +17,9 @@ namespace Exemplar
     keys.add_file("File", file,
                   "The tetrahedral rest mesh: a gmsh .msh file of version 2.2 or 4.1, ASCII "
                   "or binary, or a .geo file, which gmsh meshes (the result is kept in "
-                  "~/.cache/exemplar). Physical Volumes give material ids, Physical "
+                  "~/.cache/exemplar); one that could run programs or write files is refused, "
+                  "unless the command line says --allow-commands. Physical Volumes give material "
+                  "ids, Physical "
                   "Surfaces boundary ids. Leave it empty if Generator = box.");
     keys.add("Generator", generator, generator_names,
              "box: generate a box instead of reading a file. It spans 0..Lx, -Ly/2..Ly/2, "

@@ -78,6 +78,7 @@ namespace Exemplar
   {
     for (auto &node : nodes)
       node *= scale;
+    check_places(nodes, contents, name);
     return nodes;
   }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace Exemplar
 {
@@ -86,9 +87,19 @@ namespace Exemplar
     for (std::size_t i = 0; i < n_names; ++i, in.count())
     {
       const int dimension                           = in.text_int();
-      const int tag                                 = in.text_int();
+      const int tag                                 = checked_tag(in.text_int());
       msh.physical_names[std::pair(dimension, tag)] = in.text_quoted();
     }
+  }
+
+  int
+  MshReader::checked_tag(const int tag) const
+  {
+    if (tag == std::numeric_limits<int>::min())
+      in.fail(
+          "a tag of " + std::to_string(tag)
+          + " is not allowed, as there is no such positive number. Give the group another one.");
+    return tag;
   }
 
   void

@@ -43,7 +43,7 @@ namespace Exemplar
           element.number = in.read_int_as_size();
         for (std::size_t k = 0; k < n_tags; ++k)
         {
-          const int tag = in.read_int();
+          const int tag = checked_tag(in.read_int());
           if (k < 2) // others number partitions
             (k == 0 ? element.physical : element.elementary) = tag;
         }

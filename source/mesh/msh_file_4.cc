@@ -26,7 +26,7 @@ namespace Exemplar
         const std::size_t n_physical = in.read_size();
         for (std::size_t k = 0; k < n_physical; ++k)
         {
-          const int physical = in.read_int();
+          const int physical = checked_tag(in.read_int());
           if (k == 0)
             entity_physical[std::pair(dimension, tag)] = physical;
         }

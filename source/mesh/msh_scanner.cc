@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
+#include <exemplar/base/message_text.h>
 #include <exemplar/base/text_file.h>
 #include <exemplar/mesh/msh_scanner.h>
 
@@ -26,16 +27,6 @@ namespace Exemplar
         return std::move(*bytes);
       throw UserError(file.string() + ": cannot be opened (" + reason
                       + "). Give the path of a gmsh .msh file.");
-    }
-
-    /// Words come from files that may be anything: show few and harmless characters.
-    std::string
-    quote(const std::string_view word)
-    {
-      std::string text = "'";
-      for (const char c : word.substr(0, 30))
-        text += (c >= ' ' && c <= '~') ? c : '?';
-      return text + (word.size() > 30 ? "...'" : "'");
     }
   } // namespace
 
@@ -239,7 +230,7 @@ namespace Exemplar
     // No complete file ends with a wrong word: this one is half a word.
     if (position == bytes.size())
       fail_at_end();
-    fail("expected " + expected + ", found " + quote(found)
+    fail("expected " + expected + ", found " + in_quotes(found)
          + ". Is it a gmsh .msh file, copied whole and in binary mode? Save the mesh anew.");
   }
 

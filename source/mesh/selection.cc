@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/mesh/mesh.h>
+#include <exemplar/mesh/physical_names.h>
 #include <exemplar/mesh/selection.h>
 #include <exemplar/prm/key_table.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <set>
 #include <sstream>
 
@@ -16,6 +15,8 @@ namespace Exemplar
   {
     const std::string forms = "box x0 y0 z0 x1 y1 z1 | sphere x y z r | boundary ID | region ID | "
                               "nodes FILE";
+
+    constexpr int surface = 2, volume = 3; // dimensions of boundaries and regions
 
     struct Words
     {
@@ -46,15 +47,12 @@ namespace Exemplar
       return values;
     }
 
+    /// The id that a selection gives or names.
     unsigned int
-    id_number(const Words &words, const std::string &key)
+    id_in(const Words &words, const int dimension, const Mesh &mesh, const std::string &key)
     {
-      const double value = numbers(words, 1, key)[0];
-      if (value < 0 || value > std::numeric_limits<unsigned int>::max()
-          || value != std::floor(value))
-        throw UserError(key + "/Select = '" + words.kind + " " + words.rest
-                        + "': an id is a whole number from 0 on.");
-      return static_cast<unsigned int>(value);
+      return find_id(mesh.get_contents(), dimension, words.rest,
+                     key + "/Select = '" + words.kind + " " + words.rest + "'");
     }
 
     std::string
@@ -154,10 +152,12 @@ namespace Exemplar
   void
   Selection::declare(KeyTable &keys, const std::string &what)
   {
-    keys.add("Select", text,
-             what + ": " + forms
-                 + ". Boxes (inclusive) and spheres select by rest position [m]; a FILE "
-                   "lists node numbers of the mesh file.");
+    keys.add(
+        "Select", text,
+        what + ": " + forms
+            + ". Boxes (inclusive) and spheres select by rest position [m]; an ID is a number, "
+              "or the name of a physical group of the mesh file; a FILE lists node numbers "
+              "of the mesh file.");
   }
 
   std::string
@@ -185,7 +185,7 @@ namespace Exemplar
   std::vector<BoundaryFace>
   Selection::faces(const Mesh &mesh, const std::string &key) const
   {
-    const unsigned int        id = id_number(split(text), key);
+    const unsigned int        id = id_in(split(text), surface, mesh, key);
     std::vector<BoundaryFace> selected;
     std::set<unsigned int>    present;
     for (const BoundaryFace &face : mesh.get_boundary_faces())
@@ -212,7 +212,7 @@ namespace Exemplar
     else if (words.kind == "sphere")
       nodes = nodes_in_sphere(mesh, numbers(words, 4, key));
     else if (words.kind == "region")
-      nodes = nodes_of_region(mesh, id_number(words, key), key);
+      nodes = nodes_of_region(mesh, id_in(words, volume, mesh, key), key);
     else if (words.kind == "nodes")
       nodes = named_nodes(mesh, named, words.rest, key);
     else if (words.kind == "boundary")

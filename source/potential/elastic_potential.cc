@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/long_vectors.h>
 #include <exemplar/base/environment.h>
 #include <exemplar/potential/elastic_potential.h>
 
@@ -68,7 +69,8 @@ namespace Exemplar
         for (unsigned int a = 0; a < 4; ++a)
           force[fe_space.nodes(cell)[a]] += std::pow(tet.volume * stress * norms[a], 2);
       }
-      rounding.force       = std::sqrt(force.linfty_norm()); // cells round independently
+      rounding.force
+          = std::sqrt(max_entry(force.begin(), force.end())); // cells round independently
       rounding.stress_norm = std::sqrt(rounding.stress_norm);
       return rounding;
     }
@@ -93,8 +95,8 @@ namespace Exemplar
   {
     double greatest = 0.;
     for (unsigned int weight = 0; weight < parts.examples->n_weights(); ++weight)
-      greatest = std::max(greatest, parts.examples->importance() * rounding.stress_norm
-                                        * parts.examples->strain_norm(weight));
+      greatest = max_or_nan(greatest, parts.examples->importance() * rounding.stress_norm
+                                          * parts.examples->strain_norm(weight));
     return greatest;
   }
 
@@ -142,9 +144,9 @@ namespace Exemplar
         penalty += form(v, w) * weights[w];
       result.energy += 0.5 * penalty * weights[v];
       result.weight_gradient[v] += penalty;
-      result.weight_scale = std::max(result.weight_scale,
-                                     examples.importance() * stress_norm * examples.strain_norm(v)
-                                         + std::abs(penalty));
+      result.weight_scale = max_or_nan(result.weight_scale,
+                                       examples.importance() * stress_norm * examples.strain_norm(v)
+                                           + std::abs(penalty));
     }
   }
 

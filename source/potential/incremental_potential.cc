@@ -14,10 +14,12 @@ namespace Exemplar
     double
     relative(const double a, const double b, const double rounding)
     {
-      if (!std::isfinite(a) || !std::isfinite(b))
+      const double ratio = a <= rounding ? 0. : a / b;
+      if (!std::isfinite(a) || !std::isfinite(b) || !std::isfinite(rounding)
+          || !std::isfinite(ratio))
         throw SolverFailure("The residual is not a finite number. Forces have grown without bound: "
                             "take smaller steps, or look at what the handles do.");
-      return a <= rounding ? 0. : a / b;
+      return ratio;
     }
 
     std::vector<std::pair<unsigned int, unsigned int>>
@@ -199,9 +201,10 @@ namespace Exemplar
     for (const auto &term : terms)
       rounding += term->rounding_force();
     Residual residual;
-    residual.positions
-        = relative(max_free_gradient(evaluation),
-                   free_dofs.exchange().max(evaluation.force_scale.linfty_norm()), rounding);
+    residual.positions = relative(max_free_gradient(evaluation),
+                                  free_dofs.exchange().max(max_entry(evaluation.force_scale.begin(),
+                                                                     evaluation.force_scale.end())),
+                                  rounding);
     if (!evaluation.elastic.weight_gradient.empty())
     {
       WeightResidual of_weights = weights->residual(at.weights, evaluation.elastic.weight_gradient);

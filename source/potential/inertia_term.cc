@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/long_vectors.h>
 #include <exemplar/potential/inertia_term.h>
 
 #include <deal.II/base/memory_consumption.h>
@@ -67,8 +68,9 @@ namespace Exemplar
   InertiaTerm::rounding_force() const
   {
     return in_step ? 4. * std::numeric_limits<double>::epsilon()
-                         * integrator.predicted_positions().linfty_norm() * mass.max_nodal_mass()
-                         * integrator.mass_factor()
+                         * max_entry(integrator.predicted_positions().begin(),
+                                     integrator.predicted_positions().end())
+                         * mass.max_nodal_mass() * integrator.mass_factor()
                    : 0.;
   }
 

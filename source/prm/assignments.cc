@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
+#include <exemplar/base/message_text.h>
 #include <exemplar/prm/assignments.h>
 
 #include <algorithm>
@@ -23,6 +24,18 @@ namespace Exemplar
       while (words >> word)
         result += (result.empty() ? "" : " ") + word;
       return result;
+    }
+
+    /// What to say of a text that values cannot be made of; empty if there is nothing to say.
+    std::string
+    what_is_no_text(const std::string &text)
+    {
+      const std::size_t at = find_unprintable(text);
+      return at == std::string::npos ? ""
+                                     : in_quotes(text.substr(at, 1))
+                                           + " is no text: a byte that is not UTF-8, or a control "
+                                             "character. Remove it, "
+                                             "or save the text as UTF-8.";
     }
 
     bool
@@ -81,6 +94,8 @@ namespace Exemplar
       void
       read_line(const std::string &line)
       {
+        if (const std::string what = what_is_no_text(line); !what.empty())
+          fail(what);
         if (starts_with_word(line, "subsection"))
           subsections.push_back(single_blanks(line.substr(10)));
         else if (line == "end")
@@ -173,6 +188,8 @@ namespace Exemplar
   Assignment
   parse_assignment(const std::string &text, const std::string &place)
   {
+    if (const std::string what = what_is_no_text(text); !what.empty())
+      throw UserError(place + " '" + text + "': " + what);
     const std::string remedy = " Write 'Section/Key=value'.";
     const auto        equals = text.find('=');
     if (equals == std::string::npos)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/prm/input_names.h>
 #include <exemplar/prm/key_table.h>
 
 #include <deal.II/base/patterns.h>
@@ -93,36 +94,6 @@ namespace Exemplar
       for (const std::string &name : names)
         text += (text.empty() ? "" : ", ") + name;
       return text;
-    }
-
-    /// A file name, absolute if there is a directory to start from; refused if a scene file could not hold it.
-    std::string
-    absolute_file(const std::string           &file,
-                  const std::filesystem::path &directory,
-                  const std::string           &unwanted)
-    {
-      const std::string path
-          = directory.empty()
-                ? file
-                : std::filesystem::absolute(directory / file).lexically_normal().string();
-      if (path.find_first_of(unwanted) != std::string::npos)
-        throw UserError("The path " + path + " holds one of the signs " + unwanted
-                        + " which mean something else in scene files. Rename the file or its "
-                          "directory.");
-      return path;
-    }
-
-    std::string
-    absolute_files(const DeclaredKey           &key,
-                   const std::string           &value,
-                   const std::filesystem::path &directory)
-    {
-      if (!key.is_list)
-        return value.empty() ? value : absolute_file(value, directory, "#");
-      std::string files;
-      for (const std::string &file : split_trimmed(value, ','))
-        files += (files.empty() ? "" : ", ") + absolute_file(file, directory, "#,");
-      return files;
     }
   } // namespace
 
@@ -337,9 +308,10 @@ namespace Exemplar
         throw UnknownKey(assignment.place + ": there is no parameter '" + assignment.path()
                          + "'. Did you mean '" + nearest_path(assignment.path(), keys())
                          + "'? exemplar --print-parameters lists them all.");
-      DeclaredKey      &key = entries[index].declared;
-      const std::string value
-          = key.is_input_file ? absolute_files(key, assignment.value, directory) : assignment.value;
+      DeclaredKey      &key   = entries[index].declared;
+      const std::string value = key.is_input_file
+                                    ? absolute_files(assignment.value, key.is_list, directory)
+                                    : assignment.value;
       if (!entries[index].set(value))
         throw UserError(assignment.place + ": " + key.path() + " = '" + value
                         + "' is not allowed. Allowed: " + key.allowed + ". Default: '"

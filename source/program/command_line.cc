@@ -44,6 +44,8 @@ namespace Exemplar
       app.add_option("--threads", arguments.run.n_threads,
                      "threads instead of one a core; results do not depend on it")
           ->check(CLI::Range(1, 1024));
+      app.add_flag("--allow-commands", arguments.run.allow_commands,
+                   "let a .geo run programs and write files: only for one that you trust");
       app.add_flag("--quiet", arguments.run.quiet, "print warnings and errors only");
       app.add_flag("--verbose", arguments.run.verbose, "print a line an iteration");
       app.add_flag("--validate", arguments.validate,

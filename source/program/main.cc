@@ -2,6 +2,7 @@
 #include <exemplar/algebra/mpi_session.h>
 #include <exemplar/base/environment.h>
 #include <exemplar/base/errors.h>
+#include <exemplar/base/message_text.h>
 #include <exemplar/program/command_line.h>
 
 #include <deal.II/base/exceptions.h>
@@ -9,6 +10,7 @@
 
 #include <csignal>
 #include <iostream>
+#include <new>
 
 int
 main(int argc, char *argv[])
@@ -22,7 +24,7 @@ main(int argc, char *argv[])
   const Exemplar::MpiSession mpi; // scenes without multigrid never start it
   const auto                 report = [](const std::string &message, const int status)
   {
-    std::cerr << "exemplar: " << message << std::endl;
+    std::cerr << "exemplar: " << Exemplar::message_text(message) << std::endl;
     return status;
   };
   try
@@ -36,6 +38,12 @@ main(int argc, char *argv[])
   catch (const Exemplar::Interrupted &interruption)
   {
     return report(interruption.what(), 130);
+  }
+  catch (const std::bad_alloc &)
+  {
+    return report("There is not enough memory for this. Take a coarser mesh or fewer examples, or "
+                  "let the program have more memory.",
+                  2);
   }
   catch (const std::exception &error)
   {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/environment.h>
 #include <exemplar/base/errors.h>
+#include <exemplar/base/message_text.h>
 #include <exemplar/base/progress.h>
 #include <exemplar/program/interrupt.h>
 #include <exemplar/program/run_scene.h>
@@ -22,14 +23,17 @@ namespace Exemplar
     void
     warn(const std::string &warning)
     {
-      std::cerr << "Warning: " << warning << std::endl;
+      std::cerr << "Warning: " << message_text(warning) << std::endl;
     }
 
     std::unique_ptr<Problem>
-    make_problem_and_warn(SceneParameters parameters, const unsigned int n_threads = 1)
+    make_problem_and_warn(SceneParameters    parameters,
+                          const RunOptions  &options,
+                          const unsigned int n_threads = 1)
     {
-      parameters.solver.n_threads = n_threads;
-      auto problem                = make_problem(parameters);
+      parameters.solver.n_threads    = n_threads;
+      parameters.mesh.allow_commands = options.allow_commands;
+      auto problem                   = make_problem(parameters);
       for (const std::string &warning : problem->warnings())
         warn(warning);
       return problem;
@@ -39,8 +43,8 @@ namespace Exemplar
     print_header(const Problem &problem)
     {
       const BlasInfo blas = blas_info();
-      std::cout << "Scene     " << problem.parameters.name << '\n'
-                << "Mesh      " << problem.body.mesh.get_name() << ": "
+      std::cout << "Scene     " << printable(problem.parameters.name) << '\n'
+                << "Mesh      " << printable(problem.body.mesh.get_name()) << ": "
                 << problem.body.mesh.n_cells() << " cells, " << problem.body.mesh.n_nodes()
                 << " nodes, " << problem.constraints.free_dofs.size() << " of "
                 << problem.body.fe_space.n_dofs() << " dofs free\n"
@@ -125,8 +129,8 @@ namespace Exemplar
   run_scene(const RunOptions &options)
   {
     const SceneFile scene(options.scene_file, options.overrides);
-    const auto      problem = make_problem_and_warn(scene.get_parameters(), options.n_threads);
-    RunWriter       writer(*problem, scene);
+    const auto problem = make_problem_and_warn(scene.get_parameters(), options, options.n_threads);
+    RunWriter  writer(*problem, scene);
     try
     {
       if (options.resume)
@@ -181,17 +185,19 @@ namespace Exemplar
   validate_scene(const RunOptions &options)
   {
     const SceneFile scene(options.scene_file, options.overrides);
-    const auto      problem = make_problem_and_warn(scene.get_parameters());
-    std::cout << options.scene_file.string() << ": valid; " << problem->body.mesh.n_cells()
-              << " cells, " << problem->body.mesh.n_nodes() << " nodes, "
-              << problem->time_axis.n_steps() << " steps" << std::endl;
+    const auto      problem = make_problem_and_warn(scene.get_parameters(), options);
+    std::cout << printable(options.scene_file.string()) << ": valid; "
+              << problem->body.mesh.n_cells() << " cells, " << problem->body.mesh.n_nodes()
+              << " nodes, " << problem->time_axis.n_steps() << " steps" << std::endl;
   }
 
   void
   print_parameters()
   {
     std::cout << "# All parameters of exemplar with their defaults.\n"
-              << "# Subsections NAME and region N stand for as many as a scene names.\n\n";
+              << "# Subsections NAME and region N stand for as many as a scene names; N is a "
+                 "material id or\n"
+              << "# the name of a Physical Volume.\n\n";
     print_keys(std::cout, SceneFile::reference(), true);
   }
 } // namespace Exemplar

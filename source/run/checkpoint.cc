@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/atomic_file.h>
 #include <exemplar/base/errors.h>
+#include <exemplar/base/sealed_file.h>
 #include <exemplar/run/checkpoint.h>
 
 #include <boost/archive/binary_iarchive.hpp>
@@ -18,7 +19,10 @@ namespace Exemplar
 {
   namespace
   {
-    const std::string format = "exemplar checkpoint 4";
+    /// The first line. The number grows with every change of what follows.
+    const std::string format = "exemplar checkpoint 5";
+
+    const std::string without_resume = " Run the scene without --resume.";
 
     template <typename Archive>
     void
@@ -35,68 +39,80 @@ namespace Exemplar
       archive &totals.iterations &totals.factorizations &totals.worst_residual;
       for (double &seconds : totals.seconds)
         archive &seconds;
-      archive &checkpoint.solver_memory &checkpoint.statistics_bytes;
+      archive &checkpoint.solver_memory &checkpoint.statistics_bytes &checkpoint.statistics_digest;
     }
 
-    /// What `load` returns. Throws UserError if the bytes of the file are not a checkpoint's: the
-    /// archive notices it, or takes some of them for the size of a vector that is too large.
+    /// What `load` returns. Throws UserError if it does not understand the bytes, which are as
+    /// they were written: then another build of the program has written them.
     template <typename Load>
     auto
     guarded_load(const std::filesystem::path &file, const Load &load)
     {
-      const UserError broken(file.string()
-                             + " cannot be read as a checkpoint. Run the scene without --resume.");
+      const UserError foreign(file.string()
+                              + " is a checkpoint that this build of exemplar cannot read."
+                              + without_resume);
       try
       {
         return load();
       }
       catch (const boost::archive::archive_exception &)
       {
-        throw broken;
+        throw foreign;
       }
       catch (const std::length_error &)
       {
-        throw broken;
+        throw foreign;
       }
       catch (const std::bad_alloc &)
       {
-        throw broken;
+        throw foreign;
       }
+    }
+
+    /// Throws UserError unless `in`, which reads a sealed file, begins with the line of a
+    /// checkpoint of this version; goes behind it.
+    void
+    read_format(std::istream &in, const std::filesystem::path &file)
+    {
+      std::string found(format.size() + 1, '\0');
+      in.read(found.data(), static_cast<std::streamsize>(found.size()));
+      if (!in || found != format + '\n')
+        throw UserError(file.string() + " is no checkpoint of this version of exemplar."
+                        + without_resume);
     }
   } // namespace
 
   void
   save_checkpoint(const Checkpoint &checkpoint, const std::filesystem::path &file)
   {
-    AtomicFile atomic_file(file);
+    AtomicFile    atomic_file(file);
+    SealingBuffer buffer(atomic_file.stream());
+    buffer.sputn((format + '\n').data(), static_cast<std::streamsize>(format.size() + 1));
     {
-      boost::archive::binary_oarchive archive(atomic_file.stream());
-      archive                        &format;
+      boost::archive::binary_oarchive archive(buffer);
       transfer(archive, const_cast<Checkpoint &>(checkpoint)); // saving does not change it
     }
+    buffer.seal();
     atomic_file.commit();
   }
 
   Checkpoint
   load_checkpoint(const std::filesystem::path &file)
   {
-    std::ifstream in(file, std::ios::binary);
-    if (!in)
+    if (!std::filesystem::exists(file))
+      throw UserError(file.string() + ": there is no checkpoint to resume from." + without_resume);
+    if (n_sealed_bytes(file) == 0) // before anything in it is believed
       throw UserError(file.string()
-                      + ": there is no checkpoint to resume from. Run the scene "
-                        "without --resume.");
+                      + " is damaged, or of another version: its checksum is missing or not that "
+                        "of its bytes."
+                      + without_resume);
+    std::ifstream in(file, std::ios::binary);
+    read_format(in, file);
     return guarded_load(file,
                         [&]
                         {
                           boost::archive::binary_iarchive archive(in);
-                          std::string                     found;
-                          archive                        &found;
-                          if (found != format)
-                            throw UserError(
-                                file.string()
-                                + " is no checkpoint of this version of exemplar. Run the "
-                                  "scene without --resume.");
-                          Checkpoint checkpoint;
+                          Checkpoint                      checkpoint;
                           transfer(archive, checkpoint);
                           return checkpoint;
                         });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/environment.h>
 #include <exemplar/base/errors.h>
+#include <exemplar/run/finiteness.h>
 #include <exemplar/run/frame_output.h>
 
 #include <algorithm>
@@ -53,6 +54,10 @@ namespace Exemplar
              state.velocities, problem.potential.get_cells().cell_results(state.positions, state.weights)
     };
     frame.displacement -= problem.body.fe_space.rest_positions();
+    if (const std::string what = what_is_not_finite(frame.cells); !what.empty())
+      throw SolverFailure("The frame of step " + std::to_string(state.step) + " would hold " + what
+                          + " that are not finite numbers. Take smaller steps, and look at what "
+                            "handles, loads and Initial do.");
     background.submit(
         [this, frame = std::move(frame)]
         {

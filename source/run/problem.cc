@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/long_vectors.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
+#include <exemplar/run/finiteness.h>
 #include <exemplar/run/initial_state.h>
 #include <exemplar/run/problem.h>
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 namespace Exemplar
@@ -51,6 +54,33 @@ namespace Exemplar
     if (parameters.scene == SceneKind::interpolation)
       start_interpolation();
     start(state);
+    check_start();
+  }
+
+  void
+  Problem::check_start()
+  {
+    const CellResults cells = potential.get_cells().cell_results(state.positions, state.weights);
+    std::string       what  = what_is_not_finite(state, evaluation);
+    if (what.empty())
+      what = what_is_not_finite(cells);
+    if (what.empty() && actions.mass != nullptr
+        && !std::isfinite(actions.mass->motion_sums(state).kinetic_energy))
+      what = "kinetic energies";
+    try
+    {
+      potential.residual(state, evaluation);
+    }
+    catch (const SolverFailure &)
+    {
+      what = "forces"; // or the scales by which they are measured
+    }
+    if (!what.empty())
+      throw UserError(
+          parameters.name + ": the " + what
+          + " of the initial state are not finite numbers, or too large to compute with. "
+            "Mesh/Scale, Material, Loads or Initial are too large or too small by many powers of "
+            "ten: look at their units.");
   }
 
   void
@@ -93,22 +123,37 @@ namespace Exemplar
       solver->forget(); // what it remembers has not turned with the body
       start(next);
     }
-    const SolveReport report
+    SolveReport report
         = solver->solve(next, evaluation, time_axis.time(step), time_axis.step_size(step));
-    if (!is_success(report.status))
+    if (is_success(report.status))
     {
+      if (actions.integrator != nullptr)
+        actions.integrator->end_step(state, next);
+      if (turns_freely())
+      {
+        align(state.positions, next.positions);
+        start(next);
+      }
+      refuse_what_is_not_finite(next, report);
+    }
+    if (is_success(report.status))
+      state = std::move(next);
+    else
       solver->forget(); // what it remembers has seen the step that failed
-      return report;
-    }
-    if (actions.integrator != nullptr)
-      actions.integrator->end_step(state, next);
-    if (turns_freely())
-    {
-      align(state.positions, next.positions);
-      start(next);
-    }
-    state = std::move(next);
     return report;
+  }
+
+  void
+  Problem::refuse_what_is_not_finite(const State &next, SolveReport &report) const
+  {
+    const std::string what
+        = std::isfinite(report.residual) ? what_is_not_finite(next, evaluation) : "residuals";
+    if (what.empty())
+      return;
+    report.status  = SolveStatus::failed;
+    report.failure = "its " + what
+                     + " are not finite numbers, or too large to compute with. Take smaller steps, "
+                       "and look at what handles, loads and Initial do.";
   }
 
   void
@@ -129,6 +174,9 @@ namespace Exemplar
       std::istringstream              bytes(solver_memory);
       boost::archive::binary_iarchive archive(bytes);
       solver->load(archive);
+      if (bytes.peek() != std::char_traits<char>::eof())
+        throw boost::archive::archive_exception(
+            boost::archive::archive_exception::input_stream_error);
     }
     start(state);
   }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/atomic_file.h>
+#include <exemplar/base/digest.h>
+#include <exemplar/base/errors.h>
 #include <exemplar/run/resume_checks.h>
 #include <exemplar/run/run_writer.h>
 #include <exemplar/run/summary.h>
@@ -22,6 +24,17 @@ namespace Exemplar
         if (column != "step" && column != "time" && column != "status" && column != "iterations"
             && column != "residual")
           value.clear();
+    }
+
+    /// Throws SolverFailure if a cell is empty, because its number is not finite.
+    void
+    require_numbers(const StatisticsRow &row)
+    {
+      for (const auto &[column, value] : row)
+        if (value.empty())
+          throw SolverFailure("Step " + row.front().second + " failed: its " + column
+                              + " is not a finite number. Take smaller steps, and look at what "
+                                "handles, loads and Initial do.");
     }
 
     /// Whether the checkpoint's step had a frame only because the run ended there.
@@ -82,7 +95,9 @@ namespace Exemplar
   RunWriter::resume()
   {
     const Checkpoint checkpoint = load_checkpoint(directory.checkpoint());
-    check_resumable(checkpoint, scene, input_digests, problem.time_axis, directory.checkpoint());
+    check_resumable(checkpoint, scene, input_digests, problem, directory.checkpoint());
+    check_statistics(directory.statistics(), checkpoint);
+    restore(checkpoint, directory.checkpoint(), problem); // the last thing that may refuse
     {
       StepClock::Scope scope(problem.clock, Part::output);
       statistics.emplace(directory.statistics(), checkpoint.statistics_bytes);
@@ -91,7 +106,6 @@ namespace Exemplar
     }
     if (is_only_last_frame(checkpoint) && !frames.is_due(checkpoint.state.step))
       frames.remove(checkpoint.state.step);
-    restore(checkpoint, directory.checkpoint(), problem);
     diagnostics.resume(checkpoint.work);
     accepted_bytes         = checkpoint.statistics_bytes;
     totals                 = checkpoint.totals;
@@ -142,8 +156,6 @@ namespace Exemplar
 
     if (accepted)
       diagnostics.add_step();
-    if (accepted && frames.is_due(problem.state.step))
-      frames.write();
     State shown = problem.state;
     if (!accepted) // the problem stands before the step that failed
     {
@@ -153,6 +165,10 @@ namespace Exemplar
     StatisticsRow row = diagnostics.row(shown, report);
     if (!accepted)
       keep_only_report(row);
+    else
+      require_numbers(row);
+    if (accepted && frames.is_due(problem.state.step))
+      frames.write();
     Diagnostics::append_seconds(row, lap());
     statistics->write(row);
     if (accepted)
@@ -195,7 +211,8 @@ namespace Exemplar
     frames.drain(); // because a resumed run does not write them again
     last_checkpoint = std::chrono::steady_clock::now();
     save_checkpoint({ values_of(scene), input_digests, problem.state, problem.solver_memory(),
-                      diagnostics.get_work(), totals, accepted_bytes },
+                      diagnostics.get_work(), totals, accepted_bytes,
+                      sha256_of_begin(directory.statistics(), accepted_bytes) },
                     directory.checkpoint());
   }
 } // namespace Exemplar

@@ -61,24 +61,36 @@ namespace Exemplar
                            + "). Add it there, or remove the subsection.");
     }
 
-    std::set<unsigned int>
+    /// The regions that have subsections of Material, by material id or by name.
+    struct Regions
+    {
+      std::set<unsigned int> ids;
+      std::set<std::string>  names;
+    };
+
+    Regions
     material_regions(const std::vector<Assignment> &assignments)
     {
-      const std::string      prefix = "region ";
-      std::set<unsigned int> ids;
+      const std::string prefix = "region ";
+      Regions           regions;
       for (const Assignment &a : assignments)
         if (is_named(a) && a.subsections[0] == "Material")
         {
-          const std::string &name = a.subsections[1];
-          if (name.compare(0, prefix.size(), prefix) != 0 || name.size() == prefix.size()
-              || name.size() > prefix.size() + 9
-              || name.find_first_not_of("0123456789", prefix.size()) != std::string::npos)
-            throw UnknownKey(a.place + ": subsection Material/" + name
+          const std::string &subsection = a.subsections[1];
+          if (subsection.compare(0, prefix.size(), prefix) != 0
+              || subsection.size() == prefix.size())
+            throw UnknownKey(a.place + ": subsection Material/" + subsection
                              + " is not understood. Subsections of Material are 'region ID' with a "
-                               "material id of the mesh.");
-          ids.insert(static_cast<unsigned int>(std::stoul(name.substr(prefix.size()))));
+                               "material id of the mesh or the name of a Physical Volume.");
+          const std::string name = subsection.substr(prefix.size());
+          const bool        is_number
+              = name.size() < 10 && name.find_first_not_of("0123456789") == std::string::npos;
+          if (is_number)
+            regions.ids.insert(static_cast<unsigned int>(std::stoul(name)));
+          else
+            regions.names.insert(name);
         }
-      return ids;
+      return regions;
     }
   } // namespace
 
@@ -169,13 +181,18 @@ namespace Exemplar
   void
   SceneFile::declare_named_subsections(const std::vector<Assignment> &assignments)
   {
-    const std::set<unsigned int> regions = material_regions(assignments);
-    parameters.material.declare_regions(keys, regions);
+    const Regions regions = material_regions(assignments);
+    parameters.material.declare_regions(keys, regions.ids, regions.names);
     // deal.II rounds the text of a default to six digits: take over the text that was set
-    for (const std::string key : { "Young's modulus", "Poisson's ratio", "Density" })
-      for (const unsigned int id : regions)
-        keys.set("Material/" + MaterialParameters::region_name(id) + "/" + key,
-                 keys.get("Material/" + key));
+    const auto take_over = [&](const std::string &subsection)
+    {
+      for (const std::string key : { "Young's modulus", "Poisson's ratio", "Density" })
+        keys.set("Material/" + subsection + "/" + key, keys.get("Material/" + key));
+    };
+    for (const unsigned int id : regions.ids)
+      take_over(MaterialParameters::region_name(id));
+    for (const std::string &name : regions.names)
+      take_over(MaterialParameters::region_name(name));
     parameters.handles.resize(handle_names.size()); // before binding: entries must not move
     parameters.loads.named.resize(load_names.size());
     keys.enter_subsection("Handles");
@@ -220,6 +237,8 @@ namespace Exemplar
     };
     require("Importance", "1", given.importance == parameters.examples.importance);
     require("Weights", "prescribed", given.weights == parameters.examples.weights);
+    if (given.prescribed_weights.empty())
+      keys.set("Examples/Prescribed weights", parameters.examples.prescribed_weights);
   }
 
   std::vector<DeclaredKey>

@@ -11,6 +11,8 @@ namespace Exemplar
     {
       examples.importance = 1.;
       examples.weights    = WeightRule::prescribed;
+      if (examples.prescribed_weights.empty() && examples.n_examples() == 2)
+        examples.prescribed_weights = "1-t; t"; // from the first to the second
     }
     if (solver.method != Method::automatic)
       return;

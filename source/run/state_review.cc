@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/long_vectors.h>
 #include <exemplar/base/number_text.h>
 #include <exemplar/mesh/mesh_checks.h>
 #include <exemplar/mesh/rigid_motion.h>
@@ -150,7 +151,7 @@ namespace Exemplar
       Vector        held = rest;
       problem.constraints.handles->move(problem.state.time, held);
       held -= rest;
-      return held.linfty_norm() < 1e-10 * problem.body.mesh.diameter();
+      return max_entry(held.begin(), held.end()) < 1e-10 * problem.body.mesh.diameter();
     }
   } // namespace
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/atomic_file.h>
 #include <exemplar/base/environment.h>
+#include <exemplar/base/message_text.h>
 #include <exemplar/base/version.h>
 #include <exemplar/run/inventory.h>
 #include <exemplar/run/summary.h>
@@ -79,8 +80,8 @@ namespace Exemplar
     json["blas_core"]    = blas.core;
     json["blas_threads"] = blas.threads;
     json["threads"]      = problem.parameters.solver.n_threads;
-    json["scene"]        = problem.parameters.name;
-    json["mesh"]         = problem.body.mesh.get_name();
+    json["scene"]        = printable(problem.parameters.name);
+    json["mesh"]         = printable(problem.body.mesh.get_name());
     json["mesh_sha256"]  = mesh_sha256;
     json["cells"]        = problem.body.mesh.n_cells();
     json["nodes"]        = problem.body.mesh.n_nodes();
@@ -109,7 +110,7 @@ namespace Exemplar
     json["left_out"]       = names_of(parts, false);
 
     AtomicFile atomic_file(file);
-    atomic_file.stream() << json.dump(2) << '\n';
+    atomic_file.stream() << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
     atomic_file.commit();
   }
 } // namespace Exemplar

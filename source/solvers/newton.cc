@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/long_vectors.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/solvers/newton.h>
 #include <exemplar/solvers/saddle.h>
@@ -225,7 +226,7 @@ namespace Exemplar
     try
     {
       const Vector error = system.displacement(state, system.solve(state, evaluation));
-      return error.linfty_norm() <= parameters.tolerance * extent(state.positions);
+      return max_entry(error.begin(), error.end()) <= parameters.tolerance * extent(state.positions);
     }
     catch (const SolverFailure &)
     {

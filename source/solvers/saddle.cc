@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/long_vectors.h>
 #include <exemplar/solvers/saddle.h>
 
 #include <algorithm>
@@ -72,7 +73,7 @@ namespace Exemplar
         return v;
       v *= shift;
       v += system.displacement(at, system.solve(at, evaluation)); // -A^-1 K v
-      const double greatest = potential.get_free_dofs().exchange().max(v.linfty_norm());
+      const double greatest = potential.get_free_dofs().exchange().max(max_entry(v.begin(), v.end()));
       if (!(greatest > 0.))
         break;
       v /= greatest;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/base/median.h>
+#include <exemplar/base/message_text.h>
 #include <exemplar/base/number_text.h>
 #include <exemplar/base/progress.h>
 #include <exemplar/mesh/mesh.h>
@@ -196,7 +197,7 @@ namespace Exemplar
     warn(const std::string &warning)
     {
       if (!warning.empty())
-        std::cerr << "Warning: " << warning << std::endl;
+        std::cerr << "Warning: " << message_text(warning) << std::endl;
     }
 
     void

@@ -231,13 +231,14 @@ namespace Exemplar
     std::ifstream in(file);
     if (!in)
       return {};
-    const auto json   = nlohmann::json::parse(in);
+    const auto json   = nlohmann::json::parse(in, nullptr, false); // damaged: nothing is in it
     const auto number = [&](const char *key)
     {
-      if (!json.contains(key))
+      if (!json.is_object() || !json.contains(key))
         return nan;
-      return json[key].is_null() ? std::numeric_limits<double>::infinity()
-                                 : json[key].get<double>();
+      return json[key].is_null()     ? std::numeric_limits<double>::infinity()
+             : json[key].is_number() ? json[key].get<double>()
+                                     : nan;
     };
     return { number("factorizations"), number("condition_matrix"), number("condition_schur"),
              number("peak_memory_mib") };

@@ -23,12 +23,13 @@ namespace Exemplar
   {
     const char *const program = "/proc/self/exe"; // also if the file has been replaced since
 
-    /// Empty if there is none.
+    /// Empty if there is none, or if it is damaged.
     Json
     read_json(const fs::path &file)
     {
       const auto text = read_text_file(file);
-      return text ? Json::parse(*text) : Json::object();
+      const auto json = Json::parse(text.value_or(""), nullptr, false);
+      return json.is_object() ? json : Json::object();
     }
 
     fs::path

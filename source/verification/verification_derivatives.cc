@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/long_vectors.h>
 #include <exemplar/verification/verification.h>
 #include <exemplar/verification/verification_scene.h>
 
@@ -75,9 +76,9 @@ namespace Exemplar::Verification
         {
           const double slope
               = derivative([&](const double h) { return shifted(unit(dof), h).energy; });
-          greatest = std::max(greatest, std::abs(slope - at.gradient[dof]));
+          greatest = max_or_nan(greatest, std::abs(slope - at.gradient[dof]));
         }
-        return greatest / (1. + at.gradient.linfty_norm());
+        return greatest / (1. + max_entry(at.gradient.begin(), at.gradient.end()));
       }
 
       /// Error of the slope of the energy along the forces themselves: |f|.
@@ -105,8 +106,8 @@ namespace Exemplar::Verification
           const auto column = derivative_of_gradient(unit(free[j]));
           for (unsigned int i = 0; i < free.size(); ++i)
           {
-            greatest = std::max(greatest, std::abs(column[free[i]] - entry(i, j)));
-            scale    = std::max(scale, std::abs(entry(i, j)));
+            greatest = max_or_nan(greatest, std::abs(column[free[i]] - entry(i, j)));
+            scale    = max_or_nan(scale, std::abs(entry(i, j)));
           }
         }
         return greatest / scale;
@@ -127,7 +128,7 @@ namespace Exemplar::Verification
             return evaluate(x, moved);
           };
           const double slope = derivative([&](const double h) { return weight_moved(h).energy; });
-          greatest           = std::max(greatest, std::abs(slope - at.weight_gradient[k]));
+          greatest           = max_or_nan(greatest, std::abs(slope - at.weight_gradient[k]));
           for (unsigned int i = 0; i < free.size(); ++i)
           {
             const double change
@@ -136,10 +137,10 @@ namespace Exemplar::Verification
                 = problem.examples.poses->is_strained(k)
                       ? columns[problem.examples.poses->strained_index(k) * free.size() + i]
                       : 0.;
-            greatest = std::max(greatest, std::abs(change + entry));
+            greatest = max_or_nan(greatest, std::abs(change + entry));
           }
         }
-        return greatest / (1. + at.gradient.linfty_norm());
+        return greatest / (1. + max_entry(at.gradient.begin(), at.gradient.end()));
       }
 
       /// Whether the guard acts: its derivative is left out of the tangent, Eq. (18).

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/long_vectors.h>
 #include <exemplar/algebra/weight_qp.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/verification/verification.h>
@@ -54,16 +55,17 @@ namespace Exemplar::Verification
         unit[i] = 1.;
         const ElasticEvaluation strained
             = evaluate(p, start.positions, std::vector<double>{ 1., 0., 0. });
-        const ElasticEvaluation at    = evaluate(p, start.positions, unit);
-        const double            scale = std::max(strained.force_scale.linfty_norm(),
-                                                 p.potential.get_cells().rounding_force() * 1e14);
-        residual                      = std::max(residual, at.gradient.linfty_norm() / scale);
+        const ElasticEvaluation at = evaluate(p, start.positions, unit);
+        const double            scale
+            = max_or_nan(max_entry(strained.force_scale.begin(), strained.force_scale.end()),
+                         p.potential.get_cells().rounding_force() * 1e14);
+        residual = max_or_nan(residual, max_entry(at.gradient.begin(), at.gradient.end()) / scale);
         p.resume_from(start);
         if (!is_success(p.advance().status))
           throw SolverFailure("example " + std::to_string(i) + ": the step failed");
-        distance = std::max(distance, max_difference(p.state.positions, start.positions));
+        distance = max_or_nan(distance, max_difference(p.state.positions, start.positions));
         for (unsigned int j = 0; j < unit.size(); ++j)
-          weight_error = std::max(weight_error, std::abs(p.state.weights[j] - unit[j]));
+          weight_error = max_or_nan(weight_error, std::abs(p.state.weights[j] - unit[j]));
       }
       return { { "relative residual", 0., residual, Comparison::absolute, 1e-12 },
                { "w - e_i", 0., weight_error, Comparison::absolute, 1e-8 },
@@ -229,7 +231,7 @@ namespace Exemplar::Verification
         for (unsigned int i = 0; i < qp.c.size(); ++i)
           if ((set >> i & 1u) != 0)
             active.push_back(i);
-        least = std::min(least, value_on_active_set(qp, active));
+        least = min_or_nan(least, value_on_active_set(qp, active));
       }
       return least;
     }
@@ -245,10 +247,11 @@ namespace Exemplar::Verification
         for (unsigned int j = 0; j < qp.c.size(); ++j)
           derivative += qp.H(i, j) * solution.weights[j];
         sum += solution.weights[i];
-        error = std::max({ error, -solution.weights[i], -derivative,
-                           solution.weights[i] > 0. ? derivative : 0. });
+        for (const double violation : { -solution.weights[i], -derivative,
+                                        solution.weights[i] > 0. ? derivative : 0. })
+          error = max_or_nan(error, violation);
       }
-      return std::max(error, std::abs(sum - 1.));
+      return max_or_nan(error, std::abs(sum - 1.));
     }
 
     std::vector<Measurement>
@@ -261,9 +264,9 @@ namespace Exemplar::Verification
         const unsigned int k  = 1 + sample % 6;
         const WeightQp     qp = random_qp(generator, k);
         const auto best = minimize_over_weights(qp.H, qp.c, { 1. }, std::vector<double>(k, 0.));
-        greatest_kkt    = std::max(greatest_kkt, kkt_error(qp, best));
-        greatest_value
-            = std::max(greatest_value, std::abs(qp.value(best.weights) - least_by_brute_force(qp)));
+        greatest_kkt    = max_or_nan(greatest_kkt, kkt_error(qp, best));
+        greatest_value  = max_or_nan(greatest_value,
+                                     std::abs(qp.value(best.weights) - least_by_brute_force(qp)));
       }
       return { { "conditions of KKT", 0., greatest_kkt, Comparison::absolute, 1e-10 },
                { "value less brute force", 0., greatest_value, Comparison::absolute, 1e-10 } };

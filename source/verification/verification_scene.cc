@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/long_vectors.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
 #include <exemplar/mesh/mesh_generation.h>
@@ -173,7 +174,7 @@ namespace Exemplar::Verification
   {
     dealii::Vector<double> difference = a;
     difference -= b;
-    return difference.linfty_norm();
+    return max_entry(difference.begin(), difference.end());
   }
 
   ElasticEvaluation

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/long_vectors.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/kernels/polar_decomposition.h>
 #include <exemplar/verification/verification.h>
@@ -112,7 +113,7 @@ namespace Exemplar::Verification
         const Matrix3<double> F     = p.body.fe_space.deformation_gradient(cell, state.positions);
         const Matrix3<double> error = combine(1., corotated_strain(closest_rotation(F), F), -1.,
                                               p.examples.poses->strain(cell, 1));
-        greatest                    = std::max(greatest, std::sqrt(contract(error, error)));
+        greatest                    = max_or_nan(greatest, std::sqrt(contract(error, error)));
       }
       return greatest;
     }

@@ -24,6 +24,7 @@ class BadInputTest(SceneTest):
                                                                b"::archive" + b"\xff" * 200)
         self.write("empty.txt", "")
         self.write("nodes.txt", "1\n77\n")
+        self.write("long.txt", "x" * 300000)
         self.write("bad.prm", prm({**BAR, "Scene": "statics"}))
         small = self.write_box({**BAR, "Mesh/Box cells": "1, 1, 1"}, "small.msh")
         self.assertEqual(len(small.nodes), 8)
@@ -47,6 +48,8 @@ class BadInputTest(SceneTest):
         self.assertEqual(len(lines), 1, run.stderr)
         self.assertTrue(lines[0].startswith("exemplar: "), run.stderr)
         self.assertEqual(run.stderr.count("exemplar: "), 1, run.stderr)
+        self.assertLess(len(run.stderr), 4000)
+        self.assertNotRegex(run.stderr.rstrip("\n"), "[\x00-\x1f\x7f-\x9f]")
         self.assertNotRegex(run.stderr, NO_MESSAGE)
         for words in expected:
             self.assertIn(words, run.stderr)

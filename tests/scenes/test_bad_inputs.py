@@ -28,7 +28,7 @@ COMMANDS = [
     ("--resume without checkpoint", ["scene.prm", "--output", "out", "--resume"],
      ["out/checkpoint.bin", "no checkpoint", "without --resume"]),
     ("--resume from a broken checkpoint", ["scene.prm", "--output", "broken", "--resume"],
-     ["broken/checkpoint.bin", "cannot be read as a checkpoint", "without --resume"]),
+     ["broken/checkpoint.bin", "is damaged", "checksum", "without --resume"]),
     ("output directory of others", ["scene.prm", "--output", "a directory"],
      ["a directory", "not empty", "not written by exemplar", "--output"]),
     ("output directory is a file", ["scene.prm", "--output", "small.msh"],
@@ -154,6 +154,34 @@ class BadInputs(BadInputTest):
             statistics.truncate(10)
         self.check(self.attempt(good, "--resume"), ["out/statistics.csv", "without --resume"],
                    self.tree())
+
+    def test_resume_from_what_was_damaged(self):
+        self.solve(DYNAMIC)
+        text = prm(DYNAMIC)
+        for name, expected in (("checkpoint.bin", "is damaged"), ("statistics.csv", "has changed")):
+            file = self.directory / "out" / name
+            whole = file.read_bytes()
+            flipped = bytearray(whole)
+            flipped[len(whole) // 2] ^= 4
+            for kind, content in (("flipped", flipped), ("truncated", whole[:-40]),
+                                  ("appended", whole + b"x"), ("empty", b""), (None, None)):
+                if name == "statistics.csv" and kind == "appended":
+                    continue  # rows behind the checkpoint are those of a run that was killed
+                with self.subTest(name, kind=kind):
+                    file.unlink()
+                    if content is None:
+                        file.mkdir()
+                        (file / "a file").touch()
+                    else:
+                        file.write_bytes(content)
+                    known = [expected] if kind == "flipped" else []
+                    self.check(self.attempt(text, "--resume"),
+                               [f"out/{name}", "Run the scene without --resume.", *known], self.tree())
+                    if content is None:
+                        (file / "a file").unlink()
+                        file.rmdir()
+                    file.write_bytes(whole)
+        self.solve(DYNAMIC, "--resume")
 
     def test_resume_beyond_the_end(self):
         self.solve(DYNAMIC)

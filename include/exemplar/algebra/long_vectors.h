@@ -62,13 +62,34 @@ namespace Exemplar
   };
 
   /// max |a_i|, or NaN if one of them is.
+  template <typename Iterator>
+  double
+  max_entry(Iterator entry, const Iterator end)
+  {
+    MaxMagnitude greatest;
+    for (; entry != end; ++entry)
+      greatest.add(*entry);
+    return greatest.value();
+  }
+
   inline double
   max_entry(const std::vector<double> &a)
   {
-    MaxMagnitude greatest;
-    for (const double entry : a)
-      greatest.add(entry);
-    return greatest.value();
+    return max_entry(a.begin(), a.end());
+  }
+
+  /// The greater of two numbers, or NaN if one of them is: std::max would lose a NaN in b.
+  inline double
+  max_or_nan(const double a, const double b)
+  {
+    return b <= a || a != a ? a : b;
+  }
+
+  /// The smaller of two numbers, or NaN if one of them is.
+  inline double
+  min_or_nan(const double a, const double b)
+  {
+    return b >= a || a != a ? a : b;
   }
 
   /// a += factor b.

@@ -2,6 +2,7 @@
 #ifndef exemplar_child_process_h
 #define exemplar_child_process_h
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -12,10 +13,11 @@ namespace Exemplar
   /// How a process ended.
   struct ChildEnd
   {
-    int    exit_status = 0; ///< 128 + signal if it was killed by one, as in shells
-    int    signal      = 0; ///< that ended it, or 0
-    bool   timed_out   = false;
-    double seconds     = 0.; ///< on the wall clock
+    int    exit_status   = 0; ///< 128 + signal if it was killed by one, as in shells
+    int    signal        = 0; ///< that ended it, or 0
+    bool   timed_out     = false;
+    bool   said_too_much = false;
+    double seconds       = 0.; ///< on the wall clock
   };
 
   /// The exit status if there is no such program.
@@ -38,9 +40,19 @@ namespace Exemplar
     std::string text;
   };
 
-  /// As run_child() without a timeout, but what the program says is returned, not logged.
+  /// What a process may do whose output is returned.
+  struct ChildLimits
+  {
+    std::filesystem::path directory;        ///< in which it runs
+    double                timeout;          ///< [s]; 0: none
+    std::uintmax_t        max_output_bytes; ///< of its output and errors
+  };
+
+  /// As run_child(), but what the program says is returned, not logged. Beyond a limit it is
+  /// killed. What it has started itself, and has not taken out of its process group, does not
+  /// outlive it.
   ChildOutput
-  output_of_child(const std::vector<std::string> &command);
+  output_of_child(const std::vector<std::string> &command, const ChildLimits &limits);
 } // namespace Exemplar
 
 #endif

@@ -43,6 +43,10 @@ namespace Exemplar
     bool
     in_use() const;
 
+    /// How many examples there are, the rest pose among them where it is included.
+    std::size_t
+    n_examples() const;
+
     /// sigma [J] of the ridge on the weights; `unit_energy` is sum E V [J].
     double
     ridge(double unit_energy) const;

@@ -4,6 +4,7 @@
 
 #include <exemplar/body/material_parameters.h>
 #include <exemplar/kernels/elasticity.h>
+#include <exemplar/mesh/msh_file.h>
 
 #include <vector>
 
@@ -13,8 +14,11 @@ namespace Exemplar
   class Material
   {
   public:
-    /// Throws UserError if a region names a material id that no cell has.
-    Material(const MaterialParameters &parameters, const std::vector<unsigned int> &material_ids);
+    /// `names` is a mesh whose physical groups may give regions their names. Throws UserError if
+    /// a region is named by a material id that no cell has, by no name of the mesh, or twice.
+    Material(const MaterialParameters        &parameters,
+             const std::vector<unsigned int> &material_ids,
+             const MshFile                   &names = {});
 
     const CellMaterial<double> &
     elasticity(const unsigned int cell) const

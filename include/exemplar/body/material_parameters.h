@@ -28,18 +28,25 @@ namespace Exemplar
   {
     ElasticConstants                         everywhere;
     MassMatrix                               mass_matrix = MassMatrix::consistent;
-    std::map<unsigned int, ElasticConstants> regions; ///< by material id
+    std::map<unsigned int, ElasticConstants> regions;       ///< by material id
+    std::map<std::string, ElasticConstants>  named_regions; ///< by name, as the scene has it
 
     void
     declare(KeyTable &keys);
 
-    /// Declare subsections "region N"; what they do not set is as everywhere.
+    /// Declare subsections "region N" and "region NAME"; what they do not set is as everywhere.
     void
-    declare_regions(KeyTable &keys, const std::set<unsigned int> &ids);
+    declare_regions(KeyTable                     &keys,
+                    const std::set<unsigned int> &ids,
+                    const std::set<std::string>  &names);
 
     /// The subsection of a material id.
     static std::string
     region_name(unsigned int id);
+
+    /// The subsection of a region with a name.
+    static std::string
+    region_name(const std::string &name);
 
     /// Throws UserError for a Poisson's ratio outside (-1, 0.5).
     void

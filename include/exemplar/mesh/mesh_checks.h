@@ -45,6 +45,13 @@ namespace Exemplar
   std::vector<std::size_t>
   orient_tetrahedra(const MshFile &contents, const std::string &name, Tetrahedra &tetrahedra);
 
+  /// Refuse coordinates [m] that are not finite, or so large that energies could not be: `nodes`
+  /// are places of the nodes of `contents`.
+  void
+  check_places(const std::vector<dealii::Point<3>> &nodes,
+               const MshFile                       &contents,
+               const std::string                   &name);
+
   /// Refuse nodes that belong to no tetrahedron: they would have no stiffness.
   void
   check_orphan_nodes(const MshFile     &contents,

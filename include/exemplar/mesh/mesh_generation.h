@@ -13,13 +13,13 @@ namespace Exemplar
   MshFile
   generate_box(const std::array<double, 3> &size, const std::array<unsigned int, 3> &n_cells);
 
-  /// Mesh a .geo file with gmsh. Returns the .msh, which is kept in
-  /// $XDG_CACHE_HOME/exemplar or ~/.cache/exemplar under the SHA-256 of the .geo's
-  /// text and gmsh's version, and used again without meshing. Files that the .geo
-  /// takes in (Include, Merge) are not part of that key: after changing one of
-  /// them, change the .geo, too, or empty the cache.
+  /// Mesh a .geo file with gmsh, in an empty directory and not for ever. Returns the .msh, which
+  /// is kept sealed in $XDG_CACHE_HOME/exemplar or ~/.cache/exemplar under the SHA-256 of all that
+  /// it follows from (the .geo, what it includes or merges, and gmsh's version) and used again
+  /// while its seal is whole; where the .geo reads other files, too, it is meshed each time.
+  /// Throws UserError for a .geo that could run programs or write files, unless `allow_commands`.
   std::filesystem::path
-  mesh_geo_file(const std::filesystem::path &geo);
+  mesh_geo_file(const std::filesystem::path &geo, bool allow_commands);
 } // namespace Exemplar
 
 #endif

@@ -51,8 +51,9 @@ namespace Exemplar
   std::vector<dealii::Point<3>>
   read_pose(const std::filesystem::path &file, const MshFile &mesh, const std::string &mesh_name);
 
-  /// Indices of the nodes that a file lists by their numbers in `mesh`, one a line, ascending.
-  /// Throws UserError, calling the list `key`.
+  /// Indices of the nodes that a file lists by their numbers in `mesh`, ascending: a text of
+  /// numbers between blanks, commas or semicolons, with comments from # to the end of the line, or
+  /// an array that numpy.save() has written. Throws UserError, calling the list `key`.
   std::vector<unsigned int>
   read_nodes(const std::filesystem::path &file,
              const MshFile               &mesh,

@@ -29,6 +29,9 @@ namespace Exemplar
     std::array<double, 3>       box_size{ { 1., 1., 1. } };
     std::array<unsigned int, 3> box_cells{ { 4, 4, 4 } };
     double                      scale = 1.;
+    /// Whether a .geo may run programs and write files. No key: a scene may not allow it to
+    /// itself.
+    bool allow_commands = false;
 
     void
     declare(KeyTable &keys);

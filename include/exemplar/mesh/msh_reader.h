@@ -40,6 +40,9 @@ namespace Exemplar
     void
     read_elements_4();
 
+    /// A physical tag, which may be negative: refuses the int whose magnitude is none.
+    int
+    checked_tag(int tag) const;
     void
     read_coordinates(std::size_t number);
     void

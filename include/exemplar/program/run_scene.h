@@ -13,10 +13,11 @@ namespace Exemplar
   {
     std::filesystem::path    scene_file;
     std::vector<std::string> overrides; ///< "Section/Key=value"
-    bool                     resume    = false;
-    bool                     quiet     = false;
-    bool                     verbose   = false; ///< a line an iteration instead of the bar
-    unsigned int             n_threads = 1;
+    bool                     resume         = false;
+    bool                     quiet          = false;
+    bool                     verbose        = false; ///< a line an iteration instead of the bar
+    unsigned int             n_threads      = 1;
+    bool                     allow_commands = false; ///< a .geo may run programs and write files
   };
 
   /// Solve a scene from its first (or, resumed, its next) step to the last and write

@@ -33,13 +33,15 @@ namespace Exemplar
     Work                               work;
     RunTotals                          totals;
     std::uintmax_t                     statistics_bytes = 0; ///< of statistics.csv at this state
+    std::string                        statistics_digest;    ///< SHA-256 of these bytes
   };
 
   /// Atomic: a kill at any moment leaves the checkpoint before or the new one.
   void
   save_checkpoint(const Checkpoint &checkpoint, const std::filesystem::path &file);
 
-  /// Throws UserError if there is none or it cannot be read.
+  /// Throws UserError if there is none, or if a single byte is not as save_checkpoint() of this
+  /// version has written it.
   Checkpoint
   load_checkpoint(const std::filesystem::path &file);
 

@@ -74,6 +74,14 @@ namespace Exemplar
     void
     start_interpolation();
 
+    /// Throws UserError if the initial state is nothing to begin with.
+    void
+    check_start();
+
+    /// Make a failure of a report on a step to `next` if that, evaluated, is not finite.
+    void
+    refuse_what_is_not_finite(const State &next, SolveReport &report) const;
+
     /// Evaluate at a state that no step has led to.
     void
     start(State &at);

@@ -21,15 +21,20 @@ namespace Exemplar
   std::map<std::string, std::string>
   digests_of(const SceneFile &scene);
 
-  /// Throws UserError if the checkpoint in `file` is none of this scene and its input files, or
-  /// does not stand at a step of it. A resumed run may end later and write differently; all else
-  /// must be the same.
+  /// Throws UserError if the checkpoint in `file` is none of this scene and its input files, does
+  /// not stand at a step of it, or holds a state that is none of its problem: of other sizes, or
+  /// not finite. A resumed run may end later and write differently; all else must be the same.
   void
   check_resumable(const Checkpoint                         &checkpoint,
                   const SceneFile                          &scene,
                   const std::map<std::string, std::string> &input_digests,
-                  const TimeAxis                           &time_axis,
+                  const Problem                            &problem,
                   const std::filesystem::path              &file);
+
+  /// Throws UserError unless `file`, statistics.csv, begins with the bytes that it had when the
+  /// checkpoint was written.
+  void
+  check_statistics(const std::filesystem::path &file, const Checkpoint &checkpoint);
 } // namespace Exemplar
 
 #endif

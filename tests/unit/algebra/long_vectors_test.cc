@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace Exemplar::Testing
 {
@@ -23,5 +24,19 @@ namespace Exemplar::Testing
       EXPECT_TRUE(std::isnan(max_entry({ -infinity, not_a_number, 1. })));
       EXPECT_TRUE(std::isnan(max_entry({ 1., -infinity, not_a_number })));
     }
+  }
+
+  TEST(LongVectors, TheGreaterOfTwoKeepsANaN)
+  {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_EQ(max_or_nan(1., 2.), 2.);
+    EXPECT_EQ(max_or_nan(2., 1.), 2.);
+    EXPECT_EQ(min_or_nan(1., 2.), 1.);
+    EXPECT_EQ(min_or_nan(2., 1.), 1.);
+    for (const auto &[a, b] : { std::pair(nan, 1.), std::pair(1., nan), std::pair(nan, nan) })
+      {
+        EXPECT_TRUE(std::isnan(max_or_nan(a, b)));
+        EXPECT_TRUE(std::isnan(min_or_nan(a, b)));
+      }
   }
 } // namespace Exemplar::Testing

@@ -2,6 +2,7 @@
 #include <exemplar/base/atomic_file.h>
 #include <exemplar/base/digest.h>
 #include <exemplar/base/errors.h>
+#include <exemplar/base/sealed_file.h>
 
 #include "expect_contains.h"
 #include "temporary_directory.h"
@@ -12,6 +13,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <sstream>
 #include <string>
 
 namespace Exemplar
@@ -93,6 +95,29 @@ namespace Exemplar
       EXPECT_EQ(sha256(write(std::string(200000, 'x'))), sha256_of_text(std::string(200000, 'x')));
       EXPECT_THROW(sha256(directory / "nowhere"), UserError);
       EXPECT_THROW(sha256(directory), UserError);
+      EXPECT_EQ(sha256_of_begin(write("abcde"), 3), abc);
+      EXPECT_THROW(sha256_of_begin(write("ab"), 3), UserError);
+    }
+
+    TEST_F(FilesTest, ASealIsOfTheBytesBeforeIt)
+    {
+      const std::string text = "bytes\0to keep";
+      const auto        file = write(text);
+      EXPECT_EQ(n_sealed_bytes(file), 0u);
+      seal_file(file);
+      EXPECT_EQ(n_sealed_bytes(file), text.size());
+
+      std::ostringstream streamed;
+      SealingBuffer      buffer(streamed);
+      std::ostream(&buffer) << text.substr(0, 2) << text[2] << text.substr(3);
+      buffer.seal();
+      EXPECT_EQ(sha256_of_text(streamed.str()), sha256(file));
+
+      EXPECT_EQ(n_sealed_bytes(write(streamed.str() + "\n")), 0u);
+      EXPECT_EQ(n_sealed_bytes(write("B" + streamed.str().substr(1))), 0u);
+      EXPECT_EQ(n_sealed_bytes(write("")), 0u);
+      EXPECT_EQ(n_sealed_bytes(directory), 0u);
+      EXPECT_EQ(n_sealed_bytes(directory / "nowhere"), 0u);
     }
   } // namespace
 } // namespace Exemplar

@@ -145,6 +145,50 @@ namespace Exemplar::Testing
                       "nowhere.geo cannot be opened (No such file");
     }
 
+    TEST_F(GeoTest, MakesADamagedMeshOfTheCacheAnew)
+    {
+      install_gmsh("cp '" + (directory / "made.msh").string() + "' \"$6\"\n");
+      Mesh       mesh(parameters);
+      const auto cached
+          = std::filesystem::directory_iterator(directory / "cache dir" / "exemplar")->path();
+      std::filesystem::resize_file(cached, std::filesystem::file_size(cached) / 2);
+      EXPECT_EQ(Mesh(parameters).n_cells(), 2U);
+      EXPECT_EQ(n_runs(), 2U);
+      {
+        std::fstream file(cached, std::ios::binary | std::ios::in | std::ios::out);
+        file.seekp(70);
+        file.put('7');
+      }
+      EXPECT_EQ(Mesh(parameters).n_cells(), 2U);
+      EXPECT_EQ(n_runs(), 3U);
+      EXPECT_EQ(Mesh(parameters).n_cells(), 2U);
+      EXPECT_EQ(n_runs(), 3U);
+      EXPECT_EQ(n_cached(), 1U);
+    }
+
+    TEST_F(GeoTest, RunsInAnEmptyDirectory)
+    {
+      install_gmsh("test -z \"$(ls | grep -v made)\" || exit 1; echo x > stray; cp '"
+                   + (directory / "made.msh").string() + "' \"$6\"\n");
+      EXPECT_EQ(Mesh(parameters).n_cells(), 2U);
+      EXPECT_EQ(n_cached(), 1U);
+      EXPECT_FALSE(std::filesystem::exists("stray"));
+    }
+
+    TEST_F(GeoTest, RunsNothingThatRunsCommandsUnlessAllowed)
+    {
+      install_gmsh("cp '" + (directory / "made.msh").string() + "' \"$6\"\n");
+      std::ofstream(parameters.file) << "SystemCall \"true\";";
+      expect_contains(error_of([&] { Mesh mesh(parameters); }), "the command SystemCall");
+      EXPECT_EQ(n_runs(), 0U);
+      parameters.allow_commands = true;
+      for (unsigned int run = 1; run <= 2; ++run) // nobody knows what such a script does
+      {
+        EXPECT_EQ(Mesh(parameters).n_cells(), 2U);
+        EXPECT_EQ(n_runs(), run);
+      }
+    }
+
     TEST_F(GeoTest, MeshesWithTheRealGmsh)
     {
       if (std::system("gmsh --version > /dev/null 2>&1") != 0)

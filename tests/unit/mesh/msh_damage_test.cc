@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace Exemplar::Testing
 {
   namespace
@@ -86,6 +88,18 @@ namespace Exemplar::Testing
       MshFile msh     = two_tetrahedra_with_gaps();
       msh.nodes[3][1] = std::nan("");
       expect_contains(error_of(version_4(msh, true)), "node 100000 has");
+    }
+
+    TEST_F(MshDamageTest, RefusesATagWithoutAMagnitude)
+    {
+      const std::string message = "a tag of -2147483648 is not allowed";
+      MshFile           msh     = two_tetrahedra_with_gaps();
+      const auto        file    = version_4(msh, false);
+      expect_contains(error_of(replaced(file, "2 8 1 1 3", "2 -2147483648 1 1 3")), message);
+      expect_contains(error_of(replaced(file, "2 8 \"left", "2 -2147483648 \"left")), message);
+      msh.elements[2].physical = std::numeric_limits<int>::min();
+      for (const bool binary : { false, true })
+        expect_contains(error_of(version_2(msh, binary)), message);
     }
 
     TEST_F(MshDamageTest, RefusesOtherFormats)

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/message_text.h>
+
+#include <algorithm>
+
+namespace Exemplar
+{
+  namespace
+  {
+    bool
+    continues(const std::string_view text, const std::size_t i)
+    {
+      return i < text.size() && (static_cast<unsigned char>(text[i]) & 0xc0) == 0x80;
+    }
+
+    /// Bytes of the character at a place (RFC 3629); 0 if there is none, or one that controls.
+    std::size_t
+    character_size(const std::string_view text, const std::size_t at)
+    {
+      const auto        c    = static_cast<unsigned char>(text[at]);
+      const auto        next = static_cast<unsigned char>(at + 1 < text.size() ? text[at + 1] : 0);
+      const std::size_t size = c < 0x80   ? 1
+                               : c < 0xc2 ? 0
+                               : c < 0xe0 ? 2
+                               : c < 0xf0 ? 3
+                               : c < 0xf5 ? 4
+                                          : 0;
+      for (std::size_t i = 1; i < size; ++i)
+        if (!continues(text, at + i))
+          return 0;
+      const bool controls  = c < 0x20 || c == 0x7f || (c == 0xc2 && next < 0xa0);
+      const bool too_long  = (c == 0xe0 && next < 0xa0) || (c == 0xf0 && next < 0x90);
+      const bool no_letter = (c == 0xed && next >= 0xa0) || (c == 0xf4 && next >= 0x90);
+      return controls || too_long || no_letter ? 0 : size;
+    }
+
+    /// Where a character ends that begins before `at` and goes on there.
+    std::size_t
+    next_begin(const std::string_view text, std::size_t at)
+    {
+      while (continues(text, at))
+        ++at;
+      return at;
+    }
+
+    /// Without the middle, if it is longer.
+    std::string
+    shortened(const std::string_view text, const std::size_t n_first, const std::size_t n_last)
+    {
+      const std::string gap = " [...] ";
+      if (text.size() <= n_first + gap.size() + n_last)
+        return std::string(text);
+      return std::string(text.substr(0, next_begin(text, n_first))) + gap
+             + std::string(text.substr(next_begin(text, text.size() - n_last)));
+    }
+  } // namespace
+
+  std::size_t
+  find_unprintable(const std::string_view text)
+  {
+    for (std::size_t i = 0; i < text.size();)
+    {
+      const std::size_t size = text[i] == '\t' ? 1 : character_size(text, i);
+      if (size == 0)
+        return i;
+      i += size;
+    }
+    return std::string_view::npos;
+  }
+
+  std::string
+  printable(const std::string_view bytes)
+  {
+    std::string text;
+    for (std::size_t i = 0; i < bytes.size();)
+    {
+      const std::size_t size = character_size(bytes, i);
+      if (size > 0)
+        text += bytes.substr(i, size);
+      else
+      {
+        const auto byte = static_cast<unsigned char>(bytes[i]);
+        text += { '\\', 'x', "0123456789abcdef"[byte / 16], "0123456789abcdef"[byte % 16] };
+      }
+      i += std::max<std::size_t>(size, 1);
+    }
+    return text;
+  }
+
+  std::string
+  in_quotes(const std::string_view word)
+  {
+    return "'" + shortened(printable(word), 40, 10) + "'";
+  }
+
+  std::string
+  message_text(const std::string_view message)
+  {
+    std::string text;
+    for (std::size_t begin = 0; begin <= message.size();)
+    {
+      const std::size_t end = std::min(message.find("\n  ", begin), message.size());
+      text += (begin == 0 ? "" : "\n") + printable(message.substr(begin, end - begin));
+      begin = end + 1;
+    }
+    return shortened(text, 1500, 1000);
+  }
+} // namespace Exemplar

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
+#include <exemplar/base/message_text.h>
+#include <exemplar/mesh/physical_names.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <set>
+
+namespace Exemplar
+{
+  namespace
+  {
+    /// The name that is written with or without quotes.
+    std::string
+    unquoted(const std::string &text)
+    {
+      return text.size() > 1 && text.front() == '"' && text.back() == '"'
+                 ? text.substr(1, text.size() - 2)
+                 : text;
+    }
+
+    std::string
+    names_present(const MshFile &mesh, const int dimension)
+    {
+      std::string text;
+      for (const auto &[group, name] : mesh.physical_names)
+        if (group.first == dimension)
+          text += (text.empty() ? "" : ", ") + in_quotes(name);
+      return text.empty() ? "none" : text;
+    }
+  } // namespace
+
+  std::optional<unsigned int>
+  parse_id(const std::string &text, const std::string &key)
+  {
+    char        *end    = nullptr;
+    const double number = std::strtod(text.c_str(), &end);
+    if (text.empty() || end != text.c_str() + text.size())
+      return {};
+    if (!(number >= 0. && number <= std::numeric_limits<int>::max())
+        || number != std::floor(number))
+      throw UserError(key
+                      + ": an id is a whole number from 0 on, or a name of the mesh file (in "
+                        "quotes, if it looks like a number), not "
+                      + in_quotes(text) + ".");
+    return static_cast<unsigned int>(number);
+  }
+
+  unsigned int
+  find_id(const MshFile &mesh, const int dimension, const std::string &text, const std::string &key)
+  {
+    if (const auto id = parse_id(text, key))
+      return *id;
+    const std::string  wanted = unquoted(text);
+    std::set<unsigned> found;
+    for (const auto &[group, name] : mesh.physical_names)
+      if (group.first == dimension && name == wanted)
+        found.insert(static_cast<unsigned int>(std::abs(group.second)));
+    const std::string kind = dimension == 3 ? "Physical Volume" : "Physical Surface";
+    if (found.empty())
+      throw UserError(key + ": the mesh has no " + kind + " of the name " + in_quotes(wanted)
+                      + " (present: " + names_present(mesh, dimension)
+                      + "). Give one that name, or its number here.");
+    if (found.size() > 1)
+      throw UserError(key + ": several of the mesh's " + kind + "s have the name "
+                      + in_quotes(wanted) + ". Give a number here.");
+    return *found.begin();
+  }
+} // namespace Exemplar
