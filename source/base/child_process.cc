@@ -59,6 +59,8 @@ namespace Exemplar
     [[noreturn]] void
     become(char *const argv[], const int out, const pid_t parent)
     {
+      for (const int signal : { SIGPIPE, SIGXFSZ }) // what we ignore would stay ignored
+        std::signal(signal, SIG_DFL);
       prctl(PR_SET_PDEATHSIG, SIGKILL);
       if (getppid() != parent) // it has died before the line above
         _exit(no_such_program);

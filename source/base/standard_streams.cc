@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/standard_streams.h>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <csignal>
+
+namespace Exemplar
+{
+  void
+  secure_standard_streams()
+  {
+    for (const int descriptor : { STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO })
+      if (::fcntl(descriptor, F_GETFD)
+          < 0) // opening takes the least free number, which is this one
+        if (::open("/dev/null", descriptor == STDIN_FILENO ? O_RDONLY : O_WRONLY) < 0)
+          ::open("/",
+                 O_RDONLY | O_DIRECTORY); // where there is no /dev; cannot be written to, either
+    std::signal(SIGPIPE, SIG_IGN);
+  }
+} // namespace Exemplar
