@@ -56,13 +56,11 @@ namespace Exemplar
   void
   RunWriter::begin()
   {
-    auto inputs = scene.input_files();
+    auto inputs = scene.named_files();
     inputs.push_back(scene.get_path());
-    directory.check_for_new_run(inputs);
-
     {
       StepClock::Scope scope(problem.clock, Part::output);
-      directory.clear();
+      directory.take_for_new_run(inputs);
       write_parameters(scene, directory.parameters_prm());
       write_original();
       statistics.emplace(directory.statistics());
@@ -81,6 +79,7 @@ namespace Exemplar
   void
   RunWriter::resume()
   {
+    directory.take_for_resume(scene.named_files());
     const Checkpoint checkpoint = load_checkpoint(directory.checkpoint());
     check_resumable(checkpoint, scene, input_digests, problem.time_axis, directory.checkpoint());
     {
@@ -89,9 +88,12 @@ namespace Exemplar
       write_original();
       write_parameters(scene, directory.parameters_prm());
     }
+    directory.remove_frames_after(checkpoint.state.step);
     if (is_only_last_frame(checkpoint) && !frames.is_due(checkpoint.state.step))
       frames.remove(checkpoint.state.step);
     restore(checkpoint, directory.checkpoint(), problem);
+    if (frames.is_due(checkpoint.state.step)) // an earlier resume may have removed it
+      frames.write_if_missing();
     diagnostics.resume(checkpoint.work);
     accepted_bytes         = checkpoint.statistics_bytes;
     totals                 = checkpoint.totals;
@@ -140,6 +142,7 @@ namespace Exemplar
     totals.factorizations = earlier_factorizations + problem.system.n_factorizations();
     totals.worst_residual = std::max(totals.worst_residual, report.residual);
 
+    directory.require_taken();
     if (accepted)
       diagnostics.add_step();
     if (accepted && frames.is_due(problem.state.step))
@@ -169,6 +172,7 @@ namespace Exemplar
     {
       StepClock::Scope scope(problem.clock, Part::output);
       frames.drain();
+      directory.require_taken();
       write_final_pose();
       frames.write_animations();
       save();
