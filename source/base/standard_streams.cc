@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
 #include <exemplar/base/standard_streams.h>
 
 #include <fcntl.h>
+#include <poll.h>
 #include <unistd.h>
 
 #include <csignal>
+#include <iostream>
 
 namespace Exemplar
 {
@@ -18,5 +21,18 @@ namespace Exemplar
           ::open("/",
                  O_RDONLY | O_DIRECTORY); // where there is no /dev; cannot be written to, either
     std::signal(SIGPIPE, SIG_IGN);
+  }
+
+  void
+  require_printed()
+  {
+    if (std::cout.flush())
+      return;
+    pollfd out{ STDOUT_FILENO, POLLOUT, 0 };
+    if (::poll(&out, 1, 0) == 1 && (out.revents & POLLERR) != 0)
+      return;
+    throw UserError("Standard output cannot be written, and what was printed is not whole. Is the "
+                    "disk full? Print "
+                    "to another place.");
   }
 } // namespace Exemplar

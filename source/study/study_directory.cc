@@ -44,7 +44,7 @@ namespace Exemplar
   bool
   StudyDirectory::is_ours() const
   {
-    return begins_with(study_prm(), mark);
+    return fs::is_regular_file(fs::symlink_status(study_prm())) && begins_with(study_prm(), mark);
   }
 
   void

@@ -95,7 +95,8 @@ namespace Exemplar
     is_of_a_study(const fs::path &run)
     {
       return fs::is_directory(fs::symlink_status(run))
-             && (fs::is_regular_file(record_file(run)) || RunDirectory(run).is_ours());
+             && (fs::is_regular_file(fs::symlink_status(record_file(run)))
+                 || RunDirectory(run).is_ours());
     }
 
     void
@@ -214,6 +215,8 @@ namespace Exemplar
   void
   StudyRuns::load(const std::string &name)
   {
+    if (!fs::is_regular_file(fs::symlink_status(record_file(path(name)))))
+      return;
     StudyRecord record;
     try
     {

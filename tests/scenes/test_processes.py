@@ -174,6 +174,16 @@ class Streams(ProcessTest):
             self.result_of(process)
         self.check(process.returncode, self.directory / "out")
 
+    def test_what_is_printed_is_whole_or_an_error(self):
+        for arguments in (["--print-parameters"], ["study", "--print-parameters"], ["verify", "--list"]):
+            with self.subTest(arguments), open("/dev/full", "w", encoding="ascii") as full:
+                status, message = self.result_of(self.start(*arguments, stdout=full))
+                self.assertEqual(status, 1)
+                self.assertRegex(message, r"\Aexemplar: Standard output cannot be written[^\n]*\n\Z")
+                done = subprocess.run(["bash", "-c", '"$0" "$@" | true; exit ${PIPESTATUS[0]}', EXEMPLAR, *arguments],
+                                      cwd=self.directory, check=False, stderr=subprocess.PIPE, timeout=300)
+                self.assertEqual((done.returncode, done.stderr), (0, b""))
+
     def test_a_reader_that_goes_away(self):
         self.write("scene.prm", prm(DYNAMIC))
         for redirect in ("| head -1", "2>&1 | head -1", "| true"):
@@ -241,8 +251,8 @@ class Signals(ProcessTest):
             self.assertEqual(results(self.directory / "out"), whole)
 
     def test_a_second_signal(self):
-        # the first iteration of a large body takes seconds
-        self.write("scene.prm", prm({**DYNAMIC, "Mesh/Box cells": "40, 40, 40", "Output/Every": "0"}))
+        # the first iteration of a large body takes a while
+        self.write("scene.prm", prm({**DYNAMIC, "Mesh/Box cells": "24, 24, 24", "Output/Every": "0"}))
         process = self.start("scene.prm", "--output", "out", "--quiet")
         self.wait_until(lambda: (self.directory / "out/checkpoint.bin").exists(), process)
         process.send_signal(signal.SIGINT)

@@ -10,6 +10,11 @@ namespace Exemplar
   /// default it ends the process. To be called before anything is opened.
   void
   secure_standard_streams();
+
+  /// Throws UserError if something that was written to standard output has not arrived, because the disk is
+  /// full, say. A reader that has gone has seen what it wanted. For commands whose result is what they print.
+  void
+  require_printed();
 } // namespace Exemplar
 
 #endif
