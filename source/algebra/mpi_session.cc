@@ -36,6 +36,8 @@ namespace Exemplar
                       "started. Call MPI_Init before, or hold an Exemplar::MpiSession in main().");
     // alone, Open MPI would start a daemon, and look for ssh to do so
     setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+    // hwloc, by which it looks at the machine, would say on stderr what it misses, such as /sys
+    setenv("HWLOC_HIDE_ERRORS", "2", 0);
     MPI_Init(nullptr, nullptr); // does not return if it fails
     mpi_was_started = true;
   }

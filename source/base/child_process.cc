@@ -81,6 +81,8 @@ namespace Exemplar
         _exit(no_such_program);
       if (!task.directory.empty() && chdir(task.directory.c_str()) != 0)
         _exit(no_such_program);
+      for (const int signal : { SIGPIPE, SIGXFSZ }) // what we ignore would stay ignored
+        std::signal(signal, SIG_DFL);
       prctl(PR_SET_PDEATHSIG, SIGKILL);
       if (getppid() != parent) // it has died before the line above
         _exit(no_such_program);

@@ -2,6 +2,7 @@
 #include <exemplar/base/environment.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdlib>
 #include <dlfcn.h>
 #include <omp.h>
@@ -111,7 +112,14 @@ namespace Exemplar
     if (std::getenv(variable) != nullptr || core == nullptr || !is_old_core(blas_info().core))
       return;
     setenv(variable, core, 1);
-    execv("/proc/self/exe", argv); // if it fails we go on, only slower
+    // interrupts wait until the program is there again and has said what becomes of them
+    sigset_t interrupts, before;
+    sigemptyset(&interrupts);
+    for (const int signal : { SIGINT, SIGTERM, SIGXCPU, SIGHUP })
+      sigaddset(&interrupts, signal);
+    pthread_sigmask(SIG_BLOCK, &interrupts, &before);
+    execv("/proc/self/exe", argv);
+    pthread_sigmask(SIG_SETMASK, &before, nullptr); // it has failed: we go on, only slower
   }
 
   double

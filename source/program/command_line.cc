@@ -2,6 +2,7 @@
 #include <exemplar/algebra/spd_operator.h>
 #include <exemplar/base/environment.h>
 #include <exemplar/base/errors.h>
+#include <exemplar/base/standard_streams.h>
 #include <exemplar/base/version.h>
 #include <exemplar/program/command_line.h>
 #include <exemplar/program/interrupt.h>
@@ -91,19 +92,22 @@ namespace Exemplar
     int
     do_verify(const Arguments &arguments)
     {
-      if (!arguments.list_cases)
-        return verify(arguments.cases);
-      list_verification_cases();
-      return 0;
+      int status = 0;
+      if (arguments.list_cases)
+        list_verification_cases();
+      else
+        status = verify(arguments.cases);
+      require_printed();
+      return status;
     }
 
     void
     do_study(const Arguments &arguments)
     {
-      if (arguments.print_study)
-        print_study_parameters();
-      else
-        run_study(arguments.study);
+      if (!arguments.print_study)
+        return run_study(arguments.study);
+      print_study_parameters();
+      require_printed();
     }
 
     void
@@ -111,7 +115,10 @@ namespace Exemplar
     {
       const auto &file = arguments.run.scene_file;
       if (arguments.print)
+      {
         print_parameters();
+        require_printed();
+      }
       else if (is_study(file))
       {
         if (!arguments.validate)

@@ -1,37 +1,63 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/program/interrupt.h>
 
+#include <unistd.h>
+
 #include <atomic>
 #include <csignal>
+#include <cstring>
 
 namespace Exemplar
 {
   namespace
   {
-    // the signal may come to any thread
-    std::atomic<bool> interrupted{ false };
+    // a signal may come to any thread
+    std::atomic<bool> noting{ false }, interrupted{ false };
     static_assert(std::atomic<bool>::is_always_lock_free, "as signal handlers need it");
 
-    void
-    note_interrupt(const int signal)
+    constexpr int signals[] = { SIGINT, SIGTERM, SIGXCPU, SIGHUP };
+
+    /// A signal handler: nothing but system calls is safe.
+    [[noreturn]] void
+    end_with(const char *message)
     {
-      interrupted = true;
-      std::signal(signal, SIG_DFL); // a second one ends the program at once
+      if (write(STDERR_FILENO, message, std::strlen(message)) < 0)
+        _exit(130); // nobody listens, which changes nothing
+      _exit(130);
     }
 
-    bool
-    note_interrupts()
+    void
+    take_interrupt(int)
     {
-      std::signal(SIGINT, note_interrupt);
-      std::signal(SIGTERM, note_interrupt);
-      return true;
+      if (!noting)
+        end_with("exemplar: Interrupted before a run had begun.\n");
+      if (interrupted.exchange(true))
+        end_with(
+            "exemplar: Interrupted again, and ended at once. Go on from the last checkpoint with "
+            "--resume.\n");
     }
   } // namespace
+
+  void
+  end_at_interrupts()
+  {
+    sigset_t set;
+    sigemptyset(&set);
+    for (const int signal : signals)
+    {
+      sigaddset(&set, signal);
+      const auto before = std::signal(signal, take_interrupt);
+      if (signal == SIGHUP && before == SIG_IGN)
+        std::signal(SIGHUP, SIG_IGN);
+    }
+    // those that came while the program was started anew have waited
+    pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
+  }
 
   bool
   is_interrupted()
   {
-    static const bool noting = note_interrupts();
-    return noting && interrupted;
+    noting = true;
+    return interrupted;
   }
 } // namespace Exemplar

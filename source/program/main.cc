@@ -3,7 +3,9 @@
 #include <exemplar/base/environment.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/base/message_text.h>
+#include <exemplar/base/standard_streams.h>
 #include <exemplar/program/command_line.h>
+#include <exemplar/program/interrupt.h>
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/multithread_info.h>
@@ -15,6 +17,8 @@
 int
 main(int argc, char *argv[])
 {
+  Exemplar::secure_standard_streams();
+  Exemplar::end_at_interrupts();
   Exemplar::restart_with_right_core_type(argv);
   Exemplar::use_one_blas_thread();
   dealii::MultithreadInfo::set_thread_limit(1);

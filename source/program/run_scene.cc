@@ -131,6 +131,7 @@ namespace Exemplar
     const SceneFile scene(options.scene_file, options.overrides);
     const auto problem = make_problem_and_warn(scene.get_parameters(), options, options.n_threads);
     RunWriter  writer(*problem, scene);
+    is_interrupted(); // from now on a signal waits until the run has written what it has
     try
     {
       if (options.resume)

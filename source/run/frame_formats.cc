@@ -13,7 +13,10 @@ namespace Exemplar
   const std::vector<FrameFormat> &
   frame_formats()
   {
-    static const std::vector<FrameFormat> formats = { { "vtu", "animation.pvd", make_vtu_writer } };
+    static const std::vector<FrameFormat> formats
+        = { { "vtu", "animation.pvd", make_vtu_writer,
+              "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\"",
+              "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">" } };
     return formats;
   }
 
@@ -34,12 +37,21 @@ namespace Exemplar
            + name;
   }
 
-  bool
-  FrameFormat::owns(const std::string &file) const
+  std::optional<unsigned int>
+  FrameFormat::step_of(const std::string &file) const
   {
-    static const std::regex pattern("frame_[0-9]+\\.(.+)");
+    static const std::regex pattern("frame_([0-9]{4}|[1-9][0-9]{4,8})\\.(.+)");
     std::smatch             parts;
-    return (!animation.empty() && file == animation)
-           || (std::regex_match(file, parts, pattern) && parts[1] == name);
+    if (std::regex_match(file, parts, pattern) && parts[2] == name)
+      return static_cast<unsigned int>(std::stoul(parts[1]));
+    return std::nullopt;
+  }
+
+  std::optional<std::string>
+  FrameFormat::beginning_of(const std::string &file) const
+  {
+    if (!animation.empty() && file == animation)
+      return animation_beginning;
+    return step_of(file) ? std::make_optional(frame_beginning) : std::nullopt;
   }
 } // namespace Exemplar

@@ -67,6 +67,14 @@ namespace Exemplar
   }
 
   void
+  FrameOutput::write_if_missing()
+  {
+    for (const auto &[format, writer] : writers)
+      if (!std::filesystem::exists(directory / format->frame_name(problem.state.step)))
+        return write();
+  }
+
+  void
   FrameOutput::drain()
   {
     background.drain();
@@ -94,7 +102,10 @@ namespace Exemplar
   void
   FrameOutput::remove(const unsigned int step) const
   {
+    namespace fs = std::filesystem;
     for (const FrameFormat &format : formats)
-      std::filesystem::remove(directory / format.frame_name(step));
+      if (const fs::path file = directory / format.frame_name(step);
+          fs::is_regular_file(fs::symlink_status(file)))
+        fs::remove(file);
   }
 } // namespace Exemplar

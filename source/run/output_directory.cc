@@ -41,4 +41,31 @@ namespace Exemplar
     std::string   first;
     return std::getline(in, first) && first == line;
   }
+
+  bool
+  is_absent(const fs::path &file)
+  {
+    return fs::symlink_status(file).type() == fs::file_type::not_found;
+  }
+
+  std::string
+  objection_to(const fs::path &file, const std::string &beginning)
+  {
+    const fs::file_status status = fs::symlink_status(file);
+    if (fs::is_symlink(status))
+      return "is a link";
+    if (fs::is_directory(status))
+      return "is a directory";
+    if (!fs::is_regular_file(status))
+      return "is no regular file";
+    const fs::perms write
+        = fs::perms::owner_write | fs::perms::group_write | fs::perms::others_write;
+    if ((status.permissions() & write) == fs::perms::none)
+      return "is protected against writing";
+    std::string   bytes(beginning.size(), '\0');
+    std::ifstream in(file, std::ios::binary);
+    in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    const auto n = static_cast<std::size_t>(in.gcount());
+    return bytes.compare(0, n, beginning, 0, n) == 0 ? "" : "was not written by exemplar";
+  }
 } // namespace Exemplar

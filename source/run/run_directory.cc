@@ -4,6 +4,8 @@
 #include <exemplar/run/run_directory.h>
 
 #include <algorithm>
+#include <map>
+#include <stdexcept>
 
 namespace Exemplar
 {
@@ -14,6 +16,27 @@ namespace Exemplar
   namespace
   {
     const std::string remedy = " Give another one by --output or Output/Directory.";
+
+    /// A file that has not been renamed yet.
+    bool
+    is_temporary(const std::string &name)
+    {
+      return fs::path(name).extension() == ".tmp";
+    }
+
+    /// Files that a run has once, and what they begin with; empty: with anything.
+    const std::map<std::string, std::string> &
+    single_files()
+    {
+      static const std::map<std::string, std::string> files
+          = { { "parameters.prm", RunDirectory::mark + "\n" },
+              { "original.prm", "" }, // as the user wrote it
+              { "statistics.csv", "step,time,status," },
+              { "summary.json", "{\n  \"program\": \"exemplar\"" },
+              { "final.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n" },
+              { "checkpoint.bin", "" } }; // binary, and checked where it is read
+      return files;
+    }
   } // namespace
 
   RunDirectory::RunDirectory(fs::path path, const std::vector<FrameFormat> &formats)
@@ -21,57 +44,149 @@ namespace Exemplar
   {
   }
 
-  bool
-  RunDirectory::is_own_name(const std::string &name) const
+  std::optional<std::string>
+  RunDirectory::beginning_of(const std::string &name) const
   {
-    const fs::path file
-        = path / (fs::path(name).extension() == ".tmp" ? fs::path(name).stem() : fs::path(name));
-    return file == original_prm() || file == parameters_prm() || file == statistics()
-           || file == summary() || file == final_pose() || file == checkpoint()
-           || std::any_of(formats.begin(), formats.end(),
-                          [&](const FrameFormat &format)
-                          { return format.owns(file.filename().string()); });
+    if (is_temporary(name))
+      return beginning_of(fs::path(name).stem().string()) ? std::make_optional<std::string>()
+                                                          : std::nullopt;
+    if (const auto found = single_files().find(name); found != single_files().end())
+      return found->second;
+    for (const FrameFormat &format : formats)
+      if (auto beginning = format.beginning_of(name))
+        return beginning;
+    return std::nullopt;
+  }
+
+  std::string
+  RunDirectory::objection_to(const std::string &name) const
+  {
+    const auto beginning = beginning_of(name);
+    return beginning ? Exemplar::objection_to(path / name, *beginning) : "no run writes";
   }
 
   bool
   RunDirectory::is_ours() const
   {
-    return begins_with(parameters_prm(), mark);
+    return fs::is_regular_file(fs::symlink_status(parameters_prm()))
+           && begins_with(parameters_prm(), mark);
   }
 
-  std::vector<fs::path>
-  RunDirectory::own_files() const
+  std::vector<std::string>
+  RunDirectory::own_names() const
   {
-    std::vector<fs::path> files;
+    std::vector<std::string> names;
     for (const auto &entry : fs::directory_iterator(path))
-      if (is_own_name(entry.path().filename().string()))
-        files.push_back(entry.path());
-    return files;
+      if (const std::string name = entry.path().filename().string(); beginning_of(name))
+        names.push_back(name);
+    std::sort(names.begin(), names.end()); // so that messages do not depend on the file system
+    return names;
   }
 
   void
-  RunDirectory::check_for_new_run(const std::vector<fs::path> &input_files) const
+  RunDirectory::lock()
   {
-    require_writable(path, remedy);
-    if (!fs::exists(path) || fs::is_empty(path))
-      return;
-    if (!is_ours())
+    taken = std::make_unique<const DirectoryLock>(
+        path, "Another run is writing into the output directory " + path.string()
+                  + ". Wait for its end or stop it." + remedy);
+  }
+
+  void
+  RunDirectory::require_taken() const
+  {
+    if (taken != nullptr && !taken->is_in_place())
+      throw std::runtime_error(
+          "The output directory " + path.string()
+          + " has been removed or replaced while the run was writing into it.");
+  }
+
+  void
+  RunDirectory::refuse_inputs(const std::vector<std::string> &names,
+                              const std::vector<fs::path>    &input_files,
+                              const std::string              &what_would_happen) const
+  {
+    for (const std::string &name : names)
+      for (const fs::path &input : input_files)
+        if (fs::exists(path / name) && fs::exists(input) && fs::equivalent(path / name, input))
+          throw UserError("Output directory " + path.string() + " holds the input file "
+                          + input.string() + ", which this run would " + what_would_happen + "."
+                          + remedy);
+  }
+
+  void
+  RunDirectory::refuse_directory_of_others(const std::vector<std::string> &names) const
+  {
+    const auto n_files = std::distance(fs::directory_iterator(path), fs::directory_iterator());
+    // a run that was killed before it had a file leaves the first one's temporary
+    const bool is_stillborn = static_cast<std::size_t>(n_files) == names.size()
+                              && std::all_of(names.begin(), names.end(), is_temporary);
+    if (!is_ours() && !is_stillborn)
       throw UserError("Output directory " + path.string()
                       + " is not empty and was not written by exemplar." + remedy);
-    for (const fs::path &own : own_files())
-      for (const fs::path &input : input_files)
-        if (fs::exists(input) && fs::equivalent(own, input))
-          throw UserError("Output directory " + path.string() + " holds the input file "
-                          + input.string() + ", which this run would clear away." + remedy);
+  }
+
+  std::string
+  RunDirectory::refusal_of(const std::string &name, const std::string &objection) const
+  {
+    return "Output directory " + path.string() + " holds " + name + ", which " + objection
+           + ", but a run writes a file of this name.";
+  }
+
+  void
+  RunDirectory::take_for_new_run(const std::vector<fs::path> &input_files)
+  {
+    require_writable(path, remedy);
+    make_directory(path, remedy);
+    lock();
+    const std::vector<std::string> names = own_names();
+    refuse_directory_of_others(names);
+    refuse_inputs(names, input_files, "clear away");
+    for (const std::string &name : names)
+      if (const std::string objection = objection_to(name); !objection.empty())
+        throw UserError(refusal_of(name, objection)
+                        + " Nothing has been removed. Move it away, or give another directory by "
+                          "--output or Output/Directory.");
+    clear();
+  }
+
+  void
+  RunDirectory::take_for_resume(const std::vector<fs::path> &input_files)
+  {
+    if (!fs::is_directory(path))
+      return;
+    lock();
+    const std::vector<std::string> names = own_names();
+    refuse_inputs(names, input_files, "replace");
+    // frames are replaced whole; what is written in place must not be another file by another name
+    for (const std::string &name : names)
+      if ((is_temporary(name) || single_files().count(name) > 0)
+          && !fs::is_regular_file(fs::symlink_status(path / name)))
+        throw UserError(
+            refusal_of(name, objection_to(name))
+            + " Move it away, or run the scene without --resume into another directory.");
+  }
+
+  void
+  RunDirectory::remove_frames_after(const unsigned int step) const
+  {
+    const auto is_later = [&](const std::string &name)
+    {
+      return std::any_of(formats.begin(), formats.end(),
+                         [&](const FrameFormat &format)
+                         { return format.step_of(name).value_or(0) > step; });
+    };
+    for (const std::string &name : own_names())
+      if ((is_temporary(name) || is_later(name)) && objection_to(name).empty())
+        fs::remove(path / name);
   }
 
   void
   RunDirectory::clear() const
   {
-    make_directory(path, remedy);
-    for (const fs::path &file : own_files())
-      if (file != parameters_prm())
-        fs::remove(file);
-    fs::remove(parameters_prm()); // last: by it the directory is known as ours
+    fs::remove(checkpoint()); // first: what has lost one of its files cannot be resumed
+    for (const std::string &name : own_names())
+      if (path / name
+          != parameters_prm()) // stays until it is replaced: by it the directory is known
+        fs::remove(path / name);
   }
 } // namespace Exemplar

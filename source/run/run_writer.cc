@@ -69,13 +69,11 @@ namespace Exemplar
   void
   RunWriter::begin()
   {
-    auto inputs = scene.input_files();
+    auto inputs = scene.named_files();
     inputs.push_back(scene.get_path());
-    directory.check_for_new_run(inputs);
-
     {
       StepClock::Scope scope(problem.clock, Part::output);
-      directory.clear();
+      directory.take_for_new_run(inputs);
       write_parameters(scene, directory.parameters_prm());
       write_original();
       statistics.emplace(directory.statistics());
@@ -94,6 +92,7 @@ namespace Exemplar
   void
   RunWriter::resume()
   {
+    directory.take_for_resume(scene.named_files());
     const Checkpoint checkpoint = load_checkpoint(directory.checkpoint());
     check_resumable(checkpoint, scene, input_digests, problem, directory.checkpoint());
     check_statistics(directory.statistics(), checkpoint);
@@ -104,8 +103,11 @@ namespace Exemplar
       write_original();
       write_parameters(scene, directory.parameters_prm());
     }
+    directory.remove_frames_after(checkpoint.state.step);
     if (is_only_last_frame(checkpoint) && !frames.is_due(checkpoint.state.step))
       frames.remove(checkpoint.state.step);
+    if (frames.is_due(checkpoint.state.step)) // an earlier resume may have removed it
+      frames.write_if_missing();
     diagnostics.resume(checkpoint.work);
     accepted_bytes         = checkpoint.statistics_bytes;
     totals                 = checkpoint.totals;
@@ -154,6 +156,7 @@ namespace Exemplar
     totals.factorizations = earlier_factorizations + problem.system.n_factorizations();
     totals.worst_residual = std::max(totals.worst_residual, report.residual);
 
+    directory.require_taken();
     if (accepted)
       diagnostics.add_step();
     State shown = problem.state;
@@ -185,6 +188,7 @@ namespace Exemplar
     {
       StepClock::Scope scope(problem.clock, Part::output);
       frames.drain();
+      directory.require_taken();
       write_final_pose();
       frames.write_animations();
       save();

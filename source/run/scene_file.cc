@@ -92,6 +92,17 @@ namespace Exemplar
         }
       return regions;
     }
+
+    /// The files that a key names.
+    void
+    append_files(const DeclaredKey &key, std::vector<std::filesystem::path> &files)
+    {
+      if (key.is_input_file)
+        for (const std::string &file : split_trimmed(key.value, key.is_list ? ',' : '\n'))
+          files.emplace_back(file);
+      else if (key.key == "Select" && key.value.compare(0, 6, "nodes ") == 0)
+        files.emplace_back(key.value.substr(6));
+    }
   } // namespace
 
   SceneFile::SceneFile(const std::filesystem::path &file, const std::vector<std::string> &overrides)
@@ -263,13 +274,17 @@ namespace Exemplar
   {
     std::vector<std::filesystem::path> files;
     for (const DeclaredKey &key : get_keys())
-      if (key.path() == "Examples/Poses" && !parameters.examples.in_use())
-        continue; // with importance 0 the poses need not be there
-      else if (key.is_input_file)
-        for (const std::string &file : split_trimmed(key.value, key.is_list ? ',' : '\n'))
-          files.emplace_back(file);
-      else if (key.key == "Select" && key.value.compare(0, 6, "nodes ") == 0)
-        files.emplace_back(key.value.substr(6));
+      if (key.path() != "Examples/Poses" || parameters.examples.in_use())
+        append_files(key, files); // with importance 0 the poses need not be there
+    return files;
+  }
+
+  std::vector<std::filesystem::path>
+  SceneFile::named_files() const
+  {
+    std::vector<std::filesystem::path> files;
+    for (const DeclaredKey &key : get_keys())
+      append_files(key, files);
     return files;
   }
 } // namespace Exemplar

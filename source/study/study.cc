@@ -20,6 +20,7 @@
 #include <iostream>
 #include <map>
 #include <memory>
+#include <optional>
 #include <unistd.h>
 
 namespace Exemplar
@@ -234,6 +235,21 @@ namespace Exemplar
       return table;
     }
 
+    /// Runs of other settings, inputs or another program; those that hold something else, too, stay.
+    void
+    remove_others(const StudyPlan &plan, const StudyRuns &runs)
+    {
+      for (const fs::path &other : runs.others(plan.names()))
+        try
+        {
+          runs.remove(other);
+        }
+        catch (const UserError &error)
+        {
+          warn(error.what());
+        }
+    }
+
     void
     print_end(const StudyTable &table, const StudyDirectory &directory)
     {
@@ -257,25 +273,34 @@ namespace Exemplar
     const Study     study(options.file);
     const StudyPlan plan(study);
     warn_of(plan);
-    const StudyDirectory directory(options.output.empty() ? fs::path("output") / options.file.stem()
-                                                          : options.output);
-    directory.check(options.file);
-    directory.make();
-    const FileLock lock = directory.lock();
+    StudyDirectory directory(options.output.empty() ? fs::path("output") / options.file.stem()
+                                                    : options.output);
+    std::optional<StudyRuns> kept_runs;
+    try
+    {
+      directory.take(plan.named_files);
+      kept_runs.emplace(directory.runs(), study, options.stop);
+      kept_runs->require_room_for(plan.names());
+    }
+    catch (const fs::filesystem_error &error)
+    {
+      throw UserError(std::string("The output directory cannot be used: ") + error.what()
+                      + ". Give another one by --output.");
+    }
     directory.write_study(study.text);
 
-    StudyRuns runs(directory.runs(), study, options.stop);
+    StudyRuns &runs = *kept_runs;
     if (!options.quiet)
       print_header(plan, runs, directory);
     directory.remove_results();
+    runs.empty_scratch();
     make_runs(plan, runs, options);
 
     const StudyTable table = make_table(plan, runs);
     write_study_csv(table, directory.csv());
     write_study_report(study, table, directory.markdown());
     warn(plot_study(table, options.file.stem().string(), directory));
-    for (const fs::path &other : runs.others(plan.names()))
-      fs::remove_all(other);
+    remove_others(plan, runs);
     if (!options.quiet)
       print_end(table, directory);
   }

@@ -3,12 +3,10 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/run/output_directory.h>
 #include <exemplar/study/study_directory.h>
+#include <exemplar/study/study_runs.h>
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
-#include <cerrno>
+#include <algorithm>
+#include <utility>
 
 namespace Exemplar
 {
@@ -20,59 +18,106 @@ namespace Exemplar
     const std::string mark = "# exemplar: the study of this directory";
 
     const std::string remedy = " Give another one by --output.";
-  } // namespace
 
-  FileLock::FileLock(const fs::path &file, const std::string &refusal)
-      : descriptor(::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666))
-  {
-    if (descriptor >= 0 && ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    fs::path
+    temporary(fs::path file)
     {
-      ::close(descriptor);
-      throw UserError(refusal);
+      return file += ".tmp";
     }
-  }
 
-  FileLock::~FileLock()
-  {
-    if (descriptor >= 0)
-      ::close(descriptor);
-  }
+    /// Whether a run of a study, its scratch or a log is the file, or holds it.
+    bool
+    is_of_a_run(const fs::path &file, const fs::path &runs)
+    {
+      const fs::path inner
+          = fs::weakly_canonical(file).lexically_relative(fs::weakly_canonical(runs));
+      if (inner.empty())
+        return false;
+      const std::string first = inner.begin()->string();
+      return first == StudyRuns::scratch_name || fs::path(first).extension() == ".log"
+             || RunNames::is_name(first);
+    }
+  } // namespace
 
   StudyDirectory::StudyDirectory(fs::path path) : path(std::move(path)) {}
 
   bool
   StudyDirectory::is_ours() const
   {
-    return begins_with(study_prm(), mark);
+    return fs::is_regular_file(fs::symlink_status(study_prm())) && begins_with(study_prm(), mark);
   }
 
   void
-  StudyDirectory::check(const fs::path &study_file) const
+  StudyDirectory::refuse_directory_of_others() const
   {
-    const std::string place = "Output directory " + path.string();
+    // a study that was killed before it had a file leaves the first one's temporary
+    const bool is_stillborn
+        = std::all_of(fs::directory_iterator(path), fs::directory_iterator(),
+                      [&](const auto &entry) { return entry.path() == temporary(study_prm()); });
+    if (!is_ours() && !is_stillborn)
+      throw UserError("Output directory " + path.string()
+                      + " is not empty and holds no study of exemplar." + remedy);
+  }
+
+  void
+  StudyDirectory::refuse_what_is_foreign() const
+  {
+    const auto require = [&](const fs::path &file, const std::string &beginning)
+    {
+      if (is_absent(file))
+        return;
+      if (const std::string objection = objection_to(file, beginning); !objection.empty())
+        throw UserError(
+            "Output directory " + path.string() + " holds " + file.filename().string() + ", which "
+            + objection
+            + ", but a study writes a file of this name. Nothing has been removed. Move "
+              "it away, or give another directory by --output.");
+    };
+    const std::vector<std::pair<fs::path, std::string>> files
+        = { { study_prm(), mark + "\n" },
+            { csv(), "" },
+            { markdown(), "# Study " },
+            { gnuplot(), "# Drawn by exemplar" } };
+    for (const auto &[file, beginning] : files)
+    {
+      require(file, beginning);
+      require(temporary(file), "");
+    }
+    require(svg(), "<?xml ");
+    if (!is_absent(runs()) && !fs::is_directory(runs()))
+      throw UserError("Output directory " + path.string() + " holds runs, which is no directory."
+                      + remedy);
+    require(runs() / "running.log", "");
+    require(runs() / "gnuplot.log", "");
+  }
+
+  void
+  StudyDirectory::refuse_inputs(const std::set<fs::path> &input_files) const
+  {
+    const fs::path files[] = { study_prm(), csv(), markdown(), svg(), gnuplot() };
+    for (const fs::path &input : input_files)
+      if (fs::exists(input)
+          && (is_of_a_run(input, runs())
+              || std::any_of(std::begin(files), std::end(files),
+                             [&](const fs::path &file)
+                             { return fs::exists(file) && fs::equivalent(file, input); })))
+        throw UserError("Output directory " + path.string() + " holds the input file "
+                        + input.string() + " where this study writes or removes files." + remedy);
+  }
+
+  void
+  StudyDirectory::take(const std::set<fs::path> &input_files)
+  {
     require_writable(path, remedy);
-    if (!fs::exists(path) || fs::is_empty(path))
-      return;
-    if (!is_ours())
-      throw UserError(place + " is not empty and holds no study of exemplar." + remedy);
-    if (fs::equivalent(study_prm(), study_file))
-      throw UserError(place + " holds the study file itself." + remedy);
-  }
-
-  void
-  StudyDirectory::make() const
-  {
     make_directory(path, remedy);
+    taken = std::make_unique<const DirectoryLock>(
+        path, "Another study is running in the output directory " + path.string() + "." + remedy);
+    refuse_directory_of_others();
+    refuse_inputs(input_files);
+    refuse_what_is_foreign();
     if (!is_ours())
       write_study(""); // first: by it the directory is known as ours
     fs::create_directories(runs());
-  }
-
-  FileLock
-  StudyDirectory::lock() const
-  {
-    return { runs() / "lock",
-             "Another study is running in the output directory " + path.string() + "." + remedy };
   }
 
   void

@@ -49,7 +49,8 @@ namespace Exemplar
     }
   } // namespace
 
-  StudyPlan::StudyPlan(const Study &study) : study(study), scene_text(read_prm(study.scene))
+  StudyPlan::StudyPlan(const Study &study)
+      : study(study), scene_text(read_prm(study.scene)), named_files{ study.file, study.scene }
   {
     check_extra_columns(study);
     read_assignments(scene_text, study.scene.string()); // its syntax concerns all runs
@@ -61,6 +62,9 @@ namespace Exemplar
       const auto scene = scene_of(assignments, study, scene_text);
       parts_are_checked
           = parts_are_checked || (scene != nullptr && can_be_built(*scene, warnings, refusal));
+      if (scene != nullptr)
+        for (const auto &file : scene->named_files())
+          named_files.insert(file);
       using Files = std::vector<std::filesystem::path>;
       return PlannedRun{ names.name(assignments, scene != nullptr ? scene->input_files() : Files()),
                          choice, assignments };

@@ -5,6 +5,7 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
 #include <exemplar/base/text_file.h>
+#include <exemplar/run/output_directory.h>
 #include <exemplar/run/run_directory.h>
 #include <exemplar/study/study_runs.h>
 
@@ -12,7 +13,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <regex>
 
 namespace Exemplar
 {
@@ -36,6 +36,68 @@ namespace Exemplar
     record_file(const fs::path &run)
     {
       return run / "record.json";
+    }
+
+    /// Why the directory of a run must not be removed, in words that follow its name; empty if it
+    /// holds nothing but what a run in a study leaves.
+    std::string
+    objection_to_removal(const fs::path &run)
+    {
+      if (!fs::is_directory(fs::symlink_status(run)))
+        return "is no directory";
+      static const std::map<std::string, std::string> of_studies
+          = { { "record.json", "{\n  \"status\"" }, { "record.json.tmp", "" }, { "log.txt", "" } };
+      const RunDirectory directory(run);
+      for (const auto &entry : fs::directory_iterator(run))
+      {
+        const std::string name      = entry.path().filename().string();
+        const auto        of_study  = of_studies.find(name);
+        const std::string objection = of_study != of_studies.end()
+                                          ? objection_to(entry.path(), of_study->second)
+                                          : directory.objection_to(name);
+        if (!objection.empty())
+          return "holds " + name + ", which " + objection;
+      }
+      return "";
+    }
+
+    /// Throws UserError if there is something that no run has left, so that none can be made here.
+    void
+    require_removable(const fs::path &run)
+    {
+      if (is_absent(run))
+        return;
+      if (const std::string objection = objection_to_removal(run); !objection.empty())
+        throw UserError(
+            run.string() + " " + objection
+            + ", but is where this study makes a run. Nothing of it has been removed. Move "
+              "away what is yours, or give another directory by --output.");
+    }
+
+    /// Remove what a run has left, if it is there. Throws UserError, with nothing removed, if there is
+    /// something else, too.
+    void
+    remove_run(const fs::path &run)
+    {
+      require_removable(run);
+      if (is_absent(run))
+        return;
+      fs::remove(record_file(run)); // first: what has lost a file must not count as done
+      std::vector<fs::path> files;
+      for (const auto &entry : fs::directory_iterator(run))
+        files.push_back(entry.path());
+      for (const fs::path &file : files)
+        fs::remove(file);
+      fs::remove(run);
+    }
+
+    /// Whether a study has made this directory of a run, whatever else it may hold by now.
+    bool
+    is_of_a_study(const fs::path &run)
+    {
+      return fs::is_directory(fs::symlink_status(run))
+             && (fs::is_regular_file(fs::symlink_status(record_file(run)))
+                 || RunDirectory(run).is_ours());
     }
 
     void
@@ -135,6 +197,14 @@ namespace Exemplar
     return sha256_of_text(text).substr(0, 16);
   }
 
+  bool
+  RunNames::is_name(const std::string &name)
+  {
+    return name.size() == 16 && name.find_first_not_of("0123456789abcdef") == std::string::npos;
+  }
+
+  const std::string StudyRuns::scratch_name = "running";
+
   StudyRuns::StudyRuns(fs::path path, const Study &study, std::function<bool()> stop)
       : directory(std::move(path)), study(study), stop(std::move(stop))
   {
@@ -146,6 +216,8 @@ namespace Exemplar
   void
   StudyRuns::load(const std::string &name)
   {
+    if (!fs::is_regular_file(fs::symlink_status(record_file(path(name)))))
+      return;
     StudyRecord record;
     try
     {
@@ -160,6 +232,8 @@ namespace Exemplar
     {
       return; // none, or of a version that wrote others
     }
+    if (record.seconds.empty())
+      return; // not as we write it
     if (record.status == "timeout" && (study.timeout == 0. || study.timeout > record.timeout))
       return; // now it may take longer
     records[name] = record;
@@ -183,7 +257,7 @@ namespace Exemplar
       command.insert(command.end(), { "--set", assignment.path() + "=" + assignment.value });
     const fs::path log = directory / "running.log"; // a run wants its directory for itself
 
-    fs::remove_all(scratch());
+    remove_run(scratch());
     const ChildEnd end = run_child(command, log, study.timeout, stop);
     if (end.exit_status == 130)
       throw Interrupted("A run has been interrupted.");
@@ -209,27 +283,53 @@ namespace Exemplar
       if (now.succeeded())
         earlier->second.seconds.push_back(now.seconds[0]);
       now = earlier->second;
-      fs::remove_all(scratch());
+      remove_run(scratch());
+      write_record(now, record_file(path(planned.name)));
     }
     else
     {
-      fs::remove_all(path(planned.name));
+      remove_run(path(planned.name));            // without a record, or of a shorter timeout
+      write_record(now, record_file(scratch())); // first: what has a run's name is whole
       fs::rename(scratch(), path(planned.name));
     }
-    write_record(now, record_file(path(planned.name)));
     return records[planned.name] = now;
   }
 
   std::vector<fs::path>
   StudyRuns::others(const std::vector<std::string> &names) const
   {
-    static const std::regex run("[0-9a-f]{16}");
-    std::vector<fs::path>   found;
+    std::vector<fs::path> found;
     if (fs::exists(directory))
       for (const auto &entry : fs::directory_iterator(directory))
         if (const std::string name = entry.path().filename().string();
-            std::regex_match(name, run) && std::count(names.begin(), names.end(), name) == 0)
+            RunNames::is_name(name) && std::count(names.begin(), names.end(), name) == 0
+            && is_of_a_study(entry.path()))
           found.push_back(entry.path());
     return found;
+  }
+
+  void
+  StudyRuns::require_room_for(const std::vector<std::string> &names) const
+  {
+    require_removable(scratch());
+    for (const std::string &name : names)
+      if (records.count(name) == 0)
+        require_removable(path(name));
+  }
+
+  void
+  StudyRuns::remove(const fs::path &run) const
+  {
+    if (const std::string objection = objection_to_removal(run); !objection.empty())
+      throw UserError(run.string() + " " + objection + ", and so it stays. Remove it by hand.");
+    remove_run(scratch());
+    fs::rename(run, scratch()); // a run is there as a whole or not at all
+    remove_run(scratch());
+  }
+
+  void
+  StudyRuns::empty_scratch() const
+  {
+    remove_run(scratch());
   }
 } // namespace Exemplar

@@ -6,7 +6,7 @@ import subprocess
 import time
 import unittest
 
-from exemplar_runner import (EXEMPLAR, SceneTest, needs_trilinos, prm, read_csv, read_pvd, read_summary, results,
+from exemplar_runner import (EXEMPLAR, SceneTest, needs_trilinos, own_words, prm, read_csv, read_pvd, read_summary, results,
                              timeless_statistics)
 
 EACH_STEP = ["--set", "Output/Checkpoint minutes=0"]
@@ -63,7 +63,7 @@ class Resume(SceneTest):
         arguments = EACH_STEP
         for after, delay in moments:
             status, message = self.stop(scene, signal.SIGKILL, after, *arguments, delay=delay)
-            self.assertEqual((status, message), (-signal.SIGKILL, ""), "not hit in the middle")
+            self.assertEqual((status, own_words(message)), (-signal.SIGKILL, ""), "not hit in the middle")
             self.assertFalse((self.directory / "out/final.msh").exists())
             arguments = [*EACH_STEP, "--resume"]
         resumed = self.solve(scene, *arguments)

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,13 +22,21 @@ namespace Exemplar
     std::string animation; ///< name of the file that shows all frames; empty: there is none
     MakeWriter  make_writer;
 
+    /// What every frame and every animation begin with; empty: not known.
+    std::string frame_beginning = {}, animation_beginning = {};
+
     /// The name of a step's frame, without the directory.
     std::string
     frame_name(unsigned int step) const;
 
-    /// Whether a run may have written a file of this name (without the directory).
-    bool
-    owns(const std::string &file) const;
+    /// The step of the frame of this name; nothing if no run writes such a frame.
+    std::optional<unsigned int>
+    step_of(const std::string &file) const;
+
+    /// What a file of this name (without the directory) begins with if a run has written it; nothing
+    /// if no run writes files of this name.
+    std::optional<std::string>
+    beginning_of(const std::string &file) const;
   };
 
   /// All formats.

@@ -34,6 +34,10 @@ namespace Exemplar
     void
     write();
 
+    /// The same where a format lacks the frame of the present step.
+    void
+    write_if_missing();
+
     /// Return when all frames are on disk.
     void
     drain();

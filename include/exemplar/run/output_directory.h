@@ -21,6 +21,16 @@ namespace Exemplar
   /// Whether a file begins with this line, by which a directory is known as ours.
   bool
   begins_with(const std::filesystem::path &file, const std::string &line);
+
+  /// Whether nothing has this name, not even a link that leads nowhere.
+  bool
+  is_absent(const std::filesystem::path &file);
+
+  /// Why a file is none that we have written, in words that follow "which": it is a directory, a
+  /// link or protected, or does not begin as all that we write under its name does. Empty: it may be
+  /// ours. A file that ends too early may be: it was written when the machine failed.
+  std::string
+  objection_to(const std::filesystem::path &file, const std::string &beginning);
 } // namespace Exemplar
 
 #endif

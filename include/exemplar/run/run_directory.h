@@ -2,15 +2,18 @@
 #ifndef exemplar_run_directory_h
 #define exemplar_run_directory_h
 
+#include <exemplar/base/directory_lock.h>
 #include <exemplar/run/frame_formats.h>
 
 #include <filesystem>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace Exemplar
 {
-  /// Where a run writes, and the names of what it writes, those of frames excepted.
+  /// Where a run writes, and what it writes: by their names and beginnings its files are known.
   class RunDirectory
   {
   public:
@@ -18,15 +21,37 @@ namespace Exemplar
     explicit RunDirectory(std::filesystem::path           path,
                           const std::vector<FrameFormat> &formats = frame_formats());
 
-    /// Throws UserError if a new run may not write here: the directory holds foreign
-    /// files, is no directory or cannot be written, or one of the run's inputs is
-    /// among the files that would be cleared.
+    /// Make the directory, or clear it of what an earlier run has written, and keep all others out of
+    /// it as long as this object lives. Throws UserError, with nothing changed, if a run is
+    /// writing there already, if the directory is none, cannot be written or is not of a run, if
+    /// something in it has the name of a run's file but is none, or if one of `input_files` would be
+    /// cleared away.
     void
-    check_for_new_run(const std::vector<std::filesystem::path> &input_files) const;
+    take_for_new_run(const std::vector<std::filesystem::path> &input_files);
 
-    /// Create the directory, or clear it of what an earlier run wrote.
+    /// The same for a run that goes on there. Nothing is cleared, and where there is no directory nothing
+    /// happens: then there is no checkpoint, either.
     void
-    clear() const;
+    take_for_resume(const std::vector<std::filesystem::path> &input_files);
+
+    /// Remove frames that an earlier run has written of steps after this one, and what it had not
+    /// finished when it was killed: a run that goes on from here need not write them again.
+    void
+    remove_frames_after(unsigned int step) const;
+
+    /// Throws std::runtime_error if the directory that was taken has been removed or replaced, for what
+    /// stands there now may be another run's.
+    void
+    require_taken() const;
+
+    /// Why a file in this directory is none that a run has written, in words that follow "which"; empty
+    /// if it is one, by its name and beginning.
+    std::string
+    objection_to(const std::string &name) const;
+
+    /// Whether a run has written its parameters here.
+    bool
+    is_ours() const;
 
     const std::filesystem::path &
     get_path() const
@@ -74,18 +99,38 @@ namespace Exemplar
     static const std::string mark;
 
   private:
-    /// Whether a run writes a file of this name, or leaves one if it is killed.
-    bool
-    is_own_name(const std::string &name) const;
+    /// What a file of this name begins with if a run has written it, or has left it when it was
+    /// killed; nothing if no run writes such a file.
+    std::optional<std::string>
+    beginning_of(const std::string &name) const;
 
-    std::vector<std::filesystem::path>
-    own_files() const;
+    /// The names in the directory that runs write.
+    std::vector<std::string>
+    own_names() const;
 
-    bool
-    is_ours() const;
+    void
+    lock();
 
-    std::filesystem::path           path;
-    const std::vector<FrameFormat> &formats;
+    /// Throws UserError if one of the inputs is among the files of these names.
+    void
+    refuse_inputs(const std::vector<std::string>           &names,
+                  const std::vector<std::filesystem::path> &input_files,
+                  const std::string                        &what_would_happen) const;
+
+    /// Throws UserError unless the directory is empty or of a run; `names` are own_names().
+    void
+    refuse_directory_of_others(const std::vector<std::string> &names) const;
+
+    /// The beginning of the message that says so.
+    std::string
+    refusal_of(const std::string &name, const std::string &objection) const;
+
+    void
+    clear() const;
+
+    std::filesystem::path                path;
+    const std::vector<FrameFormat>      &formats;
+    std::unique_ptr<const DirectoryLock> taken; ///< null: it is not
   };
 } // namespace Exemplar
 

@@ -77,7 +77,7 @@ namespace Exemplar
     Problem                                 &problem;
     const SceneFile                         &scene;
     Diagnostics                              diagnostics;
-    const RunDirectory                       directory;
+    RunDirectory                             directory;
     const std::map<std::string, std::string> input_digests; ///< SHA-256 of the files read
     std::optional<StatisticsFile>            statistics;
     RunTotals                                totals;

@@ -63,6 +63,10 @@ namespace Exemplar
     std::vector<std::filesystem::path>
     input_files() const;
 
+    /// All files that the scene names, also those that it has no use for.
+    std::vector<std::filesystem::path>
+    named_files() const;
+
     /// All keys with their defaults, and one sample of each named subsection.
     static std::vector<DeclaredKey>
     reference();

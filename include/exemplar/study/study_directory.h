@@ -2,47 +2,27 @@
 #ifndef exemplar_study_directory_h
 #define exemplar_study_directory_h
 
+#include <exemplar/base/directory_lock.h>
+
 #include <filesystem>
+#include <memory>
+#include <set>
 #include <string>
 
 namespace Exemplar
 {
-  /// While it lives, no other process has a lock on the same file. Ends with the process,
-  /// however that ends.
-  class FileLock
-  {
-  public:
-    /// Throws UserError with `refusal` if another has it.
-    FileLock(const std::filesystem::path &file, const std::string &refusal);
-    ~FileLock();
-
-    FileLock(const FileLock &) = delete;
-    FileLock &
-    operator=(const FileLock &)
-        = delete;
-
-  private:
-    const int descriptor;
-  };
-
   /// Where a study writes, and the names of what it writes.
   class StudyDirectory
   {
   public:
     explicit StudyDirectory(std::filesystem::path path);
 
-    /// Throws UserError if a study may not write here: the directory holds foreign files,
-    /// is none or cannot be written, or holds the study file itself.
+    /// Make the directory and its parts, and keep other studies out of it as long as this object lives.
+    /// Throws UserError, with nothing changed, if a study is running there already, if the directory is none,
+    /// cannot be written or is not of a study, if something in it has the name of a study's
+    /// file but is none, or if one of `input_files` would be replaced or removed.
     void
-    check(const std::filesystem::path &study_file) const;
-
-    /// Make the directory and its parts.
-    void
-    make() const;
-
-    /// Throws UserError if another study is running here.
-    FileLock
-    lock() const;
+    take(const std::set<std::filesystem::path> &input_files);
 
     /// Write the study into the directory.
     void
@@ -98,7 +78,18 @@ namespace Exemplar
     bool
     is_ours() const;
 
-    std::filesystem::path path;
+    void
+    refuse_directory_of_others() const;
+
+    /// Throws UserError for what has the name of a study's file but is none.
+    void
+    refuse_what_is_foreign() const;
+
+    void
+    refuse_inputs(const std::set<std::filesystem::path> &input_files) const;
+
+    std::filesystem::path                path;
+    std::unique_ptr<const DirectoryLock> taken; ///< null: it is not
   };
 } // namespace Exemplar
 

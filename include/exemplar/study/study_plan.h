@@ -4,7 +4,9 @@
 
 #include <exemplar/study/study_runs.h>
 
+#include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -32,6 +34,8 @@ namespace Exemplar
     std::optional<PlannedRun> reference;
     std::vector<PlannedRun>   runs;
     std::vector<std::string>  warnings; ///< of the parts that were built
+    /// The study, its scene and all files that its runs name.
+    std::set<std::filesystem::path> named_files;
   };
 } // namespace Exemplar
 

@@ -47,6 +47,10 @@ namespace Exemplar
     name(const std::vector<Assignment>            &assignments,
          const std::vector<std::filesystem::path> &input_files);
 
+    /// Whether a name is one of these.
+    static bool
+    is_name(const std::string &name);
+
   private:
     const std::string                  common;
     std::map<std::string, std::string> digests; ///< of input files
@@ -56,8 +60,15 @@ namespace Exemplar
   class StudyRuns
   {
   public:
+    /// The name of the directory in which a run is made.
+    static const std::string scratch_name;
+
     /// A run is interrupted once `stop` returns true.
     StudyRuns(std::filesystem::path directory, const Study &study, std::function<bool()> stop);
+
+    /// Throws UserError if something stands where a run is to be made that no run has left.
+    void
+    require_room_for(const std::vector<std::string> &names) const;
 
     /// Whether as many repeats are there as are asked for. What fails is not repeated.
     bool
@@ -84,6 +95,14 @@ namespace Exemplar
     std::vector<std::filesystem::path>
     others(const std::vector<std::string> &names) const;
 
+    /// Remove what a run has left. Throws UserError, with nothing removed, if there is something else, too.
+    void
+    remove(const std::filesystem::path &run) const;
+
+    /// Remove what a study has left that was killed while it made or removed a run.
+    void
+    empty_scratch() const;
+
   private:
     /// Read the record that an earlier call has left.
     void
@@ -96,7 +115,7 @@ namespace Exemplar
     std::filesystem::path
     scratch() const
     {
-      return directory / "running";
+      return directory / scratch_name;
     }
 
     const std::filesystem::path        directory;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/atomic_file.h>
 #include <exemplar/base/digest.h>
+#include <exemplar/base/directory_lock.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/base/sealed_file.h>
 
@@ -83,6 +84,25 @@ namespace Exemplar
         expect_contains(full, "full.tmp: No space left on device");
         EXPECT_EQ(sha256(path), sha256_of_text("old"));
       }
+    }
+
+    TEST_F(FilesTest, ADirectoryIsLockedOnce)
+    {
+      {
+        const DirectoryLock first(directory, "refused");
+        EXPECT_THROW(DirectoryLock(directory, "refused"), UserError);
+        EXPECT_TRUE(first.is_in_place());
+      }
+      const std::filesystem::path moved = directory / "moved", place = directory / "place";
+      std::filesystem::create_directory(place);
+      const DirectoryLock again(directory, "refused"), inner(place, "refused");
+      std::filesystem::rename(place, moved);
+      EXPECT_FALSE(inner.is_in_place());
+      std::filesystem::create_directory(place);
+      EXPECT_FALSE(inner.is_in_place());
+      const DirectoryLock of_the_new_one(place, "refused");
+      EXPECT_TRUE(of_the_new_one.is_in_place());
+      EXPECT_EQ(std::distance(std::filesystem::directory_iterator(place), {}), 0);
     }
 
     TEST_F(FilesTest, DigestsKnownTexts)

@@ -158,6 +158,44 @@ namespace Exemplar::Testing
       EXPECT_EQ(written["fake"].animation.size(), 4u);
     }
 
+    TEST_F(RunWriterTest, FramesAreKnownByTheirNamesAndSteps)
+    {
+      const FrameFormat &format = formats[0];
+      for (const unsigned int step : { 0u, 7u, 9999u, 10000u, 123456789u })
+        EXPECT_EQ(format.step_of(format.frame_name(step)), step);
+      for (const std::string name :
+           { "frame_1.fake", "frame_00001.fake", "frame_0001.other", "frame_.fake",
+             "frame_1234567890.fake", "frame_0001.fake.tmp", "animation.fake" })
+        EXPECT_FALSE(format.step_of(name)) << name;
+    }
+
+    TEST_F(RunWriterTest, WhatIsNoFileOfARunIsNamedAndNothingIsRemoved)
+    {
+      run({ "fake" }, three_steps);
+      const auto refusal = [&](const std::string &name, const std::string &beginning)
+      {
+        formats[0].frame_beginning = beginning;
+        RunDirectory out(directory / "out", formats);
+        try
+        {
+          out.take_for_new_run({});
+          return std::string("not refused");
+        }
+        catch (const UserError &error)
+        {
+          EXPECT_TRUE(std::filesystem::exists(directory / "out/checkpoint.bin")) << name;
+          return std::string(error.what());
+        }
+      };
+      expect_contains(refusal("frame_0000.fake", "THE FORMAT"),
+                      "which was not written by exemplar");
+      std::filesystem::create_directory(directory / "out/frame_0007.other");
+      expect_contains(refusal("frame_0007.other", ""),
+                      "holds frame_0007.other, which is a directory");
+      std::filesystem::remove(directory / "out/frame_0007.other");
+      EXPECT_EQ(refusal("", ""), "not refused");
+    }
+
     TEST_F(RunWriterTest, AnUnknownFormatIsRefused)
     {
       try

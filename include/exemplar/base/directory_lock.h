@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_directory_lock_h
+#define exemplar_directory_lock_h
+
+#include <filesystem>
+#include <string>
+
+namespace Exemplar
+{
+  /// While it lives, nobody else has a lock on the same directory, neither another process nor this one. It
+  /// is a lock on the open directory: nothing is written, and it ends with the process, however that ends.
+  /// File systems without such locks (NFS, for one) keep nobody apart.
+  class DirectoryLock
+  {
+  public:
+    /// Throws UserError with `refusal` if another has it.
+    DirectoryLock(const std::filesystem::path &directory, const std::string &refusal);
+    ~DirectoryLock();
+
+    DirectoryLock(const DirectoryLock &) = delete;
+    DirectoryLock &
+    operator=(const DirectoryLock &)
+        = delete;
+
+    /// Whether the path still leads to the directory that is locked, which may have been removed,
+    /// and another made in its place.
+    bool
+    is_in_place() const;
+
+  private:
+    const std::filesystem::path path;
+    const int                   descriptor;
+  };
+} // namespace Exemplar
+
+#endif
