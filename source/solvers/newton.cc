@@ -187,7 +187,7 @@ namespace Exemplar
   Newton::has_converged(const State &state, const Evaluation &evaluation) const
   {
     const Residual residual = potential.residual(state, evaluation);
-    return std::max(residual.positions, residual.weights) <= parameters.tolerance;
+    return max_or_nan(residual.positions, residual.weights) <= parameters.tolerance;
   }
 
   void

@@ -23,10 +23,10 @@ namespace Exemplar
     double
     max_displacement(const Exchange &exchange, const State &from, const State &to)
     {
-      double greatest = 0.;
+      MaxMagnitude greatest;
       for (unsigned int dof = 0; dof < from.positions.size(); ++dof)
-        greatest = std::max(greatest, std::abs(to.positions[dof] - from.positions[dof]));
-      return exchange.max(greatest);
+        greatest.add(to.positions[dof] - from.positions[dof]);
+      return exchange.max(greatest.value());
     }
   } // namespace
 
@@ -232,7 +232,7 @@ namespace Exemplar
     iteration.last_length      = length;                                            // be luck
     iteration.last_contraction = contraction;
     // the sum of the steps that would follow if they went on shrinking like this
-    const bool is_near = length * std::max(min_error_over_length, slower / (1. - slower))
+    const bool is_near = length * max_or_nan(min_error_over_length, slower / (1. - slower))
                          <= parameters.step_tolerance * max_displacement(exchange, accepted, trial);
     // of a stiff body, or one that is carried far, small errors of positions are large ones of
     // forces

@@ -67,15 +67,12 @@ namespace Exemplar::Testing
 
     TEST_F(GeoScriptTest, WhatGmshMightReadOtherwiseIsRefused)
     {
-      for (const std::string script :
+      for (const std::string &script :
            { std::string("a = \"\n// \"; SystemCall 'x';"),
              std::string("If (0)\na = \"EndIf SystemCall 'x';\";\nEndIf"), std::string("a = 'open"),
-             std::string("/* open"), "a = \"" + std::string(1100, 'x') + "\";",
-             std::string("// a\0\nPoint", 11) })
+             std::string("/* open"), "a = \"" + std::string(1100, 'x') + "\";" })
       {
-        const std::string message = refusal(script);
-        if (script.find('\0') == std::string::npos)
-          EXPECT_NE(message, "") << script;
+        EXPECT_NE(refusal(script), "") << script;
       }
       EXPECT_NE(refusal(std::string("Point\0(1)", 9)), "");
       expect_contains(refusal("Merge StrCat(\"a\", \".geo\");"), "not a plain text");
