@@ -1,0 +1,273 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Cases: what lies in the working directory, and how the program is called there."""
+
+import re
+import subprocess
+from collections import namedtuple
+
+import bases
+import mutations
+
+# files: {name: bytes}; arguments: after the program's name; earlier: arguments of runs that come before and that must
+# succeed; damage: {"file", "seed"} changes a file that these have left; check: what else must hold.
+Case = namedtuple("Case", "kind files arguments earlier damage check", defaults=([], None, None))
+
+OUT = ["--quiet", "--threads", "1", "--output", "out"]
+
+
+def declared_keys(program):
+    """({"Section/Key": what is allowed} of scenes, the same of studies), as the program prints them."""
+    def read(*command):
+        text = subprocess.run([program, *command, "--print-parameters"], capture_output=True, text=True, check=True).stdout
+        keys, path, allowed = {}, [], ""
+        for line in map(str.strip, text.splitlines()):
+            if line.startswith("subsection "):
+                path.append(line[11:])
+            elif line == "end":
+                path.pop()
+            elif line.startswith("# Allowed: "):
+                allowed = line[11:].split(". Default:")[0]
+            elif match := re.match(r"set (.*?) =", line):
+                keys["/".join([*path, match.group(1)])] = allowed
+        return keys
+    return read(), read("study")
+
+
+def encode(text):
+    return text.encode("utf-8", "surrogateescape")
+
+
+def prm_bytes(entries):
+    """A scene file of [("Section/Key", value)], a subsection for each."""
+    lines = []
+    for path, value in entries:
+        *subsections, key = path.split("/")
+        lines += [f"subsection {name}" for name in subsections]
+        lines += [f"  set {key} = {value}"]
+        lines += ["end"] * len(subsections)
+    return encode("\n".join(lines) + "\n")
+
+
+def good_files(entries):
+    """The scene with the files that it may name."""
+    return {"scene.prm": prm_bytes(entries), "mesh.msh": bases.msh_text(bases.box_mesh()),
+            "pose.msh": bases.msh_text(bases.box_mesh(bases.bent)),
+            "pose2.msh": bases.msh_text(bases.box_mesh(bases.stretched)), "held.txt": encode(bases.LIST)}
+
+
+def scene_of(r, *with_files):
+    scenes = [scene for scene in bases.SCENES if not with_files or "Mesh/File" in scene]
+    return list(r.choice(scenes).items())
+
+
+def key_in(r, keys, entries):
+    """Any key that there is, of a handle or load that the scene has where it is of one."""
+    path = r.choice([*keys, *(path for path, _ in entries)])
+    names = [p.split("/")[1] for p, _ in entries if p.startswith(path.split("/")[0]) and p.count("/") == 2]
+    if "/NAME/" in path:
+        path = path.replace("NAME", r.choice(names or ["left"]))
+    return path
+
+
+def allowed_for(keys, path):
+    section, *_, key = path.split("/") if "/" in path else ("", path)
+    samples = [path, f"{section}/NAME/{key}", f"{section}/region 1/{key}"]
+    return next((keys[sample] for sample in samples if sample in keys), "any text")
+
+
+def spoil_scene(r, keys, entries):
+    """Entries of a scene with one to four of them changed, added, doubled, misspelt or removed."""
+    entries = list(entries)
+    for _ in range(r.choice([1, 1, 1, 2, 3])):
+        at = r.randrange(len(entries)) if entries else 0
+        action = r.random()
+        if action < 0.85 or not entries:
+            path = key_in(r, keys, entries)
+            entries = [entry for entry in entries if entry[0] != path]
+            entries.insert(at, (path, mutations.value(r, path, allowed_for(keys, path))))
+        elif action < 0.9:
+            del entries[at]
+        elif action < 0.92:
+            entries.append(entries[at])
+        elif action < 0.96:
+            path, value = entries[at]
+            i = r.randrange(len(path))
+            entries[at] = path[:i] + r.choice(["", "x", "/", "\udcff", " ", "\0", "é"]) + path[i + 1:], value
+        else:
+            entries[at] = r.choice(["Mesh/", "Handles/left/", "Loads/x/", "Material/region 1/", "A/B/C/", ""]) + r.choice(
+                list(keys)), entries[at][1]
+    return entries
+
+
+def scene_case(r, keys):
+    entries = spoil_scene(r, keys[0], scene_of(r))
+    files = good_files(entries)
+    if r.random() < 0.15:
+        files["scene.prm"] = mutations.spoilt_text(r, files["scene.prm"])
+    return Case("scene", files, ["scene.prm", *OUT], check=r.choice([None, None, "again", "validate"]))
+
+
+def extreme_case(r, keys):
+    """Numbers of the right kind, and of any magnitude."""
+    entries = dict(scene_of(r))
+    numeric = [path for path, allowed in keys[0].items()
+               if "number" in allowed and "/NAME/" not in path and path not in mutations.NUMBERS_OF]
+    for path in r.sample(numeric, r.choice([1, 1, 2, 3])):
+        n = 3 if "three" in keys[0][path] else 1
+        entries[path] = ", ".join(mutations.magnitude(r, keys[0][path]) for _ in range(n))
+    if r.random() < 0.3:
+        path = r.choice(["Time/Step", "Time/End"])
+        entries[path] = repr(r.choice(mutations.NUMBERS_OF[path]))
+    return Case("extreme", good_files(entries.items()), ["scene.prm", *OUT], check=r.choice([None, None, "again"]))
+
+
+def formula_case(r, _):
+    entries = dict(scene_of(r))
+    options = [path for path in entries if path.split("/")[-1] in mutations.FORMULA_KEYS]
+    options += ["Handles/left/Motion"] if "Handles/Names" in entries else []
+    options += ["Examples/Pose functions", "Initial/Pose function", "Initial/Velocity"]
+    for path in r.sample(sorted(set(options)), r.choice([1, 1, 2])):
+        entries[path] = mutations.formulas(r, path.split("/")[-1])
+    return Case("formula", good_files(entries.items()), ["scene.prm", *OUT])
+
+
+def spoilt_mesh(r, mesh):
+    """A .msh file of any version and form: other tokens or other bytes."""
+    binary = r.random() < 0.5
+    tokens = r.choice([bases.version_2, bases.version_4])(mesh, binary)
+    action = r.random()
+    if action < 0.65:
+        tokens = mutations.spoilt_tokens(r, tokens)
+    data = bases.msh_bytes(tokens, binary)
+    return mutations.damaged(r, data) if action > 0.6 else data
+
+
+def mesh_case(r, _):
+    files = good_files(scene_of(r, "Mesh/File"))
+    files["mesh.msh"] = spoilt_mesh(r, bases.box_mesh())
+    return Case("mesh", files, ["scene.prm", *OUT])
+
+
+def odd_geometry(r, nodes):
+    """Nodes of a mesh moved to where no body would be."""
+    factor = r.choice([0., -1., 1e-300, 1e-160, 1e-20, 1e-3, 1e3, 1e10, 1e78, 1e154, 1e300])
+    axis, one = r.randrange(3), r.randrange(len(nodes))
+
+    def moved(i, x):
+        x = list(x)
+        if action == 0:
+            x = [factor * c for c in x]
+        elif action == 1:
+            x[axis] *= factor
+        elif action == 2 and i == one:
+            x[axis] += factor
+        elif action == 3:
+            x = [r.uniform(-1, 1) for _ in x]
+        elif action == 4:
+            x[axis] += factor
+        elif action == 5 and i % 3 == 0:
+            x = list(nodes[one][1])
+        elif action == 6:
+            x = [x[1], x[0], x[2]]
+        return x
+
+    action = r.randrange(7)
+    return [(number, moved(i, x)) for i, (number, x) in enumerate(nodes)]
+
+
+def pose_case(r, _):
+    files = good_files(scene_of(r, "Mesh/File"))
+    name = r.choice(["mesh.msh", "pose.msh", "pose.msh", "pose2.msh"])
+    mesh = bases.box_mesh(bases.place if name == "mesh.msh" else bases.bent)
+    if r.random() < 0.6:
+        mesh.nodes = odd_geometry(r, mesh.nodes)
+        files[name] = bases.msh_text(mesh)
+    else:
+        files[name] = spoilt_mesh(r, mesh)
+    return Case("pose", files, ["scene.prm", *OUT])
+
+
+def list_case(r, _):
+    entries = next(list(scene.items()) for scene in bases.SCENES if "nodes held.txt" in scene.values())
+    files = good_files(entries)
+    lines = [r.choice([str(1 + 3 * r.randrange(12)), str(r.choice(mutations.INTEGERS)), r.choice(mutations.TEXTS), "1 4", "1,4",
+                       "# x", "1.0", "1e0", "1.000000000000000000e+00"]) for _ in range(r.choice([1, 3, 8]))]
+    files["held.txt"] = r.choice([mutations.damaged(r, encode(bases.LIST)), encode("\n".join(lines))])
+    return Case("list", files, ["scene.prm", *OUT])
+
+
+AXES = ["Time/Increments: 1 2", "Time/Increments: 1 2", "Material/Density: 1e-300, 1e300", 'Handles/left/Motion: "0; 0; t", "1/t; 0; 0"',
+        "Solver/Method + Solver/Tolerance: newton + 1e-6, one pass + 1e-6", "Mesh/Scale: 1e78 1e-78 1 | Model/Strain: green linear"]
+SETTINGS = ["Time/Increments=1", "Output/Every=1; Loads/Gravity=0, 0, 1", "Solver/Tolerance=1e-6", "Material/Young's modulus=1e300", "",
+            "Scene=static", "Material/Density=-1", "x", "a=b", ";", "=", "Handles/left/Motion=\"0; 0; t\""]
+
+
+def study_value(r, path, allowed):
+    odd = r.choice(mutations.TEXTS)
+    numbers = ", ".join(mutations.number(r) for _ in range(r.choice([3, 3, 3, 2])))
+    good = {"Vary": r.choice(AXES), "Base": r.choice(SETTINGS), "Reference": r.choice(SETTINGS), "Probe": numbers,
+            "Columns": r.choice(["min_det_F", "step, step", "é", ",", "residual, min_det_F", "status", "no_such"]),
+            "Scene": r.choice(["scene.prm", "study.prm", *mutations.FILES])}
+    if path in good and r.random() < 0.2:
+        at = r.randrange(len(good[path]) + 1)
+        return good[path][:at] + odd + good[path][at:]
+    return good[path] if path in good else mutations.value(r, path, allowed)
+
+
+def study_case(r, keys):
+    entries = bases.STUDY
+    for path in r.sample(list(keys[1]), r.choice([1, 1, 2])):
+        entries = {**entries, path: study_value(r, path, keys[1][path])}
+    files = good_files(bases.SCENES[0].items())
+    files["study.prm"] = prm_bytes(entries.items())
+    if r.random() < 0.2:
+        files["study.prm"] = mutations.spoilt_text(r, files["study.prm"])
+    return Case("study", files, r.choice([["study", "study.prm", "--quiet", "--output", "out"]] * 3 + [["--validate", "study.prm"]]))
+
+
+def checkpoint_case(r, _):
+    """A run to half its time; then a damaged file, and --resume to the end."""
+    scene = r.choice([scene for scene in bases.SCENES if scene["Scene"] == "dynamic"])
+    files = good_files(scene.items())
+    to_end = ["scene.prm", "--quiet", "--threads", "1"]
+    half = [*to_end, "--set", "Time/End=0.02", "--output", "out"]
+    file = r.choice(["checkpoint.bin"] * 9 + ["statistics.csv"])
+    return Case("checkpoint", files, [*to_end, "--output", "out", "--resume"],
+                [[*to_end, "--output", "whole"], half], {"file": "out/" + file, "seed": r.randrange(2**32)}, "resumed")
+
+
+def command_case(r, keys):
+    files = good_files(scene_of(r))
+    files["study.prm"] = prm_bytes(bases.STUDY.items())
+    files["mesh.geo"] = b"SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 1, 1, 1};\n"
+    path = r.choice(list(keys[0]))
+    words = r.choice([["scene.prm", *OUT], ["scene.prm", *OUT], ["--validate", "scene.prm"], ["study", "study.prm", "--output", "out"],
+                      ["verify", "--list"], ["--print-parameters"], ["--help"], ["--version"], ["study", "--print-parameters"]])
+    pool = ["--set", "--output", "--resume", "--threads", "--quiet", "--verbose", "--validate", "--help", "--version", "--", "-h",
+            "--set=", "--output=", "--threads=1", "-x", "--no-such", "verify", "study", "scene.prm", "study.prm", ".", "out", "é"]
+    for _ in range(r.choice([1, 1, 2, 4])):
+        at = r.randrange(len(words) + 1)
+        action = r.randrange(5)
+        if action == 0:
+            words[at:at] = [r.choice(pool)]
+        elif action == 1:
+            del words[at:at + 1]
+        elif action == 2:
+            words[at:at] = ["--set", path + "=" + mutations.value(r, path, keys[0][path])]
+        elif action == 3:
+            words[at:at + 1] = [r.choice([text for text in mutations.TEXTS if "\0" not in text and len(text) < 10**5])]
+        else:
+            words[at:at] = ["--output", mutations.value(r, "Output/Directory", "any text")]
+    if "verify" in words and "--list" not in words:  # all cases take a minute
+        words.append("no such case")
+    return Case("command", files, [word.replace("\0", "0") for word in words])
+
+
+KINDS = [(scene_case, 24), (extreme_case, 16), (formula_case, 12), (mesh_case, 16), (pose_case, 8), (list_case, 3), (study_case, 5),
+         (checkpoint_case, 9), (command_case, 7)]
+
+
+def make_case(r, keys, kind=None):
+    makers = [maker for maker, _ in KINDS if kind is None or maker.__name__ == kind + "_case"]
+    weights = [weight for maker, weight in KINDS if maker in makers]
+    return r.choices(makers, weights)[0](r, keys)
