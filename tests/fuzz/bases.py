@@ -37,7 +37,7 @@ SCENES = [
 ]
 
 STUDY = {"Scene": "scene.prm", "Base": "Solver/Tolerance=1e-6", "Reference": "Time/Increments=2",
-         "Vary": "Time/Increments: 1 2", "Repeats": "1", "Columns": "min_det_F", "Probe": "2, 0, 0", "Timeout": "10"}
+         "Vary": "Time/Increments: 1 2", "Repeats": "1", "Columns": "energy_elastic", "Probe": "2, 0, 0", "Timeout": "10"}
 
 LIST = "1\n4\n7\n10\n"
 

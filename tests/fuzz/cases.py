@@ -198,7 +198,7 @@ def list_case(r, _):
 
 AXES = ["Time/Increments: 1 2", "Time/Increments: 1 2", "Material/Density: 1e-300, 1e300", 'Handles/left/Motion: "0; 0; t", "1/t; 0; 0"',
         "Solver/Method + Solver/Tolerance: newton + 1e-6, one pass + 1e-6", "Mesh/Scale: 1e78 1e-78 1 | Model/Strain: green linear"]
-SETTINGS = ["Time/Increments=1", "Output/Every=1; Loads/Gravity=0, 0, 1", "Solver/Tolerance=1e-6", "Material/Young's modulus=1e300", "",
+SETTINGS = ["Model/Gradient=consistent", "Output/Every=1; Loads/Gravity=0, 0, 1", "Loads/Gravity=0, 0, 1e300", "Material/Young's modulus=1e300", "",
             "Scene=static", "Material/Density=-1", "x", "a=b", ";", "=", "Handles/left/Motion=\"0; 0; t\""]
 
 
@@ -206,7 +206,7 @@ def study_value(r, path, allowed):
     odd = r.choice(mutations.TEXTS)
     numbers = ", ".join(mutations.number(r) for _ in range(r.choice([3, 3, 3, 2])))
     good = {"Vary": r.choice(AXES), "Base": r.choice(SETTINGS), "Reference": r.choice(SETTINGS), "Probe": numbers,
-            "Columns": r.choice(["min_det_F", "step, step", "é", ",", "residual, min_det_F", "status", "no_such"]),
+            "Columns": r.choice(["energy_kinetic", "step, step", "é", ",", "energy_elastic, time", "status", "no_such"]),
             "Scene": r.choice(["scene.prm", "study.prm", *mutations.FILES])}
     if path in good and r.random() < 0.2:
         at = r.randrange(len(good[path]) + 1)
@@ -234,6 +234,26 @@ def checkpoint_case(r, _):
     file = r.choice(["checkpoint.bin"] * 9 + ["statistics.csv"])
     return Case("checkpoint", files, [*to_end, "--output", "out", "--resume"],
                 [[*to_end, "--output", "whole"], half], {"file": "out/" + file, "seed": r.randrange(2**32)}, "resumed")
+
+
+GEO = ["SetFactory(\"OpenCASCADE\");", "Box(1) = {0, 0, 0, 2, 1, 1};", "Mesh.MeshSizeMin = 1;", "Mesh.MeshSizeMax = 1;"]
+# what a mesh does not need, and nobody's scene may make the program do
+HOSTILE = ['SystemCall "touch owned";', 'NonBlockingSystemCall "touch owned";', 'Printf("x") > "owned";', 'Save "owned.msh";',
+           'Printf("x") >> "scene.prm";', 'CreateDirectory "owned";', 'Merge "mesh.msh";', 'Include "absent.geo";', "Abort;",
+           'OnelabRun("touch", "owned");', "For i In {1:10000000}", "EndFor", "Box(2) = {0, 0, 0, 1e300, nan, -1};", "Mesh.Binary = 1;",
+           'Error("exemplar: not ours");', "Mesh.SaveAll = 1;", "Delete All;", "Physical Volume(7) = {1};", "}", "\xff", "Exit;",
+           'Plugin(NewView).Run; Save View[0] "owned";', 'General.LogFileName = "owned";']
+
+
+def geo_case(r, _):
+    entries = {**dict(bases.SCENES[6]), "Mesh/File": "body.geo", "Handles/left/Select": "box -1 -1 -1 0.1 2 2",
+               "Handles/Names": "left", "Examples/Poses": ""}
+    files = good_files((path, value) for path, value in entries.items() if "right end" not in path)
+    lines = list(GEO)
+    for _ in range(r.choice([1, 1, 2])):
+        lines.insert(r.randrange(len(lines) + 1), r.choice(HOSTILE))
+    files["body.geo"] = encode("\n".join(lines))
+    return Case("geo", files, ["scene.prm", *OUT] if r.random() < 0.7 else ["--validate", "scene.prm"])
 
 
 def command_case(r, keys):
@@ -264,7 +284,7 @@ def command_case(r, keys):
 
 
 KINDS = [(scene_case, 24), (extreme_case, 16), (formula_case, 12), (mesh_case, 16), (pose_case, 8), (list_case, 3), (study_case, 5),
-         (checkpoint_case, 9), (command_case, 7)]
+         (checkpoint_case, 8), (command_case, 7), (geo_case, 1)]
 
 
 def make_case(r, keys, kind=None):

@@ -23,12 +23,10 @@ from pathlib import Path
 
 import mutations
 import oracle
-from cases import Case, declared_keys, make_case
+from cases import KINDS, Case, declared_keys, make_case
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "scenes"))
 from exemplar_runner import EXEMPLAR, results  # noqa: E402
-
-KINDS = ["scene", "extreme", "formula", "mesh", "pose", "list", "study", "checkpoint", "command"]
 
 
 class Fuzzer:
@@ -143,7 +141,7 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--program", default=EXEMPLAR)
-    parser.add_argument("--kind", choices=KINDS)
+    parser.add_argument("--kind", choices=[maker.__name__[:-5] for maker, _ in KINDS])
     parser.add_argument("--time-limit", type=float, default=20.)
     parser.add_argument("--keep", default="fuzz_failures", help="where failing cases go")
     parser.add_argument("--repeat", help="a kept case to run again")

@@ -98,8 +98,8 @@ def value(r, key, allowed):
     if key in NUMBERS_OF or "number" in allowed or "integer" in allowed:
         pool = NUMBERS_OF.get(key)
         odd = r.random() < 0.3
-        one = ((lambda: repr(r.choice(pool))) if pool else (lambda: number(r)) if odd or "integer" in allowed
-               else (lambda: magnitude(r, allowed)))
+        one = ((lambda: repr(r.choice(pool))) if pool else (lambda: number(r)) if odd
+               else (lambda: str(r.choice(INTEGERS[:6]))) if "integer" in allowed else (lambda: magnitude(r, allowed)))
         n = r.choice([3, 3, 3, 3, 2, 4] if odd else [3]) if "three" in allowed else 1
         return ", ".join(one() for _ in range(n))
     if name in FORMULA_KEYS:
