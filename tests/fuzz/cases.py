@@ -9,10 +9,11 @@ import bases
 import mutations
 
 # files: {name: bytes}; arguments: after the program's name; earlier: arguments of runs that come before and that must
-# succeed; damage: {"file", "seed"} changes a file that these have left; check: what else must hold.
-Case = namedtuple("Case", "kind files arguments earlier damage check", defaults=([], None, None))
+# succeed; damage: {"file", "seed"} changes a file that these have left; plants: {name: text} of files put there then, a directory if
+# None; check: what else must hold; place: the name of the working directory.
+Case = namedtuple("Case", "kind files arguments earlier damage plants check place", defaults=([], None, {}, None, "run"))
 
-OUT = ["--quiet", "--threads", "1", "--output", "out"]
+OUT = ["--quiet", "--threads", "2", "--output", "out"]
 
 
 def declared_keys(program):
@@ -142,9 +143,39 @@ def spoilt_mesh(r, mesh):
     return mutations.damaged(r, data) if action > 0.6 else data
 
 
+def spoilt_body(r, mesh):
+    """A mesh whose file is right, but whose body is odd: elements missing, doubled, turned, joined or of other kinds."""
+    for _ in range(r.choice([1, 1, 2, 4])):
+        at = r.randrange(len(mesh.elements))
+        number, kind, physical, elementary, corners = mesh.elements[at]
+        odd = r.choice(mutations.INTEGERS)
+        action = r.randrange(8)
+        if action == 0:
+            del mesh.elements[at]
+        elif action == 1:
+            mesh.elements.append((r.choice([number, 99]), kind, physical, elementary, corners))
+        elif action == 2:
+            mesh.elements[at] = number, kind, physical, elementary, r.sample(corners, len(corners))
+        elif action == 3:
+            mesh.elements[at] = number, kind, physical, elementary, [r.choice(mesh.nodes)[0] for _ in corners]
+        elif action == 4:
+            mesh.elements[at] = odd, kind, r.choice([physical, odd]), r.choice([elementary, odd]), corners
+        elif action == 5:
+            mesh.elements.append((99, *r.choice([(15, 0, 0, corners[:1]), (1, 5, 5, corners[:2]), (2, 1, 1, corners[:3]),
+                                                 (5, 1, 1, corners * 2), (11, 1, 1, (corners * 3)[:10])])))
+        elif action == 6:
+            mesh.nodes.append((r.choice([odd, 99, number]), [r.choice([0., 0.5, 9., 1e300]) for _ in range(3)]))
+        elif action == 7:
+            r.shuffle(mesh.elements)
+    if r.random() < 0.3:
+        mesh.names = [(r.choice([2, 3, odd]), r.choice([1, 2, odd]), r.choice(["left", "a\"b", "", "é", "\x1b[1m", "\udcff", "n" * 5000]))]
+    binary = r.random() < 0.5
+    return bases.msh_bytes(r.choice([bases.version_2, bases.version_4])(mesh, binary), binary)
+
+
 def mesh_case(r, _):
     files = good_files(scene_of(r, "Mesh/File"))
-    files["mesh.msh"] = spoilt_mesh(r, bases.box_mesh())
+    files["mesh.msh"] = r.choice([spoilt_mesh, spoilt_body])(r, bases.box_mesh())
     return Case("mesh", files, ["scene.prm", *OUT])
 
 
@@ -232,8 +263,8 @@ def checkpoint_case(r, _):
     to_end = ["scene.prm", "--quiet", "--threads", "1"]
     half = [*to_end, "--set", "Time/End=0.02", "--output", "out"]
     file = r.choice(["checkpoint.bin"] * 9 + ["statistics.csv"])
-    return Case("checkpoint", files, [*to_end, "--output", "out", "--resume"],
-                [[*to_end, "--output", "whole"], half], {"file": "out/" + file, "seed": r.randrange(2**32)}, "resumed")
+    return Case("checkpoint", files, [*to_end, "--output", "out", "--resume"], [[*to_end, "--output", "whole"], half],
+                {"file": "out/" + file, "seed": r.randrange(2**32)}, check="resumed")
 
 
 GEO = ["SetFactory(\"OpenCASCADE\");", "Box(1) = {0, 0, 0, 2, 1, 1};", "Mesh.MeshSizeMin = 1;", "Mesh.MeshSizeMax = 1;"]
@@ -254,6 +285,24 @@ def geo_case(r, _):
         lines.insert(r.randrange(len(lines) + 1), r.choice(HOSTILE))
     files["body.geo"] = encode("\n".join(lines))
     return Case("geo", files, ["scene.prm", *OUT] if r.random() < 0.7 else ["--validate", "scene.prm"])
+
+
+PLANTS = {"out/frame_0001.vtu/kept": "precious", "out/frame_0077.vtu": "precious", "out/notes.txt": "precious", "out/final.msh.tmp": "precious",
+          "out/other.tmp": "precious", "out/runs/0123456789abcdef/kept.txt": "precious", "out/study.csv": "precious",
+          "out/runs/0123456789abcdef/record.json": "{}", "out/checkpoint.bin.tmp": "", "out/frame_0001.vtu.tmp": "<?xml", "out/running/kept":
+          "precious", "out/summary.json/kept": "precious", "out/parameters.prm.tmp": "", "out/empty": None, "out/frame_0002.vtu": None,
+          "out/checkpoint.bin": "precious", "out/animation.pvd": "precious", "out/statistics.csv": "precious", "out/.hidden": "precious"}
+
+
+def directory_case(r, _):
+    """Something foreign lies in the directory of results, of an earlier run or of none."""
+    files = good_files(bases.SCENES[r.choice([0, 1])].items())
+    files["study.prm"] = prm_bytes(bases.STUDY.items())
+    scene, study = ["scene.prm", *OUT], ["study", "study.prm", "--quiet", "--output", "out"]
+    earlier = r.choice([[], [scene], [scene], [study]])
+    last = r.choice([scene, scene, [*scene, "--resume"], study])
+    names = r.sample(sorted(PLANTS), r.choice([1, 1, 2]))
+    return Case("directory", files, last, earlier, None, {name: PLANTS[name] for name in names})
 
 
 def command_case(r, keys):
@@ -284,10 +333,12 @@ def command_case(r, keys):
 
 
 KINDS = [(scene_case, 24), (extreme_case, 16), (formula_case, 12), (mesh_case, 16), (pose_case, 8), (list_case, 3), (study_case, 5),
-         (checkpoint_case, 8), (command_case, 7), (geo_case, 1)]
+         (checkpoint_case, 8), (command_case, 7), (geo_case, 1), (directory_case, 3)]
+PLACES = ["a b", "é", "a#b", "a,b", "a;b", 'a"b', "a\nb", "\udcff", "%s", "a\\", "-", "n" * 200, "$HOME", "a=b", "a'b", "a|b", "\x1b[1m"]
 
 
 def make_case(r, keys, kind=None):
     makers = [maker for maker, _ in KINDS if kind is None or maker.__name__ == kind + "_case"]
     weights = [weight for maker, weight in KINDS if maker in makers]
-    return r.choices(makers, weights)[0](r, keys)
+    case = r.choices(makers, weights)[0](r, keys)
+    return case._replace(place=r.choice(PLACES)) if r.random() < 0.04 else case

@@ -48,10 +48,25 @@ class Fuzzer:
             ended = self.call(directory, arguments)
             if ended.status:
                 return [f"an earlier run ended with {ended.status}: {ended.stderr.decode(errors='replace')}"]
+        for name, content in case.plants.items():
+            self.plant(directory / name, content)
         if case.damage:
             file = directory / case.damage["file"]
             file.write_bytes(mutations.damaged(random.Random(case.damage["seed"]), file.read_bytes()))
         return []
+
+    @staticmethod
+    def plant(file, content):
+        if file.parent.is_file():
+            file.parent.unlink()
+        file.parent.mkdir(parents=True, exist_ok=True)
+        if file.is_dir():
+            return
+        if content is not None:
+            file.write_text(content)
+            return
+        file.unlink(missing_ok=True)
+        file.mkdir()
 
     def check(self, case, directory):
         """The run of a case whose files are there: (how it ended, its faults)."""
@@ -91,7 +106,7 @@ class Fuzzer:
 
 def keep(directory, case, ended, faults):
     """What repeats a case, beside its input."""
-    told = {"kind": case.kind, "arguments": case.arguments, "check": case.check, "faults": faults, "status": ended.status,
+    told = {"kind": case.kind, "arguments": case.arguments, "check": case.check, "place": case.place, "faults": faults, "status": ended.status,
             "seconds": round(ended.seconds, 2), "stderr": ended.stderr.decode(errors="replace")[:3000]}
     (directory / "case.json").write_text(json.dumps(told, indent=1))
 
@@ -100,11 +115,11 @@ def run_case(fuzzer, keys, options, number):
     """(kind, status, faults) of one case; kept if it has faults."""
     case = make_case(random.Random(f"{options.seed} {number}"), keys, options.kind)
     with tempfile.TemporaryDirectory(prefix="fuzz") as holder:
-        directory, kept = Path(holder) / "run", Path(holder) / "kept"
+        directory, kept = Path(holder) / case.place, Path(holder) / "kept"
         directory.mkdir()
         faults = fuzzer.write(case, directory)
         if faults:
-            return case.kind, 0, faults
+            return case.kind, None, faults if case.place == "run" else []
         shutil.copytree(directory, kept / "input", symlinks=True)
         ended, faults = fuzzer.check(case, directory)
         if faults:
@@ -126,7 +141,7 @@ def worker(job):
 def repeat(options):
     told = json.loads((Path(options.repeat) / "case.json").read_text())
     with tempfile.TemporaryDirectory(prefix="fuzz") as holder:
-        directory = Path(holder) / "run"
+        directory = Path(holder) / told["place"]
         shutil.copytree(Path(options.repeat) / "input", directory, symlinks=True)
         ended, faults = Fuzzer(options).check(Case(told["kind"], {}, told["arguments"], check=told["check"]), directory)
     print(f"status {ended.status}\n{ended.stderr.decode(errors='replace')[:3000]}")

@@ -26,6 +26,7 @@ RAW = re.compile(r"-----|terminate called|what\(\)|std::|bad_alloc|json\.excepti
 # ours, or what gmsh said, which is indented
 LINE = re.compile(r"exemplar: |Warning: |  |Try it with: ")
 MARK = b"# exemplar: all parameters in force"
+PRECIOUS = b"precious"  # how files begin that the program has not written
 LONGEST_MESSAGE = 4000  # characters
 ALWAYS = ("parameters.prm", "original.prm", "statistics.csv", "summary.json", "final.msh", "checkpoint.bin")
 
@@ -67,7 +68,7 @@ def run(program, arguments, directory, memory, time_limit=20.):
 
 def tree(directory):
     """{name: bytes, or the target of a link} of all files below; the cache of meshes may change."""
-    found = {}
+    found = {}  # names are of bytes
     for path, folders, files in os.walk(os.fsencode(directory)):
         if path == os.fsencode(directory) and b"cache" in folders:
             folders.remove(b"cache")
@@ -179,6 +180,10 @@ def output_directories(after):
 def faults_of_files(ended, before, after):
     """What is wrong with the files that a run left, given the trees before and after."""
     changed = differences(before, after)
+    lost = sorted(os.fsdecode(name) for name, content in before.items()
+                  if content is not None and content[:8] == PRECIOUS[:8] and after.get(name) != content)
+    if lost:
+        return [f"removed or changed {lost[0]}, which no run has written"]
     if ended.status == 1:
         return [f"exit 1, but changed {', '.join(changed[:4])}"] if changed else []
     new = {name for name in after if before.get(name, 0) != after[name]}
@@ -192,7 +197,7 @@ def faults_of_files(ended, before, after):
         if inside & new:
             faults += faults_of_numbers(output)
             faults += [f"{name} is missing" for name in ALWAYS if not (output / name).exists()]
-            faults += [f"{os.fsdecode(name)} is left" for name in inside if name.endswith(b".tmp")]
+            faults += [f"{os.fsdecode(name)} is left" for name in inside & new if name.endswith(b".tmp")]
         covered |= inside | with_parents(os.fsencode(output))
     strays = sorted(os.fsdecode(os.path.basename(name)) for name in new - covered)
     return faults + [f"wrote {name} outside the output directory" for name in strays[:3]]
