@@ -31,7 +31,8 @@ SCENES = [
      "Material/region 2/Young's modulus": "1e5", "Loads/Names": "down", "Loads/down/Select": "region 2",
      "Loads/down/Force": "0; 0; -t"},
     {**BOX, **HELD, **LATER, "Scene": "dynamic", "Model/Strain": "green", "Solver/Linear solver": "umfpack",
-     "Solver/Method": "fixed point", "Examples/Weights": "free", "Handles/left/Components": "x, z", "Handles/left/Select": "box -1 -1 -1 0.1 1 1"},
+     "Solver/Method": "fixed point", "Examples/Weights": "free", "Handles/left/Components": "x, z",
+     "Handles/left/Select": "box -1 -1 -1 0.1 1 1"},
     {**BOX, **HELD, "Scene": "static", "Time/Increments": "1", "Model/Strain": "linear", "Mesh/Scale": "0.001",
      "Handles/left/Select": "sphere 0 0 0 0.0008", "Loads/Gravity": "0, 0, -9.81"},
 ]

@@ -6,11 +6,12 @@ import subprocess
 from collections import namedtuple
 
 import bases
+import bodies
 import mutations
 
 # files: {name: bytes}; arguments: after the program's name; earlier: arguments of runs that come before and that must
-# succeed; damage: {"file", "seed"} changes a file that these have left; plants: {name: text} of files put there then, a directory if
-# None; check: what else must hold; place: the name of the working directory.
+# succeed; damage: {"file", "seed"} changes a file that these have left; plants: {name: text} of files put there then, a
+# directory if None; check: what else must hold; place: the name of the working directory.
 Case = namedtuple("Case", "kind files arguments earlier damage plants check place", defaults=([], None, {}, None, "run"))
 
 OUT = ["--quiet", "--threads", "2", "--output", "out"]
@@ -132,78 +133,10 @@ def formula_case(r, _):
     return Case("formula", good_files(entries.items()), ["scene.prm", *OUT])
 
 
-def spoilt_mesh(r, mesh):
-    """A .msh file of any version and form: other tokens or other bytes."""
-    binary = r.random() < 0.5
-    tokens = r.choice([bases.version_2, bases.version_4])(mesh, binary)
-    action = r.random()
-    if action < 0.65:
-        tokens = mutations.spoilt_tokens(r, tokens)
-    data = bases.msh_bytes(tokens, binary)
-    return mutations.damaged(r, data) if action > 0.6 else data
-
-
-def spoilt_body(r, mesh):
-    """A mesh whose file is right, but whose body is odd: elements missing, doubled, turned, joined or of other kinds."""
-    for _ in range(r.choice([1, 1, 2, 4])):
-        at = r.randrange(len(mesh.elements))
-        number, kind, physical, elementary, corners = mesh.elements[at]
-        odd = r.choice(mutations.INTEGERS)
-        action = r.randrange(8)
-        if action == 0:
-            del mesh.elements[at]
-        elif action == 1:
-            mesh.elements.append((r.choice([number, 99]), kind, physical, elementary, corners))
-        elif action == 2:
-            mesh.elements[at] = number, kind, physical, elementary, r.sample(corners, len(corners))
-        elif action == 3:
-            mesh.elements[at] = number, kind, physical, elementary, [r.choice(mesh.nodes)[0] for _ in corners]
-        elif action == 4:
-            mesh.elements[at] = odd, kind, r.choice([physical, odd]), r.choice([elementary, odd]), corners
-        elif action == 5:
-            mesh.elements.append((99, *r.choice([(15, 0, 0, corners[:1]), (1, 5, 5, corners[:2]), (2, 1, 1, corners[:3]),
-                                                 (5, 1, 1, corners * 2), (11, 1, 1, (corners * 3)[:10])])))
-        elif action == 6:
-            mesh.nodes.append((r.choice([odd, 99, number]), [r.choice([0., 0.5, 9., 1e300]) for _ in range(3)]))
-        elif action == 7:
-            r.shuffle(mesh.elements)
-    if r.random() < 0.3:
-        mesh.names = [(r.choice([2, 3, odd]), r.choice([1, 2, odd]), r.choice(["left", "a\"b", "", "é", "\x1b[1m", "\udcff", "n" * 5000]))]
-    binary = r.random() < 0.5
-    return bases.msh_bytes(r.choice([bases.version_2, bases.version_4])(mesh, binary), binary)
-
-
 def mesh_case(r, _):
     files = good_files(scene_of(r, "Mesh/File"))
-    files["mesh.msh"] = r.choice([spoilt_mesh, spoilt_body])(r, bases.box_mesh())
+    files["mesh.msh"] = r.choice([bodies.spoilt_mesh, bodies.spoilt_body])(r, bases.box_mesh())
     return Case("mesh", files, ["scene.prm", *OUT])
-
-
-def odd_geometry(r, nodes):
-    """Nodes of a mesh moved to where no body would be."""
-    factor = r.choice([0., -1., 1e-300, 1e-160, 1e-20, 1e-3, 1e3, 1e10, 1e78, 1e154, 1e300])
-    axis, one = r.randrange(3), r.randrange(len(nodes))
-
-    def moved(i, x):
-        x = list(x)
-        if action == 0:
-            x = [factor * c for c in x]
-        elif action == 1:
-            x[axis] *= factor
-        elif action == 2 and i == one:
-            x[axis] += factor
-        elif action == 3:
-            x = [r.uniform(-1, 1) for _ in x]
-        elif action == 4:
-            x[axis] += factor
-        elif action == 5 and i % 3 == 0:
-            x = list(nodes[one][1])
-        elif action == 6:
-            x = [x[1], x[0], x[2]]
-        return x
-
-    action = r.randrange(7)
-    return [(number, moved(i, x)) for i, (number, x) in enumerate(nodes)]
 
 
 def pose_case(r, _):
@@ -211,10 +144,10 @@ def pose_case(r, _):
     name = r.choice(["mesh.msh", "pose.msh", "pose.msh", "pose2.msh"])
     mesh = bases.box_mesh(bases.place if name == "mesh.msh" else bases.bent)
     if r.random() < 0.6:
-        mesh.nodes = odd_geometry(r, mesh.nodes)
+        mesh.nodes = bodies.odd_geometry(r, mesh.nodes)
         files[name] = bases.msh_text(mesh)
     else:
-        files[name] = spoilt_mesh(r, mesh)
+        files[name] = bodies.spoilt_mesh(r, mesh)
     return Case("pose", files, ["scene.prm", *OUT])
 
 
@@ -227,10 +160,13 @@ def list_case(r, _):
     return Case("list", files, ["scene.prm", *OUT])
 
 
-AXES = ["Time/Increments: 1 2", "Time/Increments: 1 2", "Material/Density: 1e-300, 1e300", 'Handles/left/Motion: "0; 0; t", "1/t; 0; 0"',
-        "Solver/Method + Solver/Tolerance: newton + 1e-6, one pass + 1e-6", "Mesh/Scale: 1e78 1e-78 1 | Model/Strain: green linear"]
-SETTINGS = ["Model/Gradient=consistent", "Output/Every=1; Loads/Gravity=0, 0, 1", "Loads/Gravity=0, 0, 1e300", "Material/Young's modulus=1e300", "",
-            "Scene=static", "Material/Density=-1", "x", "a=b", ";", "=", "Handles/left/Motion=\"0; 0; t\""]
+AXES = ["Time/Increments: 1 2", "Time/Increments: 1 2", "Material/Density: 1e-300, 1e300",
+        'Handles/left/Motion: "0; 0; t", "1/t; 0; 0"', "Solver/Method + Solver/Tolerance: newton + 1e-6, one pass + 1e-6",
+        "Mesh/Scale: 1e78 1e-78 1 | Model/Strain: green linear"]
+SETTINGS = ["Model/Gradient=consistent", "Output/Every=1; Loads/Gravity=0, 0, 1", "Loads/Gravity=0, 0, 1e300",
+            "Material/Young's modulus=1e300", "", "Scene=static", "Material/Density=-1", "x", "a=b", ";", "=",
+            "Handles/left/Motion=\"0; 0; t\""]
+STUDY = ["study", "study.prm", "--quiet", "--output", "out"]
 
 
 def study_value(r, path, allowed):
@@ -253,7 +189,7 @@ def study_case(r, keys):
     files["study.prm"] = prm_bytes(entries.items())
     if r.random() < 0.2:
         files["study.prm"] = mutations.spoilt_text(r, files["study.prm"])
-    return Case("study", files, r.choice([["study", "study.prm", "--quiet", "--output", "out"]] * 3 + [["--validate", "study.prm"]]))
+    return Case("study", files, r.choice([STUDY, STUDY, STUDY, ["--validate", "study.prm"]]))
 
 
 def checkpoint_case(r, _):
@@ -271,7 +207,8 @@ GEO = ["SetFactory(\"OpenCASCADE\");", "Box(1) = {0, 0, 0, 2, 1, 1};", "Mesh.Mes
 # what a mesh does not need, and nobody's scene may make the program do
 HOSTILE = ['SystemCall "touch owned";', 'NonBlockingSystemCall "touch owned";', 'Printf("x") > "owned";', 'Save "owned.msh";',
            'Printf("x") >> "scene.prm";', 'CreateDirectory "owned";', 'Merge "mesh.msh";', 'Include "absent.geo";', "Abort;",
-           'OnelabRun("touch", "owned");', "For i In {1:10000000}", "EndFor", "Box(2) = {0, 0, 0, 1e300, nan, -1};", "Mesh.Binary = 1;",
+           'OnelabRun("touch", "owned");', "For i In {1:10000000}", "EndFor", "Box(2) = {0, 0, 0, 1e300, nan, -1};",
+           "Mesh.Binary = 1;",
            'Error("exemplar: not ours");', "Mesh.SaveAll = 1;", "Delete All;", "Physical Volume(7) = {1};", "}", "\xff", "Exit;",
            'Plugin(NewView).Run; Save View[0] "owned";', 'General.LogFileName = "owned";']
 
@@ -287,22 +224,21 @@ def geo_case(r, _):
     return Case("geo", files, ["scene.prm", *OUT] if r.random() < 0.7 else ["--validate", "scene.prm"])
 
 
-PLANTS = {"out/frame_0001.vtu/kept": "precious", "out/frame_0077.vtu": "precious", "out/notes.txt": "precious", "out/final.msh.tmp": "precious",
-          "out/other.tmp": "precious", "out/runs/0123456789abcdef/kept.txt": "precious", "out/study.csv": "precious",
-          "out/runs/0123456789abcdef/record.json": "{}", "out/checkpoint.bin.tmp": "", "out/frame_0001.vtu.tmp": "<?xml", "out/running/kept":
-          "precious", "out/summary.json/kept": "precious", "out/parameters.prm.tmp": "", "out/empty": None, "out/frame_0002.vtu": None,
-          "out/checkpoint.bin": "precious", "out/animation.pvd": "precious", "out/statistics.csv": "precious", "out/.hidden": "precious"}
+PRECIOUS = ["frame_0001.vtu/kept", "frame_0077.vtu", "notes.txt", "final.msh.tmp", "other.tmp", "study.csv", "running/kept",
+            "runs/0123456789abcdef/kept.txt", "summary.json/kept", "checkpoint.bin", "animation.pvd", "statistics.csv", ".hidden"]
+PLANTS = {**{name: "precious" for name in PRECIOUS}, "runs/0123456789abcdef/record.json": "{}", "checkpoint.bin.tmp": "",
+          "frame_0001.vtu.tmp": "<?xml", "parameters.prm.tmp": "", "empty": None, "frame_0002.vtu": None}
 
 
 def directory_case(r, _):
     """Something foreign lies in the directory of results, of an earlier run or of none."""
     files = good_files(bases.SCENES[r.choice([0, 1])].items())
     files["study.prm"] = prm_bytes(bases.STUDY.items())
-    scene, study = ["scene.prm", *OUT], ["study", "study.prm", "--quiet", "--output", "out"]
-    earlier = r.choice([[], [scene], [scene], [study]])
-    last = r.choice([scene, scene, [*scene, "--resume"], study])
+    scene = ["scene.prm", *OUT]
+    earlier = r.choice([[], [scene], [scene], [STUDY]])
+    last = r.choice([scene, scene, [*scene, "--resume"], STUDY])
     names = r.sample(sorted(PLANTS), r.choice([1, 1, 2]))
-    return Case("directory", files, last, earlier, None, {name: PLANTS[name] for name in names})
+    return Case("directory", files, last, earlier, None, {"out/" + name: PLANTS[name] for name in names})
 
 
 def command_case(r, keys):
@@ -310,10 +246,11 @@ def command_case(r, keys):
     files["study.prm"] = prm_bytes(bases.STUDY.items())
     files["mesh.geo"] = b"SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 1, 1, 1};\n"
     path = r.choice(list(keys[0]))
-    words = r.choice([["scene.prm", *OUT], ["scene.prm", *OUT], ["--validate", "scene.prm"], ["study", "study.prm", "--output", "out"],
-                      ["verify", "--list"], ["--print-parameters"], ["--help"], ["--version"], ["study", "--print-parameters"]])
-    pool = ["--set", "--output", "--resume", "--threads", "--quiet", "--verbose", "--validate", "--help", "--version", "--", "-h",
-            "--set=", "--output=", "--threads=1", "-x", "--no-such", "verify", "study", "scene.prm", "study.prm", ".", "out", "é"]
+    words = list(r.choice([["scene.prm", *OUT], ["scene.prm", *OUT], ["--validate", "scene.prm"], STUDY, ["verify", "--list"],
+                           ["--print-parameters"], ["--help"], ["--version"], ["study", "--print-parameters"]]))
+    pool = ["--set", "--output", "--resume", "--threads", "--quiet", "--verbose", "--validate", "--help", "--version", "--",
+            "-h", "--set=", "--output=", "--threads=1", "-x", "--no-such", "verify", "study", "scene.prm", "study.prm", ".",
+            "out", "é"]
     for _ in range(r.choice([1, 1, 2, 4])):
         at = r.randrange(len(words) + 1)
         action = r.randrange(5)
@@ -332,9 +269,10 @@ def command_case(r, keys):
     return Case("command", files, [word.replace("\0", "0") for word in words])
 
 
-KINDS = [(scene_case, 24), (extreme_case, 16), (formula_case, 12), (mesh_case, 16), (pose_case, 8), (list_case, 3), (study_case, 5),
-         (checkpoint_case, 8), (command_case, 7), (geo_case, 1), (directory_case, 3)]
-PLACES = ["a b", "é", "a#b", "a,b", "a;b", 'a"b', "a\nb", "\udcff", "%s", "a\\", "-", "n" * 200, "$HOME", "a=b", "a'b", "a|b", "\x1b[1m"]
+KINDS = [(scene_case, 24), (extreme_case, 16), (formula_case, 12), (mesh_case, 16), (pose_case, 8), (list_case, 3),
+         (study_case, 5), (checkpoint_case, 8), (command_case, 7), (geo_case, 1), (directory_case, 3)]
+PLACES = ["a b", "é", "a#b", "a,b", "a;b", 'a"b', "a\nb", "\udcff", "%s", "a\\", "-", "n" * 200, "$HOME", "a=b", "a'b", "a|b",
+          "\x1b[1m"]
 
 
 def make_case(r, keys, kind=None):

@@ -106,8 +106,8 @@ class Fuzzer:
 
 def keep(directory, case, ended, faults):
     """What repeats a case, beside its input."""
-    told = {"kind": case.kind, "arguments": case.arguments, "check": case.check, "place": case.place, "faults": faults, "status": ended.status,
-            "seconds": round(ended.seconds, 2), "stderr": ended.stderr.decode(errors="replace")[:3000]}
+    told = {"kind": case.kind, "arguments": case.arguments, "check": case.check, "place": case.place, "faults": faults,
+            "status": ended.status, "seconds": round(ended.seconds, 2), "stderr": ended.stderr.decode(errors="replace")[:3000]}
     (directory / "case.json").write_text(json.dumps(told, indent=1))
 
 

@@ -29,8 +29,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "scenes"))
 from exemplar_runner import EXEMPLAR, results  # noqa: E402
 
 SCENE = {**bases.SCENES[1], "Time/End": "0.12", "Output/Every": "2", "Output/Checkpoint minutes": "0"}
-CALLS = ["openat", "write", "pwrite64", "fsync", "fdatasync", "rename", "renameat", "renameat2", "unlink", "unlinkat", "mkdir", "rmdir",
-         "ftruncate", "truncate", "close", "flock", "fcntl", "newfstatat"]
+CALLS = ["openat", "write", "pwrite64", "fsync", "fdatasync", "rename", "renameat", "renameat2", "unlink", "unlinkat", "mkdir",
+         "rmdir", "ftruncate", "truncate", "close", "flock", "fcntl", "newfstatat"]
 RUN = ["scene.prm", "--threads", "1", "--output", "out"]
 
 

@@ -7,8 +7,8 @@ INTEGERS = [0, 1, -1, 2, 3, 4, 5, 15, 31, 32, 127, 128, 255, 256, 65535, 65536, 
             2**32, 2**53, 2**63 - 1, 2**63, -2**63, 2**64 - 1, 2**64, 10**30]
 REALS = [0., -0., 1., -1., 5e-324, 1e-308, 1e-300, 1e-160, 1e-78, 1e-16, 1e16, 1e78, 1e155, 1e160, 1e300, 1.7e308, -1e300,
          float("inf"), float("-inf"), float("nan")]
-TEXTS = ["", " ", "\0", "\udcff\udcfe", "\udcc3", "é", "日本", "\x1b[31mred", "\x07", "\x7f", "A" * 300000, "%s%n%d", "..", "/",
-         "/dev/null", "/dev/zero", "/proc/self/mem", "'", '"', '"a', ";", ";;", "|", ",", ",,", "#", "=", "\\", "\t", "\r",
+TEXTS = ["", " ", "\0", "\udcff\udcfe", "\udcc3", "é", "日本", "\x1b[31mred", "\x07", "\x7f", "A" * 300000, "%s%n%d", "..",
+         "/", "/dev/null", "/dev/zero", "/proc/self/mem", "'", '"', '"a', ";", ";;", "|", ",", ",,", "#", "=", "\\", "\t", "\r",
          "a\nb", "nan", "inf", "-inf", "1e999", "1e-999", "0x10", "1,5", "1 2", "+1", "--1", "1e", ".", "1.", "true",
          "auto", "none", "-", "~", "$HOME", "*", "[1]", "{}", "<a>", "&amp;", "null", "x" * 5000 + "/y", "/" * 3000]
 # Settings that would be obeyed for hours, or that need more memory than there is, are no faults: not asked for.
@@ -111,9 +111,10 @@ def value(r, key, allowed):
     if "true or false" in allowed:
         return r.choice(["true", "false"] * 4 + ["yes", "TRUE", "0", "maybe"])
     if name in ("Names", "Components"):
-        return r.choice(["left", "left, left", "left, ", "x", "x, y", "x, x", "a/b", "left, b", "é", "\udcff", "region 1", ",", "w"])
+        return r.choice(["left", "left, left", "left, ", "x", "x, y", "x, x", "a/b", "left, b", "é", "\udcff", "region 1", ","])
     if name == "Directory":
-        return r.choice(["out2", "a/b/c", ".", "..", "/", "/dev/null", "/proc/x", "scene.prm", "é", "n" * 300, " ", "a\tb", "\udcff"])
+        return r.choice(["out2", "a/b/c", ".", "..", "/", "/dev/null", "/proc/x", "scene.prm", "é", "n" * 300, " ", "a\tb",
+                         "\udcff"])
     if name == "Weight penalty":
         return r.choice(["auto", "paper", "0", "nan", "inf", "-1", "1e308", "1e-320", number(r)])
     words = [word.strip() for word in allowed.split(",")]
@@ -169,8 +170,8 @@ def spoilt_text(r, data):
         elif action == 6:
             lines[at] = damaged(r, lines[at])
         elif action == 7:
-            lines[at:at] = [r.choice([b"subsection a"] * 3 + [b"end", b"set", b"set a", b"set = 1", b"include x.prm", b"subsection"])
-                            ] * r.choice([1, 1, 1, 20000])
+            line = r.choice([b"subsection a"] * 3 + [b"end", b"set", b"set a", b"set = 1", b"include x.prm", b"subsection"])
+            lines[at:at] = [line] * r.choice([1, 1, 1, 20000])
         elif action == 8:
             lines[at] = lines[at].upper()
         elif action == 9:
