@@ -95,13 +95,10 @@ class Fuzzer:
         ended = self.call(directory, ["out/parameters.prm", "--quiet", "--threads", "1", "--output", "again"])
         if ended.status:
             return [f"parameters.prm ends with {ended.status}: {ended.stderr.decode(errors='replace')}"]
-        same = results(directory / "out") == results(directory / "again")
-        return [] if same else ["parameters.prm gives other results"]
+        return ["parameters.prm: " + fault for fault in oracle.faults_of_difference(directory / "again", results(directory / "out"))]
 
     def check_resumed(self, directory):
-        out, whole = results(directory / "out"), results(directory / "whole")
-        other = sorted(name for name in out.keys() | whole.keys() if out.get(name) != whole.get(name))
-        return [f"a silent other result: {', '.join(other)}"] if other else []
+        return oracle.faults_of_difference(directory / "out", results(directory / "whole"))
 
 
 def keep(directory, case, ended, faults):

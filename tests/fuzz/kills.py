@@ -30,8 +30,8 @@ from exemplar_runner import EXEMPLAR, results  # noqa: E402
 
 SCENE = {**bases.SCENES[1], "Time/End": "0.12", "Output/Every": "2", "Output/Checkpoint minutes": "0"}
 CALLS = ["openat", "write", "pwrite64", "fsync", "fdatasync", "rename", "renameat", "renameat2", "unlink", "unlinkat", "mkdir",
-         "rmdir", "ftruncate", "truncate", "close", "flock", "fcntl", "newfstatat"]
-RUN = ["scene.prm", "--threads", "1", "--output", "out"]
+         "rmdir", "ftruncate", "truncate", "close", "flock"]
+RUN = ["scene.prm", "--output", "out", "--threads"]
 
 
 class Trials:
@@ -57,9 +57,9 @@ class Trials:
             self.end(directory)
         return directory
 
-    def start(self, directory, *more, before=(), **keywords):
+    def start(self, directory, *more, before=(), threads="1", **keywords):
         streams = {"stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL, "stderr": subprocess.PIPE}
-        return subprocess.Popen([*before, self.program, *RUN, *more], cwd=directory, env=oracle.environment(directory),
+        return subprocess.Popen([*before, self.program, *RUN, threads, *more], cwd=directory, env=oracle.environment(directory),
                                 **{**streams, **keywords})
 
     def end(self, directory, *more, process=None):
@@ -89,10 +89,8 @@ class Trials:
             return found
 
     def faults_of_results(self, directory):
-        out = results(directory / "out")
-        other = sorted(name for name in out.keys() | self.whole.keys() if out.get(name) != self.whole.get(name))
         left = [file.name for file in (directory / "out").glob("*.tmp")]
-        return [f"other bytes than undisturbed: {', '.join(other)}"] * bool(other) + [f"left: {', '.join(left)}"] * bool(left)
+        return oracle.faults_of_difference(directory / "out", self.whole) + [f"left: {', '.join(left)}"] * bool(left)
 
     def settle(self, directory):
         """--resume, and if that is refused a new run: the faults of what comes out."""
@@ -108,7 +106,7 @@ class Trials:
     def kill_at_moments(self, r, number, directory):
         self.prepare(directory, r.random() < 0.5)
         for more in [[], ["--resume"], ["--resume"]][:r.choice([1, 1, 2, 3])]:
-            process = self.start(directory, *more)
+            process = self.start(directory, *more, threads=r.choice("12"))
             time.sleep(r.uniform(0, 1.1 * self.seconds))
             process.kill()
             process.communicate()
@@ -125,7 +123,7 @@ class Trials:
     def interrupt(self, r, number, directory):
         self.prepare(directory, r.random() < 0.3)
         before = oracle.tree(directory)
-        process = self.start(directory)
+        process = self.start(directory, threads=r.choice("12"))
         time.sleep(r.uniform(0, 1.1 * self.seconds))
         sent = r.choice([signal.SIGINT, signal.SIGTERM])
         process.send_signal(sent)
@@ -137,7 +135,8 @@ class Trials:
     def full_disk(self, r, number, directory):
         self.prepare(directory, r.random() < 0.3)
         size = r.choice([0, 1, 100, r.randrange(self.largest), r.randrange(self.largest)])
-        process = self.start(directory, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size)))
+        process = self.start(directory, threads=r.choice("12"),
+                             preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size)))
         return oracle.faults_of_end(self.end(directory, process=process)) or None
 
     def streams(self, r, number, directory):

@@ -14,15 +14,15 @@ from collections import namedtuple
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "scenes"))
-from exemplar_runner import read_csv, read_msh, read_pvd, read_vtu  # noqa: E402
+from exemplar_runner import read_csv, read_msh, read_pvd, read_vtu, results  # noqa: E402
 
 Ended = namedtuple("Ended", "status stdout stderr seconds")
 
 # What a crash, an exception of a library or a sanitizer would print.
-RAW = re.compile(r"-----|terminate called|what\(\)|std::|bad_alloc|json\.exception|boost|deal\.II|dealii|muparser\b|mu::|"
+RAW = re.compile(r"^-{20}|terminate called|what\(\)|std::|bad_alloc|json\.exception|boost|deal\.II|dealii|muparser\b|mu::|"
                  r"Exemplar::|An error occurred|filesystem error|basic_string|length_error|out_of_range|\bsto[idul]+\b|"
                  r"vector::|map::at|backtrace|core dumped|runtime error:|Sanitizer|[Aa]ssertion|not allowed\"|libgomp|"
-                 r"[Ll]ogic error|Segmentation")
+                 r"[Ll]ogic error|Segmentation", re.M)
 # ours, or what gmsh said, which is indented
 LINE = re.compile(r"exemplar: |Warning: |  |Try it with: ")
 MARK = b"# exemplar: all parameters in force"
@@ -164,6 +164,16 @@ def faults_of_numbers(output):
 def faults_of_study(table):
     words = set(re.split(r"[,\n\"]", table.decode(errors="replace")))
     return [f"study.csv says '{word}'" for word in ("nan", "-nan", "inf", "-inf", "crash") if word in words]
+
+
+def faults_of_difference(output, expected):
+    """What a run left in place of the expected results()."""
+    try:
+        found = results(output)
+    except Exception as error:
+        return [f"the results cannot be read: {type(error).__name__}: {error}"]
+    other = sorted(name for name in found.keys() | expected.keys() if found.get(name) != expected.get(name))
+    return [f"a silent other result: {', '.join(other)}"] if other else []
 
 
 def with_parents(directory):
