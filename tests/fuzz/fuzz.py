@@ -95,7 +95,8 @@ class Fuzzer:
         ended = self.call(directory, ["out/parameters.prm", "--quiet", "--threads", "1", "--output", "again"])
         if ended.status:
             return [f"parameters.prm ends with {ended.status}: {ended.stderr.decode(errors='replace')}"]
-        return ["parameters.prm: " + fault for fault in oracle.faults_of_difference(directory / "again", results(directory / "out"))]
+        faults = oracle.faults_of_difference(directory / "again", results(directory / "out"))
+        return ["parameters.prm: " + fault for fault in faults]
 
     def check_resumed(self, directory):
         return oracle.faults_of_difference(directory / "out", results(directory / "whole"))
