@@ -4,7 +4,6 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <sstream>
 
 namespace Exemplar
 {
@@ -25,17 +24,29 @@ namespace Exemplar
   std::optional<std::string>
   read_text_file(const std::filesystem::path &file, std::string *reason)
   {
-    errno = 0;
-    std::ifstream in(file, std::ios::binary);
-    if (!in || std::filesystem::is_directory(file)) // a directory opens, but does not read
+    const auto fail = [reason](const std::string &why)
     {
       if (reason != nullptr)
-        *reason = errno != 0 ? std::strerror(errno) : "is it a directory?";
+        *reason = why;
       return std::nullopt;
-    }
-    std::ostringstream bytes;
-    bytes << in.rdbuf();
-    return bytes.str();
+    };
+    std::error_code ignored;
+    const auto      kind = std::filesystem::status(file, ignored).type();
+    if (kind == std::filesystem::file_type::directory)
+      return fail("is it a directory?");
+    if (kind == std::filesystem::file_type::character || kind == std::filesystem::file_type::block)
+      return fail("it is a device"); // one like /dev/zero has no end
+    errno = 0;
+    std::ifstream in(file, std::ios::binary);
+    if (!in)
+      return fail(std::strerror(errno));
+    std::string       bytes;
+    std::vector<char> block(1 << 16);
+    while (in.read(block.data(), block.size()) || in.gcount() > 0)
+      bytes.append(block.data(), in.gcount());
+    if (in.bad()) // else a part would be taken for the whole
+      return fail("reading it fails");
+    return bytes;
   }
 
   void

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/base/message_text.h>
+#include <exemplar/base/text_file.h>
 #include <exemplar/prm/assignments.h>
 
 #include <algorithm>
 #include <cctype>
-#include <fstream>
 #include <map>
 #include <sstream>
 
@@ -171,12 +171,9 @@ namespace Exemplar
   std::string
   read_prm(const std::filesystem::path &file)
   {
-    std::ifstream in(file, std::ios::binary);
-    if (!in || std::filesystem::is_directory(file))
-      throw UserError(file.string() + ": cannot be read. Give the name of an existing .prm file.");
-    std::ostringstream bytes;
-    bytes << in.rdbuf();
-    return bytes.str();
+    if (auto text = read_text_file(file))
+      return std::move(*text);
+    throw UserError(file.string() + ": cannot be read. Give the name of an existing .prm file.");
   }
 
   std::vector<Assignment>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/number_text.h>
 #include <exemplar/study/study_axes.h>
 #include <exemplar/study/study_file.h>
 
-#include <deal.II/base/patterns.h>
-
 #include <algorithm>
+#include <cmath>
 
 namespace Exemplar
 {
@@ -75,12 +75,13 @@ namespace Exemplar
       const std::vector<std::string> parts = split_trimmed(text, ',');
       dealii::Point<3>               point;
       for (unsigned int c = 0; c < 3; ++c)
-        if (parts.size() != 3 || !dealii::Patterns::Double().match(parts[c]))
+      {
+        point[c] = parts.size() == 3 ? parse_number(parts[c]) : std::nan("");
+        if (!std::isfinite(point[c]))
           throw UserError(place + ": '" + text
                           + "' is no point. Write three numbers separated by commas, the rest "
                             "position x, y, z in metres.");
-        else
-          point[c] = std::stod(parts[c]);
+      }
       return point;
     }
 

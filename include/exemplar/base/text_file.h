@@ -12,7 +12,7 @@
 namespace Exemplar
 {
   /// All bytes of a file; nothing if it cannot be read, and then `reason`, if given, says why, in
-  /// words for a message. A directory cannot be read.
+  /// words for a message. Directories and devices cannot be read.
   std::optional<std::string>
   read_text_file(const std::filesystem::path &file, std::string *reason = nullptr);
 

@@ -91,7 +91,9 @@ namespace Exemplar::Testing
       EXPECT_FALSE(study("A/B: 1 2").probe);
       EXPECT_EQ(*study("A/B: 1 2", "set Probe = 1, -2.5, 3e-1\n").probe,
                 dealii::Point<3>(1., -2.5, .3));
-      for (const std::string wrong : { "1, 2", "1, 2, x", "1 2 3" })
+      EXPECT_EQ(*study("A/B: 1 2", "set Probe = 1e-320, 0, 0\n").probe,
+                dealii::Point<3>(1e-320, 0., 0.));
+      for (const std::string wrong : { "1, 2", "1, 2, x", "1 2 3", "1e999, 0, 0", "nan, 0, 0" })
         expect_refusal({ "Probe", wrong, "three numbers" }, "A/B: 1 2",
                        "set Probe = " + wrong + "\n");
     }
