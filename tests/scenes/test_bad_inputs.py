@@ -174,13 +174,14 @@ class BadInputs(BadInputTest):
                         (file / "a file").touch()
                     else:
                         file.write_bytes(content)
-                    known = [expected] if kind == "flipped" else []
-                    self.check(self.attempt(text, "--resume"),
-                               [f"out/{name}", "Run the scene without --resume.", *known], self.tree())
-                    if content is None:
-                        (file / "a file").unlink()
-                        file.rmdir()
-                    file.write_bytes(whole)
+                    known = {"flipped": [expected], None: ["is a directory"]}.get(kind, [])
+                    try:
+                        self.check(self.attempt(text, "--resume"), [name, "without --resume", *known], self.tree())
+                    finally:
+                        if content is None:
+                            (file / "a file").unlink()
+                            file.rmdir()
+                        file.write_bytes(whole)
         self.solve(DYNAMIC, "--resume")
 
     def test_resume_beyond_the_end(self):

@@ -106,7 +106,7 @@ class Stability(SceneTest):
                                           "Output/Every=0", *settings) for word in ("--set", setting)]
             return self.call(REPOSITORY / "prm/studies/scenes/free.prm", "--quiet", "--output", "out", *words)
 
-        stopped = run()
+        stopped = run("Solver/Maximum iterations=1")
         self.assertEqual(stopped.status, 2)
         self.assertRegex(stopped.stderr, "stopped at its iteration limit.* change .*Solver/Maximum iterations")
         self.assertEqual(run("Solver/Maximum iterations=5000").status, 0)
