@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/kernels/stretch_modes.h>
 #include <exemplar/potential/elastic_potential.h>
+#include <exemplar/potential/stretch_stiffness.h>
 
 #include <algorithm>
 
@@ -28,41 +28,6 @@ namespace Exemplar
       tangent.values    = blocks;
       (rotated ? cells.loops().add_rotated_stiffness : cells.loops().add_tangent)(task, tangent,
                                                                                   batch, batch + 1);
-      scatter.add_blocks(cells, cell, blocks, values);
-    }
-  }
-
-  void
-  ElasticPotential::add_stretch_stiffness(const Vector        &positions,
-                                          std::vector<double> &values) const
-  {
-    for (unsigned int cell = 0; cell < parts.fe_space.n_cells(); ++cell)
-    {
-      const CellMaterial<double> &material = parts.material.elasticity(cell);
-      const Matrix3<double>       F        = parts.fe_space.deformation_gradient(cell, positions);
-      if (!is_strongly_stretched(material, F))
-        continue;
-      const Matrix3<double> R                           = closest_rotation(F);
-      const StretchModes    modes                       = stretch_modes(material, R, F);
-      const auto           &nodes                       = parts.fe_space.nodes(cell);
-      double                blocks[3 * n_block_columns] = {};
-      for (int m = 0; m < 9; ++m)
-      {
-        const Matrix3<double> RD = R * modes.direction[m];
-        Vector3<double>       g[4]; // in the order of the loops
-        for (unsigned int a = 0; a < 4; ++a)
-        {
-          const auto node = std::find(nodes.begin(), nodes.end(), cells.node(cell, a));
-          g[a] = RD * parts.fe_space.tetrahedron(cell).shape_gradient[node - nodes.begin()];
-        }
-        const double factor = parts.fe_space.tetrahedron(cell).volume * modes.stiffness[m];
-        double      *entry  = blocks;
-        for (int a = 0; a < 4; ++a)
-          for (int b = 0; b <= a; ++b)
-            for (int j = 0; j < 3; ++j)
-              for (int i = 0; i < 3; ++i)
-                *entry++ += factor * g[a][i] * g[b][j];
-      }
       scatter.add_blocks(cells, cell, blocks, values);
     }
   }
@@ -157,8 +122,10 @@ namespace Exemplar
     (rotated ? cells.loops().add_rotated_stiffness
              : cells.loops().add_tangent)(cell_task, to, 0, cell_task.cells.n_batches());
     add_mixed_cells(cell_task, to, rotated, matrix_values);
-    if (tangent == Tangent::convex && has_stretch_guard())
-      add_stretch_stiffness(positions, matrix_values);
+    const bool has_guard = traits_of(parts.model.strain).has_guard && !parts.model.is_frozen();
+    if (tangent == Tangent::convex && has_guard)
+      add_stretch_stiffness(parts.fe_space, parts.material, cells, scatter, positions,
+                            matrix_values);
     if (has_unknown_weights())
       assemble_coupling(cell_task, to, rotated, columns);
   }

@@ -128,17 +128,6 @@ namespace Exemplar
       return parts.weights != nullptr && parts.weights->are_unknown();
     }
 
-    /// Add to the convex tangent what it lacks in strongly stretched cells.
-    void
-    add_stretch_stiffness(const Vector &positions, std::vector<double> &values) const;
-
-    /// Frozen forces have no guards.
-    bool
-    has_stretch_guard() const
-    {
-      return traits_of(parts.model.strain).has_guard && !parts.model.is_frozen();
-    }
-
     /// Whether a tangent is R K R^T.
     bool
     is_rotated_stiffness(const Tangent tangent) const
