@@ -18,8 +18,8 @@ namespace Exemplar
     {
       Points points;
       for (const StudyRow *row : line.rows)
-        if (row->seconds_median > 0. && row->errors.l2 > 0.) // as the axes are logarithmic
-          points.emplace_back(row->seconds_median, row->errors.l2);
+        if (row->seconds.median > 0. && row->errors.l2 > 0.) // as the axes are logarithmic
+          points.emplace_back(row->seconds.median, row->errors.l2);
       return points;
     }
 

@@ -75,7 +75,7 @@ namespace Exemplar
                 { "energy error", [](const StudyRow &row) { return row.error_energy; }, true } };
       columns.insert(
           columns.end(),
-          { { "seconds", [](const StudyRow &row) { return row.seconds_median; }, false },
+          { { "seconds", [](const StudyRow &row) { return row.seconds.median; }, false },
             { "steps", [](const StudyRow &row) { return row.statistics.steps; }, false },
             { "iterations", [](const StudyRow &row) { return row.statistics.iterations; }, false },
             { "factorizations", [](const StudyRow &row) { return row.summary.factorizations; },

@@ -42,8 +42,8 @@ namespace Exemplar
       append("error_position_l2", row.errors.l2);
       append("error_position_max", row.errors.max);
       append("error_energy", row.error_energy);
-      append("seconds_median", row.seconds_median);
-      append("seconds_min", row.seconds_min);
+      append("seconds_median", row.seconds.median);
+      append("seconds_min", row.seconds.least);
       append("steps", row.statistics.steps);
       append("iterations", row.statistics.iterations);
       append("factorizations", row.summary.factorizations);

@@ -13,6 +13,13 @@
 
 namespace Exemplar
 {
+  /// How long the repeats of a run took [s].
+  struct RunSeconds
+  {
+    double median = std::numeric_limits<double>::quiet_NaN();
+    double least  = std::numeric_limits<double>::quiet_NaN();
+  };
+
   /// What is known of a run of a study; NaN what is not.
   struct StudyRow
   {
@@ -21,8 +28,7 @@ namespace Exemplar
     int                       exit_status = 0;
     std::string               message;
     std::string               run; ///< its directory under runs
-    double                    seconds_median   = std::numeric_limits<double>::quiet_NaN();
-    double                    seconds_min      = std::numeric_limits<double>::quiet_NaN();
+    RunSeconds                seconds;
     double                    error_energy     = std::numeric_limits<double>::quiet_NaN();
     double                    max_displacement = std::numeric_limits<double>::quiet_NaN();
     PoseErrors                errors;
