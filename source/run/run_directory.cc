@@ -48,8 +48,7 @@ namespace Exemplar
   RunDirectory::beginning_of(const std::string &name) const
   {
     if (is_temporary(name))
-      return beginning_of(fs::path(name).stem().string()) ? std::make_optional<std::string>()
-                                                          : std::nullopt;
+      return beginning_of(fs::path(name).stem().string());
     if (const auto found = single_files().find(name); found != single_files().end())
       return found->second;
     for (const FrameFormat &format : formats)

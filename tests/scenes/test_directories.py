@@ -209,17 +209,22 @@ class Temporaries(DirectoryTest):
         for name in names:
             with self.subTest(name):
                 self.output.mkdir()
-                (self.output / name).write_text("half")
+                (self.output / name).write_text("")
                 self.solve(DYNAMIC)
                 self.assertEqual(sorted(file.name for file in self.output.iterdir()), sorted(OWN))
                 shutil.rmtree(self.output)
 
     def test_with_something_else_it_does(self):
         self.output.mkdir()
-        (self.output / "parameters.prm.tmp").write_text("half")
+        (self.output / "parameters.prm.tmp").write_text("")
         (self.output / "notes.txt").write_text("mine")
         self.write("scene.prm", prm(DYNAMIC))
         self.assert_refused(["scene.prm", "--output", "out"], "not empty")
+
+    def test_what_no_run_has_begun_stays(self):
+        self.solve(DYNAMIC)
+        (self.output / "final.msh.tmp").write_text("mine")
+        self.assert_refused(["scene.prm", "--output", "out"], "final.msh.tmp, which was not written by exemplar")
 
     def test_of_a_study(self):
         self.write("scene.prm", prm(DYNAMIC))

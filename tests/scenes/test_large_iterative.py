@@ -5,7 +5,8 @@ import unittest
 
 from exemplar_runner import BAR, SceneTest, needs_trilinos, read_summary
 
-ONE_STEP = {**BAR, "Time/Increments": "1", "Solver/Method": "one pass", "Output/Every": "0"}
+ONE_STEP = {**BAR, "Loads/Gravity": "0, 0, -1e-6", "Time/Increments": "1", "Solver/Method": "one pass",
+            "Output/Every": "0"}
 
 
 @needs_trilinos

@@ -43,7 +43,10 @@ class ProcessTest(SceneTest):
 
     def rows(self, output="out"):
         file = self.directory / output / "statistics.csv"
-        return file.read_bytes().count(b"\n") if file.exists() else 0
+        try:
+            return file.read_bytes().count(b"\n")
+        except FileNotFoundError:  # not there yet, or being cleared
+            return 0
 
     def tree(self):
         return {file: file.read_bytes() if file.is_file() else None for file in self.directory.rglob("*")}
