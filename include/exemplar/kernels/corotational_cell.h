@@ -118,7 +118,8 @@ namespace Exemplar
       const Guard<Number> g = guard(p, Number(p_0));
       phi                   = g.phi;
       phi_derivative        = g.derivative;
-      stretch               = StretchGuard<Number>(material, S, p);
+      if (StretchGuard<Number>::may_act(S, p)) // else there is nothing to copy
+        stretch = StretchGuard<Number>(material, S, p);
     }
 
     /// Make C `factor` times what it was, as damping does. The guard of the stretch belongs to the

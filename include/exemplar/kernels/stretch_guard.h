@@ -86,6 +86,13 @@ namespace Exemplar
       y_derivative   = combine(Number(1.) / u, p_derivative(S), Number(-2.) * y / u, S);
     }
 
+    /// Whether y is below its bound in some lane.
+    static bool
+    may_act(const Matrix3<Number> &S, const Number &p)
+    {
+      return any(p < Number(y_0) * contract(S, S));
+    }
+
     /// Whether it acts in some lane.
     bool
     acts() const
