@@ -211,7 +211,9 @@ class Outputs(SceneTest):
 
     def test_output_directory(self):
         first = self.solve({**BAR, "Time/Increments": "4"}, output="deep/out")
-        (first / "frame_0004.vtu.tmp").write_text("half a frame")
+        frame = (first / "frame_0004.vtu").read_bytes()
+        (first / "frame_0004.vtu.tmp").write_bytes(frame[:200])  # of a run that was killed
+        (first / "frame_0003.vtu.tmp").write_bytes(b"")
         (first / "notes.txt").write_text("mine")
         (first / "frame_best.vtu").write_text("mine too")
         self.solve(BAR, output="deep/out")  # two increments

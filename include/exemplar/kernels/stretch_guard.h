@@ -61,17 +61,16 @@ namespace Exemplar
     StretchGuard(const CellMaterial<Number> &material, const Matrix3<Number> &S, const Number &p)
         : S(S)
     {
-      const Number u = contract(S, S);
-      is_acting      = p < Number(y_0) * u;
+      const Number            square = contract(S, S);
+      const KinkSlope<Number> kink   = kink_slope(material, sqrt(square));
+      const Number            rise   = kink.slope + kink.margin;
+      is_acting                      = (p < Number(y_0) * square) & (rise > Number(0.));
       if (!any(is_acting))
         return;
-      norm                         = sqrt(u);
-      y                            = p / u;
-      const KinkSlope<Number> kink = kink_slope(material, norm);
-      const Number            rise = kink.slope + kink.margin;
-      is_acting                    = is_acting & (rise > Number(0.));
-      if (!any(is_acting))
-        return;
+      // beside it may be a cell that has collapsed to F = 0, where the ratios would be 0 / 0
+      const Number u = select(is_acting, square, Number(1.));
+      norm           = sqrt(u);
+      y              = select(is_acting, p / u, Number(y_0));
       // 4 q = (c + m)^2 / m for |c| < m, then 4 c
       const auto is_beyond = kink.slope >= kink.margin;
       const auto keep = [&](const Number &number) { return select(is_acting, number, Number(0.)); };
