@@ -156,13 +156,17 @@ namespace Exemplar
     lock();
     const std::vector<std::string> names = own_names();
     refuse_inputs(names, input_files, "replace");
-    // frames are replaced whole; what is written in place must not be another file by another name
     for (const std::string &name : names)
-      if ((is_temporary(name) || single_files().count(name) > 0)
-          && !fs::is_regular_file(fs::symlink_status(path / name)))
+    {
+      // the readers of these two say better what is wrong with them
+      const bool is_read    = name == statistics().filename() || name == checkpoint().filename();
+      const bool is_regular = fs::is_regular_file(fs::symlink_status(path / name));
+      if (const std::string objection = objection_to(name);
+          !objection.empty() && !(is_read && is_regular))
         throw UserError(
-            refusal_of(name, objection_to(name))
+            refusal_of(name, objection)
             + " Move it away, or run the scene without --resume into another directory.");
+    }
   }
 
   void

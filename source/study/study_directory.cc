@@ -6,6 +6,7 @@
 #include <exemplar/study/study_runs.h>
 
 #include <algorithm>
+#include <fstream>
 #include <utility>
 
 namespace Exemplar
@@ -23,6 +24,19 @@ namespace Exemplar
     temporary(fs::path file)
     {
       return file += ".tmp";
+    }
+
+    /// Whether the file is empty or begins as study.csv does, whose first columns differ.
+    bool
+    has_head_of_table(const fs::path &file)
+    {
+      const std::string end = ",exit_status,run,message";
+      std::ifstream     in(file);
+      std::string       head;
+      std::getline(in, head);
+      return head.empty()
+             || (head.size() > end.size()
+                 && head.compare(head.size() - end.size(), end.size(), end) == 0);
     }
 
     /// Whether a run of a study, its scratch or a log is the file, or holds it.
@@ -62,16 +76,19 @@ namespace Exemplar
   void
   StudyDirectory::refuse_what_is_foreign() const
   {
-    const auto require = [&](const fs::path &file, const std::string &beginning)
+    const auto refuse = [&](const fs::path &file, const std::string &objection)
     {
-      if (is_absent(file))
-        return;
-      if (const std::string objection = objection_to(file, beginning); !objection.empty())
+      if (!objection.empty())
         throw UserError(
             "Output directory " + path.string() + " holds " + file.filename().string() + ", which "
             + objection
             + ", but a study writes a file of this name. Nothing has been removed. Move "
               "it away, or give another directory by --output.");
+    };
+    const auto require = [&](const fs::path &file, const std::string &beginning)
+    {
+      if (!is_absent(file))
+        refuse(file, objection_to(file, beginning));
     };
     const std::vector<std::pair<fs::path, std::string>> files
         = { { study_prm(), mark + "\n" },
@@ -81,8 +98,11 @@ namespace Exemplar
     for (const auto &[file, beginning] : files)
     {
       require(file, beginning);
-      require(temporary(file), "");
+      require(temporary(file), beginning);
     }
+    for (const fs::path &table : { csv(), temporary(csv()) })
+      if (!is_absent(table) && !has_head_of_table(table))
+        refuse(table, "was not written by exemplar");
     require(svg(), "<?xml ");
     if (!is_absent(runs()) && !fs::is_directory(runs()))
       throw UserError("Output directory " + path.string() + " holds runs, which is no directory."

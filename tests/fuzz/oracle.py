@@ -13,6 +13,8 @@ import time
 from collections import namedtuple
 from pathlib import Path
 
+from fork_server import MOST_ARGUMENTS
+
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "scenes"))
 from exemplar_runner import read_csv, read_msh, read_pvd, read_vtu, results  # noqa: E402
 
@@ -28,10 +30,11 @@ LINE = re.compile(r"exemplar: |Warning: |  |Try it with: ")
 MARK = b"# exemplar: all parameters in force"
 PRECIOUS = b"precious"  # how files begin that the program has not written
 LONGEST_MESSAGE = 4000  # characters
+LARGEST_FILE = 200 << 20  # bytes
 ALWAYS = ("parameters.prm", "original.prm", "statistics.csv", "summary.json", "final.msh", "checkpoint.bin")
 
 
-def limit_resources(memory, file_size=200 << 20):
+def limit_resources(memory, file_size=LARGEST_FILE):
     """For subprocess' preexec_fn; `memory` in bytes of address space, None: no limit."""
     def limit():
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
@@ -51,9 +54,12 @@ def environment(directory):
             "UBSAN_OPTIONS": "print_stacktrace=1:halt_on_error=1:exitcode=99"}
 
 
-def run(program, arguments, directory, memory, time_limit=20.):
-    """One run. After the limit it gets SIGTERM, ten seconds later SIGKILL."""
+def run(program, arguments, directory, memory, time_limit=20., server=None):
+    """One run, by the fork server of the program if there is one. After the limit it gets SIGTERM, ten seconds later SIGKILL."""
     begin = time.monotonic()
+    if server is not None and len(arguments) <= MOST_ARGUMENTS:
+        ended = server.run(arguments, directory, environment(directory), memory, LARGEST_FILE, time_limit)
+        return Ended(*ended, time.monotonic() - begin)
     with subprocess.Popen([program, *map(os.fsencode, arguments)], cwd=directory, stdin=subprocess.DEVNULL,
                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=environment(directory),
                           preexec_fn=limit_resources(memory)) as process:

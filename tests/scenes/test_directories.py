@@ -113,7 +113,10 @@ class WhatIsNotOurs(DirectoryTest):
         self.solve(DYNAMIC)
         shutil.copytree(self.output, self.directory / "kept")
         things = [(name, kind) for name in ("statistics.csv", "final.msh", "checkpoint.bin", "checkpoint.bin.tmp",
-                                            "frame_0006.vtu.tmp") for kind in ("directory", "link", "pipe")]
+                                            "frame_0006.vtu.tmp", "frame_0002.vtu", "frame_0006.vtu", "animation.pvd")
+                  for kind in ("directory", "link", "pipe")]
+        things += [(name, "text") for name in ("final.msh", "final.msh.tmp", "frame_0002.vtu", "frame_0006.vtu",
+                                               "animation.pvd", "summary.json")]
         self.write("scene.prm", prm({**DYNAMIC, "Time/End": "0.6"}))
         for name, kind in things:
             with self.subTest(name=name, kind=kind):

@@ -96,7 +96,7 @@ class StudyDirectories(DirectoryTest):
         self.assertTrue((self.runs / "scenes/scene.prm").exists())
 
     def test_what_stands_in_place_of_results(self):
-        for name, kind in (("study.csv", "directory"), ("study.md", "text"), ("study.svg", "link"),
+        for name, kind in (("study.csv", "directory"), ("study.csv", "text"), ("study.csv.tmp", "text"), ("study.md", "text"), ("study.svg", "link"),
                            ("study.md.tmp", "directory"), ("study.gnuplot", "text"), ("runs/gnuplot.log", "directory")):
             with self.subTest(name=name, kind=kind):
                 file = self.output / name
