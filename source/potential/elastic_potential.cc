@@ -245,10 +245,13 @@ namespace Exemplar
     {
       const CellMaterial<double> &lame = parts.material.elasticity(cell);
       const Matrix3<double>       F    = parts.fe_space.deformation_gradient(cell, positions);
-      const Matrix3<double> strain     = model_strain(parts.model.strain, cells.rotation(cell), F);
+      const Matrix3<double> R          = cells.rotation(cell);
+      const Matrix3<double> strain     = model_strain(parts.model.strain, R, F);
       Matrix3<double>       T          = stress(lame, strain);
 
-      results.strain_energy_density[cell] = 0.5 * contract(T, strain);
+      results.strain_energy_density[cell]
+          = 0.5 * contract(T, strain)
+            + model_stretch_energy(parts.model.strain, lame, R, F, cells.get_guard_bound());
       results.det_F[cell]                 = determinant(F);
       if (parts.examples != nullptr)
         T = stress(lame, combine(1., strain, -1., example_strain(cell, weights)));

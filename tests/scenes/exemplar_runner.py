@@ -234,7 +234,7 @@ Msh = namedtuple("Msh", "nodes elements names")
 
 def read_msh(file):
     """MSH 2.2 ASCII: nodes {number: (x, y, z)} and elements, the lines as integers."""
-    lines = Path(file).read_text().split("\n")
+    lines = Path(file).read_text(errors="surrogateescape").split("\n")
 
     def section(name):
         if "$" + name not in lines:

@@ -12,16 +12,8 @@ STUDIES = sorted((REPOSITORY / "prm/studies").glob("stability_*.prm"))
 N_CASES = 145
 # By what the study varies: cases that may end with status 2. All others must be done.
 MAY_FAIL = {
-    # they weigh more than their stiffness E carries, rho g L > E, and fall in steps of a second
-    "stability_fall": {("1e2", "1e3", "1", "40"), ("1e2", "1e5", "1", "40"), ("1e6", "1e5", "1", "40")},
-    # drawn beyond the stretch 1 + 1/nu, where a bar's volume ends, or by ten times its length
-    "stability_pull": {("9.6*t; 0; 0",), ("40*t; 0; 0",), ("-44*t; 0; 0",), ("0; 0; 40*t",)},
-    # torn at a hundred times its length a second
-    "stability_spin": {("0; 0; 100*(x-2)", "implicit euler"), ("0; 0; 100*(x-2)", "bdf2")},
-    # shrunk to a billionth of its volume
-    "stability_start": {("1e-3*x; 1e-3*y; 1e-3*z", "newton"), ("1e-3*x; 1e-3*y; 1e-3*z", "quasi newton")},
-    # the softest and nearly incompressible: its residuals end at rounding
-    "stability_stiffness": {("1e2", "0.4999")},
+    # its weight is ten thousand times what its stiffness carries, and it falls in steps of a second
+    "stability_fall": {("1e2", "1e5", "1", "40")},
 }
 # Their handles rest, so that implicit Euler obeys the bound on the energy in every step.
 AT_REST = {"stability_cells", "stability_contrast", "stability_fall", "stability_node", "stability_spin", "stability_start"}

@@ -85,6 +85,24 @@ namespace Exemplar
           return Cell(material, rotation, deformation_gradient, p_0).is_guarded();
         });
   }
+
+  /// G of Eq. (24) in a cell that is stretched so far, else 0 [Pa].
+  inline double
+  model_stretch_energy(const StrainMeasure         measure,
+                       const CellMaterial<double> &material,
+                       const Matrix3<double>      &rotation,
+                       const Matrix3<double>      &deformation_gradient,
+                       const double                p_0)
+  {
+    return with_cell_model<double>(
+        measure,
+        [&](auto model)
+        {
+          using Cell = typename decltype(model)::type;
+          const Cell cell(material, rotation, deformation_gradient, p_0);
+          return cell.is_stretched() ? cell.stretch_energy() : 0.;
+        });
+  }
 } // namespace Exemplar
 
 #endif

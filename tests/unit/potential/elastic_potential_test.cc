@@ -292,6 +292,27 @@ namespace Exemplar::Testing
       }
     }
 
+    // In cells that are stretched far the guard of Eq. (24) is part of both.
+    TEST(ElasticPotential, TheDensitiesOfCellsSumToTheElasticEnergy)
+    {
+      const Body     body;
+      const Examples none;
+      const FreeDofs free_dofs(body.fe_space.n_dofs(), {});
+      BodyPotential  elastic(body, ModelParameters(), none, free_dofs);
+      std::mt19937   generator(6);
+      auto           positions = body.random_positions(generator, 0.1);
+      for (unsigned int dof = 0; dof < positions.size(); ++dof)
+        positions[dof] *= dof % 3 == 0 ? 10. : 0.1;
+      elastic.update_rotations(positions);
+      ElasticEvaluation evaluation;
+      elastic.evaluate(positions, {}, evaluation);
+      const CellResults results = elastic.cell_results(positions, {});
+      double            sum     = 0.;
+      for (unsigned int cell = 0; cell < body.fe_space.n_cells(); ++cell)
+        sum += body.fe_space.tetrahedron(cell).volume * results.strain_energy_density[cell];
+      EXPECT_NEAR(sum / evaluation.energy_elastic, 1., 1e-12);
+    }
+
     TEST(ElasticPotential, ARigidMotionOfAnExampleIsFreeOfForceAtFullImportance)
     {
       const Body        body;
