@@ -55,7 +55,9 @@ namespace Exemplar
       std::vector<Assignment>
       read(const std::string &text)
       {
-        std::istringstream in(text);
+        const std::string  mark = "\xEF\xBB\xBF"; // that editors put before UTF-8
+        std::istringstream in(text.compare(0, mark.size(), mark) == 0 ? text.substr(mark.size())
+                                                                      : text);
         for (std::string line; std::getline(in, line);)
         {
           ++line_number;

@@ -2,6 +2,7 @@
 """Runs of a program that has been linked once: the other end of fork_server.cc."""
 
 import os
+import re
 import signal
 import socket
 import struct
@@ -10,6 +11,8 @@ import tempfile
 from pathlib import Path
 
 MOST_ARGUMENTS = 200
+SANITIZER_OPTIONS = {"ASAN_OPTIONS": "detect_leaks=0:abort_on_error=0:exitcode=99:detect_stack_use_after_return=0",
+                     "UBSAN_OPTIONS": "print_stacktrace=1:halt_on_error=1:exitcode=99"}
 
 
 def right_core_type():
@@ -18,14 +21,20 @@ def right_core_type():
     return "SKYLAKEX" if "avx512vl" in flags else "HASWELL" if "avx2" in flags else ""
 
 
+def sanitizer_of(program):
+    """The library of the address sanitizer, which must be loaded before all others, if the program needs it."""
+    needed = subprocess.run(["ldd", program], capture_output=True, text=True, check=False).stdout
+    return re.findall(r"=> (\S*libasan\S*)", needed)
+
+
 class ForkServer:
     """A process of `program` that forks a run when it is asked to. Ends with the object."""
 
     def __init__(self, program, library):
         ours, theirs = socket.socketpair()
         # threads of OpenBLAS would not survive a fork
-        variables = {"OPENBLAS_CORETYPE": right_core_type(), **os.environ, "OPENBLAS_NUM_THREADS": "1",
-                     "LD_PRELOAD": library, "FORK_SERVER_SOCKET": str(theirs.fileno())}
+        variables = {"OPENBLAS_CORETYPE": right_core_type(), **os.environ, "OPENBLAS_NUM_THREADS": "1", **SANITIZER_OPTIONS,
+                     "LD_PRELOAD": ":".join([*sanitizer_of(program), library]), "FORK_SERVER_SOCKET": str(theirs.fileno())}
         self.process = subprocess.Popen([program] + ["room"] * MOST_ARGUMENTS, env=variables, pass_fds=[theirs.fileno()],
                                         stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         theirs.close()

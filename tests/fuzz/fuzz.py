@@ -162,7 +162,7 @@ def main():
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--program", default=EXEMPLAR)
     parser.add_argument("--kind", choices=[maker.__name__[:-5] for maker, _ in KINDS])
-    parser.add_argument("--fork-server", help="library of fork_server.cc: twenty times faster, not for sanitizers")
+    parser.add_argument("--fork-server", help="library of fork_server.cc: eight times as fast")
     parser.add_argument("--time-limit", type=float, default=20.)
     parser.add_argument("--keep", default="fuzz_failures", help="where failing cases go")
     parser.add_argument("--repeat", help="a kept case to run again")

@@ -13,7 +13,7 @@ import time
 from collections import namedtuple
 from pathlib import Path
 
-from fork_server import MOST_ARGUMENTS
+from fork_server import MOST_ARGUMENTS, SANITIZER_OPTIONS
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "scenes"))
 from exemplar_runner import read_csv, read_msh, read_pvd, read_vtu, results  # noqa: E402
@@ -49,9 +49,7 @@ def has_sanitizer(program):
 
 
 def environment(directory):
-    return {**os.environ, "HOME": str(directory / "cache"), "XDG_CACHE_HOME": str(directory / "cache"),
-            "ASAN_OPTIONS": "detect_leaks=0:abort_on_error=0:exitcode=99:detect_stack_use_after_return=0",
-            "UBSAN_OPTIONS": "print_stacktrace=1:halt_on_error=1:exitcode=99"}
+    return {**os.environ, "HOME": str(directory / "cache"), "XDG_CACHE_HOME": str(directory / "cache"), **SANITIZER_OPTIONS}
 
 
 def run(program, arguments, directory, memory, time_limit=20., server=None):

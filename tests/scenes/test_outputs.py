@@ -47,7 +47,7 @@ $EndElements
 
 class Outputs(SceneTest):
     def test_files(self):
-        self.write("scene.prm", "# a remark\r\n\r\n" + prm(DYNAMIC) + "# no newline at the end")
+        self.write("scene.prm", "\ufeff# a remark\r\n\r\n" + prm(DYNAMIC) + "# no newline at the end")
         original = (self.directory / "scene.prm").read_bytes()
         run = self.call("scene.prm", "--output", "out")
         self.assertEqual((run.status, run.stderr), (0, ""))
