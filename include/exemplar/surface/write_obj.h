@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_write_obj_h
+#define exemplar_write_obj_h
+
+#include <exemplar/surface/surface_mesh.h>
+
+namespace Exemplar
+{
+  /// Write a surface as .obj: vertices and faces in their order, coordinates with as many digits
+  /// as give the same doubles back, groups as g. The file appears whole or not at all. Throws
+  /// std::runtime_error if it cannot be written.
+  void
+  write_obj(const SurfaceMesh &surface, const std::filesystem::path &file);
+} // namespace Exemplar
+
+#endif
