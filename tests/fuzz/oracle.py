@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs the program within limits and says what is wrong with how it ended and with what it left."""
 
+import csv
 import json
 import math
 import os
@@ -167,7 +168,9 @@ def faults_of_numbers(output):
 
 
 def faults_of_study(table):
-    words = set(re.split(r"[,\n\"]", table.decode(errors="replace")))
+    """The columns before `status` and the message hold what the user wrote."""
+    head, *rows = csv.reader(table.decode(errors="replace").splitlines())
+    words = {cell for row in rows for cell in row[head.index("status"):-1]}
     return [f"study.csv says '{word}'" for word in ("nan", "-nan", "inf", "-inf", "crash") if word in words]
 
 
