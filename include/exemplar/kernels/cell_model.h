@@ -100,7 +100,7 @@ namespace Exemplar
         {
           using Cell = typename decltype(model)::type;
           const Cell cell(material, rotation, deformation_gradient, p_0);
-          return cell.is_stretched() ? cell.stretch_energy() : 0.;
+          return cell.is_stretched() ? cell.stretch().energy() : 0.;
         });
   }
 } // namespace Exemplar

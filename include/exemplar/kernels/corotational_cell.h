@@ -104,7 +104,8 @@ namespace Exemplar
                      const Matrix3<Number>      &rotation,
                      const Matrix3<Number>      &deformation_gradient,
                      const double                p_0)
-        : material(material), S(symmetric_part(transpose_times(rotation, deformation_gradient)))
+        : elasticity(material), material(material),
+          S(symmetric_part(transpose_times(rotation, deformation_gradient)))
     {
       e = S;
       for (int i = 0; i < 3; ++i)
@@ -118,8 +119,7 @@ namespace Exemplar
       const Guard<Number> g = guard(p, Number(p_0));
       phi                   = g.phi;
       phi_derivative        = g.derivative;
-      if (StretchGuard<Number>::may_act(S, p)) // else there is nothing to copy
-        stretch = StretchGuard<Number>(material, S, p);
+      product               = p;
     }
 
     /// Make C `factor` times what it was, as damping does. The guard of the stretch belongs to the
@@ -163,18 +163,28 @@ namespace Exemplar
       return psi + guard_energy(material, Number(1.) - phi, S, D);
     }
 
-    /// Whether the guard of the stretch acts in some lane.
+    /// Whether the guard of the stretch may act in some lane, told by the energy density of the
+    /// elasticity [Pa] alone: |F| > 1 + 0.8/nu > 2.6 makes |S - I|^2 > (2.6 - sqrt(3))^2 > 0.75. For
+    /// nu <= 0, where the energy may be less than mu |S - I|^2, the guard never acts.
+    bool
+    may_be_stretched(const Number &elastic_density) const
+    {
+      return any(elastic_density > Number(0.75) * elasticity.mu);
+    }
+
+    /// Whether it acts in some lane.
     bool
     is_stretched() const
     {
-      return stretch.acts();
+      return StretchGuard<Number>::may_act(S, product) && stretch().acts();
     }
 
-    /// G of Eq. (24) of a cell that is stretched; not part of energy().
-    Number
-    stretch_energy() const
+    /// The guard of the stretch, Eq. (24). Its energy and force are not part of energy() and force().
+    /// It is made when it is asked for, as hardly any cell needs it.
+    StretchGuard<Number>
+    stretch() const
     {
-      return stretch.energy();
+      return StretchGuard<Number>(elasticity, S, product);
     }
 
     /// -d psi / dD. The derivative of psi by a weight w_i is -eta times this, contracted with E_i.
@@ -192,7 +202,7 @@ namespace Exemplar
     elastic_force(const Matrix3<Number> &elastic_stress) const
     {
       if constexpr (CellMaterial<Number>::is_isotropic)
-        return add_stretch_force(elastic_stress);
+        return elastic_stress;
       CorotationalCell without_target = *this;
       without_target.set_target(Matrix3<Number>{});
       return without_target.force();
@@ -214,14 +224,14 @@ namespace Exemplar
       bound_inverse(Number(1e-2));
     }
 
-    /// R^T P = T + W + guards, Eq. (17), with P the derivative of psi by F.
+    /// R^T P = T + W + the guard of Eq. (16), Eq. (17), with P the derivative of psi by F.
     Matrix3<Number>
     force() const
     {
       Matrix3<Number> P = combine(Number(1.), T, Number(1.), W);
       if (any(is_guarded()))
         P = combine(Number(1.), P, guard_force, p_derivative(S));
-      return add_stretch_force(P);
+      return P;
     }
 
     /// R^T dP for R^T dF = M, Eq. (18); symmetric in M. In guarded cells the derivative of
@@ -246,11 +256,11 @@ namespace Exemplar
       const Matrix3<Number> dW = skew_matrix(B_inverse * axial_vector(skew));
       const Matrix3<Number> dP = combine(Number(1.), Omega * combine(Number(1.), T, Number(1.), W),
                                          Number(1.), combine(Number(1.), dT, Number(1.), dW));
-      if (!stretch.acts())
+      if (!is_stretched())
         return dP;
-      return combine(
-          Number(1.), dP, Number(1.),
-          combine(Number(1.), Omega * stretch.force(), Number(1.), stretch.response(dS)));
+      const StretchGuard<Number> guard = stretch();
+      return combine(Number(1.), dP, Number(1.),
+                     combine(Number(1.), Omega * guard.force(), Number(1.), guard.response(dS)));
     }
 
     /// R^T dP of a change of the target by -E. A column of the coupling is eta times this, with
@@ -278,13 +288,8 @@ namespace Exemplar
         B_inverse = select_matrix(is_guarded(), bounded_inverse(B, least), B_inverse);
     }
 
-    Matrix3<Number>
-    add_stretch_force(const Matrix3<Number> &P) const
-    {
-      return stretch.acts() ? combine(Number(1.), P, Number(1.), stretch.force()) : P;
-    }
-
-    CellMaterial<Number> material;
+    CellMaterial<Number> elasticity;
+    CellMaterial<Number> material; ///< with damping
     Matrix3<Number>      S;
     Matrix3<Number>      e; ///< S - I
     Matrix3<Number>      B; ///< tr(S) I - S
@@ -294,7 +299,7 @@ namespace Exemplar
     Matrix3<Number>      W;
     Matrix3<Number>      B_inverse;
     Number               guard_force;
-    StretchGuard<Number> stretch;
+    Number               product = Number(8.); ///< of the sums of two eigenvalues of S
   };
 } // namespace Exemplar
 

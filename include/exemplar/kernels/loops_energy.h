@@ -98,6 +98,33 @@ namespace Exemplar::Loops
     return sqrt(contract(A, A));
   }
 
+  /// Adds the guard of the stretch, where it acts. It begins anew from the positions and is kept out
+  /// of evaluate_group(), whose numbers would otherwise have to outlive their registers for what
+  /// hardly any cell needs.
+  template <typename Cell, typename Number>
+  [[gnu::noinline, gnu::cold]] void
+  add_stretch_guard(const CellTask          &task,
+                    const LaneGroup<Number> &group,
+                    double                  *nodal_sums,
+                    LaneSums<Number>        &sums)
+  {
+    const Tetrahedron<Number> tet = load_tetrahedron(task.cells, group);
+    const Matrix3<Number>     F   = deformation_gradient(task, group, tet);
+    const Matrix3<Number>     R   = rotation<Cell>(task, group, F);
+    const Cell                cell(load_material(task.cells, group), R, F, task.cells.guard_bound);
+    if (!cell.is_stretched())
+      return;
+    const StretchGuard<Number> guard  = cell.stretch();
+    const Number               energy = tet.volume * guard.energy();
+    sums.elastic += energy;
+    sums.energy += energy;
+    Matrix3<Number> RP = R * guard.force();
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        RP[i][j] *= tet.volume;
+    add_forces(task, group, tet, RP, Number(0.), nodal_sums);
+  }
+
   template <typename Cell, typename Number>
   inline void
   evaluate_group(const CellTask          &task,
@@ -118,9 +145,10 @@ namespace Exemplar::Loops
     const Number          det = determinant(F);
     Cell                  cell(material, R, F, task.cells.guard_bound);
     const Matrix3<Number> elastic_stress = stress(material, cell.strain());
-    const Number elastic = Number(0.5) * tet.volume * contract(elastic_stress, cell.strain());
-    Number       scale   = norm(elastic_stress);
-    sums.min_det         = select(det >= sums.min_det, sums.min_det, det);
+    const Number          density        = Number(0.5) * contract(elastic_stress, cell.strain());
+    const Number          elastic        = tet.volume * density;
+    Number                scale          = norm(elastic_stress);
+    sums.min_det                         = select(det >= sums.min_det, sums.min_det, det);
     sums.inverted += one(is_real & (det <= Number(0.)));
     sums.elastic += elastic;
 
@@ -147,13 +175,6 @@ namespace Exemplar::Loops
     else
       sums.energy += elastic;
 
-    if (cell.is_stretched())
-    {
-      const Number stretch = tet.volume * cell.stretch_energy();
-      sums.elastic += stretch;
-      sums.energy += stretch;
-    }
-
     if (task.damping.factors != nullptr)
     {
       const Number          s    = load(task.damping.factors, group, 1, 0);
@@ -177,6 +198,8 @@ namespace Exemplar::Loops
       for (int j = 0; j < 3; ++j)
         RP[i][j] *= tet.volume;
     add_forces(task, group, tet, RP, tet.volume * cell.force_factor() * scale, nodal_sums);
+    if (!frozen && cell.may_be_stretched(density))
+      add_stretch_guard<Cell>(task, group, nodal_sums, sums);
   }
 
   template <typename Number>

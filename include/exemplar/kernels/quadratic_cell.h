@@ -4,6 +4,7 @@
 
 #include <exemplar/kernels/elasticity.h>
 #include <exemplar/kernels/model_traits.h>
+#include <exemplar/kernels/stretch_guard.h>
 #include <exemplar/kernels/tetrahedron.h>
 
 // What the models without rotations share. No deal.II header here: see matrix3.h.
@@ -29,15 +30,21 @@ namespace Exemplar
     }
 
     bool
+    may_be_stretched(const Number &) const
+    {
+      return false;
+    }
+
+    bool
     is_stretched() const
     {
       return false;
     }
 
-    Number
-    stretch_energy() const
+    StretchGuard<Number>
+    stretch() const
     {
-      return Number(0.);
+      return {};
     }
 
     const Matrix3<Number> &

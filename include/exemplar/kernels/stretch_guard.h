@@ -89,7 +89,9 @@ namespace Exemplar
     static bool
     may_act(const Matrix3<Number> &S, const Number &p)
     {
-      return any(p < Number(y_0) * contract(S, S));
+      const Number diagonal = S[0][0] * S[0][0] + S[1][1] * S[1][1] + S[2][2] * S[2][2];
+      const Number beside   = S[0][1] * S[0][1] + S[1][2] * S[1][2] + S[2][0] * S[2][0];
+      return any(p < Number(y_0) * (diagonal + beside + beside));
     }
 
     /// Whether it acts in some lane.

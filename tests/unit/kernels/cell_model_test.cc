@@ -39,7 +39,7 @@ namespace Exemplar::Testing
     energy(const Matrix3<double> &F, const Matrix3<double> &D)
     {
       const Cell cell = cell_at<Cell>(F);
-      return cell.energy(D) + (cell.is_stretched() ? cell.stretch_energy() : 0.);
+      return cell.energy(D) + (cell.is_stretched() ? cell.stretch().energy() : 0.);
     }
 
     /// P.
@@ -49,7 +49,9 @@ namespace Exemplar::Testing
     {
       Cell cell = cell_at<Cell>(F);
       cell.set_target(D);
-      return rotation_of<Cell>(F) * cell.force();
+      const Matrix3<double> P = cell.force();
+      return rotation_of<Cell>(F)
+             * (cell.is_stretched() ? combine(1., P, 1., cell.stretch().force()) : P);
     }
 
     template <typename Cell>
