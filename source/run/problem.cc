@@ -144,10 +144,15 @@ namespace Exemplar
   }
 
   void
-  Problem::refuse_what_is_not_finite(const State &next, SolveReport &report) const
+  Problem::refuse_what_is_not_finite(const State &next, SolveReport &report)
   {
-    const std::string what
+    std::string what
         = std::isfinite(report.residual) ? what_is_not_finite(next, evaluation) : "residuals";
+    // cubes of such ratios of lengths may be none, where the energies, their squares, are numbers
+    const auto greatest = [](const Vector &x) { return max_entry(x.begin(), x.end()); };
+    if (what.empty()
+        && !(greatest(next.positions) < 1e60 * greatest(body.fe_space.rest_positions())))
+      what = what_is_not_finite(potential.get_cells().cell_results(next.positions, next.weights));
     if (what.empty())
       return;
     report.status  = SolveStatus::failed;

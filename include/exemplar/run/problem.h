@@ -80,7 +80,7 @@ namespace Exemplar
 
     /// Make a failure of a report on a step to `next` if that, evaluated, is not finite.
     void
-    refuse_what_is_not_finite(const State &next, SolveReport &report) const;
+    refuse_what_is_not_finite(const State &next, SolveReport &report);
 
     /// Evaluate at a state that no step has led to.
     void
