@@ -6,6 +6,7 @@
 #include <exemplar/base/version.h>
 #include <exemplar/program/command_line.h>
 #include <exemplar/program/interrupt.h>
+#include <exemplar/program/mesh_command.h>
 #include <exemplar/program/run_scene.h>
 #include <exemplar/study/study.h>
 #include <exemplar/study/study_file.h>
@@ -29,6 +30,8 @@ namespace Exemplar
 
       std::vector<std::string> cases;
       bool                     list_cases = false;
+
+      MeshCommandOptions mesh;
     };
 
     void
@@ -89,6 +92,24 @@ namespace Exemplar
       return command;
     }
 
+    CLI::App &
+    declare_mesh(CLI::App &app, Arguments &arguments)
+    {
+      CLI::App &command = add_command(app, "mesh", "fill a surface with tetrahedra");
+      command
+          .add_option("--surface", arguments.mesh.meshing.surface, "the surface (.obj .ply .stl)")
+          ->required();
+      command.add_option("--cells", arguments.mesh.meshing.n_cells, "how many tetrahedra, about")
+          ->required();
+      command
+          .add_option("--output", arguments.mesh.output, "the mesh (.msh); a table (.csv) beside")
+          ->required();
+      command.add_flag("--repair", arguments.mesh.meshing.repair,
+                       "mend holes, turned and intersecting faces; wrap what cannot be mended");
+      command.add_flag("--quiet", arguments.mesh.quiet, "print errors only");
+      return command;
+    }
+
     int
     do_verify(const Arguments &arguments)
     {
@@ -146,10 +167,11 @@ namespace Exemplar
     declare_scene(app, arguments);
     const CLI::App &study_command  = declare_study(app, arguments);
     const CLI::App &verify_command = declare_verify(app, arguments);
+    const CLI::App &mesh_command   = declare_mesh(app, arguments);
     try
     {
       app.parse(argc, argv);
-      const bool is_scene = !study_command && !verify_command;
+      const bool is_scene = !study_command && !verify_command && !mesh_command;
       if (is_scene && !arguments.print && arguments.run.scene_file.empty())
         throw CLI::RequiredError("SCENE");
       if (study_command && !arguments.print_study && arguments.study.file.empty())
@@ -170,6 +192,8 @@ namespace Exemplar
       return do_verify(arguments);
     if (study_command)
       do_study(arguments);
+    else if (mesh_command)
+      run_mesh_command(arguments.mesh);
     else
       do_scene(arguments);
     return 0;
