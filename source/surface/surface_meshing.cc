@@ -19,7 +19,7 @@ namespace Exemplar
   {
     constexpr unsigned int n_attempts = 8;
     /// Nearer to the wanted number of cells than this, nothing more is tried.
-    constexpr double near_enough = .03;
+    constexpr double near_enough = .05;
 
     /// Edges as long as wanted, shorter where the surface would else intersect itself.
     TriangleSurface
