@@ -7,6 +7,9 @@
 
 #include <CGAL/Polygon_mesh_processing/detect_features.h>
 #include <CGAL/Polygon_mesh_processing/remesh.h>
+#include <CGAL/boost/graph/Euler_operations.h>
+
+#include <cmath>
 
 namespace Exemplar
 {
@@ -57,6 +60,48 @@ namespace Exemplar
           kept[edge] = true;
       }
     }
+    /// Insert a vertex in the edge of `halfedge`, which then begins there; faces stay triangles.
+    void
+    split(CgalMesh                      &mesh,
+          const CgalMesh::Halfedge_index halfedge,
+          const SurfaceMesh::Vertex     &place,
+          Groups                        &groups,
+          Kept                          &kept)
+    {
+      const auto group                = groups[mesh.face(halfedge)];
+      const auto other_group          = groups[mesh.face(mesh.opposite(halfedge))];
+      const auto before               = CGAL::Euler::split_edge(halfedge, mesh);
+      mesh.point(mesh.target(before)) = to_cgal(place);
+      kept[mesh.edge(before)]         = true;
+      const auto cut                  = CGAL::Euler::split_face(before, mesh.next(halfedge), mesh);
+      const auto other                = CGAL::Euler::split_face(mesh.opposite(halfedge),
+                                                                mesh.next(mesh.opposite(before)), mesh);
+      for (const auto side : { cut, mesh.opposite(cut) })
+        groups[mesh.face(side)] = group;
+      for (const auto side : { other, mesh.opposite(other) })
+        groups[mesh.face(side)] = other_group;
+    }
+
+    /// Divide long kept edges evenly: halved again and again, as the remeshing would, only edges of
+    /// certain lengths could come out, and only certain numbers of cells.
+    void
+    divide_kept_edges(CgalMesh &mesh, const double edge_length, Groups &groups, Kept &kept)
+    {
+      std::vector<CgalMesh::Edge_index> edges;
+      for (const auto edge : mesh.edges())
+        if (kept[edge] && length_of(mesh, edge) > 4. / 3. * edge_length)
+          edges.push_back(edge);
+      for (const auto edge : edges)
+      {
+        const auto                halfedge = mesh.halfedge(edge);
+        const SurfaceMesh::Vertex from     = from_cgal(mesh.point(mesh.source(halfedge)));
+        const SurfaceMesh::Vertex to       = from_cgal(mesh.point(mesh.target(halfedge)));
+        const double              n        = std::round(length_of(mesh, edge) / edge_length);
+        for (double i = 1.; i < n; i += 1.)
+          split(mesh, halfedge, plus(from, i / n, minus(to, from)), groups, kept);
+      }
+    }
+
     /// With some vertices held where they are.
     TriangleSurface
     remesh_holding(const TriangleSurface   &surface,
@@ -73,9 +118,10 @@ namespace Exemplar
       if (keep_edges)
         keep_sharp_edges(mesh, edge_length, kept);
       keep_borders(mesh, groups, kept);
+      divide_kept_edges(mesh, edge_length, groups, kept);
       auto held = mesh.add_property_map<CgalMesh::Vertex_index, bool>("v:held", false).first;
-      for (const auto vertex : mesh.vertices())
-        held[vertex] = held_vertices[vertex];
+      for (std::size_t i = 0; i < held_vertices.size(); ++i)
+        held[CgalMesh::Vertex_index(static_cast<unsigned int>(i))] = held_vertices[i];
       PMP::isotropic_remeshing(mesh.faces(), edge_length, mesh,
                                PMP::parameters::number_of_iterations(n_iterations)
                                    .number_of_relaxation_steps(3)

@@ -176,14 +176,14 @@ namespace Exemplar
   }
 
   TriangleSurface
-  wrap(const TriangleSurface &surface)
+  wrap(const TriangleSurface &surface, const double openings)
   {
     Points   points;
     Polygons polygons;
     to_soup(surface, points, polygons);
-    const double diagonal = diagonal_of(surface.vertices);
+    const double alpha = openings * diagonal_of(surface.vertices);
     CgalMesh     mesh;
-    CGAL::alpha_wrap_3(points, polygons, .01 * diagonal, .0005 * diagonal, mesh);
+    CGAL::alpha_wrap_3(points, polygons, alpha, alpha / 20., mesh);
     TriangleSurface wrapped = from_cgal_mesh(mesh, [](const CgalMesh::Face_index) { return 0U; });
     take_groups(wrapped, surface);
     return wrapped;

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <map>
 #include <set>
 
 namespace Exemplar
@@ -139,6 +140,33 @@ namespace Exemplar
       return distinct.size() == names.size() ? ids : in_order;
     }
 
+    /// Whether each triangle of the boundary has cells on one side only: others lie between regions.
+    std::vector<bool>
+    outer_triangles(const TetrahedralMesh &mesh)
+    {
+      using Triangle    = std::array<unsigned int, 3>;
+      const auto sorted = [](Triangle t)
+      {
+        std::sort(t.begin(), t.end());
+        return t;
+      };
+      std::map<Triangle, unsigned int> n_cells;
+      for (const Triangle &t : mesh.boundary.triangles)
+        n_cells[sorted(t)] = 0;
+      for (const auto &c : mesh.cells)
+        for (unsigned int k = 0; k < 4; ++k)
+        {
+          const auto found
+              = n_cells.find(sorted({ { c[(k + 1) % 4], c[(k + 2) % 4], c[(k + 3) % 4] } }));
+          if (found != n_cells.end())
+            ++found->second;
+        }
+      std::vector<bool> outer;
+      for (const Triangle &t : mesh.boundary.triangles)
+        outer.push_back(n_cells[sorted(t)] == 1);
+      return outer;
+    }
+
     MshFile
     make_msh_of(const TetrahedralMesh &mesh, const std::vector<std::string> &group_names)
     {
@@ -151,8 +179,10 @@ namespace Exemplar
       for (const unsigned int region : mesh.regions)
         materials.push_back(region + 1);
       std::vector<BoundaryFace> faces;
+      const std::vector<bool>   outer = outer_triangles(mesh);
       for (std::size_t t = 0; t < mesh.boundary.triangles.size(); ++t)
-        faces.push_back({ mesh.boundary.triangles[t], ids[mesh.boundary.groups[t]] });
+        if (outer[t])
+          faces.push_back({ mesh.boundary.triangles[t], ids[mesh.boundary.groups[t]] });
       MshFile msh = make_msh(std::move(nodes), mesh.cells, materials, faces);
       for (std::size_t i = 0; i < names.size(); ++i)
         if (ids[i] > 0 && !names[i].empty())

@@ -21,10 +21,10 @@ namespace Exemplar
   repair(const TriangleSurface &surface);
 
   /// A closed surface around whatever the triangles are (Portaneri et al. 2022, alpha wrapping, by
-  /// CGAL): openings of less than 1 % of the diagonal are closed, and it runs 0.05 % of the
-  /// diagonal outside.
+  /// CGAL): openings of less than `openings` times the diagonal are closed, and it runs a twentieth
+  /// of that outside.
   TriangleSurface
-  wrap(const TriangleSurface &surface);
+  wrap(const TriangleSurface &surface, double openings = .01);
 } // namespace Exemplar
 
 #endif

@@ -173,7 +173,7 @@ namespace Exemplar::Testing
     TEST(SurfaceRepair, WrapsWhatIntersects)
     {
       const TriangleSurface crossing = joined(cube(), cube({ { .5, .5, .5 } }));
-      const TriangleSurface wrapped  = wrap(crossing);
+      const TriangleSurface wrapped  = wrap(crossing, .05);
       EXPECT_EQ(faults_of(wrapped), "");
       EXPECT_NEAR(enclosed_volume(wrapped), 2. - .125, .03);
     }
