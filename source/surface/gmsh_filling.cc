@@ -45,6 +45,14 @@ namespace Exemplar
       }
     };
 
+    [[noreturn]] void
+    throw_unfilled(const std::string &reason)
+    {
+      throw SolverFailure(
+          "gmsh could not fill the surface with cells: " + reason
+          + ". Ask for more cells (--cells), or mend the surface where it is very thin.");
+    }
+
     int
     tag(const unsigned int number)
     {
@@ -116,7 +124,7 @@ namespace Exemplar
         if (tags[i] > n_surface)
           order.emplace_back(tags[i], i);
         else if (places[3 * i] != mesh.nodes[tags[i] - 1][0])
-          throw SolverFailure("gmsh changed the numbers of the surface's vertices");
+          throw_unfilled("it changed the numbers of the surface's vertices");
       std::sort(order.begin(), order.end());
       std::vector<unsigned int> index(order.empty() ? n_surface + 1 : order.back().first + 1);
       for (std::size_t i = 0; i < n_surface; ++i)
@@ -164,7 +172,7 @@ namespace Exemplar
             += six_volumes(mesh.nodes[c[0]], mesh.nodes[c[1]], mesh.nodes[c[2]], mesh.nodes[c[3]])
                / 6.;
       if (!(std::abs(volume - expected) <= 1e-6 * expected))
-        throw SolverFailure("gmsh's cells have another volume than the surface encloses");
+        throw_unfilled("its cells have another volume than the surface encloses");
     }
 
     /// What the outermost shells enclose, less the cavities.
@@ -213,7 +221,7 @@ namespace Exemplar
     }
     catch (...) // gmsh's own error has nothing to say
     {
-      throw SolverFailure("gmsh could not fill the surface with cells: " + last_error());
+      throw_unfilled(last_error());
     }
     check_volume(mesh, filled_volume(surface, shells, n_shells));
     return mesh;

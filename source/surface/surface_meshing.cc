@@ -50,10 +50,21 @@ namespace Exemplar
       TetrahedralMesh best;
       for (unsigned int attempt = 0; attempt < n_attempts; ++attempt)
       {
-        TetrahedralMesh mesh  = fill(remesh_without_intersections(surface, h, keep_edges));
-        const auto      n     = static_cast<double>(mesh.cells.size());
-        const double    error = std::abs(std::log(n / n_cells));
-        if (attempt > 0 && std::abs(std::log(h / last_h)) > 1e-3)
+        TetrahedralMesh mesh;
+        try
+        {
+          mesh = fill(remesh_without_intersections(surface, h, keep_edges));
+        }
+        catch (const SolverFailure &)
+        {
+          if (best.cells.empty() && attempt + 1 == n_attempts)
+            throw;
+          h *= .9; // finer surfaces are filled more easily
+          continue;
+        }
+        const auto   n     = static_cast<double>(mesh.cells.size());
+        const double error = std::abs(std::log(n / n_cells));
+        if (last_n > 0. && std::abs(std::log(h / last_h)) > 1e-3)
           power = std::clamp(std::log(n / last_n) / std::log(last_h / h), 1.5, 4.);
         if (best.cells.empty() || error < best_error)
         {
@@ -263,6 +274,10 @@ namespace Exemplar
       result.notes.push_back("The mesh has " + std::to_string(mesh.cells.size()) + " cells, not "
                              + std::to_string(options.n_cells)
                              + ": its shape allows no number nearer to it.");
+    const double diagonal = diagonal_of(body.original.vertices);
+    if (diagonal > 50. || diagonal < 1e-3)
+      result.notes.push_back("The diagonal is " + short_text(diagonal)
+                             + ". Scenes take metres: set Mesh/Scale (0.001 for millimetres).");
     return result;
   }
 } // namespace Exemplar
