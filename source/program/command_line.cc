@@ -7,6 +7,7 @@
 #include <exemplar/program/command_line.h>
 #include <exemplar/program/interrupt.h>
 #include <exemplar/program/mesh_command.h>
+#include <exemplar/program/pose_command.h>
 #include <exemplar/program/run_scene.h>
 #include <exemplar/study/study.h>
 #include <exemplar/study/study_file.h>
@@ -32,6 +33,7 @@ namespace Exemplar
       bool                     list_cases = false;
 
       MeshCommandOptions mesh;
+      PoseOptions        pose;
     };
 
     void
@@ -110,6 +112,28 @@ namespace Exemplar
       return command;
     }
 
+    CLI::App &
+    declare_pose(CLI::App &app, Arguments &arguments)
+    {
+      CLI::App &command = add_command(
+          app, "pose", "carry poses of a surface onto its tetrahedra, as examples of scenes");
+      PoseOptions &pose = arguments.pose;
+      command.add_option("--mesh", pose.mesh, "tetrahedra inside the surface (.msh)")->required();
+      command.add_option("--rest", pose.rest, "the surface at rest (.obj .ply .stl)")->required();
+      command
+          .add_option("--pose", pose.poses,
+                      "its poses, in the same order of vertices; 'walk_*.obj' is a sequence")
+          ->required();
+      command.add_option("--output", pose.output, "directory of the results")->required();
+      command
+          .add_option("--attach", pose.attach,
+                      "how strongly the surface holds, over the stiffness of the body")
+          ->check(CLI::Range(1e-3, 1e6))
+          ->capture_default_str();
+      command.add_flag("--quiet", pose.quiet, "print warnings and errors only");
+      return command;
+    }
+
     int
     do_verify(const Arguments &arguments)
     {
@@ -168,10 +192,11 @@ namespace Exemplar
     const CLI::App &study_command  = declare_study(app, arguments);
     const CLI::App &verify_command = declare_verify(app, arguments);
     const CLI::App &mesh_command   = declare_mesh(app, arguments);
+    const CLI::App &pose_command   = declare_pose(app, arguments);
     try
     {
       app.parse(argc, argv);
-      const bool is_scene = !study_command && !verify_command && !mesh_command;
+      const bool is_scene = !study_command && !verify_command && !mesh_command && !pose_command;
       if (is_scene && !arguments.print && arguments.run.scene_file.empty())
         throw CLI::RequiredError("SCENE");
       if (study_command && !arguments.print_study && arguments.study.file.empty())
@@ -194,6 +219,8 @@ namespace Exemplar
       do_study(arguments);
     else if (mesh_command)
       run_mesh_command(arguments.mesh);
+    else if (pose_command)
+      carry_poses(arguments.pose);
     else
       do_scene(arguments);
     return 0;
