@@ -6,6 +6,8 @@
 #include <exemplar/base/version.h>
 #include <exemplar/program/command_line.h>
 #include <exemplar/program/interrupt.h>
+#include <exemplar/program/mesh_command.h>
+#include <exemplar/program/pose_command.h>
 #include <exemplar/program/run_scene.h>
 #include <exemplar/study/study.h>
 #include <exemplar/study/study_file.h>
@@ -29,6 +31,9 @@ namespace Exemplar
 
       std::vector<std::string> cases;
       bool                     list_cases = false;
+
+      MeshCommandOptions mesh;
+      PoseOptions        pose;
     };
 
     void
@@ -89,6 +94,46 @@ namespace Exemplar
       return command;
     }
 
+    CLI::App &
+    declare_mesh(CLI::App &app, Arguments &arguments)
+    {
+      CLI::App &command = add_command(app, "mesh", "fill a surface with tetrahedra");
+      command
+          .add_option("--surface", arguments.mesh.meshing.surface, "the surface (.obj .ply .stl)")
+          ->required();
+      command.add_option("--cells", arguments.mesh.meshing.n_cells, "how many tetrahedra, about")
+          ->required();
+      command
+          .add_option("--output", arguments.mesh.output, "the mesh (.msh); a table (.csv) beside")
+          ->required();
+      command.add_flag("--repair", arguments.mesh.meshing.repair,
+                       "mend holes, turned and intersecting faces; wrap what cannot be mended");
+      command.add_flag("--quiet", arguments.mesh.quiet, "print errors only");
+      return command;
+    }
+
+    CLI::App &
+    declare_pose(CLI::App &app, Arguments &arguments)
+    {
+      CLI::App &command = add_command(
+          app, "pose", "carry poses of a surface onto its tetrahedra, as examples of scenes");
+      PoseOptions &pose = arguments.pose;
+      command.add_option("--mesh", pose.mesh, "tetrahedra inside the surface (.msh)")->required();
+      command.add_option("--rest", pose.rest, "the surface at rest (.obj .ply .stl)")->required();
+      command
+          .add_option("--pose", pose.poses,
+                      "its poses, in the same order of vertices; 'walk_*.obj' is a sequence")
+          ->required();
+      command.add_option("--output", pose.output, "directory of the results")->required();
+      command
+          .add_option("--attach", pose.attach,
+                      "how strongly the surface holds, over the stiffness of the body")
+          ->check(CLI::Range(1e-3, 1e6))
+          ->capture_default_str();
+      command.add_flag("--quiet", pose.quiet, "print warnings and errors only");
+      return command;
+    }
+
     int
     do_verify(const Arguments &arguments)
     {
@@ -146,10 +191,12 @@ namespace Exemplar
     declare_scene(app, arguments);
     const CLI::App &study_command  = declare_study(app, arguments);
     const CLI::App &verify_command = declare_verify(app, arguments);
+    const CLI::App &mesh_command   = declare_mesh(app, arguments);
+    const CLI::App &pose_command   = declare_pose(app, arguments);
     try
     {
       app.parse(argc, argv);
-      const bool is_scene = !study_command && !verify_command;
+      const bool is_scene = !study_command && !verify_command && !mesh_command && !pose_command;
       if (is_scene && !arguments.print && arguments.run.scene_file.empty())
         throw CLI::RequiredError("SCENE");
       if (study_command && !arguments.print_study && arguments.study.file.empty())
@@ -170,6 +217,10 @@ namespace Exemplar
       return do_verify(arguments);
     if (study_command)
       do_study(arguments);
+    else if (mesh_command)
+      run_mesh_command(arguments.mesh);
+    else if (pose_command)
+      carry_poses(arguments.pose);
     else
       do_scene(arguments);
     return 0;

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_pose_command_h
+#define exemplar_pose_command_h
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace Exemplar
+{
+  /// What `exemplar pose` is told.
+  struct PoseOptions
+  {
+    std::filesystem::path    mesh, rest, output;
+    std::vector<std::string> poses; ///< files, or patterns of files with * and ?
+    double                   attach = 30.;
+    bool                     quiet  = false;
+  };
+
+  /// Carry each pose of the surface onto the mesh: OUTPUT/NAME.msh for a pose NAME.obj, and
+  /// OUTPUT/poses.csv. Throws UserError before anything is written, and SolverFailure, with the
+  /// elements, when the other poses are on disk, if cells of some stay inverted.
+  void
+  carry_poses(const PoseOptions &options);
+} // namespace Exemplar
+
+#endif

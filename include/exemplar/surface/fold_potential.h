@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_fold_potential_h
+#define exemplar_fold_potential_h
+
+#include <exemplar/algebra/spd_operator.h>
+#include <exemplar/kernels/tetrahedron.h>
+
+#include <deal.II/base/point.h>
+
+#include <array>
+#include <vector>
+
+namespace Exemplar
+{
+  /// Springs from nodes to places, one a node.
+  struct Attachment
+  {
+    std::vector<double>           stiffness; ///< [1/m^2]; 0: the node is free
+    std::vector<dealii::Point<3>> target;    ///< [m]
+  };
+
+  /// What a pose on tetrahedra minimises: the mean of fold_energy() over the rest volume plus the
+  /// springs' sum_i stiffness_i |x_i - target_i|^2 / 2. Without unit.
+  class FoldPotential
+  {
+  public:
+    using Points = std::vector<dealii::Point<3>>;
+    using Cells  = std::vector<std::array<unsigned int, 4>>;
+
+    /// Nodes at rest [m], cells of positive volume. Without springs.
+    FoldPotential(const Points &nodes, const Cells &cells);
+
+    /// Both parts have an entry for each node.
+    Attachment attachment;
+
+    /// Infinite if `eps` is zero and a cell is inverted.
+    double
+    value(const Points &x, double eps) const;
+
+    /// The derivative, by degree of freedom [1/m]. The energy must be finite.
+    std::vector<double>
+    gradient(const Points &x, double eps) const;
+
+    /// The second derivative without its negative parts in each cell [1/m^2], on block_pattern().
+    void
+    assemble(const Points &x, double eps, std::vector<double> &values) const;
+
+    /// det F of each cell.
+    std::vector<double>
+    determinants(const Points &x) const;
+
+    /// F of a cell.
+    Matrix3<double>
+    gradient_of_cell(const Points &x, std::size_t cell) const;
+
+    /// The system of the nearest rotations: the mean of |F - R|^2 with rotations R that are held,
+    /// plus the springs, for each of the three components; on node_pattern().
+    void
+    assemble_rotations(std::vector<double> &values) const;
+
+    /// Its right side for the rotations of the cells at `x` (with none: for no rotation), the
+    /// three components one after the other.
+    std::vector<double>
+    rotated_rest(const Points *x) const;
+
+    /// A row a node.
+    const SymmetricPattern &
+    node_pattern() const
+    {
+      return pattern;
+    }
+
+    /// A row a degree of freedom.
+    SymmetricPattern
+    block_pattern() const;
+
+    const Cells &
+    get_cells() const
+    {
+      return cells;
+    }
+
+    /// The rest volume of the body [m^3].
+    double
+    get_volume() const
+    {
+      return volume;
+    }
+
+  private:
+    void
+    build_pattern(std::size_t n_nodes);
+    void
+    add_to_block(int                    position,
+                 int                    j,
+                 const Matrix3<double> &block,
+                 std::vector<double>   &values) const;
+    void
+    add_cell_modes(std::size_t c, const Points &x, double eps, std::vector<double> &values) const;
+
+    Cells                            cells;
+    std::vector<Tetrahedron<double>> rest; ///< volumes as shares of the whole
+    double                           volume = 0.;
+    SymmetricPattern                 pattern;
+    /// Position in `pattern` of the pairs (a, b), a <= b, of each cell's nodes.
+    std::vector<std::array<int, 10>> positions;
+  };
+} // namespace Exemplar
+
+#endif

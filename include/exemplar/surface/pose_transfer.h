@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_pose_transfer_h
+#define exemplar_pose_transfer_h
+
+#include <exemplar/surface/fold_solver.h>
+#include <exemplar/surface/surface_attachment.h>
+
+#include <memory>
+
+namespace Exemplar
+{
+  /// What a pose on tetrahedra is like. Stretches are singular values of F, of all cells.
+  struct PoseQuality
+  {
+    unsigned int n_inverted = 0;
+    double       least_det = 0., greatest_det = 0.;
+    double       least_stretch = 0., stretch_1 = 0., stretch_99 = 0., greatest_stretch = 0.;
+    double       mean_error = 0., greatest_error = 0.; ///< of boundary nodes, over the diagonal
+    double       rotation   = 0.; ///< of the rigid motion that was stripped [degrees]
+    double       shift      = 0.; ///< of the body's boundary [m]
+    unsigned int iterations = 0, releases = 0;
+  };
+
+  /// Carries poses of a surface onto a tetrahedral mesh of its inside, without inverted cells.
+  class PoseTransfer
+  {
+  public:
+    using Points = FoldPotential::Points;
+
+    /// Nodes [m] and positive cells of the mesh, how its boundary hangs on the surface at rest, and
+    /// how strongly, over the stiffness of the body.
+    PoseTransfer(const Points               &nodes,
+                 const FoldPotential::Cells &cells,
+                 SurfaceAttachment           of_boundary,
+                 double                      attach);
+
+    /// Places of the nodes [m] for a pose, given by its vertices [m].
+    Points
+    carry(const SurfaceAttachment::Vertices &vertices, PoseQuality &quality);
+
+    /// det F of each cell at these places of the nodes.
+    std::vector<double>
+    determinants(const Points &x) const
+    {
+      return potential->determinants(x);
+    }
+
+  private:
+    void
+    attach_to(const Points &targets);
+    void
+    measure(const Points &x, const Points &targets, PoseQuality &quality) const;
+
+    Points                         nodes;
+    SurfaceAttachment              attachment;
+    std::unique_ptr<FoldPotential> potential; ///< stays where it is, for the solver
+    FoldSolver                     solver;
+    std::vector<double>            stiffness; ///< of the spring of each boundary node [1/m^2]
+  };
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_surface_remeshing_h
+#define exemplar_surface_remeshing_h
+
+#include <exemplar/surface/triangle_surface.h>
+
+namespace Exemplar
+{
+  /// A closed, oriented manifold surface with edges of about `edge_length`, its vertices on the
+  /// surface given (isotropic remeshing, Botsch and Kobbelt 2004, by CGAL). The borders of groups
+  /// stay where they are; with `keep_edges` so do edges sharper than 60 degrees, where they make
+  /// chains of several times the edge length: short ones are noise.
+  TriangleSurface
+  remesh(const TriangleSurface &surface, double edge_length, bool keep_edges);
+} // namespace Exemplar
+
+#endif

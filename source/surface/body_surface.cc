@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
+#include <exemplar/base/number_text.h>
+#include <exemplar/surface/body_surface.h>
+#include <exemplar/surface/surface_geometry.h>
+#include <exemplar/surface/surface_repair.h>
+
+namespace Exemplar
+{
+  namespace
+  {
+    std::string
+    list_lines(const std::vector<std::string> &lines)
+    {
+      std::string text;
+      for (const std::string &line : lines)
+        text += "\n  " + line;
+      return text;
+    }
+
+    void
+    append(std::vector<std::string> &to, const std::vector<std::string> &lines)
+    {
+      to.insert(to.end(), lines.begin(), lines.end());
+    }
+
+    std::string
+    movement_text(const TriangleSurface &from, const TriangleSurface &to)
+    {
+      const double          diagonal = diagonal_of(from.vertices);
+      const SurfaceDistance out      = distance_to(NearestTriangle(to), from);
+      const SurfaceDistance back     = distance_to(NearestTriangle(from), to);
+      return "the old surface is at most " + short_text(100. * out.maximum / diagonal)
+             + " % of its diagonal from the new one (mean " + short_text(100. * out.mean / diagonal)
+             + " %), the new one at most " + short_text(100. * back.maximum / diagonal)
+             + " % from the old one (mean " + short_text(100. * back.mean / diagonal) + " %)";
+    }
+
+    /// Repaired; if there are still faults, wrapped. Returns the faults of the last attempt.
+    std::vector<std::string>
+    mend_surface(BodySurface &body)
+    {
+      RepairedSurface          repaired = repair(body.original);
+      std::vector<std::string> faults{ "nothing is left of it" };
+      if (!repaired.surface.triangles.empty())
+        faults = check_surface({ repaired.surface, {} }).faults;
+      if (faults.empty())
+        append(body.notes, repaired.done);
+      else
+      {
+        body.notes.push_back("repair was not enough, so the surface was wrapped; left were:");
+        append(body.notes, faults);
+        repaired.surface = wrap(body.original);
+        faults           = check_surface({ repaired.surface, {} }).faults;
+      }
+      body.surface = std::move(repaired.surface);
+      if (faults.empty())
+        body.notes.push_back(movement_text(body.original, body.surface));
+      return faults;
+    }
+  } // namespace
+
+  BodySurface
+  read_body_surface(const std::filesystem::path &file, const bool mend)
+  {
+    const SurfaceMesh read = read_surface(file);
+    CheckedSurface    checked;
+    checked.surface                = triangulate(read, &checked.faces);
+    const SurfaceFindings findings = check_surface(checked);
+    BodySurface body{ checked.surface, checked.surface, read.group_names, findings.notes };
+    if (findings.several_bodies)
+      throw UserError(file.string() + ": this is more than one body:" + list_lines(findings.faults)
+                      + "\n  A scene has one. Join them where they were made, or mesh each alone.");
+    if (!findings.faults.empty() && !mend)
+      throw UserError(file.string() + ": the surface does not bound a body:"
+                      + list_lines(findings.faults) + list_lines(findings.notes)
+                      + "\n  Mend it in the program that made it, or try --repair. Vertices and "
+                        "faces are counted from 1.");
+    if (!findings.faults.empty())
+    {
+      append(body.notes, findings.faults);
+      const auto left = mend_surface(body);
+      if (!left.empty())
+        throw UserError(file.string() + ": the surface does not bound a body:"
+                        + list_lines(findings.faults) + "\n  and could not be repaired; left are:"
+                        + list_lines(left) + "\n  Mend it in the program that made it.");
+    }
+    drop_unused_vertices(body.surface);
+    return body;
+  }
+} // namespace Exemplar
