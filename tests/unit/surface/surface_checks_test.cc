@@ -50,6 +50,20 @@ namespace Exemplar::Testing
       EXPECT_DOUBLE_EQ(area, 3.);
     }
 
+    TEST(TriangleSurface, CutsDartsAtTheirNotch)
+    {
+      const SurfaceMesh dart{
+        { { { 0, 0, 0 } }, { { 4, -2, 0 } }, { { 1, 0, 0 } }, { { 4, 2, 0 } } },
+        { { 0, 1, 2, 3 } },
+        {},
+        {}
+      };
+      const TriangleSurface surface = triangulate(dart);
+      ASSERT_EQ(surface.triangles.size(), 2U);
+      EXPECT_DOUBLE_EQ(area_of(surface, 0), 1.); // the other cut has 8 and 6
+      EXPECT_DOUBLE_EQ(area_of(surface, 1), 1.);
+    }
+
     TEST(TriangleSurface, MeasuresVolume)
     {
       EXPECT_DOUBLE_EQ(enclosed_volume(cube()), 1.);
@@ -173,9 +187,9 @@ namespace Exemplar::Testing
     TEST(SurfaceRepair, WrapsWhatIntersects)
     {
       const TriangleSurface crossing = joined(cube(), cube({ { .5, .5, .5 } }));
-      const TriangleSurface wrapped  = wrap(crossing, .05);
+      const TriangleSurface wrapped  = wrap(crossing, .03);
       EXPECT_EQ(faults_of(wrapped), "");
-      EXPECT_NEAR(enclosed_volume(wrapped), 2. - .125, .03);
+      EXPECT_NEAR(enclosed_volume(wrapped), 2. - .125, .07);
     }
   } // namespace
 } // namespace Exemplar::Testing

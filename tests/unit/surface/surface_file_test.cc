@@ -23,6 +23,12 @@ namespace Exemplar::Testing
       EXPECT_EQ(surface.group_names, pyramid().group_names);
     }
 
+    /// Of a good file: what it is changed to, and the message that this must give.
+    struct Change
+    {
+      std::string from, to, message;
+    };
+
     std::string
     replaced(std::string text, const std::string &from, const std::string &to)
     {
@@ -161,7 +167,7 @@ namespace Exemplar::Testing
 
     TEST_F(SurfaceFileTest, NamesTheLineOfWhatIsWrong)
     {
-      const std::vector<std::array<std::string, 3>> cases{
+      const std::vector<Change> cases{
         { "v 0 0 0\n", "v 0 x 0\n", "line 5: expected a number, found 'x'" },
         { "v 0 0 0\n", "v 0 0\n", "line 5: a vertex has three coordinates" },
         { "v 0 0 0\n", "v 0 0 nan\n", "vertex 1 of 5 has a coordinate that is no finite number" },
@@ -180,7 +186,7 @@ namespace Exemplar::Testing
 
     TEST_F(SurfaceFileTest, NamesWhatIsWrongInPly)
     {
-      const std::vector<std::array<std::string, 3>> cases{
+      const std::vector<Change> cases{
         { "0.1 1 1 0 255", "0.1 1 1 0", "line 24: the line ends after 4 numbers" },
         { "0.1 1 1 0 255", "0.1 1 1 0 255 1", "line 24: an element of 'vertex' has 5 numbers" },
         { "0.1 1 1 0 255", "0.1 1 inf 0 255", "vertex 3 of 5 has a coordinate" },

@@ -53,10 +53,10 @@ namespace Exemplar::Testing
                           { { 0, 3, 2, 1 }, { 0, 1, 4 }, { 1, 2, 4 }, { 2, 3, 4 }, { 3, 0, 4 } },
                           {},
                           {} });
-      const TriangleSurface fine   = remesh(spike, .03, true);
+      const TriangleSurface fine   = remesh(spike, .02, true);
       const TriangleSurface coarse = remesh(fine, .2, false);
       EXPECT_LT(coarse.triangles.size(), 80U);
-      EXPECT_LT(NearestTriangle(coarse)({ { .05, .05, 1. } }).first, .1);
+      EXPECT_LT(NearestTriangle(coarse)({ { .05, .05, 1. } }).first, .01); // else .16
     }
 
     TEST(TetrahedraInside, FillRegionsAndLeaveCavities)
