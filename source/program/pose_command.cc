@@ -43,7 +43,7 @@ namespace Exemplar
     read_checked(const fs::path &file)
     {
       SurfaceMesh surface = read_surface(file);
-      check_surface(surface, file.string());
+      require_surface(surface, file.string());
       return surface;
     }
 
@@ -94,20 +94,20 @@ namespace Exemplar
       return list_numbers(numbers);
     }
 
-    /// The table without times, so that the same input gives the same bytes.
     void
     write_csv(const std::vector<PoseFile> &poses, const std::size_t n_done, const fs::path &file)
     {
       AtomicFile csv(file);
       csv.stream() << "pose,inverted_cells,min_det_F,max_det_F,stretch_min,stretch_1,stretch_99,"
-                      "stretch_max,surface_error_mean,surface_error_max,rotation,shift\n";
+                      "stretch_max,surface_error_mean,surface_error_max,rotation,shift,seconds\n";
       for (std::size_t k = 0; k < n_done; ++k)
       {
         const PoseQuality &q = poses[k].quality;
         csv.stream() << poses[k].file.stem().string() << ',' << q.n_inverted;
-        for (const double value : { q.least_det, q.greatest_det, q.least_stretch, q.stretch_1,
-                                    q.stretch_99, q.greatest_stretch, 100. * q.mean_error,
-                                    100. * q.greatest_error, q.rotation, q.shift })
+        for (const double value :
+             { q.least_det, q.greatest_det, q.least_stretch, q.stretch_1, q.stretch_99,
+               q.greatest_stretch, 100. * q.mean_error, 100. * q.greatest_error, q.rotation,
+               q.shift, poses[k].seconds })
           csv.stream() << ',' << shortest_text(value);
         csv.stream() << '\n';
       }

@@ -6,7 +6,7 @@
 namespace Exemplar
 {
   std::pair<double, double>
-  dihedral_angles(const std::array<Vector3, 4> &p)
+  dihedral_angles(const std::array<SpaceVector, 4> &p)
   {
     const double              degrees = 180. / std::acos(-1.);
     std::pair<double, double> angles{ 180., 0. };
@@ -15,18 +15,18 @@ namespace Exemplar
                                         { 1, 2, 0, 3 }, { 1, 3, 0, 2 }, { 2, 3, 0, 1 } };
     for (const auto &[i, j, k, l] : edges)
     {
-      const Vector3 edge = minus(p[j], p[i]);
-      const Vector3 a = cross(edge, minus(p[k], p[i])), b = cross(edge, minus(p[l], p[i]));
+      const SpaceVector edge = minus(p[j], p[i]);
+      const SpaceVector a = cross(edge, minus(p[k], p[i])), b = cross(edge, minus(p[l], p[i]));
       const double  angle = degrees * std::atan2(norm(cross(a, b)), dot(a, b));
       angles              = { std::min(angles.first, angle), std::max(angles.second, angle) };
     }
     return angles;
   }
 
-  std::array<Vector3, 4>
+  std::array<SpaceVector, 4>
   corners_of(const TetrahedralMesh &mesh, const std::size_t cell)
   {
-    std::array<Vector3, 4> corners;
+    std::array<SpaceVector, 4> corners;
     for (unsigned int k = 0; k < 4; ++k)
       corners[k] = mesh.nodes[mesh.cells[cell][k]];
     return corners;

@@ -66,7 +66,7 @@ namespace Exemplar
     for (std::size_t t = 0; t < from.triangles.size(); ++t)
     {
       const auto   &corners = from.triangles[t];
-      const Vector3 origin{ { 0., 0., 0. } };
+      const SpaceVector origin{ { 0., 0., 0. } };
       const auto    at = [&](const double a, const double b, const double c)
       {
         const double d = to(plus(plus(plus(origin, a, from.vertices[corners[0]]), b,

@@ -175,7 +175,7 @@ namespace Exemplar
           return cross(minus(mesh.nodes[n[1]], mesh.nodes[n[0]]),
                        minus(mesh.nodes[n[2]], mesh.nodes[n[0]]));
         };
-        const Vector3 a = normal(first), b = normal(other);
+        const SpaceVector a = normal(first), b = normal(other);
         const double  angle = std::atan2(norm(cross(a, b)), dot(a, b));
         return angle * 180. / std::acos(-1.) < 180. - flat_angle;
       }

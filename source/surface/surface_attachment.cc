@@ -16,7 +16,7 @@ namespace Exemplar
   {
     using Points   = SurfaceAttachment::Points;
     using Vertices = SurfaceAttachment::Vertices;
-    using Vector   = dealii::Tensor<1, 3>;
+    using Offset   = dealii::Tensor<1, 3>;
 
     /// Of the boundary nodes from the surface at rest, over the size of the body.
     constexpr double greatest_distance = 0.1, mean_distance = 0.02;
@@ -27,23 +27,23 @@ namespace Exemplar
       return { x[0], x[1], x[2] };
     }
 
-    using Corners = std::array<dealii::Point<3>, 3>;
+    using TriangleCorners = std::array<dealii::Point<3>, 3>;
 
-    Corners
+    TriangleCorners
     corners(const std::array<unsigned int, 3> &triangle, const Vertices &vertices)
     {
       return { { point(vertices[triangle[0]]), point(vertices[triangle[1]]),
                  point(vertices[triangle[2]]) } };
     }
 
-    Vector
-    area_vector(const Corners &x)
+    Offset
+    area_vector(const TriangleCorners &x)
     {
       return 0.5 * dealii::cross_product_3d(x[1] - x[0], x[2] - x[0]);
     }
 
     void
-    add_product(const Vector &a, const Vector &b, Matrix3<double> &sum)
+    add_product(const Offset &a, const Offset &b, Matrix3<double> &sum)
     {
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
@@ -52,12 +52,12 @@ namespace Exemplar
 
     /// The rotation that best takes a triangle's edges and normal from one place to another.
     Matrix3<double>
-    turn(const Corners &from, const Corners &to)
+    turn(const TriangleCorners &from, const TriangleCorners &to)
     {
       Matrix3<double> B{};
       for (int a = 0; a < 3; ++a)
         add_product(to[(a + 1) % 3] - to[a], from[(a + 1) % 3] - from[a], B);
-      const Vector normal = area_vector(from), turned = area_vector(to);
+      const Offset normal = area_vector(from), turned = area_vector(to);
       const double size = std::sqrt(normal.norm() * turned.norm());
       if (size > 0.)
         add_product(turned, normal / size, B); // as heavy as the edges
@@ -73,7 +73,7 @@ namespace Exemplar
     std::map<unsigned int, double> area_of;
     for (const BoundaryFace &face : faces)
     {
-      const Corners x
+      const TriangleCorners x
           = { { all_nodes[face.nodes[0]], all_nodes[face.nodes[1]], all_nodes[face.nodes[2]] } };
       for (const unsigned int node : face.nodes)
         area_of[node] += area_vector(x).norm() / 3.;
@@ -97,8 +97,8 @@ namespace Exemplar
   dealii::Point<3>
   SurfaceAttachment::place(const SurfacePoint &on_surface, const Vertices &vertices) const
   {
-    const Corners    x = corners(rest.triangles[on_surface.triangle], vertices);
-    dealii::Point<3> result;
+    const TriangleCorners x = corners(rest.triangles[on_surface.triangle], vertices);
+    dealii::Point<3>      result;
     for (int a = 0; a < 3; ++a)
       result += on_surface.share[a] * x[a];
     return result;

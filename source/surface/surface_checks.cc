@@ -16,7 +16,7 @@ namespace Exemplar
   namespace
   {
     std::string
-    place_text(const Vector3 &place)
+    place_text(const SpaceVector &place)
     {
       return "(" + short_text(place[0]) + ", " + short_text(place[1]) + ", " + short_text(place[2])
              + ")";
@@ -121,7 +121,7 @@ namespace Exemplar
     void
     SurfaceCheck::note_duplicates()
     {
-      std::map<Vector3, unsigned int> first;
+      std::map<SpaceVector, unsigned int> first;
       std::vector<std::size_t>        numbers;
       for (unsigned int i = 0; i < surface.vertices.size(); ++i)
         if (!first.emplace(surface.vertices[i], i).second)
@@ -142,7 +142,7 @@ namespace Exemplar
         double longest = 0.; // squared
         for (unsigned int k = 0; k < 3; ++k)
         {
-          const Vector3 side = minus(surface.vertices[surface.triangles[t][(k + 1) % 3]],
+          const SpaceVector side = minus(surface.vertices[surface.triangles[t][(k + 1) % 3]],
                                      surface.vertices[surface.triangles[t][k]]);
           longest            = std::max(longest, dot(side, side));
         }

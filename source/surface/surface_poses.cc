@@ -106,7 +106,7 @@ namespace Exemplar
   } // namespace
 
   void
-  check_surface(const SurfaceMesh &surface, const std::string &name)
+  require_surface(const SurfaceMesh &surface, const std::string &name)
   {
     for (std::size_t v = 0; v < surface.vertices.size(); ++v)
       for (const double coordinate : surface.vertices[v])

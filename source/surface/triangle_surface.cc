@@ -15,7 +15,7 @@ namespace Exemplar
     class EarCutter
     {
     public:
-      EarCutter(const std::vector<Vector3> &places, const std::vector<unsigned int> &polygon)
+      EarCutter(const std::vector<SpaceVector> &places, const std::vector<unsigned int> &polygon)
           : vertices(places), rest(polygon), normal{ { 0., 0., 0. } }
       {
         for (std::size_t i = 0; i < rest.size(); ++i) // Newell's normal
@@ -36,7 +36,7 @@ namespace Exemplar
       }
 
     private:
-      const Vector3 &
+      const SpaceVector &
       at(const std::size_t i) const
       {
         return vertices[rest[i]];
@@ -52,7 +52,7 @@ namespace Exemplar
 
       /// Twice the area seen along the normal, times the normal's length.
       double
-      seen_area(const Vector3 &a, const Vector3 &b, const Vector3 &c) const
+      seen_area(const SpaceVector &a, const SpaceVector &b, const SpaceVector &c) const
       {
         return dot(normal, cross(minus(b, a), minus(c, a)));
       }
@@ -60,11 +60,11 @@ namespace Exemplar
       bool
       holds_another_vertex(const Triangle &ear) const
       {
-        const Vector3 &a = vertices[ear[0]], &b = vertices[ear[1]], &c = vertices[ear[2]];
+        const SpaceVector &a = vertices[ear[0]], &b = vertices[ear[1]], &c = vertices[ear[2]];
         return std::any_of(rest.begin(), rest.end(),
                            [&](const unsigned int v)
                            {
-                             const Vector3 &p = vertices[v];
+                             const SpaceVector &p = vertices[v];
                              return v != ear[0] && v != ear[1] && v != ear[2]
                                     && seen_area(a, b, p) >= 0. && seen_area(b, c, p) >= 0.
                                     && seen_area(c, a, p) >= 0.;
@@ -75,7 +75,7 @@ namespace Exemplar
       double
       quality(const Triangle &ear) const
       {
-        const Vector3 ab     = minus(vertices[ear[1]], vertices[ear[0]]),
+        const SpaceVector ab     = minus(vertices[ear[1]], vertices[ear[0]]),
                       bc     = minus(vertices[ear[2]], vertices[ear[1]]),
                       ca     = minus(vertices[ear[0]], vertices[ear[2]]);
         const double area    = seen_area(vertices[ear[0]], vertices[ear[1]], vertices[ear[2]]);
@@ -106,9 +106,9 @@ namespace Exemplar
         return best;
       }
 
-      const std::vector<Vector3> &vertices;
+      const std::vector<SpaceVector> &vertices;
       std::vector<unsigned int>   rest;
-      Vector3                     normal;
+      SpaceVector                     normal;
     };
   } // namespace
 
@@ -143,8 +143,8 @@ namespace Exemplar
   double
   diagonal_of(const std::vector<SurfaceMesh::Vertex> &vertices)
   {
-    Vector3 low = vertices.at(0), high = vertices.at(0);
-    for (const Vector3 &vertex : vertices)
+    SpaceVector low = vertices.at(0), high = vertices.at(0);
+    for (const SpaceVector &vertex : vertices)
       for (unsigned int d = 0; d < 3; ++d)
       {
         low[d]  = std::min(low[d], vertex[d]);

@@ -9,9 +9,9 @@ namespace Exemplar
 {
   /// The smallest and the largest of the six angles between the faces of a tetrahedron [degrees].
   std::pair<double, double>
-  dihedral_angles(const std::array<Vector3, 4> &corners);
+  dihedral_angles(const std::array<SpaceVector, 4> &corners);
 
-  std::array<Vector3, 4>
+  std::array<SpaceVector, 4>
   corners_of(const TetrahedralMesh &mesh, std::size_t cell);
 
   /// How good the cells of a mesh are [degrees].

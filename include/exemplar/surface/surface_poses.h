@@ -13,7 +13,7 @@ namespace Exemplar
 {
   /// Refuses coordinates that are not finite, and surfaces without area.
   void
-  check_surface(const SurfaceMesh &surface, const std::string &name);
+  require_surface(const SurfaceMesh &surface, const std::string &name);
 
   /// Refuses another number of vertices or faces, and other corners of a face, with the first
   /// difference.

@@ -8,42 +8,42 @@
 namespace Exemplar
 {
   /// Arithmetic of places and vectors as surfaces have them.
-  using Vector3 = std::array<double, 3>;
+  using SpaceVector = std::array<double, 3>;
 
-  inline Vector3
-  minus(const Vector3 &a, const Vector3 &b)
+  inline SpaceVector
+  minus(const SpaceVector &a, const SpaceVector &b)
   {
     return { { a[0] - b[0], a[1] - b[1], a[2] - b[2] } };
   }
 
   /// a + t b
-  inline Vector3
-  plus(const Vector3 &a, const double t, const Vector3 &b)
+  inline SpaceVector
+  plus(const SpaceVector &a, const double t, const SpaceVector &b)
   {
     return { { a[0] + t * b[0], a[1] + t * b[1], a[2] + t * b[2] } };
   }
 
   inline double
-  dot(const Vector3 &a, const Vector3 &b)
+  dot(const SpaceVector &a, const SpaceVector &b)
   {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
   }
 
-  inline Vector3
-  cross(const Vector3 &a, const Vector3 &b)
+  inline SpaceVector
+  cross(const SpaceVector &a, const SpaceVector &b)
   {
     return { { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] } };
   }
 
   inline double
-  norm(const Vector3 &a)
+  norm(const SpaceVector &a)
   {
     return std::sqrt(dot(a, a));
   }
 
   /// Six times the volume of the tetrahedron; positive if d is where a, b, c are clockwise.
   inline double
-  six_volumes(const Vector3 &a, const Vector3 &b, const Vector3 &c, const Vector3 &d)
+  six_volumes(const SpaceVector &a, const SpaceVector &b, const SpaceVector &c, const SpaceVector &d)
   {
     return dot(cross(minus(b, a), minus(c, a)), minus(d, a));
   }

@@ -105,12 +105,12 @@ namespace Exemplar::Testing
 
     TEST(SurfacePoses, CoordinatesThatAreNoneAreRefused)
     {
-      EXPECT_EQ(complaint([] { check_surface(box(), "p.obj"); }), "");
+      EXPECT_EQ(complaint([] { require_surface(box(), "p.obj"); }), "");
       SurfaceMesh bad    = box();
       bad.vertices[5][1] = std::nan("");
-      EXPECT_EQ(complaint([&] { check_surface(bad, "p.obj"); }).find("p.obj: vertex 6 "), 0u);
+      EXPECT_EQ(complaint([&] { require_surface(bad, "p.obj"); }).find("p.obj: vertex 6 "), 0u);
       const SurfaceMesh flat = mapped(box(), [](auto &x) { x = { { 1., 2., 3. } }; });
-      EXPECT_NE(complaint([&] { check_surface(flat, "p.obj"); }).find("without area"),
+      EXPECT_NE(complaint([&] { require_surface(flat, "p.obj"); }).find("without area"),
                 std::string::npos);
     }
 
