@@ -164,12 +164,11 @@ namespace Exemplar
     }
 
     /// Whether the guard of the stretch may act in some lane, told by the energy density of the
-    /// elasticity [Pa] alone: |F| > 1 + 0.8/nu > 2.6 makes |S - I|^2 > (2.6 - sqrt(3))^2 > 0.75. For
-    /// nu <= 0, where the energy may be less than mu |S - I|^2, the guard never acts.
+    /// elasticity [Pa] alone.
     bool
     may_be_stretched(const Number &elastic_density) const
     {
-      return any(elastic_density > Number(0.75) * elasticity.mu);
+      return any(elastic_density > least_density_at_kink(elasticity));
     }
 
     /// Whether it acts in some lane.

@@ -122,6 +122,16 @@ namespace Exemplar
     return { material.lambda * (norm - Number(3.)) - Number(2.) * material.mu, material.lambda,
              Number(0.4) * (material.lambda + material.mu) };
   }
+
+  /// An energy density of the elasticity [Pa] below which the guard does not act: from
+  /// |F| > 1 + 0.8/nu > 2.6 follows |S - I|^2 > (2.6 - sqrt(3))^2 > 0.75. For nu <= 0, where the
+  /// energy may be less than mu |S - I|^2, the guard never acts.
+  template <typename Number>
+  Number
+  least_density_at_kink(const Isotropic<Number> &material)
+  {
+    return Number(0.75) * material.mu;
+  }
 } // namespace Exemplar
 
 #endif

@@ -320,49 +320,6 @@ namespace Exemplar::Testing
       }
     }
 
-    Matrix3<double>
-    diagonal(const double a, const double b, const double c)
-    {
-      return { { { a, 0., 0. }, { 0., b, 0. }, { 0., 0., c } } };
-    }
-
-    const double nu = material.lambda / (2. * (material.lambda + material.mu));
-
-    TEST(StretchGuard, BeginsAtItsBound)
-    {
-      // |F| = 1 + 0.8/nu
-      const double bound = 1. + 0.8 / nu;
-      for (const double flatness : { 0., 0.01, 0.1, 0.5, 1. })
-        for (const double mirrored : { 1., -1. })
-        {
-          Matrix3<double> F    = diagonal(1., flatness, mirrored * flatness);
-          const double    norm = std::sqrt(contract(F, F));
-          EXPECT_FALSE(
-              cell_at<Corotational>(combine((1. - 1e-9) * bound / norm, F, 0., F)).is_stretched());
-          EXPECT_EQ(
-              cell_at<Corotational>(combine((1. + 1e-9) * bound / norm, F, 0., F)).is_stretched(),
-              mirrored < 0. || flatness < 0.05)
-              << flatness;
-        }
-    }
-
-    TEST(StretchGuard, NoMinimumOfTheEnergyIsAtTheKink)
-    {
-      // from S = diag(s_1, s, -s) the energy falls to both sides, as s_2 + s_3 grows from 0
-      const auto energy_at = [](const double s_1, const double s, const double sum)
-      { return energy<Corotational>(diagonal(s_1, s + sum, -s), Matrix3<double>{}); };
-      for (const double pull : { 1.01, 1.5, 4., 10., 100. })
-        for (const double s : { 0., 0.1, 0.5 })
-        {
-          const double s_1 = pull * (1. + 1. / nu);
-          EXPECT_LT(energy_at(s_1, s, 1e-4), energy_at(s_1, s, 0.)) << s_1 << ' ' << s;
-          // which without the guard it would not
-          const Corotational at   = cell_at<Corotational>(diagonal(s_1, s, -s)),
-                             next = cell_at<Corotational>(diagonal(s_1, s + 1e-6, -s));
-          EXPECT_TRUE(s > 0. || next.energy({}) > at.energy({}));
-        }
-    }
-
     TEST(ConsistentForce, StaysBoundedAndContinuousWhereTheRotationIsAmbiguous)
     {
       // around sigma_2 + sigma_3 = 0 the rotation turns through all directions
