@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-from scene_runs import BAR, NEWTON, PROGRAM, TOP, bend, print_table, read_msh, run_scene, twist, write_msh, write_scene
+from scene_runs import BAR, PROGRAM, TOP, bend, print_table, read_msh, run_scene, twist, write_msh, write_scene
 
 SEEDS = 20
 STATIC = {"Scene": "static", "Time/Increments": 1}

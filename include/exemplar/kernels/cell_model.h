@@ -69,6 +69,25 @@ namespace Exemplar
         { return decltype(model)::type::strain_of(rotation, deformation_gradient); });
   }
 
+  /// Call `function` with a cell of a strain measure, where the guard of Eq. (16) has the bound p_0.
+  template <typename Function>
+  auto
+  with_cell(const StrainMeasure         measure,
+            const CellMaterial<double> &material,
+            const Matrix3<double>      &rotation,
+            const Matrix3<double>      &deformation_gradient,
+            const double                p_0,
+            const Function             &function)
+  {
+    return with_cell_model<double>(measure,
+                                   [&](auto model)
+                                   {
+                                     using Cell = typename decltype(model)::type;
+                                     return function(
+                                         Cell(material, rotation, deformation_gradient, p_0));
+                                   });
+  }
+
   /// Whether the guard of Eq. (16) with the bound p_0 acts in a cell.
   inline bool
   model_is_guarded(const StrainMeasure         measure,
@@ -77,13 +96,8 @@ namespace Exemplar
                    const Matrix3<double>      &deformation_gradient,
                    const double                p_0)
   {
-    return with_cell_model<double>(
-        measure,
-        [&](auto model)
-        {
-          using Cell = typename decltype(model)::type;
-          return Cell(material, rotation, deformation_gradient, p_0).is_guarded();
-        });
+    return with_cell(measure, material, rotation, deformation_gradient, p_0,
+                     [](const auto &cell) { return cell.is_guarded(); });
   }
 
   /// G of Eq. (24) in a cell that is stretched so far, else 0 [Pa].
@@ -94,14 +108,9 @@ namespace Exemplar
                        const Matrix3<double>      &deformation_gradient,
                        const double                p_0)
   {
-    return with_cell_model<double>(
-        measure,
-        [&](auto model)
-        {
-          using Cell = typename decltype(model)::type;
-          const Cell cell(material, rotation, deformation_gradient, p_0);
-          return cell.is_stretched() ? cell.stretch().energy() : 0.;
-        });
+    return with_cell(measure, material, rotation, deformation_gradient, p_0,
+                     [](const auto &cell)
+                     { return cell.is_stretched() ? cell.stretch().energy() : 0.; });
   }
 } // namespace Exemplar
 
