@@ -21,6 +21,10 @@ namespace Exemplar
                   "unless the command line says --allow-commands. Physical Volumes give material "
                   "ids, Physical "
                   "Surfaces boundary ids. Leave it empty if Generator = box.");
+    keys.add_file("Surface", surface,
+                  "The surface inside of which the mesh was made: .obj, .ply or .stl, in the "
+                  "mesh's unit and axes. Formats of Output/Formats that show surfaces write it as "
+                  "the body carries it.");
     keys.add("Generator", generator, generator_names,
              "box: generate a box instead of reading a file. It spans 0..Lx, -Ly/2..Ly/2, "
              "-Lz/2..Lz/2, in bricks of 6 tetrahedra each; nodes are numbered from 1, x "
@@ -48,5 +52,11 @@ namespace Exemplar
     if (generator == MeshGenerator::box)
       return "box";
     return file.empty() ? "mesh" : file;
+  }
+
+  std::string
+  MeshParameters::surface_file() const
+  {
+    return surface;
   }
 } // namespace Exemplar

@@ -8,7 +8,7 @@ namespace Exemplar
 {
   // A new format is a file with its writer, a declaration here and a line in the table.
   std::unique_ptr<const FrameWriter>
-  make_vtu_writer(const Mesh &mesh);
+  make_vtu_writer(const FrameSubject &subject);
 
   const std::vector<FrameFormat> &
   frame_formats()

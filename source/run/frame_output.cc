@@ -34,7 +34,8 @@ namespace Exemplar
     const OutputParameters &output = problem.parameters.output;
     for (const std::string &name : output.formats)
       if (const FrameFormat &format = find_format(name, formats); output.every > 0)
-        writers.emplace_back(&format, format.make_writer(problem.body.mesh));
+        writers.emplace_back(&format,
+                             format.make_writer({ problem.body.mesh, problem.surface.get() }));
   }
 
   bool

@@ -67,6 +67,8 @@ namespace Exemplar
       for (const std::string &pose : scene.examples.poses)
         reader.add_pose(pose);
     reader.add_pose(scene.initial.pose);
+    if (scene.needs_surface() && given.surface == nullptr)
+      given.surface = std::make_shared<const SurfaceMesh>(read_surface(scene.mesh.surface_file()));
     return given;
   }
 } // namespace Exemplar

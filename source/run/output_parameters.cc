@@ -3,6 +3,8 @@
 #include <exemplar/run/frame_formats.h>
 #include <exemplar/run/output_parameters.h>
 
+#include <algorithm>
+
 namespace Exemplar
 {
   void
@@ -21,5 +23,17 @@ namespace Exemplar
              "on Ctrl-C.",
              Bounds{ 0. });
     keys.leave_subsection();
+  }
+
+  bool
+  OutputParameters::shows_surface() const
+  {
+    const std::vector<FrameFormat> &known = frame_formats();
+    return every > 0
+           && std::any_of(known.begin(), known.end(),
+                          [this](const FrameFormat &format) {
+                            return format.shows_surface
+                                   && std::count(formats.begin(), formats.end(), format.name) > 0;
+                          });
   }
 } // namespace Exemplar

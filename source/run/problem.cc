@@ -30,7 +30,7 @@ namespace Exemplar
 
   Problem::Problem(SceneParameters scene, Inputs inputs, StepClock running_clock)
       : parameters(completed(std::move(scene))), clock(std::move(running_clock)),
-        time_axis(make_time_axis(parameters)), body(parameters, inputs),
+        time_axis(make_time_axis(parameters)), body(parameters, inputs), surface(inputs.surface),
         constraints(parameters, body, time_axis, inputs),
         examples(parameters, body, time_axis, inputs), actions(parameters, body, inputs),
         potential({ parameters.model, body.fe_space, body.material, examples.poses.get(),

@@ -33,6 +33,22 @@ namespace Exemplar
     examples.check();
     initial.check();
     check_solver();
+    check_surface();
+  }
+
+  bool
+  SceneParameters::needs_surface() const
+  {
+    return output.shows_surface();
+  }
+
+  void
+  SceneParameters::check_surface() const
+  {
+    if (needs_surface() && mesh.surface_file().empty())
+      throw UserError("Output/Formats has a format that shows the surface of the body, but the "
+                      "scene names none. Set Mesh/Surface to the surface that the mesh was made "
+                      "from, or Output/Formats = vtu.");
   }
 
   void

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/atomic_file.h>
 #include <exemplar/mesh/mesh.h>
+#include <exemplar/run/frame_formats.h>
 #include <exemplar/run/frame_writer.h>
 
 #include <deal.II/base/utilities.h>
@@ -160,8 +161,8 @@ namespace Exemplar
   } // namespace
 
   std::unique_ptr<const FrameWriter>
-  make_vtu_writer(const Mesh &mesh)
+  make_vtu_writer(const FrameSubject &subject)
   {
-    return std::make_unique<const VtuWriter>(mesh);
+    return std::make_unique<const VtuWriter>(subject.mesh);
   }
 } // namespace Exemplar

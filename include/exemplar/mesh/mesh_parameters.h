@@ -25,6 +25,7 @@ namespace Exemplar
   struct MeshParameters
   {
     std::string                 file;
+    std::string                 surface; ///< a file; empty: see surface_file()
     MeshGenerator               generator = MeshGenerator::none;
     std::array<double, 3>       box_size{ { 1., 1., 1. } };
     std::array<unsigned int, 3> box_cells{ { 4, 4, 4 } };
@@ -39,6 +40,10 @@ namespace Exemplar
     /// What stands for the mesh in messages: the file, "box" or, with neither, "mesh".
     std::string
     name() const;
+
+    /// The surface that bounds the body as its maker has it; empty if none is named.
+    std::string
+    surface_file() const;
   };
 } // namespace Exemplar
 

@@ -12,11 +12,19 @@ namespace Exemplar
 {
   class FrameWriter;
   class Mesh;
+  struct SurfaceMesh;
+
+  /// What frames show; it outlives their writers.
+  struct FrameSubject
+  {
+    const Mesh        &mesh;
+    const SurfaceMesh *surface; ///< in the file's unit; null unless a format shows it
+  };
 
   /// A format that frames can be written in: its files and who writes them.
   struct FrameFormat
   {
-    using MakeWriter = std::function<std::unique_ptr<const FrameWriter>(const Mesh &)>;
+    using MakeWriter = std::function<std::unique_ptr<const FrameWriter>(const FrameSubject &)>;
 
     std::string name;      ///< in Output/Formats, and what the names of frames end in
     std::string animation; ///< name of the file that shows all frames; empty: there is none
@@ -24,6 +32,8 @@ namespace Exemplar
 
     /// What every frame and every animation begin with; empty: not known.
     std::string frame_beginning = {}, animation_beginning = {};
+
+    bool shows_surface = false; ///< whether the writer needs the surface of the body
 
     /// The name of a step's frame, without the directory.
     std::string

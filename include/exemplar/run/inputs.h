@@ -3,6 +3,9 @@
 #define exemplar_inputs_h
 
 #include <exemplar/mesh/mesh_inputs.h>
+#include <exemplar/surface/surface_mesh.h>
+
+#include <memory>
 
 namespace Exemplar
 {
@@ -15,6 +18,8 @@ namespace Exemplar
     MshFile    mesh;
     NamedPoses poses; ///< of Examples/Poses, Handles/NAME/Follow pose and Initial/Pose
     NamedNodes nodes; ///< of Select = nodes FILE
+    /// Of Mesh/Surface; null unless the scene needs it.
+    std::shared_ptr<const SurfaceMesh> surface = {};
   };
 
   /// Read or generate what a scene needs and `given` does not hold. Without importance no

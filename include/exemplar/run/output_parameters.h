@@ -19,6 +19,10 @@ namespace Exemplar
 
     void
     declare(KeyTable &keys);
+
+    /// Whether a frame is written in a format that shows the surface of the body.
+    bool
+    shows_surface() const;
   };
 } // namespace Exemplar
 

@@ -53,18 +53,19 @@ namespace Exemplar
     std::vector<std::string>
     warnings() const;
 
-    const SceneParameters             parameters; ///< completed
-    StepClock                         clock;
-    const TimeAxis                    time_axis;
-    const Body                        body;
-    const Constraints                 constraints;
-    const Examples                    examples;
-    const Actions                     actions;
-    IncrementalPotential              potential;
-    StepSystem                        system;
-    const std::unique_ptr<StepSolver> solver;
-    State                             state;
-    Evaluation                        evaluation; ///< at the state
+    const SceneParameters                    parameters; ///< completed
+    StepClock                                clock;
+    const TimeAxis                           time_axis;
+    const Body                               body;
+    const std::shared_ptr<const SurfaceMesh> surface; ///< of the body; null unless it is needed
+    const Constraints                        constraints;
+    const Examples                           examples;
+    const Actions                            actions;
+    IncrementalPotential                     potential;
+    StepSystem                               system;
+    const std::unique_ptr<StepSolver>        solver;
+    State                                    state;
+    Evaluation                               evaluation; ///< at the state
 
   private:
     /// Whether the body stands on a support of its own, which must not decide how it is turned.

@@ -53,12 +53,19 @@ namespace Exemplar
     void
     check() const;
 
+    /// Whether a part of the scene needs the surface of the body.
+    bool
+    needs_surface() const;
+
   private:
     void
     check_interpolation() const;
 
     void
     check_solver() const;
+
+    void
+    check_surface() const;
   };
 } // namespace Exemplar
 

@@ -52,7 +52,7 @@ namespace Exemplar::Testing
       RunWriterTest()
       {
         for (const std::string name : { "fake", "other" })
-          formats.push_back({ name, "animation." + name, [this, name](const Mesh &) {
+          formats.push_back({ name, "animation." + name, [this, name](const FrameSubject &) {
                                return std::make_unique<const RecordingWriter>(written[name]);
                              } });
       }
