@@ -7,6 +7,7 @@
 #include <exemplar/surface/surface_geometry.h>
 #include <exemplar/surface/surface_meshing.h>
 #include <exemplar/surface/surface_remeshing.h>
+#include <exemplar/surface/vectors.h>
 
 #include <algorithm>
 #include <charconv>
@@ -22,21 +23,68 @@ namespace Exemplar
     /// Nearer to the wanted number of cells than this, nothing more is tried.
     constexpr double near_enough = .05;
 
-    /// Edges as long as wanted, shorter where the surface would else intersect itself.
-    TriangleSurface
-    remesh_without_intersections(const TriangleSurface &surface,
-                                 const double           edge_length,
-                                 const bool             keep_edges)
+    SurfaceMesh::Vertex
+    middle_of(const TriangleSurface &surface, const unsigned int triangle)
     {
-      for (const double factor : { 1., .8, .64, .5, .3 })
+      const auto &[a, b, c] = surface.triangles[triangle];
+      const auto &x         = surface.vertices;
+      return plus(x[a], 1. / 3., plus(minus(x[b], x[a]), 1., minus(x[c], x[a])));
+    }
+
+    /// Mark the triangles of `surface` that are nearer than `distance` to those of `remeshed` that
+    /// intersect.
+    void
+    mark_near_intersections(const TriangleSurface &surface,
+                            const TriangleSurface &remeshed,
+                            const double           distance,
+                            std::vector<bool>     &marked)
+    {
+      TriangleSurface intersecting{ remeshed.vertices, {}, {} };
+      for (const auto &[first, second] : self_intersections(remeshed))
+        for (const unsigned int triangle : { first, second })
+          intersecting.triangles.push_back(remeshed.triangles[triangle]);
+      if (intersecting.triangles.empty())
+        return;
+      const NearestTriangle nearest(intersecting);
+      for (unsigned int t = 0; t < surface.triangles.size(); ++t)
+        if (!marked[t] && nearest(middle_of(surface, t)).first < distance)
+          marked[t] = true;
+    }
+
+    /// Sheets that almost touch, as the lips of a mouth do, intersect when their triangles are made
+    /// anew each by itself: there the triangles of the surface are kept.
+    TriangleSurface
+    remesh_but_thin_gaps(const TriangleSurface &surface,
+                         const double           edge_length,
+                         const bool             keep_edges)
+    {
+      std::vector<bool> held(surface.triangles.size(), false);
+      TriangleSurface   result = remesh(surface, edge_length, keep_edges);
+      for (double distance = edge_length; distance < 10. * edge_length; distance *= 1.5)
       {
-        TriangleSurface result = remesh(surface, factor * edge_length, keep_edges);
+        mark_near_intersections(surface, result, distance, held);
+        result = remesh(surface, edge_length, keep_edges, held);
         if (check_surface({ result, {} }).faults.empty())
           return result;
       }
       throw SolverFailure("The surface intersects itself when its edges become "
                           + short_text(edge_length)
                           + " long. Ask for more cells (--cells), or thicken its thin parts.");
+    }
+
+    /// Edges as long as wanted, a little shorter if the surface would else intersect itself.
+    TriangleSurface
+    remesh_without_intersections(const TriangleSurface &surface,
+                                 const double           edge_length,
+                                 const bool             keep_edges)
+    {
+      for (const double factor : { 1., .8, .64 })
+      {
+        TriangleSurface result = remesh(surface, factor * edge_length, keep_edges);
+        if (check_surface({ result, {} }).faults.empty())
+          return result;
+      }
+      return remesh_but_thin_gaps(surface, edge_length, keep_edges);
     }
 
     /// The mesh with the number of cells nearest to the one wanted: n ~ h^-p with p from the last

@@ -92,6 +92,11 @@ class MeshCommandTest(SceneTest):
         table = self.made("hollow.obj", 3000)
         self.assertEqual((table["material_ids"], table["volume"]), (1, .875))
 
+    def test_sheets_that_almost_touch(self):
+        self.surface("mouth.obj", *surfaces.mouth(.003, .06))
+        table = self.made("mouth.obj", 1500)
+        self.assertLess(table["surface_to_mesh_max"], .3)
+
     def test_polygons_and_other_formats(self):
         vertices, _ = surfaces.cube()
         quads = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]

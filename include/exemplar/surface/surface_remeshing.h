@@ -9,9 +9,13 @@ namespace Exemplar
   /// A closed, oriented manifold surface with edges of about `edge_length`, its vertices on the
   /// surface given (isotropic remeshing, Botsch and Kobbelt 2004, by CGAL). The borders of groups
   /// stay where they are; with `keep_edges` so do edges sharper than 60 degrees, where they make
-  /// chains of several times the edge length: short ones are noise.
+  /// chains of several times the edge length: short ones are noise. The triangles that are `held`
+  /// stay as they are, but for vertices on edges that they share with others; none: all may change.
   TriangleSurface
-  remesh(const TriangleSurface &surface, double edge_length, bool keep_edges);
+  remesh(const TriangleSurface   &surface,
+         double                   edge_length,
+         bool                     keep_edges,
+         const std::vector<bool> &held = {});
 } // namespace Exemplar
 
 #endif
