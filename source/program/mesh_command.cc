@@ -4,7 +4,9 @@
 #include <exemplar/base/message_text.h>
 #include <exemplar/base/standard_streams.h>
 #include <exemplar/base/text_file.h>
+#include <exemplar/mesh/mesh_parameters.h>
 #include <exemplar/program/mesh_command.h>
+#include <exemplar/surface/mesh_making.h>
 
 #include <algorithm>
 #include <iostream>
@@ -18,11 +20,11 @@ namespace Exemplar
     void
     check_options(const MeshCommandOptions &options)
     {
-      constexpr unsigned int least = 10, most = 10000000;
-      const unsigned int     n = options.meshing.n_cells;
-      if (n < least || n > most)
-        throw UserError("--cells: the number of tetrahedra must be from " + std::to_string(least)
-                        + " to " + std::to_string(most) + ", found " + std::to_string(n) + ".");
+      const unsigned int n = options.meshing.n_cells;
+      if (n < least_n_cells || n > most_n_cells)
+        throw UserError("--cells: the number of tetrahedra must be from "
+                        + std::to_string(least_n_cells) + " to " + std::to_string(most_n_cells)
+                        + ", found " + std::to_string(n) + ".");
       if (options.output.extension() != ".msh")
         throw UserError("--output: the mesh is written as .msh, found "
                         + in_quotes(options.output.string()) + ". Give a name that ends so.");
@@ -33,21 +35,32 @@ namespace Exemplar
     }
 
     void
-    write_table(const MeshedSurface &meshed, const fs::path &file)
+    write_table(const MeshingReport &report, const fs::path &file)
     {
       AtomicFile out(file);
       write_csv_header(out.stream(), { { "quantity", "" }, { "value", "" } });
-      for (const auto &[what, value] : meshed.table)
+      for (const auto &[what, value] : report.table)
         write_csv_cells(out.stream(), { { "", what }, { "", value } });
       out.commit();
     }
 
+    /// A note where the unit of length is no metre, probably.
     void
-    print(const MeshedSurface &meshed, const fs::path &file)
+    add_unit(MeshingReport &report)
     {
-      for (const std::string &note : meshed.notes)
+      for (const auto &[what, value] : report.table)
+        if (const double size = what == "diagonal" ? std::stod(value) : 1.;
+            size > 50. || size < 1e-3)
+          report.notes.push_back("The diagonal is " + value
+                                 + ". Scenes take metres: set Mesh/Scale (0.001 for millimetres).");
+    }
+
+    void
+    print(const MeshingReport &report, const fs::path &file)
+    {
+      for (const std::string &note : report.notes)
         std::cout << message_text(note) << '\n';
-      for (const auto &[what, value] : meshed.table)
+      for (const auto &[what, value] : report.table)
         std::cout << what << std::string(24 - std::min<std::size_t>(what.size(), 23), ' ') << value
                   << '\n';
       std::cout << "written to " << message_text(file.string()) << '\n';
@@ -58,11 +71,11 @@ namespace Exemplar
   run_mesh_command(const MeshCommandOptions &options)
   {
     check_options(options);
-    const MeshedSurface meshed = mesh_surface(options.meshing);
-    write_msh(meshed.mesh, options.output);
-    write_table(meshed, fs::path(options.output).replace_extension(".csv"));
+    MeshingReport report = make_mesh_file(options.meshing, options.output);
+    add_unit(report);
+    write_table(report, fs::path(options.output).replace_extension(".csv"));
     if (!options.quiet)
-      print(meshed, options.output);
+      print(report, options.output);
     require_printed();
   }
 } // namespace Exemplar

@@ -26,7 +26,8 @@ namespace Exemplar
     TriangleSurface
     remesh_without_intersections(const TriangleSurface &surface,
                                  const double           edge_length,
-                                 const bool             keep_edges)
+                                 const bool             keep_edges,
+                                 const std::string     &cells_option)
     {
       for (const double factor : { 1., .8, .64, .5, .3 })
       {
@@ -35,15 +36,18 @@ namespace Exemplar
           return result;
       }
       throw SolverFailure("The surface intersects itself when its edges become "
-                          + short_text(edge_length)
-                          + " long. Ask for more cells (--cells), or thicken its thin parts.");
+                          + short_text(edge_length) + " long. Ask for more cells (" + cells_option
+                          + "), or thicken its thin parts.");
     }
 
     /// The mesh with the number of cells nearest to the one wanted: n ~ h^-p with p from the last
     /// two attempts.
     TetrahedralMesh
-    fill_with(const TriangleSurface &surface, const double n_cells, const bool keep_edges)
+    fill_with(const TriangleSurface       &surface,
+              const SurfaceMeshingOptions &options,
+              const bool                   keep_edges)
     {
+      const double n_cells = options.n_cells;
       // a cell in gmsh's meshes has about a tenth of its edge's cube
       double          h     = std::cbrt(10. * std::abs(enclosed_volume(surface)) / n_cells);
       double          power = 3., last_h = 0., last_n = 0., best_error = 0.;
@@ -53,7 +57,7 @@ namespace Exemplar
         TetrahedralMesh mesh;
         try
         {
-          mesh = fill(remesh_without_intersections(surface, h, keep_edges));
+          mesh = fill(remesh_without_intersections(surface, h, keep_edges, options.cells_option));
         }
         catch (const SolverFailure &)
         {
@@ -109,13 +113,13 @@ namespace Exemplar
     /// With the sharp edges of the surface kept; without them where they are noise: where that
     /// avoids slivers, or intersections, and moves the surface at most half as far again.
     JudgedMesh
-    best_mesh(const BodySurface &body, const double n_cells)
+    best_mesh(const BodySurface &body, const SurfaceMeshingOptions &options)
     {
       JudgedMesh best;
       for (const bool keep_edges : { true, false })
         try
         {
-          TetrahedralMesh mesh = fill_with(body.surface, n_cells, keep_edges);
+          TetrahedralMesh mesh = fill_with(body.surface, options, keep_edges);
           remove_slivers(mesh);
           const Judgement now = judge(body, mesh);
           if (best.mesh.cells.empty()
@@ -211,7 +215,7 @@ namespace Exemplar
     }
 
     void
-    add_counts(MeshedSurface &result, const BodySurface &body, const TetrahedralMesh &mesh)
+    add_counts(MeshingReport &result, const BodySurface &body, const TetrahedralMesh &mesh)
     {
       const auto add = [&](const std::string &what, const std::size_t n)
       { result.table.emplace_back(what, std::to_string(n)); };
@@ -225,7 +229,7 @@ namespace Exemplar
     }
 
     void
-    add_quality(MeshedSurface &result, const BodySurface &body, const JudgedMesh &judged)
+    add_quality(MeshingReport &result, const BodySurface &body, const JudgedMesh &judged)
     {
       const TetrahedralMesh &mesh   = judged.mesh;
       const CellAngles      &angles = judged.judgement.angles;
@@ -252,32 +256,36 @@ namespace Exemplar
       add("surface_to_mesh_mean", percent(out.mean, diagonal));
       add("mesh_to_surface_max", percent(back.maximum, diagonal));
       add("mesh_to_surface_mean", percent(back.mean, diagonal));
-      if (angles.n_slivers > 0)
-        result.notes.push_back("Some cells are nearly flat: " + std::to_string(angles.n_slivers)
-                               + " have an angle below 3 degrees. More cells may help (--cells).");
+    }
+
+    void
+    add_notes(MeshingReport &report, const SurfaceMeshingOptions &options, const JudgedMesh &judged)
+    {
+      const std::size_t n_slivers = judged.judgement.angles.n_slivers;
+      if (n_slivers > 0)
+        report.notes.push_back("Some cells are nearly flat: " + std::to_string(n_slivers)
+                               + " have an angle below 3 degrees. More cells may help ("
+                               + options.cells_option + ").");
+      const std::size_t n_cells = judged.mesh.cells.size();
+      if (std::abs(static_cast<double>(n_cells) / options.n_cells - 1.) > .1)
+        report.notes.push_back("The mesh has " + std::to_string(n_cells) + " cells, not "
+                               + std::to_string(options.n_cells)
+                               + ": its shape allows no number nearer to it.");
     }
   } // namespace
 
   MeshedSurface
   mesh_surface(const SurfaceMeshingOptions &options)
   {
-    const BodySurface      body   = read_body_surface(options.surface, options.repair);
-    const JudgedMesh       judged = best_mesh(body, options.n_cells);
-    const TetrahedralMesh &mesh   = judged.mesh;
-    MeshedSurface          result;
-    result.notes = body.notes;
-    result.mesh  = make_msh_of(mesh, body.group_names);
-    add_counts(result, body, mesh);
-    add_quality(result, body, judged);
-    const double off = std::abs(static_cast<double>(mesh.cells.size()) / options.n_cells - 1.);
-    if (off > .1)
-      result.notes.push_back("The mesh has " + std::to_string(mesh.cells.size()) + " cells, not "
-                             + std::to_string(options.n_cells)
-                             + ": its shape allows no number nearer to it.");
-    const double diagonal = diagonal_of(body.original.vertices);
-    if (diagonal > 50. || diagonal < 1e-3)
-      result.notes.push_back("The diagonal is " + short_text(diagonal)
-                             + ". Scenes take metres: set Mesh/Scale (0.001 for millimetres).");
+    const BodySurface body   = read_body_surface(options);
+    const JudgedMesh  judged = best_mesh(body, options);
+    MeshedSurface     result;
+    result.mesh           = make_msh_of(judged.mesh, body.group_names);
+    MeshingReport &report = result.report;
+    report.notes          = body.notes;
+    add_counts(report, body, judged.mesh);
+    add_quality(report, body, judged);
+    add_notes(report, options, judged);
     return result;
   }
 } // namespace Exemplar
