@@ -129,7 +129,7 @@ namespace Exemplar
         for (;;)
         {
           pollfd end{ in, POLLIN, 0 };
-          if (poll(&end, 1, 1000) > 0)
+          if (poll(&end, 1, 200) > 0)
           {
             const ssize_t n = ::read(in, buffer, sizeof(buffer));
             if (n == 0)

@@ -6,6 +6,7 @@
 #include <exemplar/base/text_file.h>
 #include <exemplar/mesh/mesh_parameters.h>
 #include <exemplar/program/mesh_command.h>
+#include <exemplar/run/output_directory.h>
 #include <exemplar/surface/mesh_making.h>
 
 #include <algorithm>
@@ -17,6 +18,12 @@ namespace Exemplar
 
   namespace
   {
+    fs::path
+    table_of(const MeshCommandOptions &options)
+    {
+      return fs::path(options.output).replace_extension(".csv");
+    }
+
     void
     check_options(const MeshCommandOptions &options)
     {
@@ -32,6 +39,10 @@ namespace Exemplar
       if (!fs::is_directory(directory))
         throw UserError("--output: there is no directory " + directory.string()
                         + ". Make it, or write elsewhere.");
+      const std::string remedy = " Give another name by --output.";
+      require_writable(directory, remedy);
+      for (const fs::path &file : { options.output, table_of(options) })
+        require_replaceable(file, { options.meshing.surface, options.meshing.materials }, remedy);
     }
 
     void
@@ -73,7 +84,7 @@ namespace Exemplar
     check_options(options);
     MeshingReport report = make_mesh_file(options.meshing, options.output);
     add_unit(report);
-    write_table(report, fs::path(options.output).replace_extension(".csv"));
+    write_table(report, table_of(options));
     if (!options.quiet)
       print(report, options.output);
     require_printed();

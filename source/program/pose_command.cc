@@ -6,6 +6,7 @@
 #include <exemplar/base/progress.h>
 #include <exemplar/program/interrupt.h>
 #include <exemplar/program/pose_command.h>
+#include <exemplar/run/output_directory.h>
 #include <exemplar/surface/numbered_files.h>
 #include <exemplar/surface/pose_carrying.h>
 #include <exemplar/surface/surface_poses.h>
@@ -21,6 +22,8 @@ namespace Exemplar
   namespace
   {
     namespace fs = std::filesystem;
+
+    const char *const remedy = " Give another directory by --output.";
 
     /// A pose on its way from a surface to a mesh.
     struct PoseFile
@@ -51,25 +54,23 @@ namespace Exemplar
           throw UserError("The poses " + before->second.string() + " and " + file.string()
                           + " would both be written to " + output.string()
                           + ". Give each a name of its own, or take two directories.");
-        std::error_code none;
-        if (fs::equivalent(output, options.mesh, none))
-          throw UserError(output.string() + " is the mesh, and would be overwritten by the pose "
-                          + file.string() + ". Give another directory by --output.");
+        require_replaceable(output, { options.mesh }, remedy);
         poses.push_back({ file, output, {}, {}, 0. });
       }
+      require_replaceable(options.output / "poses.csv", {}, remedy);
+      require_writable(options.output, remedy);
       return poses;
     }
 
     void
-    read_poses(const RestSurface &rest, std::vector<PoseFile> &poses)
+    warn(const Mesh &mesh, const RestSurface &rest, const std::vector<PoseFile> &poses)
     {
-      for (PoseFile &pose : poses)
-      {
-        pose.surface = read_pose_surface(pose.file, rest);
+      for (const std::string &warning : mesh.get_warnings())
+        show_warning(warning);
+      for (const PoseFile &pose : poses)
         if (is_at_rest(rest.surface, pose.surface))
           show_warning(pose.file.string() + " is the same as " + rest.name
                        + ": the pose is the mesh at rest.");
-      }
     }
 
     void
@@ -140,11 +141,11 @@ namespace Exemplar
     std::vector<PoseFile> poses = plan(options);
     const Mesh            mesh(read_msh(options.mesh), options.mesh.string());
     const RestSurface     rest(options.rest);
-    read_poses(rest, poses);
+    for (PoseFile &pose : poses)
+      pose.surface = read_pose_surface(pose.file, rest);
     PoseTransfer transfer = make_pose_transfer(mesh, rest, options.attach);
-    for (const std::string &warning : mesh.get_warnings())
-      show_warning(warning);
-    fs::create_directories(options.output);
+    warn(mesh, rest, poses);
+    make_directory(options.output, remedy);
 
     is_interrupted(); // from now on a signal waits until a pose is done
     Progress    progress(std::cout, isatty(STDOUT_FILENO) != 0, options.quiet, 0,

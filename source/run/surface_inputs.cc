@@ -8,6 +8,7 @@
 #include <exemplar/run/surface_inputs.h>
 #include <exemplar/surface/mesh_making.h>
 #include <exemplar/surface/pose_carrying.h>
+#include <exemplar/surface/surface_scanner.h>
 
 #include <nlohmann/json.hpp>
 
@@ -53,7 +54,7 @@ namespace Exemplar
     std::string
     surface_digest(const std::string &file)
     {
-      return sha256(file) + fs::path(file).extension().string() + "\n";
+      return sha256_of_text(read_surface_bytes(file)) + fs::path(file).extension().string() + "\n";
     }
 
     /// Of what a pose on it depends on.
@@ -155,8 +156,8 @@ namespace Exemplar
         [&](const fs::path &made_file)
         {
           announce("filling " + mesh.file + " with " + std::to_string(mesh.n_cells) + " cells");
-          const SurfaceMeshingOptions options{ mesh.file, mesh.n_cells, mesh.repair, "Mesh/Cells",
-                                               "Mesh/Repair = true" };
+          const SurfaceMeshingOptions options{ mesh.file, mesh.n_cells, mesh.repair,
+                                               "",        "Mesh/Cells", "Mesh/Repair = true" };
           append_comment(made_file, Exemplar::to_text(make_mesh_file(options, made_file)));
         });
     get_made_anew().mesh = report_from_text(comment_of(kept));

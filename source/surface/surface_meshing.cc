@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
-#include <exemplar/mesh/mesh_inputs.h>
 #include <exemplar/surface/body_surface.h>
 #include <exemplar/surface/cell_angles.h>
+#include <exemplar/surface/surface_edges.h>
 #include <exemplar/surface/surface_geometry.h>
 #include <exemplar/surface/surface_meshing.h>
+#include <exemplar/surface/surface_msh.h>
 #include <exemplar/surface/surface_remeshing.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <map>
-#include <set>
+#include <numeric>
 
 namespace Exemplar
 {
@@ -21,6 +20,53 @@ namespace Exemplar
     constexpr unsigned int n_attempts = 8;
     /// Nearer to the wanted number of cells than this, nothing more is tried.
     constexpr double near_enough = .05;
+
+    /// The shell of `to` that most vertices of each shell of `from` are nearest to.
+    std::vector<unsigned int>
+    matching_shells(const TriangleSurface &from, const TriangleSurface &to, unsigned int &n_shells)
+    {
+      std::vector<unsigned int> shells, shells_to;
+      n_shells                                   = number_shells(from, sorted_sides(from), shells);
+      const unsigned int                    n_to = number_shells(to, sorted_sides(to), shells_to);
+      std::vector<std::vector<std::size_t>> votes(n_shells, std::vector<std::size_t>(n_to));
+      if (n_shells > 1)
+      {
+        const NearestTriangle nearest(to);
+        for (std::size_t t = 0; t < from.triangles.size(); ++t)
+          for (const unsigned int vertex : from.triangles[t])
+            ++votes[shells[t]][shells_to[nearest(from.vertices[vertex]).second]];
+      }
+      std::vector<unsigned int> rank(n_to, n_shells);
+      for (unsigned int shell = n_shells; shell-- > 0;)
+        rank[std::max_element(votes[shell].begin(), votes[shell].end()) - votes[shell].begin()]
+            = shell;
+      std::vector<unsigned int> of_triangle;
+      for (const unsigned int shell : shells_to)
+        of_triangle.push_back(rank[shell]);
+      return of_triangle;
+    }
+
+    /// Remeshing changes the order of triangles: give back that of the shells, by which regions are
+    /// numbered.
+    void
+    restore_order(const TriangleSurface &original, TriangleSurface &remeshed)
+    {
+      unsigned int n_shells = 0;
+      const auto   shell_of = matching_shells(original, remeshed, n_shells);
+      if (n_shells < 2)
+        return;
+      const TriangleSurface    before = remeshed;
+      std::vector<std::size_t> order(shell_of.size());
+      std::iota(order.begin(), order.end(), 0);
+      std::stable_sort(order.begin(), order.end(),
+                       [&](const std::size_t a, const std::size_t b)
+                       { return shell_of[a] < shell_of[b]; });
+      for (std::size_t t = 0; t < order.size(); ++t)
+      {
+        remeshed.triangles[t] = before.triangles[order[t]];
+        remeshed.groups[t]    = before.groups[order[t]];
+      }
+    }
 
     /// Edges as long as wanted, shorter where the surface would else intersect itself.
     TriangleSurface
@@ -32,6 +78,7 @@ namespace Exemplar
       for (const double factor : { 1., .8, .64, .5, .3 })
       {
         TriangleSurface result = remesh(surface, factor * edge_length, keep_edges);
+        restore_order(surface, result);
         if (check_surface({ result, {} }).faults.empty())
           return result;
       }
@@ -43,11 +90,11 @@ namespace Exemplar
     /// The mesh with the number of cells nearest to the one wanted: n ~ h^-p with p from the last
     /// two attempts.
     TetrahedralMesh
-    fill_with(const TriangleSurface       &surface,
-              const SurfaceMeshingOptions &options,
-              const bool                   keep_edges)
+    fill_with(const TriangleSurface &surface,
+              const double           n_cells,
+              const bool             keep_edges,
+              const std::string     &cells_option)
     {
-      const double n_cells = options.n_cells;
       // a cell in gmsh's meshes has about a tenth of its edge's cube
       double          h     = std::cbrt(10. * std::abs(enclosed_volume(surface)) / n_cells);
       double          power = 3., last_h = 0., last_n = 0., best_error = 0.;
@@ -57,7 +104,7 @@ namespace Exemplar
         TetrahedralMesh mesh;
         try
         {
-          mesh = fill(remesh_without_intersections(surface, h, keep_edges, options.cells_option));
+          mesh = fill(remesh_without_intersections(surface, h, keep_edges, cells_option));
         }
         catch (const SolverFailure &)
         {
@@ -110,102 +157,45 @@ namespace Exemplar
       Judgement       judgement;
     };
 
-    /// With the sharp edges of the surface kept; without them where they are noise: where that
-    /// avoids slivers, or intersections, and moves the surface at most half as far again.
+    /// Whether a mesh takes the place of the best one so far: with fewer slivers, and the surface
+    /// at most half as far away again.
+    bool
+    is_better(const Judgement &now, const JudgedMesh &best)
+    {
+      return best.mesh.cells.empty()
+             || (now.angles.n_slivers < best.judgement.angles.n_slivers
+                 && now.lost < 1.5 * best.judgement.lost);
+    }
+
+    /// With the sharp edges of the surface kept; without them where they are noise, where that
+    /// avoids slivers, or intersections. Of few cells a sliver may be the luck of their number:
+    /// then others are tried.
     JudgedMesh
     best_mesh(const BodySurface &body, const SurfaceMeshingOptions &options)
     {
-      JudgedMesh best;
-      for (const bool keep_edges : { true, false })
-        try
-        {
-          TetrahedralMesh mesh = fill_with(body.surface, options, keep_edges);
-          remove_slivers(mesh);
-          const Judgement now = judge(body, mesh);
-          if (best.mesh.cells.empty()
-              || (now.angles.n_slivers < best.judgement.angles.n_slivers
-                  && now.lost < 1.5 * best.judgement.lost))
-            best = { std::move(mesh), now };
-          if (best.judgement.angles.n_slivers == 0)
-            break;
-        }
-        catch (const SolverFailure &)
-        {
-          if (!keep_edges && best.mesh.cells.empty())
-            throw;
-        }
+      constexpr unsigned int few = 1000;
+      JudgedMesh             best;
+      for (const double factor : { 1., 1.07, .93, 1.14, .88 })
+        for (const bool keep_edges : { true, false })
+          try
+          {
+            if (factor != 1. && options.n_cells > few)
+              return best;
+            TetrahedralMesh mesh = fill_with(body.surface, factor * options.n_cells, keep_edges,
+                                             options.cells_option);
+            remove_slivers(mesh);
+            const Judgement now = judge(body, mesh);
+            if (is_better(now, best))
+              best = { std::move(mesh), now };
+            if (best.judgement.angles.n_slivers == 0)
+              return best;
+          }
+          catch (const SolverFailure &)
+          {
+            if (!keep_edges && best.mesh.cells.empty())
+              throw;
+          }
       return best;
-    }
-
-    /// Names that are all whole numbers are ids; others get theirs in order, from 1.
-    std::vector<unsigned int>
-    ids_of(const std::vector<std::string> &names)
-    {
-      std::vector<unsigned int> ids, in_order;
-      for (const std::string &name : names)
-      {
-        unsigned int id  = 0;
-        const char  *end = name.data() + name.size();
-        in_order.push_back(static_cast<unsigned int>(in_order.size() + 1));
-        const auto done = std::from_chars(name.data(), end, id);
-        if (done.ec == std::errc() && done.ptr == end && id < 2000000000U)
-          ids.push_back(id);
-      }
-      const std::set<unsigned int> distinct(ids.begin(), ids.end());
-      return distinct.size() == names.size() ? ids : in_order;
-    }
-
-    /// Whether each triangle of the boundary has cells on one side only: others lie between regions.
-    std::vector<bool>
-    outer_triangles(const TetrahedralMesh &mesh)
-    {
-      using Triangle    = std::array<unsigned int, 3>;
-      const auto sorted = [](Triangle t)
-      {
-        std::sort(t.begin(), t.end());
-        return t;
-      };
-      std::map<Triangle, unsigned int> n_cells;
-      for (const Triangle &t : mesh.boundary.triangles)
-        n_cells[sorted(t)] = 0;
-      for (const auto &c : mesh.cells)
-        for (unsigned int k = 0; k < 4; ++k)
-        {
-          const auto found
-              = n_cells.find(sorted({ { c[(k + 1) % 4], c[(k + 2) % 4], c[(k + 3) % 4] } }));
-          if (found != n_cells.end())
-            ++found->second;
-        }
-      std::vector<bool> outer;
-      for (const Triangle &t : mesh.boundary.triangles)
-        outer.push_back(n_cells[sorted(t)] == 1);
-      return outer;
-    }
-
-    MshFile
-    make_msh_of(const TetrahedralMesh &mesh, const std::vector<std::string> &group_names)
-    {
-      const auto names = group_names.empty() ? std::vector<std::string>{ "surface" } : group_names;
-      const auto ids   = ids_of(names);
-      std::vector<dealii::Point<3>> nodes;
-      for (const auto &node : mesh.nodes)
-        nodes.emplace_back(node[0], node[1], node[2]);
-      std::vector<unsigned int> materials;
-      for (const unsigned int region : mesh.regions)
-        materials.push_back(region + 1);
-      std::vector<BoundaryFace> faces;
-      const std::vector<bool>   outer = outer_triangles(mesh);
-      for (std::size_t t = 0; t < mesh.boundary.triangles.size(); ++t)
-        if (outer[t])
-          faces.push_back({ mesh.boundary.triangles[t], ids[mesh.boundary.groups[t]] });
-      MshFile msh = make_msh(std::move(nodes), mesh.cells, materials, faces);
-      for (std::size_t i = 0; i < names.size(); ++i)
-        if (ids[i] > 0 && !names[i].empty())
-          msh.physical_names[{ 2, static_cast<int>(ids[i]) }] = names[i];
-      for (const unsigned int material : std::set<unsigned int>(materials.begin(), materials.end()))
-        msh.physical_names[{ 3, static_cast<int>(material) }]
-            = materials.back() == 1 ? "body" : "shell " + std::to_string(material);
-      return msh;
     }
 
     std::string
@@ -215,7 +205,10 @@ namespace Exemplar
     }
 
     void
-    add_counts(MeshingReport &result, const BodySurface &body, const TetrahedralMesh &mesh)
+    add_counts(MeshingReport         &result,
+               const BodySurface     &body,
+               const TetrahedralMesh &mesh,
+               const std::size_t      n_materials)
     {
       const auto add = [&](const std::string &what, const std::size_t n)
       { result.table.emplace_back(what, std::to_string(n)); };
@@ -225,7 +218,7 @@ namespace Exemplar
       add("cells", mesh.cells.size());
       add("boundary_triangles", mesh.boundary.triangles.size());
       add("boundary_ids", std::max<std::size_t>(body.group_names.size(), 1));
-      add("material_ids", 1 + *std::max_element(mesh.regions.begin(), mesh.regions.end()));
+      add("material_ids", n_materials);
     }
 
     void
@@ -258,13 +251,26 @@ namespace Exemplar
       add("mesh_to_surface_mean", percent(back.mean, diagonal));
     }
 
+    /// Of the diagonal [%]: how far the mesh may be from the surface without a note.
+    constexpr double tolerable_distance = 5.;
+
     void
-    add_notes(MeshingReport &report, const SurfaceMeshingOptions &options, const JudgedMesh &judged)
+    add_notes(MeshingReport               &report,
+              const SurfaceMeshingOptions &options,
+              const BodySurface           &body,
+              const JudgedMesh            &judged)
     {
       const std::size_t n_slivers = judged.judgement.angles.n_slivers;
       if (n_slivers > 0)
         report.notes.push_back("Some cells are nearly flat: " + std::to_string(n_slivers)
                                + " have an angle below 3 degrees. More cells may help ("
+                               + options.cells_option + ").");
+      const double distance
+          = 100. * judged.judgement.surface_to_mesh.maximum / diagonal_of(body.original.vertices);
+      if (distance > tolerable_distance)
+        report.notes.push_back("Parts of the surface are " + short_text(distance)
+                               + " % of its diagonal away from the mesh. More cells follow it more "
+                                 "closely ("
                                + options.cells_option + ").");
       const std::size_t n_cells = judged.mesh.cells.size();
       if (std::abs(static_cast<double>(n_cells) / options.n_cells - 1.) > .1)
@@ -277,15 +283,21 @@ namespace Exemplar
   MeshedSurface
   mesh_surface(const SurfaceMeshingOptions &options)
   {
-    const BodySurface body   = read_body_surface(options);
-    const JudgedMesh  judged = best_mesh(body, options);
-    MeshedSurface     result;
-    result.mesh           = make_msh_of(judged.mesh, body.group_names);
+    std::vector<MaterialSeed> seeds;
+    if (!options.materials.empty())
+      seeds = read_material_seeds(options.materials);
+    const BodySurface body    = read_body_surface(options);
+    const JudgedMesh  judged  = best_mesh(body, options);
+    const auto        regions = names_of_regions(judged.mesh, body.group_names);
+    const Materials   materials
+        = seeds.empty() ? materials_by_regions(judged.mesh, regions)
+                        : materials_by_seeds(judged.mesh, seeds, regions, options.materials);
+    MeshedSurface  result{ make_surface_msh(judged.mesh, body.group_names, materials), {} };
     MeshingReport &report = result.report;
     report.notes          = body.notes;
-    add_counts(report, body, judged.mesh);
+    add_counts(report, body, judged.mesh, materials.names.size());
     add_quality(report, body, judged);
-    add_notes(report, options, judged);
+    add_notes(report, options, body, judged);
     return result;
   }
 } // namespace Exemplar

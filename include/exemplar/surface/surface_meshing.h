@@ -13,9 +13,10 @@ namespace Exemplar
   struct SurfaceMeshingOptions
   {
     std::filesystem::path surface;
-    unsigned int          n_cells = 0; ///< wanted
-    bool                  repair  = false;
-    /// What the user calls these two, for messages.
+    unsigned int          n_cells   = 0; ///< wanted
+    bool                  repair    = false;
+    std::filesystem::path materials = {}; ///< a table, see read_material_seeds(); or empty
+    /// What the user calls cells and repair, for messages.
     std::string cells_option = "--cells", repair_option = "--repair";
   };
 
