@@ -134,7 +134,8 @@ namespace Exemplar
 
   Body::Body(const SceneParameters &parameters, Inputs &inputs)
       : mesh(std::move(inputs.mesh), parameters.mesh.name(), parameters.mesh.scale),
-        material(parameters.material, mesh.get_material_ids(), mesh.get_contents()), fe_space(mesh)
+        material(parameters.material, mesh.get_material_ids(), mesh.get_contents()), fe_space(mesh),
+        made(inputs.made)
   {
   }
 

@@ -76,6 +76,7 @@ namespace Exemplar
       directory.take_for_new_run(inputs);
       write_parameters(scene, directory.parameters_prm());
       write_original();
+      write_rest_mesh();
       statistics.emplace(directory.statistics());
       if (frames.is_due(0))
         frames.write();
@@ -101,6 +102,7 @@ namespace Exemplar
       StepClock::Scope scope(problem.clock, Part::output);
       statistics.emplace(directory.statistics(), checkpoint.statistics_bytes);
       write_original();
+      write_rest_mesh();
       write_parameters(scene, directory.parameters_prm());
     }
     directory.remove_frames_after(checkpoint.state.step);
@@ -130,6 +132,13 @@ namespace Exemplar
     AtomicFile file(directory.original_prm());
     file.stream() << scene.get_text();
     file.commit();
+  }
+
+  void
+  RunWriter::write_rest_mesh() const
+  {
+    if (problem.parameters.mesh.is_surface())
+      problem.body.mesh.write_pose(problem.body.mesh.get_nodes(), directory.rest_mesh());
   }
 
   PartSeconds

@@ -3,6 +3,7 @@
 #define exemplar_inputs_h
 
 #include <exemplar/mesh/mesh_inputs.h>
+#include <exemplar/run/surface_inputs.h>
 #include <exemplar/surface/surface_mesh.h>
 
 #include <memory>
@@ -20,13 +21,20 @@ namespace Exemplar
     NamedNodes nodes; ///< of Select = nodes FILE
     /// Of Mesh/Surface; null unless the scene needs it.
     std::shared_ptr<const SurfaceMesh> surface = {};
+    /// How mesh and poses became of surfaces; null if none did.
+    std::shared_ptr<const MadeOfSurfaces> made = {};
   };
 
   /// Read or generate what a scene needs and `given` does not hold. Without importance no
   /// example pose is read. Throws UserError for a file that cannot be read or is none of the
-  /// mesh, naming what is wrong.
+  /// mesh, naming what is wrong. Surfaces are checked before anything is made of them, which may take
+  /// long unless it is kept; `announce` is told of it.
   Inputs
-  read_inputs(SceneParameters scene, Inputs given = {});
+  read_inputs(SceneParameters scene, Inputs given = {}, const Announce &announce = {});
+
+  /// load_mesh(), also of a surface.
+  MshFile
+  load_or_make_mesh(const MeshParameters &parameters);
 } // namespace Exemplar
 
 #endif

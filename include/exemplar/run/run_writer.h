@@ -60,6 +60,9 @@ namespace Exemplar
     write_original() const;
 
     void
+    write_rest_mesh() const;
+
+    void
     write_final_pose() const;
 
     void

@@ -16,6 +16,16 @@ namespace Exemplar
          double                   edge_length,
          bool                     keep_edges,
          const std::vector<bool> &held = {});
+
+  /// The same with its shells in the order of those given, and without intersections: with edges a
+  /// little shorter than wanted where that does, else with the triangles held where sheets almost
+  /// touch, as the lips of a mouth do, because these intersect when each is made anew by itself. Throws
+  /// SolverFailure if nothing helps; `cells_option` is how the user asks for more cells.
+  TriangleSurface
+  remesh_without_intersections(const TriangleSurface &surface,
+                               double                 edge_length,
+                               bool                   keep_edges,
+                               const std::string     &cells_option);
 } // namespace Exemplar
 
 #endif
