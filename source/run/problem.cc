@@ -246,6 +246,7 @@ namespace Exemplar
       if (part != nullptr)
         all.insert(all.end(), part->get_warnings().begin(), part->get_warnings().end());
     };
+    all.insert(all.end(), body.readings.warnings.begin(), body.readings.warnings.end());
     append(constraints.handles);
     append(examples.poses);
     append(examples.weights);

@@ -3,7 +3,8 @@
 #define exemplar_inputs_h
 
 #include <exemplar/mesh/mesh_inputs.h>
-#include <exemplar/surface/surface_mesh.h>
+#include <exemplar/surface/painted_map.h>
+#include <exemplar/surface/point_cache.h>
 
 #include <memory>
 
@@ -20,6 +21,9 @@ namespace Exemplar
     NamedNodes nodes; ///< of Select = nodes FILE
     /// Of Mesh/Surface; null unless the scene needs it.
     std::shared_ptr<const SurfaceMesh> surface = {};
+    NamedMaps                          maps = {}; ///< by FILE:ATTRIBUTE, of the surface's vertices
+    /// Of Follow cache, by the names of handles. Sequences of files keep a reference to the surface.
+    std::map<std::string, std::shared_ptr<const PointCache>> caches = {};
   };
 
   /// Read or generate what a scene needs and `given` does not hold. Without importance no
