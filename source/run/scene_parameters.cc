@@ -34,6 +34,10 @@ namespace Exemplar
     initial.check();
     check_solver();
     check_surface();
+    if (output.keep_states && output.every == 0)
+      throw UserError(
+          "Output/Keep states = true keeps the state of each frame, but Output/Every = 0 "
+          "makes no frames. Set Output/Every, or Output/Keep states = false.");
   }
 
   bool
