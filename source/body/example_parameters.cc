@@ -89,6 +89,12 @@ namespace Exemplar
              "Distance [m] over which the weights of neighbouring regions pass into each "
              "other; 0: at once, at the border. Below the size of a cell: over about a cell.",
              Bounds{ 0. });
+    keys.add_files("Weight maps", weight_maps,
+                   "Painted regions with weights of their own: a list of FILE.ply:ATTRIBUTE or "
+                   "FILE.csv[:COLUMN], each with values from 0 to 1 for the vertices of "
+                   "Mesh/Surface. The weights of map R, from 1 (statistics: weight_R_i), act in a "
+                   "cell by the share of its value; values that sum to more than 1 are divided by "
+                   "their sum, and what they lack to 1 is of a region 0.");
     keys.leave_subsection();
   }
 
@@ -120,6 +126,10 @@ namespace Exemplar
     if (weights == WeightRule::prescribed && in_use() && prescribed_weights.empty())
       throw UserError("Examples/Weights = prescribed, but Examples/Prescribed weights is empty. "
                       "Give one function of t for each example, for instance '1-t; t'.");
+    if (!weight_maps.empty() && weights_per_region)
+      throw UserError(
+          "Examples/Weight maps and Examples/Weights per region are both given, but only "
+          "one of them can say where weights act. Remove one of them.");
     if (region_blend_length > 0. && !weights_per_region)
       throw UserError("Examples/Region blend length is given, but Examples/Weights per region is "
                       "false. Set it to true, or remove the length.");

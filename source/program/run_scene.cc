@@ -155,7 +155,10 @@ namespace Exemplar
     is_interrupted(); // from now on a signal waits until the run has written what it has
     try
     {
-      if (options.resume)
+      if (options.resume_from)
+        for (const std::string &note : writer.resume_from(*options.resume_from))
+          warn(note);
+      else if (options.resume)
         writer.resume();
       else
         writer.begin();

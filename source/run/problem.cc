@@ -249,6 +249,7 @@ namespace Exemplar
     if (body.made != nullptr)
       for (const std::string &warning : warnings_of(*body.made))
         all.push_back(warning);
+    all.insert(all.end(), body.readings.warnings.begin(), body.readings.warnings.end());
     append(constraints.handles);
     append(examples.poses);
     append(examples.weights);

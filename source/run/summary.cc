@@ -131,6 +131,8 @@ namespace Exemplar
     json["factorizations"] = totals.factorizations;
     json["status"]         = status;
     json["worst_residual"] = totals.worst_residual;
+    for (const SceneEdit &edit : totals.edits)
+      json["edits"].push_back({ { "step", edit.step }, { "scene_before", edit.before } });
     const Conditioning conditioning = problem.conditioning();
     if (conditioning.matrix > 0.)
       json["condition_matrix"] = conditioning.matrix; // null: not definite

@@ -4,7 +4,8 @@
 
 #include <exemplar/mesh/mesh_inputs.h>
 #include <exemplar/run/surface_inputs.h>
-#include <exemplar/surface/surface_mesh.h>
+#include <exemplar/surface/painted_map.h>
+#include <exemplar/surface/point_cache.h>
 
 #include <memory>
 
@@ -23,6 +24,9 @@ namespace Exemplar
     std::shared_ptr<const SurfaceMesh> surface = {};
     /// How mesh and poses became of surfaces; null if none did.
     std::shared_ptr<const MadeOfSurfaces> made = {};
+    NamedMaps maps = {}; ///< by FILE:ATTRIBUTE, of the surface's vertices
+    /// Of Follow cache, by the names of handles. Sequences of files keep a reference to the surface.
+    std::map<std::string, std::shared_ptr<const PointCache>> caches = {};
   };
 
   /// Read or generate what a scene needs and `given` does not hold. Without importance no
