@@ -77,6 +77,7 @@ namespace Exemplar
       write_parameters(scene, directory.parameters_prm());
       write_original();
       statistics.emplace(directory.statistics());
+      frames.write_shapes();
       if (frames.is_due(0))
         frames.write();
       StatisticsRow row = diagnostics.row(problem.state, SolveReport());
@@ -102,6 +103,7 @@ namespace Exemplar
       statistics.emplace(directory.statistics(), checkpoint.statistics_bytes);
       write_original();
       write_parameters(scene, directory.parameters_prm());
+      frames.write_shapes(); // Output/Formats may have changed
     }
     directory.remove_frames_after(checkpoint.state.step);
     if (is_only_last_frame(checkpoint) && !frames.is_due(checkpoint.state.step))
