@@ -163,7 +163,9 @@ namespace Exemplar
       const SurfaceAttachment attachment(mesh.get_nodes(), mesh.get_boundary_faces(),
                                          triangulate(rest));
       check_attachment(attachment, mesh, options.rest.string());
-      return PoseTransfer(mesh.get_nodes(), mesh.get_cells(), attachment, options.attach);
+      PoseTransfer transfer(mesh.get_nodes(), mesh.get_cells(), attachment, options.attach);
+      transfer.measure_by(rest, mesh);
+      return transfer;
     }
   } // namespace
 

@@ -34,7 +34,8 @@ namespace Exemplar
   {
     const SurfaceMesh                in_metres = scaled(surface, scale);
     const std::vector<SurfaceAnchor> anchors   = find_anchors(in_metres, mesh);
-    check_anchors(in_metres, anchors, mesh, scale, surface_name);
+    if (!surface_name.empty())
+      check_anchors(in_metres, anchors, mesh, scale, surface_name);
     const MotionRecovery recovery(mesh, nodes_of_anchors(anchors, mesh));
     NodalSum             sum(mesh.n_nodes());
     for (std::size_t v = 0; v < anchors.size(); ++v)

@@ -29,7 +29,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "scenes"))
 from exemplar_runner import EXEMPLAR, results  # noqa: E402
 
 SCENE = {**bases.SCENES[1], "Time/End": "0.12", "Output/Every": "2", "Output/Checkpoint minutes": "0",
-         "Mesh/Surface": "surface.obj", "Output/Formats": "vtu, obj, pc2, usda"}
+         "Mesh/Surface": "surface.obj", "Output/Formats": "vtu, pc2"}
 # the box's sides
 SURFACE = "".join(f"v {x} {y} {z}\n" for x in (0, 2) for y in (-.5, .5) for z in (-.5, .5)) + (
     "f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\nf 2 6 8 4\n")

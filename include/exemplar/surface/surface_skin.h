@@ -20,9 +20,9 @@ namespace Exemplar
   class SurfaceSkin
   {
   public:
-    /// Of a surface in the unit of the mesh's file. `surface_name` stands for it in messages. Throws
-    /// UserError for a surface that is not that of the mesh.
-    SurfaceSkin(const SurfaceMesh &surface, const Mesh &mesh, const std::string &surface_name);
+    /// Of a surface in the unit of the mesh's file. If it has a name, which stands for it in
+    /// messages, it is checked: UserError for a surface that is not that of the mesh.
+    SurfaceSkin(const SurfaceMesh &surface, const Mesh &mesh, const std::string &surface_name = "");
 
     /// The places of the vertices in the unit of the mesh's file, in the file's order, where the
     /// nodes are displaced [m] by three values each.
