@@ -3,7 +3,7 @@
 
 Usage: /usr/bin/python3 doc/scripts/measure_surface_formats.py [--cells N] [--program P]
 
-Makes the creature of tests/surfaces (needs numpy), a mesh of N cells inside it and an example of its first pose; prints, for
+Makes the creature of meshes/surfaces (needs numpy), a mesh of N cells inside it and an example of its first pose; prints, for
 each format, seconds and bytes a frame in one thread, and how far the surface of a run that is only that example (importance 1,
 weight 1) is from the pose.
 """
@@ -56,7 +56,7 @@ def main():
 
         def call(*arguments):
             subprocess.run([str(word) for word in arguments], cwd=directory, check=True, stdout=subprocess.DEVNULL)
-        call(sys.executable, REPOSITORY / "tests/surfaces/creature.py", "creature")
+        call(sys.executable, REPOSITORY / "meshes/surfaces/creature.py", "creature")
         call(options.program, "mesh", "--surface", "creature/rest.obj", "--cells", options.cells, "--output", "body.msh")
         call(options.program, "pose", "--mesh", "body.msh", "--rest", "creature/rest.obj", "--pose", "creature/pose_1.obj",
              "--output", "poses")

@@ -45,7 +45,14 @@ namespace Exemplar
     keys.enter_subsection("Examples");
     keys.add_files("Poses", poses,
                    "Example poses: .msh files with the nodes and tetrahedra of the mesh, such "
-                   "as the final.msh of another scene.");
+                   "as the final.msh of another scene, or surfaces (.obj, .ply, .stl) with the "
+                   "vertices and faces of Mesh/Surface (or of Mesh/File, if that is a surface), "
+                   "which are carried onto the mesh as by exemplar pose.");
+    keys.add("Attach", attach,
+             "How strongly poses that are surfaces hold the mesh, over the stiffness of the body: "
+             "more follows them more closely, less strains the cells less. For Handles/NAME/Follow "
+             "pose and Initial/Pose, too.",
+             Bounds{ 1e-3, 1e6 });
     keys.add("Pose functions", pose_functions,
              "Analytic example poses after those of Poses: x'; y'; z' as functions of the "
              "rest position x, y, z [m]; poses separated by |.");
@@ -82,6 +89,12 @@ namespace Exemplar
              "Distance [m] over which the weights of neighbouring regions pass into each "
              "other; 0: at once, at the border. Below the size of a cell: over about a cell.",
              Bounds{ 0. });
+    keys.add_files("Weight maps", weight_maps,
+                   "Painted regions with weights of their own: a list of FILE.ply:ATTRIBUTE or "
+                   "FILE.csv[:COLUMN], each with values from 0 to 1 for the vertices of "
+                   "Mesh/Surface. The weights of map R, from 1 (statistics: weight_R_i), act in a "
+                   "cell by the share of its value; values that sum to more than 1 are divided by "
+                   "their sum, and what they lack to 1 is of a region 0.");
     keys.leave_subsection();
   }
 
@@ -113,6 +126,10 @@ namespace Exemplar
     if (weights == WeightRule::prescribed && in_use() && prescribed_weights.empty())
       throw UserError("Examples/Weights = prescribed, but Examples/Prescribed weights is empty. "
                       "Give one function of t for each example, for instance '1-t; t'.");
+    if (!weight_maps.empty() && weights_per_region)
+      throw UserError(
+          "Examples/Weight maps and Examples/Weights per region are both given, but only "
+          "one of them can say where weights act. Remove one of them.");
     if (region_blend_length > 0. && !weights_per_region)
       throw UserError("Examples/Region blend length is given, but Examples/Weights per region is "
                       "false. Set it to true, or remove the length.");

@@ -27,8 +27,13 @@ namespace Exemplar
     }
 
     std::optional<RegionShares>
-    make_regions(const ExampleParameters &parameters, const Mesh &mesh, const FESpace &fe_space)
+    make_regions(const ExampleParameters                &parameters,
+                 const Mesh                             &mesh,
+                 const FESpace                          &fe_space,
+                 const std::vector<std::vector<double>> &painted)
     {
+      if (!painted.empty())
+        return RegionShares(painted);
       if (!parameters.weights_per_region)
         return {};
       // beyond the body's size all regions have the same share everywhere
@@ -60,14 +65,15 @@ namespace Exemplar
     }
   } // namespace
 
-  ExamplePoses::ExamplePoses(const ExampleParameters &parameters,
-                             const StrainMeasure      measure,
-                             const Mesh              &mesh,
-                             const FESpace           &fe_space,
-                             const Material          &material,
-                             const NamedPoses        &poses)
+  ExamplePoses::ExamplePoses(const ExampleParameters                &parameters,
+                             const StrainMeasure                     measure,
+                             const Mesh                             &mesh,
+                             const FESpace                          &fe_space,
+                             const Material                         &material,
+                             const NamedPoses                       &poses,
+                             const std::vector<std::vector<double>> &painted)
       : fe_space(fe_space), eta(parameters.importance), measure(measure),
-        regions(make_regions(parameters, mesh, fe_space)),
+        regions(make_regions(parameters, mesh, fe_space, painted)),
         first_strained(parameters.include_rest_pose ? 1 : 0)
   {
     if (parameters.include_rest_pose)

@@ -68,7 +68,7 @@ namespace Exemplar
                       + (are_per_region ? "there are " + std::to_string(n_regions) + " regions."
                                         : "Examples/Weights per region is false.")
                       + " Give one list for all"
-                      + (are_per_region ? " or one for each material id." : "."));
+                      + (are_per_region ? " or one for each region." : "."));
     for (const std::string &list : lists)
       prescribed.emplace_back(key, list, "t", poses.size());
   }

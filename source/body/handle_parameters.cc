@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
+#include <exemplar/base/number_text.h>
 #include <exemplar/body/handle_parameters.h>
 #include <exemplar/prm/key_table.h>
 
@@ -17,12 +18,24 @@ namespace Exemplar
              "The components that are held; fewer than x, y, z make a roller or a plane of "
              "symmetry.");
     keys.add_file("Follow pose", follow_pose,
-                  "A .msh file with the nodes and tetrahedra of the mesh: the held nodes go to "
-                  "their places in this pose, turned and moved rigidly together, instead of "
+                  "A .msh file with the nodes and tetrahedra of the mesh, or a surface as in "
+                  "Examples/Poses: the held nodes go to their places in this pose, turned and "
+                  "moved rigidly together, instead of "
                   "by Motion.");
     keys.add("Progress", progress,
              "How far the nodes are on the way to the pose that they follow, a function "
              "of t [s]: 0 at rest, 1 in the pose.");
+    keys.add_file("Follow cache", follow_cache,
+                  "Where the vertices of Mesh/Surface are in time, such as the output of a rig: a "
+                  ".mdd or .pc2 file or a sequence of surfaces, rig_*.obj. The held nodes hang on "
+                  "the surface and go where it goes, linearly between samples, instead of by "
+                  "Motion; before the first sample and after the last they rest.");
+    keys.add("Frames per second", frames_per_second,
+             "What makes seconds of the frames of a .pc2 file and of a sequence, whose numbers are "
+             "its frames, the first one at t = 0; .mdd files have seconds.",
+             Bounds::positive());
+    keys.add("Cache start", cache_start,
+             "t [s] of the first sample of the cache; file: as the file has it.");
     keys.leave_subsection();
   }
 
@@ -30,8 +43,22 @@ namespace Exemplar
   HandleParameters::check() const
   {
     const std::string key = "Handles/" + name;
-    if (!follow_pose.empty()
-        && split_trimmed(motion, ';') != split_trimmed(HandleParameters().motion, ';'))
+    const bool        has_motion
+        = split_trimmed(motion, ';') != split_trimmed(HandleParameters().motion, ';');
+    if (!follow_cache.empty() && (has_motion || !follow_pose.empty()))
+      throw UserError(key + "/Follow cache and " + key
+                      + (has_motion ? "/Motion = '" + motion + "'" : "/Follow pose")
+                      + " are both given, but only one of them can say where the nodes go. Remove "
+                        "one of them.");
+    if (cache_start != "file" && !std::isfinite(parse_number(cache_start)))
+      throw UserError(key + "/Cache start = '" + cache_start
+                      + "' is not allowed. Allowed: file, or a time [s].");
+    if (follow_cache.empty()
+        && (cache_start != "file" || frames_per_second != HandleParameters().frames_per_second))
+      throw UserError(key + "/" + (cache_start != "file" ? "Cache start" : "Frames per second")
+                      + " is given, but no " + key
+                      + "/Follow cache. Give the cache that is followed, or remove it.");
+    if (!follow_pose.empty() && has_motion)
       throw UserError(key + "/Follow pose and " + key + "/Motion = '" + motion
                       + "' are both given, but only one of them can say where the nodes go. Remove "
                         "one of them.");

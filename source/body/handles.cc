@@ -60,11 +60,16 @@ namespace Exemplar
                    const Mesh                          &mesh,
                    const TimeAxis                      &axis,
                    const NamedPoses                    &poses,
-                   const NamedNodes                    &nodes)
+                   const NamedNodes                    &nodes,
+                   const NamedMotions                  &motions)
       : mesh(mesh)
   {
     for (const HandleParameters &p : parameters)
+    {
       handles.push_back(make_handle(p, poses, nodes));
+      if (const auto given = motions.find(p.name); given != motions.end())
+        handles.back().function = given->second;
+    }
     dealii::Vector<double> anywhere(3 * mesh.n_nodes());
     move(axis.time(0), anywhere); // are the formulas finite?
     move(axis.time(axis.n_steps()), anywhere);

@@ -159,11 +159,15 @@ namespace Exemplar
       const std::string  key  = "Handles/" + handle.name;
       if (turn.angle > 0.)
         warnings.push_back(
-            key + "/Motion turns the held nodes by " + rounded(turn.angle / degree)
+            key + (handle.function ? "/Follow cache" : "/Motion") + " turns the held nodes by "
+            + rounded(turn.angle / degree)
             + " degrees while each of them moves on a straight line: on the way the handle is "
               "crushed to "
-            + rounded(100. * turn.least_size) + " % of its width. Set " + key
-            + "/Follow pose instead, or write Motion with cos and sin of the angle.");
+            + rounded(100. * turn.least_size) + " % of its width. "
+            + (handle.function ? "Give the cache more samples."
+                               : "Set " + key
+                                     + "/Follow pose instead, or write Motion with cos and sin of "
+                                       "the angle."));
     }
   }
 } // namespace Exemplar

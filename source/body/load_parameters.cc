@@ -11,7 +11,8 @@ namespace Exemplar
     select.declare(keys, "Where the force acts");
     keys.add("Force", force,
              "Total dead force [N], three functions of t [s]; shared by area over a "
-             "boundary, by mass over other selections.");
+             "boundary and over the faces between nodes selected by the surface, by mass over "
+             "others.");
     keys.leave_subsection();
   }
 } // namespace Exemplar

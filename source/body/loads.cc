@@ -3,8 +3,10 @@
 #include <exemplar/base/number_text.h>
 #include <exemplar/body/loads.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 
 namespace Exemplar
 {
@@ -37,6 +39,28 @@ namespace Exemplar
     }
   } // namespace
 
+  namespace
+  {
+    /// The faces between nodes; if there is none, those that have a node of them.
+    std::vector<BoundaryFace>
+    faces_between(const std::vector<unsigned int> &nodes, const Mesh &mesh)
+    {
+      const std::set<unsigned int> chosen(nodes.begin(), nodes.end());
+      std::vector<BoundaryFace>    between, touched;
+      for (const BoundaryFace &face : mesh.get_boundary_faces())
+      {
+        const auto n
+            = std::count_if(face.nodes.begin(), face.nodes.end(),
+                            [&](const unsigned int node) { return chosen.count(node) == 1; });
+        if (n == 3)
+          between.push_back(face);
+        if (n > 0)
+          touched.push_back(face);
+      }
+      return between.empty() ? touched : between;
+    }
+  } // namespace
+
   Loads::Loads(const dealii::Tensor<1, 3>        &gravity,
                const std::vector<LoadParameters> &parameters,
                const Mesh                        &mesh,
@@ -61,14 +85,17 @@ namespace Exemplar
       const std::string         key   = "Loads/" + p.name;
       const auto                nodes = p.select.nodes(mesh, key, named_nodes);
       const std::vector<double> weights
-          = p.select.is_boundary() ? nodal_areas(mesh, p.select.faces(mesh, key)) : masses;
+          = p.select.is_boundary()     ? nodal_areas(mesh, p.select.faces(mesh, key))
+            : p.select.is_of_surface() ? nodal_areas(mesh, faces_between(nodes, mesh))
+                                       : masses;
+      const bool          by_area = p.select.is_boundary() || p.select.is_of_surface();
       std::vector<double> shares;
       for (const unsigned int node : nodes)
         shares.push_back(weights[node]);
       const double sum = std::accumulate(shares.begin(), shares.end(), 0.);
       if (!(sum > 0. && std::isfinite(sum)))
         throw UserError(
-            key + ": the selected part has the " + (p.select.is_boundary() ? "area " : "mass ")
+            key + ": the selected part has the " + (by_area ? "area " : "mass ")
             + shortest_text(sum)
             + ", so the force cannot be shared out. Look at Material/Density, and at the "
               "mesh's unit.");

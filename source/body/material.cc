@@ -25,6 +25,30 @@ namespace Exemplar
       return { lambda, mu };
     }
 
+    void
+    apply(const PaintedConstant &painted, const unsigned int cell, double &value)
+    {
+      if (!painted.values.empty())
+        value = painted.values[cell] * (painted.is_factor ? value : 1.);
+    }
+
+    void
+    check_painted(const ElasticConstants &values, const unsigned int cell)
+    {
+      const auto check = [&](const std::string &name, const double value, const bool is_allowed)
+      {
+        if (!is_allowed)
+          throw UserError("Material/" + name + " map: the " + std::to_string(cell + 1)
+                          + ". cell would get " + shortest_text(value)
+                          + ". Young's modulus and density must be greater than 0, Poisson's ratio "
+                            "between -1 and 0.5. Change the map, or how it is used.");
+      };
+      check("Young's modulus", values.youngs_modulus, values.youngs_modulus >= 1e-300);
+      check("Density", values.density, values.density >= 1e-300);
+      check("Poisson's ratio", values.poissons_ratio,
+            values.poissons_ratio > -1. && values.poissons_ratio < 0.5);
+    }
+
     /// All regions by their material ids.
     std::map<unsigned int, ElasticConstants>
     regions_by_id(const MaterialParameters &parameters, const MshFile &names)
@@ -44,12 +68,11 @@ namespace Exemplar
 
   Material::Material(const MaterialParameters        &parameters,
                      const std::vector<unsigned int> &material_ids,
-                     const MshFile                   &names)
+                     const MshFile                   &names,
+                     const PaintedMaterial           &painted)
       : constants_of_cell(material_ids.size(), 0)
   {
-    const auto add = [this](const ElasticConstants &c) {
-      constants.push_back({ elasticity_of(c), c.density, c.youngs_modulus });
-    };
+    std::vector<ElasticConstants> bases{ parameters.everywhere };
     add(parameters.everywhere);
     for (const auto &[id, region] : regions_by_id(parameters, names))
     {
@@ -72,6 +95,32 @@ namespace Exemplar
                         + "). Give a Physical Volume that tag, or rename the subsection.");
       }
       add(region);
+      bases.push_back(region);
+    }
+    if (!painted.youngs_modulus.values.empty() || !painted.poissons_ratio.values.empty()
+        || !painted.density.values.empty())
+      paint(painted, bases);
+  }
+
+  void
+  Material::add(const ElasticConstants &values)
+  {
+    constants.push_back({ elasticity_of(values), values.density, values.youngs_modulus });
+  }
+
+  void
+  Material::paint(const PaintedMaterial &painted, const std::vector<ElasticConstants> &bases)
+  {
+    constants.clear();
+    for (unsigned int cell = 0; cell < constants_of_cell.size(); ++cell)
+    {
+      ElasticConstants values = bases[constants_of_cell[cell]];
+      apply(painted.youngs_modulus, cell, values.youngs_modulus);
+      apply(painted.poissons_ratio, cell, values.poissons_ratio);
+      apply(painted.density, cell, values.density);
+      check_painted(values, cell);
+      add(values);
+      constants_of_cell[cell] = cell;
     }
   }
 } // namespace Exemplar

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/algebra/spd_operator.h>
+#include <exemplar/base/errors.h>
 #include <exemplar/body/region_shares.h>
 
 #include <algorithm>
@@ -71,6 +72,47 @@ namespace Exemplar
     start.push_back(shares.size());
     if (blend_length > 0. && n_regions() > 1)
       blend(fe_space, blend_length);
+  }
+
+  RegionShares::RegionShares(const std::vector<std::vector<double>> &painted)
+  {
+    const std::size_t                n = painted.size();
+    std::vector<std::vector<double>> shares_of_cell(painted.front().size());
+    bool                             has_rest = false;
+    for (std::size_t cell = 0; cell < shares_of_cell.size(); ++cell)
+    {
+      std::vector<double> &of_cell = shares_of_cell[cell];
+      double               sum     = 0.;
+      of_cell.push_back(0.);
+      for (const std::vector<double> &map : painted)
+      {
+        of_cell.push_back(map[cell] < negligible_share ? 0. : map[cell]);
+        sum += of_cell.back();
+      }
+      of_cell[0] = 1. - sum < negligible_share ? 0. : 1. - sum;
+      has_rest   = has_rest || of_cell[0] > 0.;
+      for (double &share : of_cell)
+        share /= of_cell[0] + sum;
+    }
+    for (std::size_t id = has_rest ? 0 : 1; id <= n; ++id)
+      ids.push_back(static_cast<unsigned int>(id));
+    std::vector<bool> acts(n_regions(), false);
+    for (const std::vector<double> &of_cell : shares_of_cell)
+    {
+      start.push_back(shares.size());
+      for (unsigned int region = 0; region < n_regions(); ++region)
+        if (const double share = of_cell[ids[region]]; share > 0.)
+        {
+          shares.push_back({ region, share });
+          acts[region] = true;
+        }
+    }
+    start.push_back(shares.size());
+    for (unsigned int region = 0; region < n_regions(); ++region)
+      if (!acts[region])
+        throw UserError("Examples/Weight maps: map " + std::to_string(ids[region])
+                        + " is 0 in all cells, so its weights would act nowhere. Paint it, or "
+                          "remove it from the list.");
   }
 
   void

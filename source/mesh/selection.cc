@@ -14,7 +14,7 @@ namespace Exemplar
   namespace
   {
     const std::string forms = "box x0 y0 z0 x1 y1 z1 | sphere x y z r | boundary ID | region ID | "
-                              "nodes FILE";
+                              "nodes FILE | vertex N [within D] | group NAME | map FILE [above X]";
 
     constexpr int surface = 2, volume = 3; // dimensions of boundaries and regions
 
@@ -156,23 +156,41 @@ namespace Exemplar
         "Select", text,
         what + ": " + forms
             + ". Boxes (inclusive) and spheres select by rest position [m]; an ID is a number, "
-              "or the name of a physical group of the mesh file; a FILE lists node numbers "
-              "of the mesh file.");
+              "or the name of a physical group of the mesh file; a FILE of nodes lists node "
+              "numbers of the mesh file. The others select nodes of the boundary by Mesh/Surface: "
+              "nearest to its vertices N, from 1 in its file's order, or no farther from them than "
+              "D [m] along the surface; on its group NAME; where a painted map, FILE.ply:ATTRIBUTE "
+              "or FILE.csv, is above X, or below X; without either above 0.5.");
   }
 
   std::string
   Selection::absolute(const std::string &text, const std::filesystem::path &directory)
   {
     const Words words = split(text);
-    if (words.kind != "nodes" || directory.empty())
+    if ((words.kind != "nodes" && words.kind != "map") || directory.empty())
       return text;
-    return "nodes " + std::filesystem::absolute(directory / words.rest).lexically_normal().string();
+    return words.kind + " "
+           + std::filesystem::absolute(directory / words.rest).lexically_normal().string();
   }
 
   bool
   Selection::is_boundary() const
   {
     return split(text).kind == "boundary";
+  }
+
+  bool
+  Selection::is_of_surface() const
+  {
+    const std::string kind = split(text).kind;
+    return kind == "vertex" || kind == "group" || kind == "map";
+  }
+
+  std::string
+  Selection::map() const
+  {
+    const Words words = split(text);
+    return words.kind == "map" ? words.rest : "";
   }
 
   std::string
@@ -215,6 +233,8 @@ namespace Exemplar
       nodes = nodes_of_region(mesh, id_in(words, volume, mesh, key), key);
     else if (words.kind == "nodes")
       nodes = named_nodes(mesh, named, words.rest, key);
+    else if (is_of_surface())
+      nodes = named_nodes(mesh, named, text, key);
     else if (words.kind == "boundary")
     {
       std::set<unsigned int> on_faces;

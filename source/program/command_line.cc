@@ -47,6 +47,8 @@ namespace Exemplar
                      "directory of the results instead of Output/Directory");
       app.add_flag("--resume", arguments.run.resume,
                    "go on from the checkpoint in the output directory");
+      app.add_option("--resume-from", arguments.run.resume_from,
+                     "go on from the state of this step, also with an edited scene");
       app.add_option("--threads", arguments.run.n_threads,
                      "threads instead of one a core; results do not depend on it")
           ->check(CLI::Range(1, 1024));
@@ -108,6 +110,8 @@ namespace Exemplar
           ->required();
       command.add_flag("--repair", arguments.mesh.meshing.repair,
                        "mend holes, turned and intersecting faces; wrap what cannot be mended");
+      command.add_option("--materials", arguments.mesh.meshing.materials,
+                         "points and the materials around them (.csv: x,y,z,id,name)");
       command.add_flag("--quiet", arguments.mesh.quiet, "print errors only");
       return command;
     }

@@ -17,10 +17,18 @@
 
 namespace Exemplar
 {
+  /// boost finds it by this name.
+  template <typename Archive>
+  void
+  serialize(Archive &archive, SceneEdit &edit, const unsigned int)
+  {
+    archive &edit.step &edit.before;
+  }
+
   namespace
   {
     /// The first line. The number grows with every change of what follows.
-    const std::string format = "exemplar checkpoint 5";
+    const std::string format = "exemplar checkpoint 6";
 
     const std::string without_resume = " Run the scene without --resume.";
 
@@ -39,6 +47,7 @@ namespace Exemplar
       archive &totals.iterations &totals.factorizations &totals.worst_residual;
       for (double &seconds : totals.seconds)
         archive &seconds;
+      archive &totals.edits;
       archive &checkpoint.solver_memory &checkpoint.statistics_bytes &checkpoint.statistics_digest;
     }
 

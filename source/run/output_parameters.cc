@@ -26,6 +26,10 @@ namespace Exemplar
              "Minutes of run time between checkpoints. One is also written at the end and "
              "on Ctrl-C.",
              Bounds{ 0. });
+    keys.add(
+        "Keep states", keep_states,
+        "Whether the state of each frame is kept in full precision, state_NNNN.bin, from which "
+        "--resume-from NNNN goes on, also with an edited scene.");
     keys.leave_subsection();
   }
 

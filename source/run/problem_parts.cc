@@ -16,13 +16,14 @@ namespace Exemplar
 
     std::unique_ptr<Handles>
     make_handles(const SceneParameters &parameters,
-                 const Mesh            &mesh,
+                 const Body            &body,
                  const TimeAxis        &axis,
                  const Inputs          &inputs)
     {
       if (parameters.handles.empty())
         return nullptr;
-      return std::make_unique<Handles>(parameters.handles, mesh, axis, inputs.poses, inputs.nodes);
+      return std::make_unique<Handles>(parameters.handles, body.mesh, axis, inputs.poses,
+                                       inputs.nodes, body.readings.motions);
     }
 
     std::optional<StaticallyDeterminateSupport>
@@ -73,7 +74,8 @@ namespace Exemplar
       if (!parameters.examples.in_use())
         return nullptr;
       return std::make_unique<ExamplePoses>(parameters.examples, parameters.model.strain, body.mesh,
-                                            body.fe_space, body.material, inputs.poses);
+                                            body.fe_space, body.material, inputs.poses,
+                                            body.readings.shares);
     }
 
     std::unique_ptr<ExampleWeights>
@@ -134,15 +136,19 @@ namespace Exemplar
 
   Body::Body(const SceneParameters &parameters, Inputs &inputs)
       : mesh(std::move(inputs.mesh), parameters.mesh.name(), parameters.mesh.scale),
-        material(parameters.material, mesh.get_material_ids(), mesh.get_contents()), fe_space(mesh)
+        readings(read_off_surface(parameters, mesh, inputs)),
+        material(
+            parameters.material, mesh.get_material_ids(), mesh.get_contents(), readings.material),
+        fe_space(mesh), made(inputs.made)
   {
+    inputs.nodes.insert(readings.nodes.begin(), readings.nodes.end());
   }
 
   Constraints::Constraints(const SceneParameters &parameters,
                            const Body            &body,
                            const TimeAxis        &axis,
                            const Inputs          &inputs)
-      : handles(make_handles(parameters, body.mesh, axis, inputs)),
+      : handles(make_handles(parameters, body, axis, inputs)),
         support(make_support(parameters, body.mesh)),
         free_dofs(body.fe_space.n_dofs(), held_dofs(parameters, body, *this))
   {

@@ -18,6 +18,54 @@ namespace Exemplar
       return key == "Time/End" || key.compare(0, 7, "Output/") == 0;
     }
 
+    std::string
+    value_in(const std::map<std::string, std::string> &values, const std::string &key)
+    {
+      const auto entry = values.find(key);
+      return entry == values.end() ? "(absent)" : entry->second;
+    }
+
+    struct ChangedKey
+    {
+      std::string key, before, after;
+
+      std::string
+      text() const
+      {
+        return key + " was '" + before + "' and is now '" + after + "'.";
+      }
+    };
+
+    /// All but those that any resumed run may change.
+    std::vector<ChangedKey>
+    changed_keys(const Checkpoint &checkpoint, const SceneFile &scene)
+    {
+      const auto now  = values_of(scene);
+      auto       both = now;
+      both.insert(checkpoint.parameters.begin(), checkpoint.parameters.end());
+      std::vector<ChangedKey> changed;
+      for (const auto &entry : both)
+      {
+        const std::string &key    = entry.first;
+        const std::string  before = value_in(checkpoint.parameters, key);
+        const std::string  after  = value_in(now, key);
+        if (before != after && !may_change(key))
+          changed.push_back({ key, before, after });
+      }
+      return changed;
+    }
+
+    std::vector<std::string>
+    changed_files(const Checkpoint                         &checkpoint,
+                  const std::map<std::string, std::string> &input_digests)
+    {
+      std::vector<std::string> files;
+      for (const auto &[input, digest] : input_digests)
+        if (value_in(checkpoint.input_digests, input) != digest)
+          files.push_back(input);
+      return files;
+    }
+
     void
     check_same_scene(const Checkpoint                         &checkpoint,
                      const SceneFile                          &scene,
@@ -27,28 +75,40 @@ namespace Exemplar
       const std::string failure = "Cannot resume from " + file.string() + ": ";
       const std::string remedy
           = " Change it back, or run the scene without --resume. Only Time/End "
-            "and the section Output may change.";
-      const std::string absent   = "(absent)";
-      const auto        value_in = [&](const auto &values, const std::string &key)
-      {
-        const auto entry = values.find(key);
-        return entry == values.end() ? absent : entry->second;
-      };
-      const auto now  = values_of(scene);
-      auto       both = now;
-      both.insert(checkpoint.parameters.begin(), checkpoint.parameters.end());
-      for (const auto &entry : both)
-      {
-        const std::string &key    = entry.first;
-        const std::string  before = value_in(checkpoint.parameters, key);
-        const std::string  after  = value_in(now, key);
-        if (before != after && !may_change(key))
-          throw UserError(failure + key + " was '" + before + "' and is now '" + after + "'."
-                          + remedy);
-      }
-      for (const auto &[input, digest] : input_digests)
-        if (value_in(checkpoint.input_digests, input) != digest)
-          throw UserError(failure + "the file " + input + " has changed since." + remedy);
+            "and the section Output may change; to go on with another scene after step "
+            + std::to_string(checkpoint.state.step) + ", say --resume-from "
+            + std::to_string(checkpoint.state.step) + ".";
+      for (const ChangedKey &changed : changed_keys(checkpoint, scene))
+        throw UserError(failure + changed.text() + remedy);
+      for (const std::string &input : changed_files(checkpoint, input_digests))
+        throw UserError(failure + "the file " + input + " has changed since." + remedy);
+    }
+
+    /// What makes other states: a run cannot go on with another one.
+    bool
+    is_fixed(const std::string &key)
+    {
+      return key == "Scene" || key == "Time/Step" || key == "Time/Increments"
+             || (key.compare(0, 5, "Mesh/") == 0 && key != "Mesh/Surface");
+    }
+
+    void
+    refuse_other_steps(const Checkpoint                         &checkpoint,
+                       const SceneFile                          &scene,
+                       const std::map<std::string, std::string> &input_digests,
+                       const std::filesystem::path              &file)
+    {
+      const std::string failure = "Cannot go on from " + file.string() + ": ";
+      const std::string remedy
+          = " The kind of scene, its mesh and its steps of time must stay. Change "
+            "it back, or run the scene from its start, without --resume-from.";
+      for (const ChangedKey &changed : changed_keys(checkpoint, scene))
+        if (is_fixed(changed.key))
+          throw UserError(failure + changed.text() + remedy);
+      const auto files = changed_files(checkpoint, input_digests);
+      if (std::count(files.begin(), files.end(), scene.get_parameters().mesh.file) > 0)
+        throw UserError(failure + "the mesh " + scene.get_parameters().mesh.file
+                        + " has changed since." + remedy);
     }
 
     void
@@ -138,6 +198,46 @@ namespace Exemplar
     check_same_scene(checkpoint, scene, input_digests, file);
     check_step(checkpoint.state, scene, problem.time_axis, file);
     check_state(checkpoint.state, problem.state, file);
+  }
+
+  EditCheck
+  check_editable(Checkpoint                               &checkpoint,
+                 const SceneFile                          &scene,
+                 const std::map<std::string, std::string> &input_digests,
+                 const Problem                            &problem,
+                 const std::filesystem::path              &file)
+  {
+    refuse_other_steps(checkpoint, scene, input_digests, file);
+    check_step(checkpoint.state, scene, problem.time_axis, file);
+    const std::vector<ChangedKey> changed = changed_keys(checkpoint, scene);
+    EditCheck                     result;
+    result.is_edited = !changed.empty() || !changed_files(checkpoint, input_digests).empty();
+    State &state     = checkpoint.state;
+    bool   rule      = state.weights.size() != problem.state.weights.size();
+    for (const ChangedKey &one : changed)
+    {
+      rule = rule || one.key == "Examples/Weights";
+      if (one.key.compare(0, 8, "Initial/") == 0)
+        result.notes.push_back(one.text() + " It acts at the start of a run alone, so not here.");
+      if (one.key == "Time/Scheme") // the step before is of no use to the other scheme
+      {
+        state.previous_positions.reinit(0);
+        state.previous_velocities.reinit(0);
+        state.previous_step = 0.;
+      }
+    }
+    if (result.is_edited)
+      checkpoint.solver_memory.clear(); // of another potential
+    if (rule && state.weights != problem.state.weights)
+    {
+      result.notes.push_back("The example weights are others than those of step "
+                             + std::to_string(state.step)
+                             + ", so they begin anew, with those that the scene starts with.");
+      state.weights     = problem.state.weights;
+      state.multipliers = problem.state.multipliers;
+    }
+    check_state(state, problem.state, file);
+    return result;
   }
 
   void

@@ -4,6 +4,7 @@
 #include <exemplar/run/run_directory.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <regex>
 #include <stdexcept>
@@ -25,6 +26,26 @@ namespace Exemplar
       return fs::path(name).extension() == ".tmp";
     }
 
+    /// The step of a state's file.
+    std::optional<unsigned int>
+    step_of_state(const std::string &name)
+    {
+      static const std::regex pattern("state_([0-9]{4}|[1-9][0-9]{4,8})\\.bin");
+      std::smatch             parts;
+      if (!std::regex_match(name, parts, pattern))
+        return std::nullopt;
+      return static_cast<unsigned int>(std::stoul(parts[1]));
+    }
+
+    /// The name without the number of a scene before an edit, or as it is.
+    std::string
+    without_number(const std::string &name)
+    {
+      static const std::regex pattern(
+          "(original|parameters|statistics)_[1-9][0-9]{0,5}(\\.prm|\\.csv)");
+      return std::regex_replace(name, pattern, "$1$2");
+    }
+
     /// Files that a run has once, and what they begin with; empty: with anything.
     const std::map<std::string, std::string> &
     single_files()
@@ -35,6 +56,7 @@ namespace Exemplar
               { "statistics.csv", "step,time,status," },
               { "summary.json", "{\n  \"program\": \"exemplar\"" },
               { "final.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n" },
+              { "rest.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n" },
               { "checkpoint.bin", "exemplar checkpoint " } };
       return files;
     }
@@ -50,7 +72,9 @@ namespace Exemplar
   {
     if (is_temporary(name))
       return beginning_of(fs::path(name).stem().string());
-    if (const auto found = single_files().find(name); found != single_files().end())
+    if (step_of_state(name))
+      return single_files().at("checkpoint.bin");
+    if (const auto found = single_files().find(without_number(name)); found != single_files().end())
       return found->second;
     static const std::regex shape("rest\\.obj|weight_[0-9_]+\\.obj");
     if (std::regex_match(name, shape))
@@ -178,6 +202,8 @@ namespace Exemplar
   {
     const auto is_later = [&](const std::string &name)
     {
+      if (step_of_state(name).value_or(0) > step)
+        return true;
       return std::any_of(formats.begin(), formats.end(),
                          [&](const FrameFormat &format)
                          { return format.step_of(name).value_or(0) > step; });
@@ -185,6 +211,44 @@ namespace Exemplar
     for (const std::string &name : own_names())
       if ((is_temporary(name) || is_later(name)) && objection_to(name).empty())
         fs::remove(path / name);
+  }
+
+  fs::path
+  RunDirectory::state(const unsigned int step) const
+  {
+    const std::string digits = std::to_string(step);
+    return path
+           / ("state_" + std::string(digits.size() < 4 ? 4 - digits.size() : 0, '0') + digits
+              + ".bin");
+  }
+
+  std::vector<unsigned int>
+  RunDirectory::kept_states() const
+  {
+    std::vector<unsigned int> steps;
+    for (const auto &entry : fs::directory_iterator(path))
+      if (const auto step = step_of_state(entry.path().filename().string()))
+        steps.push_back(*step);
+    std::sort(steps.begin(), steps.end());
+    return steps;
+  }
+
+  std::string
+  RunDirectory::keep_earlier_scene() const
+  {
+    const auto numbered = [&](const fs::path &file, const unsigned int number)
+    {
+      return path
+             / (file.stem().string() + "_" + std::to_string(number) + file.extension().string());
+    };
+    const std::array<fs::path, 3> files{ { parameters_prm(), statistics(), original_prm() } };
+    unsigned int                  number = 1;
+    while (std::any_of(files.begin(), files.end(),
+                       [&](const fs::path &file) { return !is_absent(numbered(file, number)); }))
+      ++number;
+    for (const fs::path &file : files)
+      fs::copy_file(file, numbered(file, number));
+    return numbered(original_prm(), number).filename().string();
   }
 
   void

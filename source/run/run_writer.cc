@@ -47,10 +47,15 @@ namespace Exemplar
     }
 
     void
-    write_parameters(const SceneFile &scene, const fs::path &file)
+    write_parameters(const SceneFile              &scene,
+                     const std::vector<SceneEdit> &edits,
+                     const fs::path               &file)
     {
       AtomicFile atomic_file(file);
       atomic_file.stream() << RunDirectory::mark << '\n';
+      for (const SceneEdit &edit : edits)
+        atomic_file.stream() << "# after step " << edit.step << "; the scene before is "
+                             << edit.before << '\n';
       print_keys(atomic_file.stream(), scene.get_keys(), false);
       atomic_file.commit();
     }
@@ -74,8 +79,9 @@ namespace Exemplar
     {
       StepClock::Scope scope(problem.clock, Part::output);
       directory.take_for_new_run(inputs);
-      write_parameters(scene, directory.parameters_prm());
+      write_parameters(scene, totals.edits, directory.parameters_prm());
       write_original();
+      write_rest_mesh();
       statistics.emplace(directory.statistics());
       frames.write_shapes();
       if (frames.is_due(0))
@@ -85,6 +91,7 @@ namespace Exemplar
       statistics->write(row);
       accepted_bytes = statistics->n_bytes();
       save(); // so that a crash before the first interval can be resumed, too
+      keep_state();
     }
     end_reading();
     lap();
@@ -102,16 +109,76 @@ namespace Exemplar
       StepClock::Scope scope(problem.clock, Part::output);
       statistics.emplace(directory.statistics(), checkpoint.statistics_bytes);
       write_original();
-      write_parameters(scene, directory.parameters_prm());
+      write_rest_mesh();
+      write_parameters(scene, checkpoint.totals.edits, directory.parameters_prm());
       frames.write_shapes(); // Output/Formats may have changed
     }
+    accepted_bytes = checkpoint.statistics_bytes;
+    diagnostics.resume(checkpoint.work);
+    go_on_from(checkpoint);
+  }
+
+  fs::path
+  RunWriter::find_state(const unsigned int step) const
+  {
+    const fs::path kept = directory.state(step);
+    if (fs::exists(kept))
+      return kept;
+    const std::string failure = "There is no state of step " + std::to_string(step) + " in "
+                                + directory.get_path().string();
+    if (!fs::exists(directory.checkpoint()))
+      throw UserError(failure + ", and no run has written there. Run the scene from its start.");
+    const unsigned int last = load_checkpoint(directory.checkpoint()).state.step;
+    if (last == step)
+      return directory.checkpoint();
+    std::string steps;
+    for (const unsigned int other : directory.kept_states())
+      if (other != last)
+        steps += std::to_string(other) + ", ";
+    throw UserError(failure + ". There are those of: " + steps + std::to_string(last)
+                    + ". Choose one of them, or run the scene from its start with "
+                      "Output/Keep states = true, which keeps one for each frame.");
+  }
+
+  std::vector<std::string>
+  RunWriter::resume_from(const unsigned int step)
+  {
+    directory.take_for_resume(scene.named_files());
+    const fs::path  file       = find_state(step);
+    Checkpoint      checkpoint = load_checkpoint(file);
+    const EditCheck check      = check_editable(checkpoint, scene, input_digests, problem, file);
+    restore(checkpoint, file, problem);
+    {
+      StepClock::Scope scope(problem.clock, Part::output);
+      diagnostics.resume(checkpoint.work);
+      StatisticsRow row = diagnostics.row(problem.state, SolveReport());
+      Diagnostics::append_seconds(row, {});
+      StatisticsFile::require_step(directory.statistics(), step); // the last thing that may refuse
+      totals = checkpoint.totals;
+      if (check.is_edited)
+        totals.edits.push_back({ step, directory.keep_earlier_scene() });
+      checkpoint.totals = totals;
+      statistics.emplace(StatisticsFile::behind_step(directory.statistics(), step, row));
+      accepted_bytes = statistics->n_bytes();
+      write_original();
+      write_parameters(scene, totals.edits, directory.parameters_prm());
+      frames.write_shapes();
+      save(); // a crash from now on can be resumed
+      fs::remove(directory.final_pose());
+      fs::remove(directory.summary());
+    }
+    go_on_from(checkpoint);
+    return check.notes;
+  }
+
+  void
+  RunWriter::go_on_from(const Checkpoint &checkpoint)
+  {
     directory.remove_frames_after(checkpoint.state.step);
     if (is_only_last_frame(checkpoint) && !frames.is_due(checkpoint.state.step))
       frames.remove(checkpoint.state.step);
     if (frames.is_due(checkpoint.state.step)) // an earlier resume may have removed it
       frames.write_if_missing();
-    diagnostics.resume(checkpoint.work);
-    accepted_bytes         = checkpoint.statistics_bytes;
     totals                 = checkpoint.totals;
     earlier_factorizations = totals.factorizations;
     end_reading();
@@ -132,6 +199,13 @@ namespace Exemplar
     AtomicFile file(directory.original_prm());
     file.stream() << scene.get_text();
     file.commit();
+  }
+
+  void
+  RunWriter::write_rest_mesh() const
+  {
+    if (problem.parameters.mesh.is_surface())
+      problem.body.mesh.write_pose(problem.body.mesh.get_nodes(), directory.rest_mesh());
   }
 
   PartSeconds
@@ -177,7 +251,10 @@ namespace Exemplar
     Diagnostics::append_seconds(row, lap());
     statistics->write(row);
     if (accepted)
+    {
       accepted_bytes = statistics->n_bytes();
+      keep_state();
+    }
 
     const std::chrono::duration<double> since = std::chrono::steady_clock::now() - last_checkpoint;
     if (accepted && since.count() > 60. * problem.parameters.output.checkpoint_minutes)
@@ -216,9 +293,21 @@ namespace Exemplar
   {
     frames.drain(); // because a resumed run does not write them again
     last_checkpoint = std::chrono::steady_clock::now();
-    save_checkpoint({ values_of(scene), input_digests, problem.state, problem.solver_memory(),
-                      diagnostics.get_work(), totals, accepted_bytes,
-                      sha256_of_begin(directory.statistics(), accepted_bytes) },
+    save_checkpoint(present(sha256_of_begin(directory.statistics(), accepted_bytes)),
                     directory.checkpoint());
+  }
+
+  void
+  RunWriter::keep_state() const
+  {
+    if (problem.parameters.output.keep_states && frames.is_due(problem.state.step))
+      save_checkpoint(present(""), directory.state(problem.state.step));
+  }
+
+  Checkpoint
+  RunWriter::present(const std::string &statistics_digest) const
+  {
+    return { values_of(scene),       input_digests, problem.state,  problem.solver_memory(),
+             diagnostics.get_work(), totals,        accepted_bytes, statistics_digest };
   }
 } // namespace Exemplar

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
+#include <exemplar/mesh/map_name.h>
 #include <exemplar/run/scene_file.h>
+#include <exemplar/surface/numbered_files.h>
 
 #include <algorithm>
 #include <set>
@@ -93,15 +95,42 @@ namespace Exemplar
       return regions;
     }
 
+    /// The files of a sequence that are there.
+    void
+    append_sequence(const std::string &pattern, std::vector<std::filesystem::path> &files)
+    {
+      try
+      {
+        for (const std::filesystem::path &file : expand_patterns({ pattern }))
+          files.push_back(file);
+      }
+      catch (const UserError &)
+      {
+        files.emplace_back(pattern); // who reads it says that nothing matches
+      }
+    }
+
     /// The files that a key names.
     void
     append_files(const DeclaredKey &key, std::vector<std::filesystem::path> &files)
     {
+      const bool is_map
+          = key.key.size() > 3 && key.key.find(" map", key.key.size() - 5) < key.key.size();
       if (key.is_input_file)
         for (const std::string &file : split_trimmed(key.value, key.is_list ? ',' : '\n'))
-          files.emplace_back(file);
-      else if (key.key == "Select" && key.value.compare(0, 6, "nodes ") == 0)
-        files.emplace_back(key.value.substr(6));
+          if (is_map && !file.empty())
+            files.emplace_back(split_map_name(file, key.path()).file);
+          else if (key.key == "Follow cache" && !file.empty())
+            append_sequence(file, files);
+          else
+            files.emplace_back(file);
+      else if (const Selection selection{ key.value }; key.key == "Select")
+      {
+        if (!selection.file().empty())
+          files.emplace_back(selection.file());
+        if (!selection.map().empty())
+          files.emplace_back(split_map_name(selection.map(), key.path()).file);
+      }
     }
   } // namespace
 

@@ -34,21 +34,65 @@ namespace Exemplar
     initial.check();
     check_solver();
     check_surface();
+    if (output.keep_states && output.every == 0)
+      throw UserError(
+          "Output/Keep states = true keeps the state of each frame, but Output/Every = 0 "
+          "makes no frames. Set Output/Every, or Output/Keep states = false.");
   }
 
   bool
   SceneParameters::needs_surface() const
   {
-    return output.shows_surface();
+    return output.shows_surface() || reads_off_surface();
+  }
+
+  bool
+  SceneParameters::reads_off_surface() const
+  {
+    return !key_read_off_surface().empty();
+  }
+
+  std::string
+  SceneParameters::key_read_off_surface() const
+  {
+    for (const HandleParameters &handle : handles)
+      if (handle.select.is_of_surface() || !handle.follow_cache.empty())
+        return "Handles/" + handle.name
+               + (handle.follow_cache.empty() ? "/Select" : "/Follow cache");
+    for (const LoadParameters &load : loads.named)
+      if (load.select.is_of_surface())
+        return "Loads/" + load.name + "/Select";
+    if (material.is_painted())
+      return "Material/... map";
+    return examples.are_painted() ? "Examples/Weight maps" : "";
   }
 
   void
   SceneParameters::check_surface() const
   {
-    if (needs_surface() && mesh.surface_file().empty())
+    if (!mesh.surface_file().empty())
+      return;
+    if (const std::string key = key_read_off_surface(); !key.empty())
+      throw UserError(key
+                      + " is read off the surface of the body, but the scene names none. Set "
+                        "Mesh/Surface to the surface that the mesh was made from.");
+    if (output.shows_surface())
       throw UserError("Output/Formats has a format that shows the surface of the body, but the "
                       "scene names none. Set Mesh/Surface to the surface that the mesh was made "
                       "from, or Output/Formats = vtu.");
+    const auto check_pose = [&](const std::string &file, const std::string &key)
+    {
+      if (is_surface_file(file) && mesh.surface_file().empty())
+        throw UserError(key + ": " + file
+                        + " is a surface, but the scene names none at rest that it could be a pose "
+                          "of. Set Mesh/Surface to the surface that the mesh was made from, or "
+                          "Mesh/File to that surface.");
+    };
+    for (const std::string &pose : examples.in_use() ? examples.poses : std::vector<std::string>())
+      check_pose(pose, "Examples/Poses");
+    for (const HandleParameters &handle : handles)
+      check_pose(handle.follow_pose, "Handles/" + handle.name + "/Follow pose");
+    check_pose(initial.pose, "Initial/Pose");
   }
 
   void

@@ -20,6 +20,13 @@ namespace Exemplar
         "face_label" }
     };
 
+    /// Colours go from 0 to 255 in the file.
+    double
+    unit_of(const PlyType type)
+    {
+      return type == PlyType::uint8 ? 1. / 255. : 1.;
+    }
+
     class PlyReader
     {
     public:
@@ -28,7 +35,13 @@ namespace Exemplar
       SurfaceMesh
       read();
 
+      /// The values of a property of the vertices come along.
+      PlyAttribute
+      read_with(const std::string &name);
+
     private:
+      std::size_t
+      find_attribute(const PlyElement &element) const;
       void
       read_element(const PlyElement &element);
       /// The values of an element: one vector a property.
@@ -51,7 +64,35 @@ namespace Exemplar
       bool                             ascii = true;
       std::size_t                      word  = 0; ///< of the line, to be read next
       std::vector<std::vector<double>> values;
+      bool                             wants_attribute = false;
+      std::string                      attribute;
+      std::vector<double>              attributes;
     };
+
+    PlyAttribute
+    PlyReader::read_with(const std::string &name)
+    {
+      wants_attribute   = true;
+      attribute         = name;
+      SurfaceMesh whole = read();
+      return { std::move(whole.vertices), std::move(attributes) };
+    }
+
+    std::size_t
+    PlyReader::find_attribute(const PlyElement &element) const
+    {
+      const std::size_t found
+          = element.find(std::array<std::string_view, 1>{ { attribute } }, false);
+      if (found < element.properties.size())
+        return found;
+      std::string names;
+      for (const PlyProperty &property : element.properties)
+        if (!property.count)
+          names += (names.empty() ? "" : ", ") + property.name;
+      in.fail((attribute.empty() ? "say which attribute of the vertices, by FILE.ply:ATTRIBUTE"
+                                 : "the vertices have no attribute " + in_quotes(attribute))
+              + " (there: " + names + ").");
+    }
 
     SurfaceMesh
     PlyReader::read()
@@ -73,13 +114,15 @@ namespace Exemplar
       using Names                     = std::vector<std::string_view>;
       const std::size_t          none = element.properties.size();
       std::array<std::size_t, 3> coordinates{ { none, none, none } };
-      std::size_t                corners = none, label = none;
+      std::size_t                corners = none, label = none, wanted = none;
       if (element.name == "vertex")
       {
         coordinates = { { element.find(Names{ "x" }, false), element.find(Names{ "y" }, false),
                           element.find(Names{ "z" }, false) } };
         if (*std::max_element(coordinates.begin(), coordinates.end()) == none)
           in.fail("the vertices have no properties x, y and z. Export the surface anew.");
+        if (wants_attribute)
+          wanted = find_attribute(element);
       }
       else if (element.name == "face")
       {
@@ -95,7 +138,11 @@ namespace Exemplar
       {
         read_values(element);
         if (element.name == "vertex")
+        {
           add_vertex(coordinates);
+          if (wanted < none)
+            attributes.push_back(values[wanted][0] * unit_of(element.properties[wanted].type));
+        }
         else if (corners < none)
           add_face(corners, label, none);
       }
@@ -223,5 +270,11 @@ namespace Exemplar
   read_ply(SurfaceScanner &in)
   {
     return PlyReader(in).read();
+  }
+
+  PlyAttribute
+  read_ply_attribute(SurfaceScanner &in, const std::string &name)
+  {
+    return PlyReader(in).read_with(name);
   }
 } // namespace Exemplar

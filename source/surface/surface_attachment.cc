@@ -78,12 +78,29 @@ namespace Exemplar
       for (const unsigned int node : face.nodes)
         area_of[node] += area_vector(x).norm() / 3.;
     }
-    Vertices places;
     for (const auto &[node, area] : area_of)
     {
-      const auto &x = all_nodes[node];
       nodes.push_back(node);
       areas.push_back(area);
+    }
+    hang(all_nodes);
+  }
+
+  SurfaceAttachment::SurfaceAttachment(const Points             &all_nodes,
+                                       std::vector<unsigned int> which,
+                                       TriangleSurface           surface)
+      : nodes(std::move(which)), areas(nodes.size(), 0.), rest(std::move(surface))
+  {
+    hang(all_nodes);
+  }
+
+  void
+  SurfaceAttachment::hang(const Points &all_nodes)
+  {
+    Vertices places;
+    for (const unsigned int node : nodes)
+    {
+      const auto &x = all_nodes[node];
       places.push_back({ { x[0], x[1], x[2] } });
     }
     points = closest_points(rest, places);

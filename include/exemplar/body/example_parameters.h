@@ -26,6 +26,7 @@ namespace Exemplar
   struct ExampleParameters
   {
     std::vector<std::string> poses;
+    double                   attach = 30.; ///< of poses that are surfaces
     std::string              pose_functions;
     bool                     include_rest_pose = true;
     double                   importance        = 0.8; ///< eta
@@ -35,6 +36,14 @@ namespace Exemplar
     std::string              prescribed_weights;
     bool                     weights_per_region  = false;
     double                   region_blend_length = 0.; ///< [m]
+    std::vector<std::string> weight_maps;              ///< FILE:ATTRIBUTE, one a region
+
+    /// Whether painted maps say where weights act.
+    bool
+    are_painted() const
+    {
+      return in_use() && !weight_maps.empty();
+    }
 
     void
     declare(KeyTable &keys);

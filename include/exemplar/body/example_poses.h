@@ -29,13 +29,15 @@ namespace Exemplar
   class ExamplePoses
   {
   public:
-    /// Those of Examples/Poses are among `poses`. Throws UserError for one that is not.
-    ExamplePoses(const ExampleParameters &parameters,
-                 StrainMeasure            measure,
-                 const Mesh              &mesh,
-                 const FESpace           &fe_space,
-                 const Material          &material,
-                 const NamedPoses        &poses = {});
+    /// Those of Examples/Poses are among `poses`, the values of Examples/Weight maps in each cell
+    /// are `painted`. Throws UserError for a pose that is not.
+    ExamplePoses(const ExampleParameters                &parameters,
+                 StrainMeasure                           measure,
+                 const Mesh                             &mesh,
+                 const FESpace                          &fe_space,
+                 const Material                         &material,
+                 const NamedPoses                       &poses   = {},
+                 const std::vector<std::vector<double>> &painted = {});
 
     /// Number of examples.
     unsigned int

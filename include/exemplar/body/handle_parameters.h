@@ -19,12 +19,15 @@ namespace Exemplar
     std::string components = "x, y, z";
     std::string follow_pose; ///< a file; empty: `motion` says where the nodes go
     std::string progress = "t";
+    std::string follow_cache; ///< a file of places of the surface's vertices in time; empty: none
+    double      frames_per_second = 24.;
+    std::string cache_start       = "file"; ///< t of the first sample [s], or as the file has it
 
     void
     declare(KeyTable &keys);
 
-    /// Throws UserError if both a motion and a pose to follow are given, or a
-    /// progress without a pose.
+    /// Throws UserError if more than one of a motion, a pose and a cache to follow is given, or
+    /// what belongs to one that is not.
     void
     check() const;
   };

@@ -11,6 +11,7 @@
 #include <deal.II/lac/vector.h>
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -37,18 +38,22 @@ namespace Exemplar
   using Motion = std::function<std::vector<dealii::Tensor<1, 3>>(
       const std::vector<dealii::Point<3>> &rest, double time)>;
 
+  /// By the names of handles.
+  using NamedMotions = std::map<std::string, Motion>;
+
   /// Nodes held at places that move in time: hard constraints.
   class Handles
   {
   public:
-    /// The poses that handles follow are among `poses`, the files of nodes among `nodes`.
-    /// Throws UserError for a selection without nodes, a formula that is not understood, a
+    /// The poses that handles follow are among `poses`, the files of nodes among `nodes`;
+    /// those in `motions` move as these say, instead of by their formulas. Throws UserError for a selection without nodes, a formula that is not understood, a
     /// pose that is not there, and for handles that overlap and disagree in any step.
     Handles(const std::vector<HandleParameters> &parameters,
             const Mesh                          &mesh,
             const TimeAxis                      &axis,
-            const NamedPoses                    &poses = {},
-            const NamedNodes                    &nodes = {});
+            const NamedPoses                    &poses   = {},
+            const NamedNodes                    &nodes   = {},
+            const NamedMotions                  &motions = {});
 
     /// Degrees of freedom 3 i + c that are held, ascending, each once.
     std::vector<unsigned int>

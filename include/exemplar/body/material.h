@@ -10,15 +10,29 @@
 
 namespace Exemplar
 {
+  /// Values of a constant that is painted, one a cell; empty: it is not.
+  struct PaintedConstant
+  {
+    std::vector<double> values;
+    bool                is_factor = true; ///< of what the scene says, or instead of it
+  };
+
+  struct PaintedMaterial
+  {
+    PaintedConstant youngs_modulus, poissons_ratio, density;
+  };
+
   /// The elastic constants and the density of each cell.
   class Material
   {
   public:
     /// `names` is a mesh whose physical groups may give regions their names. Throws UserError if
-    /// a region is named by a material id that no cell has, by no name of the mesh, or twice.
+    /// a region is named by a material id that no cell has, by no name of the mesh, or twice, and
+    /// for painted constants that are out of range.
     Material(const MaterialParameters        &parameters,
              const std::vector<unsigned int> &material_ids,
-             const MshFile                   &names = {});
+             const MshFile                   &names   = {},
+             const PaintedMaterial           &painted = {});
 
     const CellMaterial<double> &
     elasticity(const unsigned int cell) const
@@ -45,6 +59,13 @@ namespace Exemplar
       double               density;
       double               youngs_modulus;
     };
+
+    void
+    add(const ElasticConstants &values);
+
+    /// Give each cell constants of its own, from `bases`, those of each entry of `constants`.
+    void
+    paint(const PaintedMaterial &painted, const std::vector<ElasticConstants> &bases);
 
     std::vector<Constants>    constants;
     std::vector<unsigned int> constants_of_cell;

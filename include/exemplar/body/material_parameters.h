@@ -30,6 +30,14 @@ namespace Exemplar
     MassMatrix                               mass_matrix = MassMatrix::consistent;
     std::map<unsigned int, ElasticConstants> regions;       ///< by material id
     std::map<std::string, ElasticConstants>  named_regions; ///< by name, as the scene has it
+    /// Painted maps, each with how it is used; empty: there is none.
+    std::string youngs_modulus_map, poissons_ratio_map, density_map;
+
+    bool
+    is_painted() const
+    {
+      return !youngs_modulus_map.empty() || !poissons_ratio_map.empty() || !density_map.empty();
+    }
 
     void
     declare(KeyTable &keys);

@@ -10,7 +10,7 @@
 namespace Exemplar
 {
   /// How much of each region's example weights acts in each cell: shares in [0, 1] that
-  /// sum to one. Regions are the cells of one material id.
+  /// sum to one. Regions are the cells of one material id, or what is painted.
   class RegionShares
   {
   public:
@@ -22,12 +22,19 @@ namespace Exemplar
                  const std::vector<unsigned int> &material_ids,
                  double                           blend_length);
 
+    /// Regions that are painted: for each of them, from number 1 on, its map's value in every
+    /// cell. Where values sum to more than one they are divided by their sum; where they sum to
+    /// less, the rest is of a region 0, which is not there if nothing is left anywhere. Throws
+    /// UserError for a map that is zero everywhere.
+    explicit RegionShares(const std::vector<std::vector<double>> &painted);
+
     unsigned int
     n_regions() const
     {
       return ids.size();
     }
 
+    /// Or the number of a painted region.
     unsigned int
     material_id(const unsigned int region) const
     {

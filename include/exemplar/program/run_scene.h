@@ -3,6 +3,7 @@
 #define exemplar_run_scene_h
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,11 +14,13 @@ namespace Exemplar
   {
     std::filesystem::path    scene_file;
     std::vector<std::string> overrides; ///< "Section/Key=value"
-    bool                     resume         = false;
-    bool                     quiet          = false;
-    bool                     verbose        = false; ///< a line an iteration instead of the bar
-    unsigned int             n_threads      = 1;
-    bool                     allow_commands = false; ///< a .geo may run programs and write files
+    bool                     resume = false;
+    bool                     quiet  = false;
+
+    std::optional<unsigned int> resume_from;            ///< the step to go on from, with this scene
+    bool                        verbose        = false; ///< a line an iteration instead of the bar
+    unsigned int                n_threads      = 1;
+    bool                        allow_commands = false; ///< a .geo may run programs and write files
   };
 
   /// Solve a scene from its first (or, resumed, its next) step to the last and write

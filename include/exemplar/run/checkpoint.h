@@ -9,9 +9,17 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
 namespace Exemplar
 {
+  /// Where a run went on with another scene.
+  struct SceneEdit
+  {
+    unsigned int step;   ///< the last one of the scene before
+    std::string  before; ///< the file that holds it, original_N.prm
+  };
+
   /// Totals over all steps, for the summary.
   struct RunTotals
   {
@@ -19,9 +27,11 @@ namespace Exemplar
     unsigned int factorizations = 0;
     double       worst_residual = 0.;
     PartSeconds  seconds{};
+
+    std::vector<SceneEdit> edits; ///< in order
   };
 
-  /// What a resumed run needs to end in the same bytes as one that was never stopped. Rotations
+  /// A state on disk, of the last step or of a frame that is kept: what a resumed run needs to end in the same bytes as one that was never stopped. Rotations
   /// and matrices are not here, because they follow from the state and from what the step solver
   /// remembers.
   struct Checkpoint
@@ -33,7 +43,7 @@ namespace Exemplar
     Work                               work;
     RunTotals                          totals;
     std::uintmax_t                     statistics_bytes = 0; ///< of statistics.csv at this state
-    std::string                        statistics_digest;    ///< SHA-256 of these bytes
+    std::string                        statistics_digest; ///< SHA-256 of these; of a frame: empty
   };
 
   /// Atomic: a kill at any moment leaves the checkpoint before or the new one.

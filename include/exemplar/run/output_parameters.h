@@ -16,6 +16,7 @@ namespace Exemplar
     unsigned int             every              = 1;
     std::vector<std::string> formats            = { "vtu" }; ///< names in frame_formats()
     double                   checkpoint_minutes = 5.;
+    bool                     keep_states        = false; ///< one for each frame
 
     void
     declare(KeyTable &keys);

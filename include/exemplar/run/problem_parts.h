@@ -11,6 +11,7 @@
 #include <exemplar/potential/incremental_potential.h>
 #include <exemplar/run/inputs.h>
 #include <exemplar/run/scene_parameters.h>
+#include <exemplar/run/surface_readings.h>
 
 #include <memory>
 #include <optional>
@@ -27,12 +28,15 @@ namespace Exemplar
   /// The elastic body at rest.
   struct Body
   {
-    /// Takes the mesh of the inputs.
+    /// Takes the mesh of the inputs, and adds to their nodes what is selected by the surface.
     Body(const SceneParameters &parameters, Inputs &inputs);
 
-    const Mesh     mesh;
-    const Material material;
-    const FESpace  fe_space;
+    const Mesh            mesh;
+    const SurfaceReadings readings; ///< off the surface
+    const Material        material;
+    const FESpace         fe_space;
+    /// How the mesh and its poses became of surfaces; null if none did.
+    const std::shared_ptr<const MadeOfSurfaces> made;
   };
 
   /// What holds the body, and what is left free.

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
 // By what a checkpoint knows the scene that it belongs to.
 
@@ -30,6 +31,23 @@ namespace Exemplar
                   const std::map<std::string, std::string> &input_digests,
                   const Problem                            &problem,
                   const std::filesystem::path              &file);
+
+  /// The same for a run that may go on with another scene: of the same kind, mesh and steps of time.
+  /// If the scene is another one, what the solver remembered is dropped from the checkpoint, and so
+  /// are weights that the scene does not have: it gets those that the problem begins with. Returns
+  /// whether it is, and what the user must know of it.
+  struct EditCheck
+  {
+    bool                     is_edited = false;
+    std::vector<std::string> notes;
+  };
+
+  EditCheck
+  check_editable(Checkpoint                               &checkpoint,
+                 const SceneFile                          &scene,
+                 const std::map<std::string, std::string> &input_digests,
+                 const Problem                            &problem,
+                 const std::filesystem::path              &file);
 
   /// Throws UserError unless `file`, statistics.csv, begins with the bytes that it had when the
   /// checkpoint was written.

@@ -34,7 +34,7 @@ namespace Exemplar
     void
     take_for_resume(const std::vector<std::filesystem::path> &input_files);
 
-    /// Remove frames that an earlier run has written of steps after this one, and what it had not
+    /// Remove frames and states that an earlier run has written of steps after this one, and what it had not
     /// finished when it was killed: a run that goes on from here need not write them again.
     void
     remove_frames_after(unsigned int step) const;
@@ -89,11 +89,31 @@ namespace Exemplar
       return path / "final.msh";
     }
 
+    /// Of the mesh that was made, if Mesh/File is a surface: final.msh is a pose of it.
+    std::filesystem::path
+    rest_mesh() const
+    {
+      return path / "rest.msh";
+    }
+
     std::filesystem::path
     checkpoint() const
     {
       return path / "checkpoint.bin";
     }
+
+    /// The state that is kept of a step's frame.
+    std::filesystem::path
+    state(unsigned int step) const;
+
+    /// The steps of which there is one, ascending.
+    std::vector<unsigned int>
+    kept_states() const;
+
+    /// Copy the scene and the statistics of the steps so far to original_N.prm, parameters_N.prm and
+    /// statistics_N.csv with the first free number N; returns the name of the scene's copy.
+    std::string
+    keep_earlier_scene() const;
 
     /// The first line of parameters.prm: by it a directory is known as ours.
     static const std::string mark;

@@ -40,6 +40,14 @@ namespace Exemplar
     void
     resume();
 
+    /// Go on from the state of a step that is kept, or from the checkpoint if that is of this step,
+    /// with this scene or another one of the same kind, mesh and steps of time. What was written of
+    /// later steps is removed; before an edited scene goes on, the earlier one and its statistics are
+    /// copied to original_N.prm, parameters_N.prm and statistics_N.csv. Throws UserError, with
+    /// nothing changed, if that cannot be; returns what the user must know.
+    std::vector<std::string>
+    resume_from(unsigned int step);
+
     /// Write what follows a solve: the frame, the row of statistics, and a checkpoint
     /// when its time has come.
     void
@@ -60,10 +68,29 @@ namespace Exemplar
     write_original() const;
 
     void
+    write_rest_mesh() const;
+
+    void
     write_final_pose() const;
+
+    /// What is saved of the present state.
+    Checkpoint
+    present(const std::string &statistics_digest) const;
 
     void
     save();
+
+    /// If states are kept and the present step has a frame.
+    void
+    keep_state() const;
+
+    /// What all that go on do at last: frames, totals and clocks.
+    void
+    go_on_from(const Checkpoint &checkpoint);
+
+    /// The file that holds the state of a step.
+    std::filesystem::path
+    find_state(unsigned int step) const;
 
     /// The clock counts as evaluation what follows and no other part claims, such as moving the
     /// handles.

@@ -57,7 +57,15 @@ namespace Exemplar
     bool
     needs_surface() const;
 
+    /// Whether something is to be read off the surface: nodes, constants, shares or motions.
+    bool
+    reads_off_surface() const;
+
   private:
+    /// The key that does, for messages; empty: none.
+    std::string
+    key_read_off_surface() const;
+
     void
     check_interpolation() const;
 

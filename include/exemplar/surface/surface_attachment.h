@@ -21,7 +21,12 @@ namespace Exemplar
                       const std::vector<BoundaryFace> &faces,
                       TriangleSurface                  surface);
 
-    /// Boundary nodes, ascending.
+    /// The same for some nodes, which may lie inside; their get_areas() are 0.
+    SurfaceAttachment(const Points             &nodes,
+                      std::vector<unsigned int> which,
+                      TriangleSurface           surface);
+
+    /// Boundary nodes, ascending, or those that were given.
     const std::vector<unsigned int> &
     get_nodes() const
     {
@@ -42,11 +47,28 @@ namespace Exemplar
       return distances;
     }
 
+    /// The point of the surface at rest that each of get_nodes() hangs on.
+    const std::vector<SurfacePoint> &
+    get_points() const
+    {
+      return points;
+    }
+
+    /// The surface at rest [m].
+    const TriangleSurface &
+    get_surface() const
+    {
+      return rest;
+    }
+
     /// Where get_nodes() are to go in a pose, given by its vertices [m].
     Points
     targets(const Vertices &vertices) const;
 
   private:
+    void
+    hang(const Points &nodes);
+
     dealii::Point<3>
     place(const SurfacePoint &point, const Vertices &vertices) const;
 

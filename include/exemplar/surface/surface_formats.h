@@ -21,6 +21,17 @@ namespace Exemplar
   SurfaceMesh
   read_ply(SurfaceScanner &in);
 
+  /// A property of the vertices of a .ply.
+  struct PlyAttribute
+  {
+    std::vector<SurfaceMesh::Vertex> vertices;
+    std::vector<double>              values; ///< of one byte wide ones, which are colours, over 255
+  };
+
+  /// Throws UserError if the vertices have no scalar property of this name, naming those they have.
+  PlyAttribute
+  read_ply_attribute(SurfaceScanner &in, const std::string &name);
+
   /// .stl, ASCII (a group each solid) or binary. Corners of the same coordinates are one vertex.
   SurfaceMesh
   read_stl(SurfaceScanner &in);

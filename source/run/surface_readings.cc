@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
+#include <exemplar/base/message_text.h>
+#include <exemplar/base/number_text.h>
+#include <exemplar/mesh/map_name.h>
+#include <exemplar/run/scene_parameters.h>
+#include <exemplar/run/surface_readings.h>
+#include <exemplar/surface/surface_selector.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace Exemplar
+{
+  namespace
+  {
+    /// Of a map and of how it is used: MAP [from A to B] [absolute].
+    struct MapUse
+    {
+      MapName map;
+      bool    is_factor = true;
+      double  at_0 = 0., at_1 = 1.; ///< what values 0 and 1 stand for
+    };
+
+    MapUse
+    parse_use(const std::string &text, const std::string &key)
+    {
+      MapUse             use{ split_map_name(text, key) };
+      std::istringstream in(use.map.rest);
+      bool               is_understood = true;
+      for (std::string word; in >> word;)
+        if (word == "absolute")
+          use.is_factor = false;
+        else if (std::string low, to, high; word == "from" && in >> low >> to >> high && to == "to")
+        {
+          use.at_0 = parse_number(low);
+          use.at_1 = parse_number(high);
+        }
+        else
+          is_understood = false;
+      if (!is_understood || !std::isfinite(use.at_0) || !std::isfinite(use.at_1))
+        throw UserError(
+            key + " = '" + text
+            + "' is not understood. Allowed: MAP, and 'from A to B' and 'absolute' behind "
+              "it, where MAP is FILE.ply:ATTRIBUTE or FILE.csv[:COLUMN].");
+      return use;
+    }
+
+    const std::vector<double> &
+    find_map(const MapName &map, const Inputs &inputs, const std::string &key)
+    {
+      const auto found = inputs.maps.find(map.name());
+      if (found == inputs.maps.end() || found->second.size() != inputs.surface->vertices.size())
+        throw UserError(key + ": there is no map '" + map.name()
+                        + "' with a value for each vertex of the surface among the inputs. Hand it "
+                          "in by this name, or read it from its file.");
+      return found->second;
+    }
+
+    /// All constants of a scene that one member points to.
+    std::vector<double>
+    values_in_scene(const MaterialParameters &material, double ElasticConstants::*const member)
+    {
+      std::vector<double> values{ material.everywhere.*member };
+      for (const auto &region : material.regions)
+        values.push_back(region.second.*member);
+      for (const auto &region : material.named_regions)
+        values.push_back(region.second.*member);
+      return values;
+    }
+
+    /// Reads what a scene asks for off one surface.
+    class SurfaceReader
+    {
+    public:
+      SurfaceReader(const SceneParameters &scene, const Mesh &mesh, const Inputs &inputs)
+          : scene(scene), mesh(mesh), inputs(inputs),
+            selector(mesh, *inputs.surface, scene.mesh.scale, scene.mesh.surface_file())
+      {
+      }
+
+      SurfaceReadings
+      read()
+      {
+        const MaterialParameters &m = scene.material;
+        readings.material
+            = { painted("Young's modulus", m.youngs_modulus_map, &ElasticConstants::youngs_modulus,
+                        0., 1e300),
+                painted("Poisson's ratio", m.poissons_ratio_map, &ElasticConstants::poissons_ratio,
+                        -1., 0.5),
+                painted("Density", m.density_map, &ElasticConstants::density, 0., 1e300) };
+        if (scene.examples.are_painted())
+          for (const std::string &map : scene.examples.weight_maps)
+            readings.shares.push_back(share(map));
+        for (const HandleParameters &handle : scene.handles)
+        {
+          add_nodes(handle.select, "Handles/" + handle.name);
+          if (!handle.follow_cache.empty())
+            add_motion(handle);
+        }
+        for (const LoadParameters &load : scene.loads.named)
+          add_nodes(load.select, "Loads/" + load.name);
+        return std::move(readings);
+      }
+
+    private:
+      void
+      add_nodes(const Selection &selection, const std::string &key)
+      {
+        if (selection.is_of_surface() && readings.nodes.count(selection.text) == 0)
+          readings.nodes[selection.text] = selector.select(selection.text, key, inputs.maps);
+      }
+
+      /// Linear over triangles, so that what holds at the vertices holds everywhere.
+      PaintedConstant
+      painted(const std::string &name,
+              const std::string &text,
+              double ElasticConstants::*const member,
+              const double                    low,
+              const double                    high) const
+      {
+        if (text.empty())
+          return {};
+        const std::string   key    = "Material/" + name + " map";
+        const MapUse        use    = parse_use(text, key);
+        std::vector<double> values = find_map(use.map, inputs, key);
+        const auto          factors
+            = use.is_factor ? values_in_scene(scene.material, member) : std::vector<double>{ 1. };
+        for (std::size_t v = 0; v < values.size(); ++v)
+        {
+          const double painted_value = values[v];
+          values[v]                  = use.at_0 + painted_value * (use.at_1 - use.at_0);
+          for (const double factor : factors)
+            if (!(values[v] * factor > low && values[v] * factor < high))
+              throw UserError(
+                  key + " = '" + text + "': vertex " + std::to_string(v + 1)
+                  + (std::isnan(painted_value)
+                         ? " has no value in the table."
+                         : " has the value " + short_text(painted_value) + ", which makes "
+                               + short_text(values[v] * factor) + " of it.")
+                  + " It must be greater than " + short_text(low)
+                  + (high < 1. ? " and less than " + short_text(high) : "")
+                  + " everywhere. Paint other values there, or say 'from A to B' behind the map.");
+        }
+        return { selector.at_cells(values), use.is_factor };
+      }
+
+      std::vector<double>
+      share(const std::string &text) const
+      {
+        const std::string key = "Examples/Weight maps";
+        const MapName     map = split_map_name(text, key);
+        if (!map.rest.empty())
+          throw UserError(key + ": " + in_quotes(text)
+                          + " is not understood. Give FILE.ply:ATTRIBUTE or FILE.csv[:COLUMN].");
+        std::vector<double> values = find_map(map, inputs, key);
+        for (std::size_t v = 0; v < values.size(); ++v)
+        {
+          values[v] = std::isnan(values[v]) ? 0. : values[v]; // not in the table
+          if (!(values[v] >= 0. && values[v] <= 1. + 1e-6))
+            throw UserError(key + ": in " + map.name() + " vertex " + std::to_string(v + 1)
+                            + " has the value " + short_text(values[v])
+                            + ", but shares lie between 0 and 1. Paint it anew.");
+        }
+        return selector.at_cells(values);
+      }
+
+      void
+      add_motion(const HandleParameters &handle);
+
+      const SceneParameters &scene;
+      const Mesh            &mesh;
+      const Inputs          &inputs;
+      const SurfaceSelector  selector;
+      SurfaceReadings        readings;
+    };
+
+    using Displacements = std::vector<dealii::Tensor<1, 3>>;
+
+    /// Displacements of points at times, linear in between.
+    struct Track
+    {
+      std::vector<double>        times; ///< [s]
+      std::vector<Displacements> samples;
+
+      Displacements
+      at(const double time) const
+      {
+        const auto after = static_cast<std::size_t>(
+            std::upper_bound(times.begin(), times.end(), time) - times.begin());
+        if (after == 0)
+          return samples.front();
+        if (after == times.size())
+          return samples.back();
+        const double  share  = (time - times[after - 1]) / (times[after] - times[after - 1]);
+        Displacements result = samples[after - 1];
+        for (std::size_t i = 0; i < result.size() && share > 0.; ++i)
+          result[i] += share * (samples[after][i] - result[i]);
+        return result;
+      }
+    };
+
+    void
+    SurfaceReader::add_motion(const HandleParameters &handle)
+    {
+      const std::string key   = "Handles/" + handle.name;
+      const auto        cache = inputs.caches.find(handle.name);
+      if (cache == inputs.caches.end())
+        throw UserError(key
+                        + ": there is no cache of this handle among the inputs. Hand it in, or "
+                          "read it from its file.");
+      NamedNodes named = inputs.nodes;
+      named.insert(readings.nodes.begin(), readings.nodes.end());
+      const auto nodes    = handle.select.nodes(mesh, key, named);
+      const auto attached = selector.hang(nodes);
+      auto       track    = std::make_shared<Track>();
+      track->times        = cache->second->get_times();
+      if (handle.cache_start != "file")
+      {
+        const double shift = parse_number(handle.cache_start) - track->times.front();
+        for (double &time : track->times)
+          time += shift;
+      }
+      const double farthest = 1e3 * mesh.diameter();
+      for (std::size_t k = 0; k < track->times.size(); ++k)
+      {
+        auto vertices = cache->second->sample(k);
+        for (auto &vertex : vertices)
+          for (double &x : vertex)
+            x *= scene.mesh.scale;
+        const auto targets = attached.targets(vertices);
+        track->samples.emplace_back();
+        for (std::size_t i = 0; i < nodes.size(); ++i)
+          track->samples.back().push_back(targets[i] - mesh.get_nodes()[nodes[i]]);
+        for (const auto &displacement : track->samples.back())
+          if (!(displacement.norm() < farthest))
+            throw UserError(key + "/Follow cache: in sample " + std::to_string(k + 1)
+                            + " the surface is farther from its rest than 1000 times the body's "
+                              "size. Export the cache in the unit of the surface at rest.");
+      }
+      double jump = 0.;
+      for (const auto &displacement : track->at(0.))
+        jump = std::max(jump, displacement.norm());
+      if (jump > 1e-3 * mesh.diameter() && scene.initial.pose.empty()
+          && scene.initial.pose_function.empty())
+        readings.warnings.push_back(
+            key + "/Follow cache: at t = 0 the held nodes are up to " + short_text(jump)
+            + " m from their rest, where the body starts, so they jump in the first step. Let the "
+              "cache begin with the surface at rest, or set "
+            + key + "/Cache start or Initial/Pose.");
+      readings.motions[handle.name] = [track](const std::vector<dealii::Point<3>> &,
+                                              const double time) { return track->at(time); };
+    }
+  } // namespace
+
+  SurfaceReadings
+  read_off_surface(const SceneParameters &scene, const Mesh &mesh, const Inputs &inputs)
+  {
+    if (!scene.reads_off_surface())
+      return {};
+    if (inputs.surface == nullptr)
+      throw UserError("Mesh/Surface: the scene needs the surface of the body, but there is none "
+                      "among the inputs. Hand it in, or read it from its file.");
+    return SurfaceReader(scene, mesh, inputs).read();
+  }
+} // namespace Exemplar

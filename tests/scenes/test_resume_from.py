@@ -1,0 +1,162 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs that go on from a step that is kept, with the same scene or an edited one."""
+
+import unittest
+
+from exemplar_runner import SceneTest, prm, read_csv, read_summary, results
+
+BOX = {
+    "Mesh/Generator": "box",
+    "Mesh/Box size": "2, 1, 1",
+    "Mesh/Box cells": "4, 2, 2",
+    "Material/Young's modulus": "1e4",
+    "Material/Density": "10",
+    "Examples/Pose functions": "1.3*x; y; z | x; y; z+0.2*x^2",
+    "Solver/Tolerance": "1e-6",
+    "Output/Every": "4",
+    "Output/Keep states": "true",
+    "Handles/Names": "left",
+    "Handles/left/Select": "boundary 1",
+    "Handles/left/Motion": "0; 0; 0.1*sin(6*t)",
+    "Loads/Gravity": "0, 0, -9.81",
+}
+DYNAMIC = {**BOX, "Scene": "dynamic", "Time/Step": "0.01", "Time/End": "0.18"}
+STATIC = {**BOX, "Scene": "static", "Time/Increments": "10"}
+
+
+def names(output):
+    return sorted(file.name for file in output.iterdir())
+
+
+class ResumeFrom(SceneTest):
+    def contents(self, output):
+        """Of all files that must be the same; states hold seconds, so their names alone."""
+        return {**results(output), "names": names(output)}
+
+    def check_unchanged(self, scene, step):
+        whole = self.contents(self.solve(scene, output="whole"))
+        self.solve(scene)
+        self.assertEqual(self.contents(self.solve(scene, "--resume-from", step)), whole)
+        self.assertNotIn("edits", read_summary(self.directory / "out"))
+
+    def test_unchanged_scenes(self):
+        for name, scene in {"quasi newton": DYNAMIC, "newton": {**DYNAMIC, "Solver/Method": "newton"},
+                            "bdf2": {**DYNAMIC, "Time/Scheme": "bdf2", "Time/Stiffness damping": "0.01"},
+                            "static": STATIC}.items():
+            with self.subTest(name):
+                self.check_unchanged(scene, "8")
+
+    def test_from_the_start_and_from_the_checkpoint(self):
+        self.check_unchanged(DYNAMIC, "0")
+        self.check_unchanged(DYNAMIC, "18")
+        lean = {**DYNAMIC, "Output/Keep states": "false"}  # the checkpoint alone
+        whole = self.contents(self.solve(lean, output="whole"))
+        self.solve({**lean, "Time/End": "0.1"})
+        self.assertEqual(self.contents(self.solve(lean, "--resume-from", "10")), whole)
+
+    def test_an_edited_scene(self):
+        before = self.solve(DYNAMIC)
+        rows, frame, text = read_csv(before), (before / "frame_0008.vtu").read_bytes(), (before / "statistics.csv").read_bytes()
+        scene = (before / "original.prm").read_bytes()
+        edited = {**DYNAMIC, "Material/Young's modulus": "2e4", "Handles/Names": "left, right", "Handles/right/Select":
+                  "boundary 2", "Handles/right/Motion": "0.5*(t-0.08); 0; 0", "Handles/right/Components": "x",
+                  "Examples/Importance": "0.5", "Loads/Gravity": "0, 0, 0"}
+        out = self.solve(edited, "--resume-from", "8")
+        self.assertEqual((out / "original_1.prm").read_bytes(), scene)
+        self.assertEqual((out / "statistics_1.csv").read_bytes(), text)
+        self.assertEqual((out / "original.prm").read_text(), prm(edited))
+        self.assertIn("# after step 8; the scene before is original_1.prm\n", (out / "parameters.prm").read_text())
+        self.assertEqual(read_summary(out)["edits"], [{"step": 8, "scene_before": "original_1.prm"}])
+        self.assertEqual((out / "frame_0008.vtu").read_bytes(), frame)
+        new = read_csv(out)
+        self.assertEqual([row["step"] for row in new], list(range(19)))
+        for row, old in zip(new[:9], rows[:9]):
+            self.assertIsNone(row["reaction_right_x"])
+            shared = row.keys() & old.keys()
+            self.assertEqual({k: row[k] for k in shared}, {k: old[k] for k in shared})
+        self.assertNotIn("work_gravity", new[0])
+        self.assertGreater(abs(new[-1]["reaction_right_x"]), 1.)
+        # it can be killed, resumed, and gone back to
+        self.assertEqual(self.contents(self.solve(edited, "--resume")), self.contents(out))
+        again = {**edited, "Material/Density": "20"}
+        self.solve(again, "--resume-from", "12")
+        self.assertEqual(read_summary(out)["edits"], [{"step": 8, "scene_before": "original_1.prm"},
+                                                      {"step": 12, "scene_before": "original_2.prm"}])
+        # back to the first scene, from before the edits: the bytes of the first run
+        self.solve(DYNAMIC, "--resume-from", "4")
+        whole = self.solve(DYNAMIC, output="whole")
+        self.assertNotIn("edits", read_summary(out))
+        found, expected = results(out), results(whole)
+        self.assertEqual([name for name in expected if found[name] != expected[name] and name != "statistics.csv"], [])
+        for row, other in zip(read_csv(out), read_csv(whole)):  # columns that the edit had not are empty up to there
+            self.assertEqual([k for k in other if row[k] != other[k] and not k.startswith("seconds") and
+                              (row["step"] > 4 or row[k] is not None)], [])
+        # a new run clears it all
+        self.assertEqual(names(self.solve(DYNAMIC)), names(whole))
+
+    def test_the_edit_acts_as_another_run_does(self):
+        # what changes nothing changes nothing: the scene is edited, but its parts do the same
+        out = self.solve({**DYNAMIC, "Solver/Method": "newton", "Solver/Tolerance": "1e-11"})
+        expected = read_csv(out)
+        same = {**DYNAMIC, "Solver/Method": "newton", "Solver/Tolerance": "1e-11", "Handles/left/Motion": "0; 0; sin(6*t)/10"}
+        out = self.solve(same, "--resume-from", "8")
+        self.assertEqual(len(read_summary(out)["edits"]), 1)
+        for row, other in zip(read_csv(out), expected):
+            self.assertAlmostEqual(row["energy_elastic"], other["energy_elastic"], delta=1e-6 * expected[-1]["energy_elastic"])
+
+    def test_other_weights(self):
+        self.solve(DYNAMIC)
+        run = self.attempt({**DYNAMIC, "Examples/Pose functions": "1.3*x; y; z"}, "--resume-from", "8")
+        self.assertEqual(run.status, 0)
+        self.assertIn("The example weights are others than those of step 8", run.stderr)
+        run = self.attempt({**DYNAMIC, "Examples/Pose functions": "1.3*x; y; z", "Initial/Velocity": "1; 0; 0"},
+                           "--resume-from", "12")
+        self.assertEqual(run.status, 0)
+        self.assertIn("at the start of a run alone", run.stderr)
+
+    def test_another_scheme(self):
+        self.solve({**DYNAMIC, "Time/Scheme": "bdf2"})
+        self.solve(DYNAMIC, "--resume-from", "8")
+        self.solve({**DYNAMIC, "Time/Scheme": "bdf2"}, "--resume-from", "12")
+
+    def test_after_a_failed_run(self):
+        stiff = {**STATIC, "Material/Density": "300", "Solver/Tolerance": "1e-10"}
+        run = self.attempt({**stiff, "Solver/Method": "fixed point", "Solver/Maximum iterations": "2"})
+        self.assertEqual(run.status, 2, run.stderr)
+        out = self.solve(stiff, "--resume-from", "0")
+        self.assertEqual(read_summary(out)["status"], "converged")
+        self.assertEqual(read_csv(out)[1]["status"], "converged")
+
+    def refused(self, scene, step, *words):
+        before = {file.name: file.read_bytes() for file in (self.directory / "out").iterdir()}
+        run = self.attempt(scene, "--resume-from", step)
+        self.assertEqual(run.status, 1, run.stderr)
+        for word in words:
+            self.assertIn(word, run.stderr)
+        self.assertEqual({file.name: file.read_bytes() for file in run.output.iterdir()}, before)
+
+    def test_refused(self):
+        out = self.solve(DYNAMIC)
+        self.refused(DYNAMIC, "5", "no state of step 5", "0, 4, 8, 12, 16, 18. Choose", "Keep states")
+        self.refused({**DYNAMIC, "Mesh/Box size": "2, 1, 2"}, "8", "Mesh/Box size was", "must stay")
+        self.refused({**DYNAMIC, "Time/Step": "0.02"}, "8", "Time/Step was", "must stay")
+        self.refused({**STATIC, "Time/Increments": "18"}, "8", "Scene was")
+        self.refused({**DYNAMIC, "Time/End": "0.05"}, "8", "which is no step of a run to Time/End = 0.05")
+        run = self.attempt({**DYNAMIC, "Material/Density": "11"}, "--resume")
+        self.assertEqual(run.status, 1)
+        self.assertIn("--resume-from 18", run.stderr)
+        content = bytearray((out / "state_0008.bin").read_bytes())
+        content[len(content) // 2] ^= 1
+        (out / "state_0008.bin").write_bytes(content)
+        self.refused(DYNAMIC, "8", "is damaged")
+        (out / "statistics.csv").write_text("step,time,status,\n")
+        self.refused(DYNAMIC, "4", "has no row of step 4")
+        run = self.attempt(DYNAMIC, "--resume-from", "4", output="new")
+        self.assertEqual(run.status, 1)
+        self.assertIn("no run has written there", run.stderr)
+        run = self.attempt({**DYNAMIC, "Output/Every": "0"})
+        self.assertIn("Output/Every = 0 makes no frames", run.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
