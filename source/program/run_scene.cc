@@ -211,6 +211,7 @@ namespace Exemplar
   {
     const SceneFile scene(options.scene_file, options.overrides);
     const auto      problem = make_problem_and_warn(scene.get_parameters(), options);
+    const RunWriter writer(*problem, scene); // may find that frames cannot show the surface
     std::cout << printable(options.scene_file.string()) << ": valid; "
               << problem->body.mesh.n_cells() << " cells, " << problem->body.mesh.n_nodes()
               << " nodes, " << problem->time_axis.n_steps() << " steps" << std::endl;

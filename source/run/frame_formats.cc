@@ -3,20 +3,42 @@
 #include <exemplar/run/frame_writer.h>
 
 #include <regex>
+#include <string>
 
 namespace Exemplar
 {
   // A new format is a file with its writer, a declaration here and a line in the table.
   std::unique_ptr<const FrameWriter>
   make_vtu_writer(const FrameSubject &subject);
+  std::unique_ptr<const FrameWriter>
+  make_obj_writer(const FrameSubject &subject);
+  std::unique_ptr<const FrameWriter>
+  make_ply_writer(const FrameSubject &subject);
+  std::unique_ptr<const FrameWriter>
+  make_mdd_writer(const FrameSubject &subject);
+  std::unique_ptr<const FrameWriter>
+  make_pc2_writer(const FrameSubject &subject);
+  std::unique_ptr<const FrameWriter>
+  make_usda_writer(const FrameSubject &subject);
 
   const std::vector<FrameFormat> &
   frame_formats()
   {
-    static const std::vector<FrameFormat> formats
-        = { { "vtu", "animation.pvd", make_vtu_writer,
-              "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\"",
-              "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">" } };
+    using std::string_literals::          operator""s; // for bytes that are 0
+    static const std::vector<FrameFormat> formats = {
+      { "vtu", "animation.pvd", make_vtu_writer,
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\"",
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">" },
+      { "obj", "", make_obj_writer, "# a frame by exemplar\n", "", true },
+      { "ply", "", make_ply_writer,
+        "ply\nformat binary_little_endian 1.0\ncomment a frame by exemplar\n", "", true },
+      // one frame; an animation has fewer than 2^24
+      { "mdd", "animation.mdd", make_mdd_writer, "\0\0\0\1"s, "\0"s, true },
+      { "pc2", "animation.pc2", make_pc2_writer, "POINTCACHE2\0\1\0\0\0"s, "POINTCACHE2\0\1\0\0\0"s,
+        true },
+      { "usda", "animation.usda", make_usda_writer, "#usda 1.0\n(\n    doc = \"a frame by exemplar",
+        "#usda 1.0\n(\n    doc = \"an animation by exemplar", true },
+    };
     return formats;
   }
 

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/atomic_file.h>
 #include <exemplar/base/environment.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/run/finiteness.h>
 #include <exemplar/run/frame_output.h>
+#include <exemplar/surface/write_obj.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace Exemplar
 {
@@ -28,14 +31,80 @@ namespace Exemplar
   FrameOutput::FrameOutput(Problem                        &problem,
                            std::filesystem::path           directory,
                            const std::vector<FrameFormat> &formats)
-      : problem(problem), directory(std::move(directory)), formats(formats),
+      : problem(problem), directory(std::move(directory)), formats(formats), skin(make_skin()),
         background(problem.parameters.solver.n_threads > 1)
   {
     const OutputParameters &output = problem.parameters.output;
     for (const std::string &name : output.formats)
       if (const FrameFormat &format = find_format(name, formats); output.every > 0)
-        writers.emplace_back(&format,
-                             format.make_writer({ problem.body.mesh, problem.surface.get() }));
+        writers.emplace_back(
+            &format, format.make_writer({ problem.body.mesh, problem.surface.get(), playback() }));
+  }
+
+  Playback
+  FrameOutput::playback() const
+  {
+    const SceneParameters &scene = problem.parameters;
+    Playback               result;
+    result.interval = problem.time_axis.step_size(1) * scene.output.every;
+    if (scene.scene == SceneKind::dynamic) // without the last digits of 1 / 0.01
+      result.frames_per_second = std::round(1e6 / result.interval) / 1e6;
+    const auto &g  = scene.loads.gravity;
+    result.z_is_up = std::abs(g[2]) > std::abs(g[1]);
+    return result;
+  }
+
+  std::unique_ptr<const SurfaceSkin>
+  FrameOutput::make_skin() const
+  {
+    const SceneParameters &scene = problem.parameters;
+    if (!scene.output.shows_surface())
+      return nullptr;
+    return std::make_unique<const SurfaceSkin>(*problem.surface, problem.body.mesh,
+                                               scene.mesh.surface_file());
+  }
+
+  Vector
+  FrameOutput::displacement_of_weight(const unsigned int i) const
+  {
+    const ExamplePoses &poses  = *problem.examples.poses;
+    const Mesh         &mesh   = problem.body.mesh;
+    const unsigned int  region = i / poses.size();
+    Vector              u      = poses.pose(i % poses.size());
+    u -= problem.body.fe_space.rest_positions();
+    const auto id = poses.material_id(region);
+    if (!id)
+      return u;
+    // on the border of regions each has its share
+    std::vector<double> inside(mesh.n_nodes(), 0.), all(mesh.n_nodes(), 0.);
+    for (unsigned int cell = 0; cell < mesh.n_cells(); ++cell)
+      for (const unsigned int node : mesh.get_cells()[cell])
+      {
+        all[node] += 1.;
+        inside[node] += mesh.get_material_ids()[cell] == *id ? 1. : 0.;
+      }
+    for (unsigned int dof = 0; dof < u.size(); ++dof)
+      u[dof] *= all[dof / 3] > 0. ? inside[dof / 3] / all[dof / 3] : 0.;
+    return u;
+  }
+
+  void
+  FrameOutput::write_shapes() const
+  {
+    if (skin == nullptr)
+      return;
+    const std::string faces = obj_faces(*problem.surface);
+    const auto        write = [&](const std::string &name, const Vector &displacement)
+    {
+      AtomicFile file(directory / (name + ".obj"));
+      file.stream() << "# a shape by exemplar\n"
+                    << obj_vertices(skin->carry(displacement)) << faces;
+      file.commit();
+    };
+    write("rest", Vector(problem.body.fe_space.n_dofs()));
+    if (const auto &weights = problem.examples.weights; weights != nullptr)
+      for (unsigned int i = 0; i < problem.examples.poses->n_weights(); ++i)
+        write(weights->weight_name("weight", i), displacement_of_weight(i));
   }
 
   bool
@@ -60,8 +129,10 @@ namespace Exemplar
                           + " that are not finite numbers. Take smaller steps, and look at what "
                             "handles, loads and Initial do.");
     background.submit(
-        [this, frame = std::move(frame)]
+        [this, frame = std::move(frame)]() mutable
         {
+          if (skin != nullptr)
+            frame.surface = skin->carry(frame.displacement);
           for (const auto &[format, writer] : writers)
             writer->write(frame, directory / format->frame_name(frame.step));
         });

@@ -17,7 +17,11 @@ namespace Exemplar
     keys.add("Every", every,
              "A frame every so many steps, and of the last; 0: none (final.msh alone).",
              Bounds{ 0 });
-    keys.add_choices("Formats", formats, names_of(frame_formats()), "Formats of the frames.");
+    keys.add_choices(
+        "Formats", formats, names_of(frame_formats()),
+        "Formats of the frames. vtu shows the mesh, for ParaView; obj, ply, mdd, pc2 and "
+        "usda show Mesh/Surface as the body carries it, in its unit and order of "
+        "vertices.");
     keys.add("Checkpoint minutes", checkpoint_minutes,
              "Minutes of run time between checkpoints. One is also written at the end and "
              "on Ctrl-C.",

@@ -83,6 +83,7 @@ namespace Exemplar
       write_original();
       write_rest_mesh();
       statistics.emplace(directory.statistics());
+      frames.write_shapes();
       if (frames.is_due(0))
         frames.write();
       StatisticsRow row = diagnostics.row(problem.state, SolveReport());
@@ -110,6 +111,7 @@ namespace Exemplar
       write_original();
       write_rest_mesh();
       write_parameters(scene, checkpoint.totals.edits, directory.parameters_prm());
+      frames.write_shapes(); // Output/Formats may have changed
     }
     accepted_bytes = checkpoint.statistics_bytes;
     diagnostics.resume(checkpoint.work);
@@ -160,6 +162,7 @@ namespace Exemplar
       accepted_bytes = statistics->n_bytes();
       write_original();
       write_parameters(scene, totals.edits, directory.parameters_prm());
+      frames.write_shapes();
       save(); // a crash from now on can be resumed
       fs::remove(directory.final_pose());
       fs::remove(directory.summary());

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <limits>
 
 namespace Exemplar
@@ -16,10 +17,12 @@ namespace Exemplar
   namespace
   {
     /// Statements that say nothing of where the surface is.
-    constexpr std::array<std::string_view, 16> ignored{
-      { "vt", "vn", "vp", "p", "l", "s", "mg", "mtllib", "usemap", "maplib", "bevel", "c_interp",
-        "d_interp", "lod", "shadow_obj", "trace_obj" }
-    };
+    constexpr std::array<std::string_view, 13> ignored{ { "vn", "vp", "p", "l", "mg", "usemap",
+                                                          "maplib", "bevel", "c_interp", "d_interp",
+                                                          "lod", "shadow_obj", "trace_obj" } };
+
+    /// Statements that tell of the faces behind them; the first three make groups.
+    constexpr std::array<std::string_view, 5> kept{ { "g", "usemtl", "o", "s", "mtllib" } };
 
     /// What a face belongs to by g, usemtl and o.
     using ObjGroups = std::array<std::string, 3>;
@@ -38,13 +41,19 @@ namespace Exemplar
       void
       read_vertex();
       void
+      read_texture_point();
+      void
       read_face();
       std::size_t
       n_words_before_comment() const;
       unsigned int
       vertex_of(std::string_view corner) const;
       void
+      add_texture_of_face(std::size_t n_corners);
+      void
       check_indices() const;
+      void
+      drop_wrong_textures();
 
       SurfaceScanner           &in;
       SurfaceMesh               surface;
@@ -60,6 +69,7 @@ namespace Exemplar
       while (in.next_line(true))
         read_statement(in.words()[0]);
       check_indices();
+      drop_wrong_textures();
 
       unsigned int kind = 0;
       while (kind < 2
@@ -82,14 +92,16 @@ namespace Exemplar
         return;
       if (keyword == "v")
         read_vertex();
+      else if (keyword == "vt")
+        read_texture_point();
       else if (keyword == "f" || keyword == "fo") // fo is the older name
         read_face();
-      else if (keyword == "g")
-        current[0] = in.rest_of_line(1);
-      else if (keyword == "usemtl")
-        current[1] = in.rest_of_line(1);
-      else if (keyword == "o")
-        current[2] = in.rest_of_line(1);
+      else if (const auto kind = std::find(kept.begin(), kept.end(), keyword); kind != kept.end())
+      {
+        surface.face_statements.emplace_back(surface.faces.size(), in.rest_of_line(0));
+        if (const auto k = static_cast<std::size_t>(kind - kept.begin()); k < current.size())
+          current[k] = in.rest_of_line(1);
+      }
       else if (keyword == "surf" || keyword == "curv" || keyword == "cstype")
         in.fail("free-form curves and surfaces (" + std::string(keyword)
                 + ") are not supported. Convert them to polygons before exporting.");
@@ -119,6 +131,17 @@ namespace Exemplar
       require_few(in, surface.vertices.size(), "vertices");
     }
 
+    /// What is no number stands for 0.
+    void
+    ObjReader::read_texture_point()
+    {
+      std::array<double, 2> point{ { 0., 0. } };
+      for (std::size_t i = 1; i <= std::min<std::size_t>(2, n_words_before_comment() - 1); ++i)
+        if (const double number = parse_number(std::string(in.words()[i])); std::isfinite(number))
+          point[i - 1] = number;
+      surface.texture_points.push_back(point);
+    }
+
     void
     ObjReader::read_face()
     {
@@ -133,12 +156,54 @@ namespace Exemplar
         distinct.push_back(current);
       face_combinations.push_back(static_cast<unsigned int>(distinct.size() - 1));
       face_lines.push_back(in.line());
+      add_texture_of_face(n);
       surface.faces.push_back(std::move(face));
       require_few(in, surface.faces.size(), "faces");
     }
 
-    /// Of i, i/j, i//k or i/j/k; -1 is the vertex read last. The texture's and the normal's
-    /// number are not looked at.
+    /// Of i/j or i/j/k. Numbers that are none, or not for all corners, are as good as absent: a
+    /// surface may be used whose texture may not.
+    void
+    ObjReader::add_texture_of_face(const std::size_t n_corners)
+    {
+      std::vector<unsigned int> points;
+      const auto                n = static_cast<long long>(surface.texture_points.size());
+      for (std::size_t i = 1; i <= n_corners; ++i)
+      {
+        const std::string_view corner = in.words()[i];
+        const auto             begin  = corner.find('/');
+        if (begin == std::string_view::npos)
+          break;
+        const std::string_view number
+            = corner.substr(begin + 1, corner.find('/', begin + 1) - begin - 1);
+        long long index = 0;
+        std::from_chars(number.data(), number.data() + number.size(), index);
+        if (index == 0 || index < -n || index > std::numeric_limits<unsigned int>::max() / 4)
+          break;
+        points.push_back(static_cast<unsigned int>(index > 0 ? index - 1 : n + index));
+      }
+      if (points.size() < n_corners)
+        points.clear();
+      if (points.empty() && surface.face_texture_points.empty())
+        return; // no face has any so far
+      surface.face_texture_points.resize(surface.faces.size());
+      surface.face_texture_points.push_back(std::move(points));
+    }
+
+    void
+    ObjReader::drop_wrong_textures()
+    {
+      if (surface.face_texture_points.empty())
+        surface.texture_points.clear();
+      else
+        surface.face_texture_points.resize(surface.faces.size());
+      for (auto &points : surface.face_texture_points)
+        if (std::any_of(points.begin(), points.end(),
+                        [&](const unsigned int p) { return p >= surface.texture_points.size(); }))
+          points.clear();
+    }
+
+    /// Of i, i/j, i//k or i/j/k; -1 is the vertex read last. The normal's number is not looked at.
     unsigned int
     ObjReader::vertex_of(const std::string_view corner) const
     {
@@ -172,24 +237,54 @@ namespace Exemplar
     return ObjReader(in).read();
   }
 
+  std::string
+  obj_vertices(const std::vector<SurfaceMesh::Vertex> &vertices)
+  {
+    std::string text;
+    text.reserve(60 * vertices.size());
+    for (const auto &vertex : vertices)
+    {
+      text += 'v';
+      for (const double coordinate : vertex)
+        (text += ' ') += shortest_text(coordinate);
+      text += '\n';
+    }
+    return text;
+  }
+
+  std::string
+  obj_faces(const SurfaceMesh &surface)
+  {
+    std::string text;
+    for (const auto &point : surface.texture_points)
+      text += "vt " + shortest_text(point[0]) + ' ' + shortest_text(point[1]) + '\n';
+    std::size_t statement = 0;
+    for (std::size_t f = 0; f < surface.faces.size(); ++f)
+    {
+      if (!surface.face_groups.empty() && surface.face_statements.empty()
+          && (f == 0 || surface.face_groups[f] != surface.face_groups[f - 1]))
+        text += "g " + surface.group_names[surface.face_groups[f]] + '\n';
+      for (; statement < surface.face_statements.size()
+             && surface.face_statements[statement].first <= f;
+           ++statement)
+        text += surface.face_statements[statement].second + '\n';
+      text += 'f';
+      for (std::size_t i = 0; i < surface.faces[f].size(); ++i)
+      {
+        text += ' ' + std::to_string(surface.faces[f][i] + 1);
+        if (!surface.face_texture_points.empty() && !surface.face_texture_points[f].empty())
+          text += '/' + std::to_string(surface.face_texture_points[f][i] + 1);
+      }
+      text += '\n';
+    }
+    return text;
+  }
+
   void
   write_obj(const SurfaceMesh &surface, const std::filesystem::path &file)
   {
-    AtomicFile    atomic_file(file);
-    std::ostream &out = atomic_file.stream();
-    for (const auto &vertex : surface.vertices)
-      out << "v " << shortest_text(vertex[0]) << ' ' << shortest_text(vertex[1]) << ' '
-          << shortest_text(vertex[2]) << '\n';
-    for (std::size_t f = 0; f < surface.faces.size(); ++f)
-    {
-      if (!surface.face_groups.empty()
-          && (f == 0 || surface.face_groups[f] != surface.face_groups[f - 1]))
-        out << "g " << surface.group_names[surface.face_groups[f]] << '\n';
-      out << 'f';
-      for (const unsigned int vertex : surface.faces[f])
-        out << ' ' << std::to_string(vertex + 1);
-      out << '\n';
-    }
+    AtomicFile atomic_file(file);
+    atomic_file.stream() << obj_vertices(surface.vertices) << obj_faces(surface);
     atomic_file.commit();
   }
 } // namespace Exemplar

@@ -36,7 +36,9 @@ namespace Exemplar
     const SurfaceAttachment attachment(mesh.get_nodes(), mesh.get_boundary_faces(),
                                        triangulate(rest.surface));
     check_attachment(attachment, mesh, rest.name);
-    return PoseTransfer(mesh.get_nodes(), mesh.get_cells(), attachment, attach);
+    PoseTransfer transfer(mesh.get_nodes(), mesh.get_cells(), attachment, attach);
+    transfer.measure_by(rest.surface, mesh);
+    return transfer;
   }
 
   std::string

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/mesh/rigid_motion.h>
 #include <exemplar/surface/pose_transfer.h>
+#include <exemplar/surface/vectors.h>
 
 #include <algorithm>
 #include <cmath>
@@ -90,12 +91,27 @@ namespace Exemplar
     quality.iterations = result.iterations;
     quality.releases   = result.releases;
     const Points x     = moved(motion, result.x);
-    measure(x, targets, quality);
+    measure(x, quality);
+    if (skin != nullptr)
+      measure_surface(x, vertices, quality);
+    else
+      measure_boundary(x, targets, quality);
     return x;
   }
 
   void
-  PoseTransfer::measure(const Points &x, const Points &targets, PoseQuality &quality) const
+  PoseTransfer::measure_by(const SurfaceMesh &rest, const Mesh &mesh)
+  {
+    skin = std::make_unique<SurfaceSkin>(rest, mesh);
+    measured.clear();
+    for (const auto &face : rest.faces)
+      measured.insert(measured.end(), face.begin(), face.end());
+    std::sort(measured.begin(), measured.end());
+    measured.erase(std::unique(measured.begin(), measured.end()), measured.end());
+  }
+
+  void
+  PoseTransfer::measure(const Points &x, PoseQuality &quality) const
   {
     const auto         &cells = potential->get_cells();
     std::vector<double> stretches;
@@ -119,13 +135,36 @@ namespace Exemplar
     quality.stretch_1        = quantile(0.01);
     quality.stretch_99       = quantile(0.99);
     quality.greatest_stretch = stretches.back();
+  }
 
+  void
+  PoseTransfer::measure_boundary(const Points &x, const Points &targets, PoseQuality &quality) const
+  {
     const auto  &which = attachment.get_nodes();
     const double size  = diagonal(nodes);
     for (std::size_t k = 0; k < which.size(); ++k)
     {
       const double error = x[which[k]].distance(targets[k]) / size;
       quality.mean_error += error / which.size();
+      quality.greatest_error = std::max(quality.greatest_error, error);
+    }
+  }
+
+  void
+  PoseTransfer::measure_surface(const Points                      &x,
+                                const SurfaceAttachment::Vertices &vertices,
+                                PoseQuality                       &quality) const
+  {
+    Vector displacement(3 * nodes.size());
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      for (unsigned int c = 0; c < 3; ++c)
+        displacement[3 * i + c] = x[i][c] - nodes[i][c];
+    const auto   places = skin->carry(displacement);
+    const double size   = diagonal(nodes);
+    for (const std::size_t v : measured)
+    {
+      const double error = norm(minus(places[v], vertices[v])) / size;
+      quality.mean_error += error / static_cast<double>(measured.size());
       quality.greatest_error = std::max(quality.greatest_error, error);
     }
   }

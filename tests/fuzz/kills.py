@@ -28,7 +28,11 @@ from cases import prm_bytes
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "scenes"))
 from exemplar_runner import EXEMPLAR, results  # noqa: E402
 
-SCENE = {**bases.SCENES[1], "Time/End": "0.12", "Output/Every": "2", "Output/Checkpoint minutes": "0"}
+SCENE = {**bases.SCENES[1], "Time/End": "0.12", "Output/Every": "2", "Output/Checkpoint minutes": "0",
+         "Mesh/Surface": "surface.obj", "Output/Formats": "vtu, pc2"}
+# the box's sides
+SURFACE = "".join(f"v {x} {y} {z}\n" for x in (0, 2) for y in (-.5, .5) for z in (-.5, .5)) + (
+    "f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\nf 2 6 8 4\n")
 CALLS = ["openat", "write", "pwrite64", "fsync", "fdatasync", "rename", "renameat", "renameat2", "unlink", "unlinkat", "mkdir",
          "rmdir", "ftruncate", "truncate", "close", "flock"]
 RUN = ["scene.prm", "--output", "out", "--threads"]
@@ -53,6 +57,7 @@ class Trials:
     def prepare(self, directory, has_earlier):
         """A working directory with the scene, maybe with an earlier run of it in out."""
         (directory / "scene.prm").write_bytes(prm_bytes(SCENE.items()))
+        (directory / "surface.obj").write_text(SURFACE)
         if has_earlier:
             self.end(directory)
         return directory

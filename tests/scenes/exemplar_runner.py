@@ -220,7 +220,7 @@ def timeless_statistics(output):
 def results(output):
     """All that must not differ between two runs of a scene: {file name: content}."""
     same = {file.name: file.read_bytes() for file in output.iterdir()
-            if re.fullmatch(r"frame_\d+\.vtu|final\.msh|animation\.pvd", file.name)}
+            if re.fullmatch(r"(frame_\d+|animation)\.(vtu|pvd|obj|ply|mdd|pc2|usda)|(rest|weight_[0-9_]+)\.obj|final\.msh", file.name)}
     same["statistics.csv"] = timeless_statistics(output)
     return same
 

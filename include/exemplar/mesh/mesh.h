@@ -99,6 +99,13 @@ namespace Exemplar
       return warnings;
     }
 
+    /// What the lengths of the file were multiplied by.
+    double
+    get_scale() const
+    {
+      return scale;
+    }
+
     /// Diagonal of the bounding box [m].
     double
     diameter() const;

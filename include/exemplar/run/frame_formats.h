@@ -14,11 +14,20 @@ namespace Exemplar
   class Mesh;
   struct SurfaceMesh;
 
+  /// How an animation is played.
+  struct Playback
+  {
+    double interval          = 1.; ///< of time from frame to frame [s]; of t, where that is no time
+    double frames_per_second = 24.;
+    bool   z_is_up           = false; ///< else y
+  };
+
   /// What frames show; it outlives their writers.
   struct FrameSubject
   {
     const Mesh        &mesh;
     const SurfaceMesh *surface; ///< in the file's unit; null unless a format shows it
+    Playback           playback = {};
   };
 
   /// A format that frames can be written in: its files and who writes them.

@@ -6,6 +6,7 @@
 #include <exemplar/run/frame_formats.h>
 #include <exemplar/run/frame_writer.h>
 #include <exemplar/run/problem.h>
+#include <exemplar/surface/surface_skin.h>
 
 #include <filesystem>
 #include <memory>
@@ -21,7 +22,7 @@ namespace Exemplar
   {
   public:
     /// Keeps references to the problem and to `formats`, all that there are. Throws UserError
-    /// if the scene asks for another one.
+    /// if the scene asks for another one, or shows a surface that is not that of the body.
     FrameOutput(Problem                        &problem,
                 std::filesystem::path           directory,
                 const std::vector<FrameFormat> &formats);
@@ -29,6 +30,12 @@ namespace Exemplar
     /// Whether a step has a frame: every so many steps, and the last.
     bool
     is_due(unsigned int step) const;
+
+    /// Where a format shows the surface of the body, write it at rest, rest.obj, and as it is in the
+    /// poses of the examples, NAME.obj for each weight NAME of statistics.csv; of weights of a region
+    /// only the region is in the pose.
+    void
+    write_shapes() const;
 
     /// Take what the next step changes from the problem's state and have it written.
     void
@@ -52,6 +59,16 @@ namespace Exemplar
     remove(unsigned int step) const;
 
   private:
+    Playback
+    playback() const;
+
+    std::unique_ptr<const SurfaceSkin>
+    make_skin() const;
+
+    /// How far nodes have moved in the pose of weight i [m].
+    Vector
+    displacement_of_weight(unsigned int i) const;
+
     /// The frames on disk, in order of time.
     std::vector<WrittenFrame>
     written_frames(const FrameFormat &format) const;
@@ -59,6 +76,9 @@ namespace Exemplar
     Problem                        &problem;
     const std::filesystem::path     directory;
     const std::vector<FrameFormat> &formats;
+
+    /// Carries the surface that formats show; null if none does.
+    const std::unique_ptr<const SurfaceSkin> skin;
 
     using Writer = std::pair<const FrameFormat *, std::unique_ptr<const FrameWriter>>;
     std::vector<Writer> writers;    ///< of the formats in use; empty without frames

@@ -4,6 +4,7 @@
 
 #include <exemplar/algebra/vector.h>
 #include <exemplar/potential/elastic_potential.h>
+#include <exemplar/surface/surface_mesh.h>
 
 #include <filesystem>
 #include <vector>
@@ -20,6 +21,9 @@ namespace Exemplar
     Vector       displacement; ///< from the rest pose [m]
     Vector       velocities;   ///< [m/s]; empty unless dynamic
     CellResults  cells;
+    /// Places of the vertices of the body's surface in the unit of its file; empty unless a format
+    /// shows it.
+    std::vector<SurfaceMesh::Vertex> surface = {};
   };
 
   /// A frame that is on disk.

@@ -10,7 +10,7 @@ namespace Exemplar
     unsigned int n_inverted = 0;
     double       least_det = 0., greatest_det = 0.;
     double       least_stretch = 0., stretch_1 = 0., stretch_99 = 0., greatest_stretch = 0.;
-    double       mean_error = 0., greatest_error = 0.; ///< of boundary nodes, over the diagonal
+    double       mean_error = 0., greatest_error = 0.; ///< over the diagonal, see PoseTransfer
     double       rotation   = 0.; ///< of the rigid motion that was stripped [degrees]
     double       shift      = 0.; ///< of the body's boundary [m]
     unsigned int iterations = 0, releases = 0;

@@ -5,6 +5,7 @@
 #include <exemplar/surface/fold_solver.h>
 #include <exemplar/surface/pose_quality.h>
 #include <exemplar/surface/surface_attachment.h>
+#include <exemplar/surface/surface_skin.h>
 
 #include <memory>
 
@@ -23,6 +24,11 @@ namespace Exemplar
                  SurfaceAttachment           of_boundary,
                  double                      attach);
 
+    /// From now on errors are those of all vertices that faces of the surface use, as runs carry them
+    /// (SurfaceSkin); before, of the boundary nodes.
+    void
+    measure_by(const SurfaceMesh &rest, const Mesh &mesh);
+
     /// Places of the nodes [m] for a pose, given by its vertices [m].
     Points
     carry(const SurfaceAttachment::Vertices &vertices, PoseQuality &quality);
@@ -38,13 +44,21 @@ namespace Exemplar
     void
     attach_to(const Points &targets);
     void
-    measure(const Points &x, const Points &targets, PoseQuality &quality) const;
+    measure(const Points &x, PoseQuality &quality) const;
+    void
+    measure_boundary(const Points &x, const Points &targets, PoseQuality &quality) const;
+    void
+    measure_surface(const Points                      &x,
+                    const SurfaceAttachment::Vertices &vertices,
+                    PoseQuality                       &quality) const;
 
     Points                         nodes;
     SurfaceAttachment              attachment;
     std::unique_ptr<FoldPotential> potential; ///< stays where it is, for the solver
     FoldSolver                     solver;
     std::vector<double>            stiffness; ///< of the spring of each boundary node [1/m^2]
+    std::unique_ptr<SurfaceSkin>   skin;      ///< null: errors are of the boundary nodes
+    std::vector<std::size_t>       measured;  ///< vertices of the surface
   };
 } // namespace Exemplar
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace Exemplar
@@ -19,6 +20,13 @@ namespace Exemplar
     /// The group of each face, an index of group_names; empty where the file has no groups.
     std::vector<unsigned int> face_groups;
     std::vector<std::string>  group_names;
+
+    /// What an .obj says of its faces beside: points of texture, which of them the corners of each
+    /// face have (of none that has none), and the lines (g, usemtl, o, s, mtllib) that stand before a
+    /// face, by its number.
+    std::vector<std::array<double, 2>>               texture_points      = {};
+    std::vector<std::vector<unsigned int>>           face_texture_points = {};
+    std::vector<std::pair<std::size_t, std::string>> face_statements     = {};
   };
 
   /// Reads .obj, .ply (ASCII or binary) or .stl (ASCII or binary, equal corners joined), by the

@@ -44,6 +44,17 @@ namespace Exemplar::Testing
     return surface;
   }
 
+  /// The same with polygons.
+  inline SurfaceMesh
+  boundary_as_surface(const Mesh &mesh)
+  {
+    SurfaceMesh surface;
+    surface.vertices = vertices(mesh.get_nodes());
+    for (const BoundaryFace &face : mesh.get_boundary_faces())
+      surface.faces.push_back({ face.nodes.begin(), face.nodes.end() });
+    return surface;
+  }
+
   inline Points
   mapped(Points points, const std::function<dealii::Point<3>(const dealii::Point<3> &)> &map)
   {
