@@ -45,7 +45,14 @@ namespace Exemplar
     keys.enter_subsection("Examples");
     keys.add_files("Poses", poses,
                    "Example poses: .msh files with the nodes and tetrahedra of the mesh, such "
-                   "as the final.msh of another scene.");
+                   "as the final.msh of another scene, or surfaces (.obj, .ply, .stl) with the "
+                   "vertices and faces of Mesh/Surface (or of Mesh/File, if that is a surface), "
+                   "which are carried onto the mesh as by exemplar pose.");
+    keys.add("Attach", attach,
+             "How strongly poses that are surfaces hold the mesh, over the stiffness of the body: "
+             "more follows them more closely, less strains the cells less. For Handles/NAME/Follow "
+             "pose and Initial/Pose, too.",
+             Bounds{ 1e-3, 1e6 });
     keys.add("Pose functions", pose_functions,
              "Analytic example poses after those of Poses: x'; y'; z' as functions of the "
              "rest position x, y, z [m]; poses separated by |.");

@@ -18,8 +18,9 @@ namespace Exemplar
              "The components that are held; fewer than x, y, z make a roller or a plane of "
              "symmetry.");
     keys.add_file("Follow pose", follow_pose,
-                  "A .msh file with the nodes and tetrahedra of the mesh: the held nodes go to "
-                  "their places in this pose, turned and moved rigidly together, instead of "
+                  "A .msh file with the nodes and tetrahedra of the mesh, or a surface as in "
+                  "Examples/Poses: the held nodes go to their places in this pose, turned and "
+                  "moved rigidly together, instead of "
                   "by Motion.");
     keys.add("Progress", progress,
              "How far the nodes are on the way to the pose that they follow, a function "

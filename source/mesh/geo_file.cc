@@ -2,14 +2,11 @@
 #include <exemplar/base/child_process.h>
 #include <exemplar/base/digest.h>
 #include <exemplar/base/errors.h>
-#include <exemplar/base/sealed_file.h>
+#include <exemplar/base/kept_file.h>
 #include <exemplar/mesh/geo_script.h>
 #include <exemplar/mesh/mesh_generation.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdlib>
-#include <cstring>
 #include <sstream>
 #include <vector>
 
@@ -45,27 +42,6 @@ namespace Exemplar
       return text;
     }
 
-    fs::path
-    cache_directory()
-    {
-      const char *const cache = std::getenv("XDG_CACHE_HOME");
-      if (cache != nullptr && cache[0] == '/') // the XDG standard ignores relative ones
-        return fs::path(cache) / "exemplar";
-      const char *const home = std::getenv("HOME");
-      if (home != nullptr && home[0] != '\0')
-        return fs::path(home) / ".cache" / "exemplar";
-      throw UserError("There is no place to keep the mesh that gmsh makes: neither XDG_CACHE_HOME "
-                      "nor HOME is set. Set one of them to a directory.");
-    }
-
-    [[noreturn]] void
-    throw_no_cache(const fs::path &directory, const std::string &reason)
-    {
-      throw UserError(directory.string() + ": cannot be written (" + reason
-                      + "), but is where meshes made by gmsh are kept. Set XDG_CACHE_HOME to a "
-                        "directory that can be written.");
-    }
-
     std::string
     gmsh_version(const fs::path &geo)
     {
@@ -78,32 +54,6 @@ namespace Exemplar
                           "to the .msh.");
       return gmsh.text;
     }
-
-    /// An empty directory that is removed in the end, with what is in it.
-    class WorkingDirectory
-    {
-    public:
-      explicit WorkingDirectory(const fs::path &parent)
-      {
-        std::string name = parent / "gmsh-XXXXXX";
-        if (::mkdtemp(name.data()) == nullptr)
-          throw_no_cache(parent, std::strerror(errno));
-        path = name;
-      }
-
-      WorkingDirectory(const WorkingDirectory &) = delete;
-      WorkingDirectory &
-      operator=(const WorkingDirectory &)
-          = delete;
-
-      ~WorkingDirectory()
-      {
-        std::error_code ignored;
-        fs::remove_all(path, ignored);
-      }
-
-      fs::path path;
-    };
 
     /// What to say of a gmsh that was ended; empty if it came to its own end.
     std::string
@@ -120,24 +70,20 @@ namespace Exemplar
       return "";
     }
 
-    /// Have gmsh mesh a file in a directory of its own and put the mesh, sealed, to `msh`.
+    /// Have gmsh mesh a file, in the directory of the mesh that it is to make.
     void
-    run_gmsh(const fs::path &geo, const fs::path &msh)
+    run_gmsh(const fs::path &geo, const fs::path &made)
     {
-      const WorkingDirectory directory(msh.parent_path());
-      const fs::path         made = directory.path / "made.msh";
       // Absolute, so that no name is taken for an option, and names in it are found from there.
       const ChildOutput gmsh = output_of_child(
           { "gmsh", "-3", fs::absolute(geo).string(), "-format", "msh22", "-o", made.string() },
-          { directory.path, time_limit, output_limit });
+          { made.parent_path(), time_limit, output_limit });
       if (const std::string why = why_ended(gmsh.end); !why.empty())
         throw UserError(geo.string() + ": " + why + " yourself and set Mesh/File to the .msh.");
       const bool no_error = (gmsh.text.find("Error ") == std::string::npos);
       if (gmsh.end.exit_status != 0 || !no_error || !fs::exists(made))
         throw UserError(geo.string() + ": gmsh could not mesh it:" + telling_lines(gmsh.text)
                         + "\n  Try it with: gmsh -3 " + geo.string());
-      seal_file(made);
-      fs::rename(made, msh); // whole or not at all: several runs may mesh the same file at once
     }
   } // namespace
 
@@ -149,15 +95,7 @@ namespace Exemplar
     const GeoInputs   inputs = allow_commands ? GeoInputs{ sha256(geo), false } : check_geo(geo);
     const std::string key    = sha256_of_text(inputs.digests + gmsh_version(geo)
                                               + (inputs.all_known ? "" : fs::absolute(geo).string()));
-    const fs::path    msh    = cache_directory() / (key + ".msh");
-    if (!inputs.all_known || n_sealed_bytes(msh) == 0) // not there, or damaged
-    {
-      std::error_code error;
-      fs::create_directories(msh.parent_path(), error);
-      if (error)
-        throw_no_cache(msh.parent_path(), error.message());
-      run_gmsh(geo, msh);
-    }
-    return msh;
+    return kept_file(key + ".msh", !inputs.all_known,
+                     [&](const fs::path &made) { run_gmsh(geo, made); });
   }
 } // namespace Exemplar

@@ -43,8 +43,8 @@ namespace Exemplar
     if (has_file == has_box)
       throw UserError(std::string("Mesh: ")
                       + (has_file ? "both File and Generator are given" : "no mesh is given")
-                      + ". Set Mesh/File to a .msh or .geo file, or set Mesh/Generator = box; "
-                        "exactly one of them.");
+                      + ". Set Mesh/File to a .msh or .geo file or to a surface, or set "
+                        "Mesh/Generator = box; exactly one of them.");
     return has_box ? generate_box(parameters.box_size, parameters.box_cells)
                    : read_msh(msh_of(parameters));
   }

@@ -2,6 +2,9 @@
 #include <exemplar/mesh/mesh_parameters.h>
 #include <exemplar/prm/key_table.h>
 
+#include <cctype>
+#include <filesystem>
+
 namespace Exemplar
 {
   namespace
@@ -20,11 +23,20 @@ namespace Exemplar
                   "~/.cache/exemplar); one that could run programs or write files is refused, "
                   "unless the command line says --allow-commands. Physical Volumes give material "
                   "ids, Physical "
-                  "Surfaces boundary ids. Leave it empty if Generator = box.");
+                  "Surfaces boundary ids. Or a surface, .obj, .ply or .stl, which is filled with "
+                  "cells as by exemplar mesh (kept there, too; the mesh is written to the output "
+                  "as rest.msh). Leave it empty if Generator = box.");
+    keys.add("Cells", n_cells,
+             "How many tetrahedra a surface is filled with, about, if File is one.",
+             Bounds{ least_n_cells, most_n_cells });
+    keys.add("Repair", repair,
+             "Whether a surface that File names is mended before: holes, turned and intersecting "
+             "faces; what cannot be mended is wrapped.");
     keys.add_file("Surface", surface,
                   "The surface inside of which the mesh was made: .obj, .ply or .stl, in the "
-                  "mesh's unit and axes. Formats of Output/Formats that show surfaces write it as "
-                  "the body carries it.");
+                  "mesh's unit and axes. Poses that are surfaces are poses of it, and formats of "
+                  "Output/Formats that show surfaces write it as the body carries it. Empty: File, "
+                  "if that is a surface.");
     keys.add("Generator", generator, generator_names,
              "box: generate a box instead of reading a file. It spans 0..Lx, -Ly/2..Ly/2, "
              "-Lz/2..Lz/2, in bricks of 6 tetrahedra each; nodes are numbered from 1, x "
@@ -57,6 +69,21 @@ namespace Exemplar
   std::string
   MeshParameters::surface_file() const
   {
-    return surface;
+    return surface.empty() && is_surface() ? file : surface;
+  }
+
+  bool
+  MeshParameters::is_surface() const
+  {
+    return is_surface_file(file);
+  }
+
+  bool
+  is_surface_file(const std::string &file)
+  {
+    std::string extension = std::filesystem::path(file).extension().string();
+    for (char &c : extension)
+      c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return extension == ".obj" || extension == ".ply" || extension == ".stl";
   }
 } // namespace Exemplar

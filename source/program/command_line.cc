@@ -110,6 +110,8 @@ namespace Exemplar
           ->required();
       command.add_flag("--repair", arguments.mesh.meshing.repair,
                        "mend holes, turned and intersecting faces; wrap what cannot be mended");
+      command.add_option("--materials", arguments.mesh.meshing.materials,
+                         "points and the materials around them (.csv: x,y,z,id,name)");
       command.add_flag("--quiet", arguments.mesh.quiet, "print errors only");
       return command;
     }

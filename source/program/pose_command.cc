@@ -4,12 +4,11 @@
 #include <exemplar/base/message_text.h>
 #include <exemplar/base/number_text.h>
 #include <exemplar/base/progress.h>
-#include <exemplar/mesh/mesh.h>
-#include <exemplar/mesh/mesh_checks.h>
 #include <exemplar/program/interrupt.h>
 #include <exemplar/program/pose_command.h>
+#include <exemplar/run/output_directory.h>
 #include <exemplar/surface/numbered_files.h>
-#include <exemplar/surface/pose_transfer.h>
+#include <exemplar/surface/pose_carrying.h>
 #include <exemplar/surface/surface_poses.h>
 
 #include <chrono>
@@ -23,6 +22,8 @@ namespace Exemplar
   namespace
   {
     namespace fs = std::filesystem;
+
+    const char *const remedy = " Give another directory by --output.";
 
     /// A pose on its way from a surface to a mesh.
     struct PoseFile
@@ -39,14 +40,6 @@ namespace Exemplar
       std::cerr << "Warning: " << message_text(warning) << std::endl;
     }
 
-    SurfaceMesh
-    read_checked(const fs::path &file)
-    {
-      SurfaceMesh surface = read_surface(file);
-      require_surface(surface, file.string());
-      return surface;
-    }
-
     /// The files to write, each for one pose, and none of them an input.
     std::vector<PoseFile>
     plan(const PoseOptions &options)
@@ -61,37 +54,23 @@ namespace Exemplar
           throw UserError("The poses " + before->second.string() + " and " + file.string()
                           + " would both be written to " + output.string()
                           + ". Give each a name of its own, or take two directories.");
-        std::error_code none;
-        if (fs::equivalent(output, options.mesh, none))
-          throw UserError(output.string() + " is the mesh, and would be overwritten by the pose "
-                          + file.string() + ". Give another directory by --output.");
+        require_replaceable(output, { options.mesh }, remedy);
         poses.push_back({ file, output, {}, {}, 0. });
       }
+      require_replaceable(options.output / "poses.csv", {}, remedy);
+      require_writable(options.output, remedy);
       return poses;
     }
 
     void
-    read_poses(const PoseOptions &options, const SurfaceMesh &rest, std::vector<PoseFile> &poses)
+    warn(const Mesh &mesh, const RestSurface &rest, const std::vector<PoseFile> &poses)
     {
-      for (PoseFile &pose : poses)
-      {
-        pose.surface = read_checked(pose.file);
-        check_same_order(rest, options.rest.string(), pose.surface, pose.file.string());
-        check_pose(rest, options.rest.string(), pose.surface, pose.file.string());
-        if (is_at_rest(rest, pose.surface))
-          show_warning(pose.file.string() + " is the same as " + options.rest.string()
+      for (const std::string &warning : mesh.get_warnings())
+        show_warning(warning);
+      for (const PoseFile &pose : poses)
+        if (is_at_rest(rest.surface, pose.surface))
+          show_warning(pose.file.string() + " is the same as " + rest.name
                        + ": the pose is the mesh at rest.");
-      }
-    }
-
-    std::string
-    inverted_elements(const Mesh &mesh, const std::vector<double> &determinants)
-    {
-      std::vector<std::size_t> numbers;
-      for (unsigned int c = 0; c < determinants.size(); ++c)
-        if (!(determinants[c] > FoldSolver::margin))
-          numbers.push_back(mesh.element_number(c));
-      return list_numbers(numbers);
     }
 
     void
@@ -148,22 +127,11 @@ namespace Exemplar
       const auto x     = transfer.carry(pose.surface.vertices, pose.quality);
       pose.seconds
           = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-      if (pose.quality.least_det > FoldSolver::margin)
-      {
-        mesh.write_pose(x, pose.output);
-        return "";
-      }
-      return "\n  " + pose.file.string() + ": element "
-             + inverted_elements(mesh, transfer.determinants(x));
-    }
-
-    PoseTransfer
-    make_transfer(const PoseOptions &options, const Mesh &mesh, const SurfaceMesh &rest)
-    {
-      const SurfaceAttachment attachment(mesh.get_nodes(), mesh.get_boundary_faces(),
-                                         triangulate(rest));
-      check_attachment(attachment, mesh, options.rest.string());
-      return PoseTransfer(mesh.get_nodes(), mesh.get_cells(), attachment, options.attach);
+      const std::string inverted = inverted_elements(transfer, mesh, x);
+      if (!inverted.empty())
+        return "\n  " + pose.file.string() + ": element " + inverted;
+      mesh.write_pose(x, pose.output);
+      return "";
     }
   } // namespace
 
@@ -172,12 +140,12 @@ namespace Exemplar
   {
     std::vector<PoseFile> poses = plan(options);
     const Mesh            mesh(read_msh(options.mesh), options.mesh.string());
-    const SurfaceMesh     rest = read_checked(options.rest);
-    read_poses(options, rest, poses);
-    PoseTransfer transfer = make_transfer(options, mesh, rest);
-    for (const std::string &warning : mesh.get_warnings())
-      show_warning(warning);
-    fs::create_directories(options.output);
+    const RestSurface     rest(options.rest);
+    for (PoseFile &pose : poses)
+      pose.surface = read_pose_surface(pose.file, rest);
+    PoseTransfer transfer = make_pose_transfer(mesh, rest, options.attach);
+    warn(mesh, rest, poses);
+    make_directory(options.output, remedy);
 
     is_interrupted(); // from now on a signal waits until a pose is done
     Progress    progress(std::cout, isatty(STDOUT_FILENO) != 0, options.quiet, 0,

@@ -26,6 +26,16 @@ namespace Exemplar
       std::cerr << "Warning: " << message_text(warning) << std::endl;
     }
 
+    /// Tells what takes a while before a run begins.
+    Announce
+    announcer(const bool quiet)
+    {
+      if (quiet)
+        return {};
+      return [](const std::string &what)
+      { std::cout << "          " << message_text(what) << " ..." << std::endl; };
+    }
+
     std::unique_ptr<Problem>
     make_problem_and_warn(SceneParameters    parameters,
                           const RunOptions  &options,
@@ -33,10 +43,21 @@ namespace Exemplar
     {
       parameters.solver.n_threads    = n_threads;
       parameters.mesh.allow_commands = options.allow_commands;
-      auto problem                   = make_problem(parameters);
+      auto problem                   = make_problem(parameters, announcer(options.quiet));
       for (const std::string &warning : problem->warnings())
         warn(warning);
       return problem;
+    }
+
+    /// How mesh and poses became, if they are made of surfaces.
+    std::string
+    made_text(const MadeOfSurfaces *made)
+    {
+      std::string text;
+      if (made != nullptr)
+        for (const std::string &line : lines_of(*made))
+          text += "          " + message_text(line) + '\n';
+      return text;
     }
 
     void
@@ -48,7 +69,7 @@ namespace Exemplar
                 << problem.body.mesh.n_cells() << " cells, " << problem.body.mesh.n_nodes()
                 << " nodes, " << problem.constraints.free_dofs.size() << " of "
                 << problem.body.fe_space.n_dofs() << " dofs free\n"
-                << "Examples  ";
+                << made_text(problem.body.made.get()) << "Examples  ";
       if (problem.examples.poses != nullptr)
         std::cout << problem.examples.poses->size() << ", importance "
                   << problem.examples.poses->importance() << '\n';

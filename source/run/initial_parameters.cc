@@ -9,9 +9,10 @@ namespace Exemplar
   InitialParameters::declare(KeyTable &keys)
   {
     keys.enter_subsection("Initial");
-    keys.add_file("Pose", pose,
-                  "Pose at t = 0, a .msh file with the nodes and tetrahedra of the mesh; empty: "
-                  "the rest pose.");
+    keys.add_file(
+        "Pose", pose,
+        "Pose at t = 0, a .msh file with the nodes and tetrahedra of the mesh, or a surface "
+        "as in Examples/Poses; empty: the rest pose.");
     keys.add("Pose function", pose_function,
              "Pose at t = 0 instead: x'; y'; z' as functions of the rest position x, y, z "
              "[m].");

@@ -8,52 +8,109 @@ namespace Exemplar
 {
   namespace
   {
+    /// Whether cells are to be made inside of Mesh/File.
+    bool
+    is_to_be_filled(const MeshParameters &mesh)
+    {
+      return mesh.is_surface() && mesh.generator == MeshGenerator::none;
+    }
+
     /// Adds to inputs what they do not hold.
     class InputReader
     {
     public:
-      InputReader(const MeshParameters &mesh, Inputs &inputs) : name(mesh.name()), inputs(inputs)
+      InputReader(const SceneParameters &scene, Inputs &inputs, const Announce &announce)
+          : scene(scene), name(scene.mesh.name()), inputs(inputs), surfaces(scene, announce)
       {
+      }
+
+      void
+      read()
+      {
+        for_each_pose([this](const std::string &file) { check(file); });
+        if (scene.needs_surface())
+          add_surface();
         if (inputs.mesh.nodes.empty())
-          inputs.mesh = load_mesh(mesh);
+          inputs.mesh = is_to_be_filled(scene.mesh) ? surfaces.make_mesh() : load_mesh(scene.mesh);
+        for (const HandleParameters &handle : scene.handles)
+          add_nodes(handle.select, "Handles/" + handle.name);
+        for (const LoadParameters &load : scene.loads.named)
+          add_nodes(load.select, "Loads/" + load.name);
+        for_each_pose([this](const std::string &file) { add(file); });
+        inputs.made = surfaces.get_made();
+      }
+
+    private:
+      /// Whatever pose the scene needs and the inputs do not hold.
+      template <typename Action>
+      void
+      for_each_pose(const Action &act)
+      {
+        const auto act_on_missing = [&](const std::string &file)
+        {
+          if (!file.empty() && inputs.poses.count(file) == 0)
+            act(file);
+        };
+        for (const HandleParameters &handle : scene.handles)
+          try
+          {
+            act_on_missing(handle.follow_pose);
+          }
+          catch (const UserError &error)
+          {
+            throw UserError("Handles/" + handle.name + "/Follow pose: " + error.what());
+          }
+        if (scene.examples.in_use())
+          for (const std::string &pose : scene.examples.poses)
+            act_on_missing(pose);
+        act_on_missing(scene.initial.pose);
       }
 
       void
-      add_pose(const std::string &file)
+      check(const std::string &file)
       {
-        if (!file.empty() && inputs.poses.count(file) == 0)
-          inputs.poses[file] = read_pose(file, inputs.mesh, name);
+        if (is_surface_file(file))
+          surfaces.read_pose(file);
       }
 
       void
-      add_followed_pose(const HandleParameters &handle)
+      add(const std::string &file)
       {
-        try
-        {
-          add_pose(handle.follow_pose);
-        }
-        catch (const UserError &error)
-        {
-          throw UserError("Handles/" + handle.name + "/Follow pose: " + error.what());
-        }
+        inputs.poses[file] = is_surface_file(file) ? surfaces.carry(file, inputs.mesh)
+                                                   : read_pose(file, inputs.mesh, name);
       }
 
       void
       add_nodes(const Selection &selection, const std::string &key)
       {
-        if (!selection.map().empty())
-          add_map(selection.map(), key + "/Select");
         const std::string file = selection.file();
         if (!file.empty() && inputs.nodes.count(file) == 0)
           inputs.nodes[file] = read_nodes(file, inputs.mesh, name, key + "/Select");
       }
 
+      /// And what is painted on it, or moves it.
       void
-      add_surface(const std::string &file)
+      add_surface()
       {
-        surface_name = file;
         if (inputs.surface == nullptr)
-          inputs.surface = std::make_shared<const SurfaceMesh>(read_surface(file));
+          inputs.surface
+              = std::make_shared<const SurfaceMesh>(read_surface(scene.mesh.surface_file()));
+        add_map(scene.material.youngs_modulus_map, "Material/Young's modulus map");
+        add_map(scene.material.poissons_ratio_map, "Material/Poisson's ratio map");
+        add_map(scene.material.density_map, "Material/Density map");
+        if (scene.examples.are_painted())
+          for (const std::string &map : scene.examples.weight_maps)
+            add_map(map, "Examples/Weight maps");
+        for (const HandleParameters &handle : scene.handles)
+        {
+          add_map(handle.select.map(), "Handles/" + handle.name + "/Select");
+          if (!handle.follow_cache.empty() && inputs.caches.count(handle.name) == 0)
+            inputs.caches[handle.name]
+                = open_point_cache(handle.follow_cache, handle.frames_per_second, *inputs.surface,
+                                   scene.mesh.surface_file());
+        }
+        for (const LoadParameters &load : scene.loads.named)
+          add_map(load.select.map(), "Loads/" + load.name + "/Select");
       }
 
       void
@@ -63,58 +120,31 @@ namespace Exemplar
           return;
         const MapName map = split_map_name(text, key);
         if (inputs.maps.count(map.name()) == 0)
-          inputs.maps[map.name()]
-              = read_painted_map(map.file, map.attribute, *inputs.surface, surface_name);
+          inputs.maps[map.name()] = read_painted_map(map.file, map.attribute, *inputs.surface,
+                                                     scene.mesh.surface_file());
       }
 
-      void
-      add_cache(const HandleParameters &handle)
-      {
-        if (!handle.follow_cache.empty() && inputs.caches.count(handle.name) == 0)
-          inputs.caches[handle.name] = open_point_cache(
-              handle.follow_cache, handle.frames_per_second, *inputs.surface, surface_name);
-      }
-
-    private:
-      const std::string name;
-      Inputs           &inputs;
-      std::string       surface_name;
+      const SceneParameters &scene;
+      const std::string      name;
+      Inputs                &inputs;
+      SurfaceInputs          surfaces;
     };
-
-    void
-    add_maps(const SceneParameters &scene, InputReader &reader)
-    {
-      const MaterialParameters &material = scene.material;
-      reader.add_map(material.youngs_modulus_map, "Material/Young's modulus map");
-      reader.add_map(material.poissons_ratio_map, "Material/Poisson's ratio map");
-      reader.add_map(material.density_map, "Material/Density map");
-      if (scene.examples.are_painted())
-        for (const std::string &map : scene.examples.weight_maps)
-          reader.add_map(map, "Examples/Weight maps");
-      for (const HandleParameters &handle : scene.handles)
-        reader.add_cache(handle);
-    }
   } // namespace
 
   Inputs
-  read_inputs(SceneParameters scene, Inputs given)
+  read_inputs(SceneParameters scene, Inputs given, const Announce &announce)
   {
     scene.complete();
-    InputReader reader(scene.mesh, given);
-    if (scene.needs_surface())
-      reader.add_surface(scene.mesh.surface_file());
-    for (const HandleParameters &handle : scene.handles)
-    {
-      reader.add_nodes(handle.select, "Handles/" + handle.name);
-      reader.add_followed_pose(handle);
-    }
-    for (const LoadParameters &load : scene.loads.named)
-      reader.add_nodes(load.select, "Loads/" + load.name);
-    if (scene.examples.in_use())
-      for (const std::string &pose : scene.examples.poses)
-        reader.add_pose(pose);
-    reader.add_pose(scene.initial.pose);
-    add_maps(scene, reader);
+    InputReader(scene, given, announce).read();
     return given;
+  }
+
+  MshFile
+  load_or_make_mesh(const MeshParameters &parameters)
+  {
+    SceneParameters scene;
+    scene.mesh = parameters;
+    return is_to_be_filled(parameters) ? SurfaceInputs(scene, {}).make_mesh()
+                                       : load_mesh(parameters);
   }
 } // namespace Exemplar

@@ -34,6 +34,20 @@ namespace Exemplar
                       + "." + remedy);
   }
 
+  void
+  require_replaceable(const fs::path              &file,
+                      const std::vector<fs::path> &inputs,
+                      const std::string           &remedy)
+  {
+    std::error_code none;
+    if (fs::exists(file, none) && !fs::is_regular_file(file, none))
+      throw UserError(file.string() + ": is to be written, but is no regular file." + remedy);
+    for (const fs::path &input : inputs)
+      if (fs::equivalent(file, input, none))
+        throw UserError(file.string() + ": is to be written, but is the input " + input.string()
+                        + "." + remedy);
+  }
+
   bool
   begins_with(const fs::path &file, const std::string &line)
   {

@@ -247,6 +247,9 @@ namespace Exemplar
         all.insert(all.end(), part->get_warnings().begin(), part->get_warnings().end());
     };
     all.insert(all.end(), body.readings.warnings.begin(), body.readings.warnings.end());
+    if (body.made != nullptr)
+      for (const std::string &warning : warnings_of(*body.made))
+        all.push_back(warning);
     append(constraints.handles);
     append(examples.poses);
     append(examples.weights);
@@ -254,12 +257,12 @@ namespace Exemplar
   }
 
   std::unique_ptr<Problem>
-  make_problem(const SceneParameters &parameters)
+  make_problem(const SceneParameters &parameters, const Announce &announce)
   {
     try
     {
       const StepClock clock(Part::read);
-      return std::make_unique<Problem>(parameters, read_inputs(parameters), clock);
+      return std::make_unique<Problem>(parameters, read_inputs(parameters, {}, announce), clock);
     }
     catch (const SolverFailure &failure)
     {

@@ -139,7 +139,7 @@ namespace Exemplar
         readings(read_off_surface(parameters, mesh, inputs)),
         material(
             parameters.material, mesh.get_material_ids(), mesh.get_contents(), readings.material),
-        fe_space(mesh)
+        fe_space(mesh), made(inputs.made)
   {
     inputs.nodes.insert(readings.nodes.begin(), readings.nodes.end());
   }

@@ -56,6 +56,7 @@ namespace Exemplar
               { "statistics.csv", "step,time,status," },
               { "summary.json", "{\n  \"program\": \"exemplar\"" },
               { "final.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n" },
+              { "rest.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n" },
               { "checkpoint.bin", "exemplar checkpoint " } };
       return files;
     }

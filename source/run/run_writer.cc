@@ -81,6 +81,7 @@ namespace Exemplar
       directory.take_for_new_run(inputs);
       write_parameters(scene, totals.edits, directory.parameters_prm());
       write_original();
+      write_rest_mesh();
       statistics.emplace(directory.statistics());
       if (frames.is_due(0))
         frames.write();
@@ -107,6 +108,7 @@ namespace Exemplar
       StepClock::Scope scope(problem.clock, Part::output);
       statistics.emplace(directory.statistics(), checkpoint.statistics_bytes);
       write_original();
+      write_rest_mesh();
       write_parameters(scene, checkpoint.totals.edits, directory.parameters_prm());
     }
     accepted_bytes = checkpoint.statistics_bytes;
@@ -157,6 +159,7 @@ namespace Exemplar
       statistics.emplace(StatisticsFile::behind_step(directory.statistics(), step, row));
       accepted_bytes = statistics->n_bytes();
       write_original();
+      write_rest_mesh();
       write_parameters(scene, totals.edits, directory.parameters_prm());
       save(); // a crash from now on can be resumed
       fs::remove(directory.final_pose());
@@ -194,6 +197,13 @@ namespace Exemplar
     AtomicFile file(directory.original_prm());
     file.stream() << scene.get_text();
     file.commit();
+  }
+
+  void
+  RunWriter::write_rest_mesh() const
+  {
+    if (problem.parameters.mesh.is_surface())
+      problem.body.mesh.write_pose(problem.body.mesh.get_nodes(), directory.rest_mesh());
   }
 
   PartSeconds

@@ -80,6 +80,19 @@ namespace Exemplar
       throw UserError("Output/Formats has a format that shows the surface of the body, but the "
                       "scene names none. Set Mesh/Surface to the surface that the mesh was made "
                       "from, or Output/Formats = vtu.");
+    const auto check_pose = [&](const std::string &file, const std::string &key)
+    {
+      if (is_surface_file(file) && mesh.surface_file().empty())
+        throw UserError(key + ": " + file
+                        + " is a surface, but the scene names none at rest that it could be a pose "
+                          "of. Set Mesh/Surface to the surface that the mesh was made from, or "
+                          "Mesh/File to that surface.");
+    };
+    for (const std::string &pose : examples.in_use() ? examples.poses : std::vector<std::string>())
+      check_pose(pose, "Examples/Poses");
+    for (const HandleParameters &handle : handles)
+      check_pose(handle.follow_pose, "Handles/" + handle.name + "/Follow pose");
+    check_pose(initial.pose, "Initial/Pose");
   }
 
   void

@@ -48,6 +48,33 @@ namespace Exemplar
       return json;
     }
 
+    Json
+    mesh_made(const MeshingReport &report)
+    {
+      Json json;
+      for (const auto &[what, value] : report.table)
+        json[what] = Json::parse(value, nullptr, false);
+      json["notes"] = report.notes;
+      return json;
+    }
+
+    /// The numbers that tell whether a pose is good, by the names of poses.csv.
+    Json
+    poses_carried(const std::vector<MadeOfSurfaces::Pose> &poses)
+    {
+      Json json = Json::array();
+      for (const auto &[file, quality] : poses)
+        json.push_back({ { "pose", printable(file) },
+                         { "inverted_cells", quality.n_inverted },
+                         { "min_det_F", quality.least_det },
+                         { "max_det_F", quality.greatest_det },
+                         { "stretch_1", quality.stretch_1 },
+                         { "stretch_99", quality.stretch_99 },
+                         { "surface_error_mean", 100. * quality.mean_error },
+                         { "surface_error_max", 100. * quality.greatest_error } });
+      return json;
+    }
+
     /// Names of the parts that are there, or of those that are not.
     Json
     names_of(const std::vector<PartOfProblem> &parts, const bool is_there)
@@ -90,6 +117,13 @@ namespace Exemplar
         = problem.body.fe_space.n_dofs() - problem.constraints.free_dofs.size();
     if (problem.constraints.support)
       json["support_nodes"] = support_nodes(problem);
+    if (const auto &made = problem.body.made; made != nullptr)
+    {
+      if (!made->mesh.table.empty())
+        json["mesh_made"] = mesh_made(made->mesh);
+      if (!made->poses.empty())
+        json["poses_carried"] = poses_carried(made->poses);
+    }
     json["linear_solver"]  = problem.system.bordered().traits().name;
     json["examples"]       = problem.examples.poses != nullptr ? problem.examples.poses->size() : 0;
     json["steps"]          = problem.state.step;

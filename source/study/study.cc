@@ -5,6 +5,7 @@
 #include <exemplar/base/number_text.h>
 #include <exemplar/base/progress.h>
 #include <exemplar/mesh/mesh.h>
+#include <exemplar/run/inputs.h>
 #include <exemplar/run/run_directory.h>
 #include <exemplar/run/scene_file.h>
 #include <exemplar/study/study.h>
@@ -48,7 +49,11 @@ namespace Exemplar
             key += declared.value + "\n";
         std::unique_ptr<const Mesh> &mesh = meshes[key];
         if (mesh == nullptr)
-          mesh = std::make_unique<const Mesh>(scene.get_parameters().mesh);
+        {
+          const MeshParameters &parameters = scene.get_parameters().mesh;
+          mesh = std::make_unique<const Mesh>(load_or_make_mesh(parameters), parameters.name(),
+                                              parameters.scale);
+        }
         return { *mesh, RunDirectory(directory).final_pose() };
       }
 

@@ -3,6 +3,7 @@
 #include <exemplar/base/number_text.h>
 #include <exemplar/surface/body_surface.h>
 #include <exemplar/surface/surface_geometry.h>
+#include <exemplar/surface/surface_meshing.h>
 #include <exemplar/surface/surface_repair.h>
 
 namespace Exemplar
@@ -61,21 +62,22 @@ namespace Exemplar
   } // namespace
 
   BodySurface
-  read_body_surface(const std::filesystem::path &file, const bool mend)
+  read_body_surface(const SurfaceMeshingOptions &options)
   {
-    const SurfaceMesh read = read_surface(file);
-    CheckedSurface    checked;
+    const std::filesystem::path &file = options.surface;
+    const SurfaceMesh            read = read_surface(file);
+    CheckedSurface               checked;
     checked.surface                = triangulate(read, &checked.faces);
     const SurfaceFindings findings = check_surface(checked);
     BodySurface body{ checked.surface, checked.surface, read.group_names, findings.notes };
     if (findings.several_bodies)
       throw UserError(file.string() + ": this is more than one body:" + list_lines(findings.faults)
                       + "\n  A scene has one. Join them where they were made, or mesh each alone.");
-    if (!findings.faults.empty() && !mend)
+    if (!findings.faults.empty() && !options.repair)
       throw UserError(file.string() + ": the surface does not bound a body:"
                       + list_lines(findings.faults) + list_lines(findings.notes)
-                      + "\n  Mend it in the program that made it, or try --repair. Vertices and "
-                        "faces are counted from 1.");
+                      + "\n  Mend it in the program that made it, or try " + options.repair_option
+                      + ". Vertices and faces are counted from 1.");
     if (!findings.faults.empty())
     {
       append(body.notes, findings.faults);

@@ -17,8 +17,8 @@ namespace Exemplar
     {
       const SpaceVector edge = minus(p[j], p[i]);
       const SpaceVector a = cross(edge, minus(p[k], p[i])), b = cross(edge, minus(p[l], p[i]));
-      const double  angle = degrees * std::atan2(norm(cross(a, b)), dot(a, b));
-      angles              = { std::min(angles.first, angle), std::max(angles.second, angle) };
+      const double      angle = degrees * std::atan2(norm(cross(a, b)), dot(a, b));
+      angles                  = { std::min(angles.first, angle), std::max(angles.second, angle) };
     }
     return angles;
   }

@@ -65,9 +65,9 @@ namespace Exemplar
     double          area = 0.;
     for (std::size_t t = 0; t < from.triangles.size(); ++t)
     {
-      const auto   &corners = from.triangles[t];
+      const auto       &corners = from.triangles[t];
       const SpaceVector origin{ { 0., 0., 0. } };
-      const auto    at = [&](const double a, const double b, const double c)
+      const auto        at = [&](const double a, const double b, const double c)
       {
         const double d = to(plus(plus(plus(origin, a, from.vertices[corners[0]]), b,
                                       from.vertices[corners[1]]),

@@ -102,12 +102,38 @@ namespace Exemplar
       }
     }
 
-    /// With some vertices held where they are.
+    /// What remeshing leaves alone.
+    struct Held
+    {
+      std::vector<bool> vertices;
+      std::vector<bool> triangles; ///< none: no triangle
+    };
+
+    /// A vertex map of what is held of a surface, of which the mesh is a copy.
+    auto
+    map_of_held(const Held &held, CgalMesh &mesh)
+    {
+      auto map = mesh.add_property_map<CgalMesh::Vertex_index, bool>("v:held", false).first;
+      for (std::size_t i = 0; i < held.vertices.size(); ++i)
+        map[CgalMesh::Vertex_index(static_cast<unsigned int>(i))] = held.vertices[i];
+      return map;
+    }
+
+    std::vector<CgalMesh::Face_index>
+    faces_to_change(const Held &held, const CgalMesh &mesh)
+    {
+      std::vector<CgalMesh::Face_index> faces;
+      for (const auto face : mesh.faces())
+        if (face >= held.triangles.size() || !held.triangles[face])
+          faces.push_back(face);
+      return faces;
+    }
+
     TriangleSurface
-    remesh_holding(const TriangleSurface   &surface,
-                   const double             edge_length,
-                   const bool               keep_edges,
-                   const std::vector<bool> &held_vertices)
+    remesh_holding(const TriangleSurface &surface,
+                   const double           edge_length,
+                   const bool             keep_edges,
+                   const Held            &held)
     {
       CgalMesh mesh = make_cgal_mesh(surface);
       Groups   groups
@@ -118,15 +144,13 @@ namespace Exemplar
       if (keep_edges)
         keep_sharp_edges(mesh, edge_length, kept);
       keep_borders(mesh, groups, kept);
-      divide_kept_edges(mesh, edge_length, groups, kept);
-      auto held = mesh.add_property_map<CgalMesh::Vertex_index, bool>("v:held", false).first;
-      for (std::size_t i = 0; i < held_vertices.size(); ++i)
-        held[CgalMesh::Vertex_index(static_cast<unsigned int>(i))] = held_vertices[i];
-      PMP::isotropic_remeshing(mesh.faces(), edge_length, mesh,
+      if (held.triangles.empty())
+        divide_kept_edges(mesh, edge_length, groups, kept);
+      PMP::isotropic_remeshing(faces_to_change(held, mesh), edge_length, mesh,
                                PMP::parameters::number_of_iterations(n_iterations)
                                    .number_of_relaxation_steps(3)
                                    .edge_is_constrained_map(kept)
-                                   .vertex_is_constrained_map(held)
+                                   .vertex_is_constrained_map(map_of_held(held, mesh))
                                    .face_patch_map(groups));
       return from_cgal_mesh(mesh, [&](const CgalMesh::Face_index face) { return groups[face]; });
     }
@@ -159,11 +183,14 @@ namespace Exemplar
   } // namespace
 
   TriangleSurface
-  remesh(const TriangleSurface &surface, const double edge_length, const bool keep_edges)
+  remesh(const TriangleSurface   &surface,
+         const double             edge_length,
+         const bool               keep_edges,
+         const std::vector<bool> &held)
   {
     const std::vector<bool> none(surface.vertices.size(), false);
-    TriangleSurface         result = remesh_holding(surface, edge_length, keep_edges, none);
-    const auto              tips   = lost_tips(surface, result, tip_spacing * edge_length);
-    return tips == none ? result : remesh_holding(surface, edge_length, keep_edges, tips);
+    TriangleSurface result = remesh_holding(surface, edge_length, keep_edges, { none, held });
+    const auto      tips   = lost_tips(surface, result, tip_spacing * edge_length);
+    return tips == none ? result : remesh_holding(surface, edge_length, keep_edges, { tips, held });
   }
 } // namespace Exemplar

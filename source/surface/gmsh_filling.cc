@@ -24,10 +24,15 @@ namespace Exemplar
       {
         gmsh::initialize(0, nullptr, false); // no user's settings
         const std::map<std::string, double> options{
-          { "General.Terminal", 0. },       { "General.NumThreads", 1. },
-          { "Mesh.Algorithm3D", 1. },       { "Mesh.Optimize", 1. },
-          { "Mesh.OptimizeThreshold", .3 }, { "Mesh.MeshSizeExtendFromBoundary", 1. },
-          { "Mesh.Renumber", 0. },          { "Mesh.RandomSeed", 1. }
+          { "General.Terminal", 0. },
+          { "General.NumThreads", 1. },
+          { "Mesh.Algorithm3D", 1. },
+          { "Mesh.Optimize", 1. },
+          { "Mesh.OptimizeThreshold", .3 },
+          { "Mesh.MeshSizeExtendFromBoundary", 1. },
+          { "Mesh.Renumber", 0. },
+          { "Mesh.RandomSeed", 1. },
+          { "Mesh.AngleToleranceFacetOverlap", 1e-3 } // degrees: thin wedges may be
         };
         for (const auto &[name, value] : options)
           gmsh::option::setNumber(name, value);

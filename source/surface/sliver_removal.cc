@@ -176,7 +176,7 @@ namespace Exemplar
                        minus(mesh.nodes[n[2]], mesh.nodes[n[0]]));
         };
         const SpaceVector a = normal(first), b = normal(other);
-        const double  angle = std::atan2(norm(cross(a, b)), dot(a, b));
+        const double      angle = std::atan2(norm(cross(a, b)), dot(a, b));
         return angle * 180. / std::acos(-1.) < 180. - flat_angle;
       }
 

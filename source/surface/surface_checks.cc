@@ -122,7 +122,7 @@ namespace Exemplar
     SurfaceCheck::note_duplicates()
     {
       std::map<SpaceVector, unsigned int> first;
-      std::vector<std::size_t>        numbers;
+      std::vector<std::size_t>            numbers;
       for (unsigned int i = 0; i < surface.vertices.size(); ++i)
         if (!first.emplace(surface.vertices[i], i).second)
           numbers.push_back(i + 1);
@@ -143,8 +143,8 @@ namespace Exemplar
         for (unsigned int k = 0; k < 3; ++k)
         {
           const SpaceVector side = minus(surface.vertices[surface.triangles[t][(k + 1) % 3]],
-                                     surface.vertices[surface.triangles[t][k]]);
-          longest            = std::max(longest, dot(side, side));
+                                         surface.vertices[surface.triangles[t][k]]);
+          longest                = std::max(longest, dot(side, side));
         }
         if (area_of(surface, t) <= 1e-10 * longest)
           flat.push_back(t);

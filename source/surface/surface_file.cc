@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/base/message_text.h>
+#include <exemplar/mesh/mesh_parameters.h>
 #include <exemplar/surface/surface_formats.h>
 #include <exemplar/surface/surface_scanner.h>
 
@@ -25,7 +26,7 @@ namespace Exemplar
     read_by_extension(const std::filesystem::path &file)
     {
       const std::string extension = lower_case(file.extension().string());
-      if (extension != ".obj" && extension != ".ply" && extension != ".stl")
+      if (!is_surface_file(file.string()))
         throw UserError(file.string() + ": a surface must be an .obj, .ply or .stl file, found "
                         + in_quotes(extension) + ". Export it in one of these formats.");
       SurfaceScanner in(file);

@@ -85,10 +85,11 @@ namespace Exemplar
                  const TriangleSurface &pose,
                  const std::string     &prefix)
     {
-      const double    before = enclosed_volume(rest), after = enclosed_volume(pose);
-      const double    unit              = std::pow(total_area(rest), 1.5);
-      const bool      turned_inside_out = before * after < 0. && std::abs(before) > 1e-3 * unit;
-      TriangleSurface mirrored          = rest;
+      const double before = enclosed_volume(rest), after = enclosed_volume(pose);
+      const double unit              = std::pow(total_area(rest), 1.5);
+      const bool   turned_inside_out = before * after < 0. && std::abs(before) > 1e-3 * unit
+                                     && std::abs(after) > 1e-3 * unit; // flat ones have no side
+      TriangleSurface mirrored = rest;
       for (auto &x : mirrored.vertices)
         x[0] = -x[0];
       const bool fits = mirror_ratio * mirror_ratio * misfit(points_of(mirrored), points_of(pose))

@@ -13,16 +13,6 @@ namespace Exemplar
 {
   namespace
   {
-    std::string
-    read_surface_bytes(const std::filesystem::path &file)
-    {
-      std::string reason;
-      if (auto bytes = read_text_file(file, &reason))
-        return std::move(*bytes);
-      throw UserError(file.string() + ": cannot be opened (" + reason
-                      + "). Give the path of a surface: an .obj, .ply or .stl file.");
-    }
-
     bool
     is_blank(const char c)
     {
@@ -43,6 +33,16 @@ namespace Exemplar
       return std::min(end + (two ? 2 : 1), bytes.size());
     }
   } // namespace
+
+  std::string
+  read_surface_bytes(const std::filesystem::path &file)
+  {
+    std::string reason;
+    if (auto bytes = read_text_file(file, &reason))
+      return std::move(*bytes);
+    throw UserError(file.string() + ": cannot be opened (" + reason
+                    + "). Give the path of a surface: an .obj, .ply or .stl file.");
+  }
 
   SurfaceScanner::SurfaceScanner(const std::filesystem::path &path)
       : file(path), bytes(read_surface_bytes(path))

@@ -75,9 +75,9 @@ namespace Exemplar
       double
       quality(const Triangle &ear) const
       {
-        const SpaceVector ab     = minus(vertices[ear[1]], vertices[ear[0]]),
-                      bc     = minus(vertices[ear[2]], vertices[ear[1]]),
-                      ca     = minus(vertices[ear[0]], vertices[ear[2]]);
+        const SpaceVector ab = minus(vertices[ear[1]], vertices[ear[0]]),
+                          bc = minus(vertices[ear[2]], vertices[ear[1]]),
+                          ca = minus(vertices[ear[0]], vertices[ear[2]]);
         const double area    = seen_area(vertices[ear[0]], vertices[ear[1]], vertices[ear[2]]);
         const double squares = norm(normal) * (dot(ab, ab) + dot(bc, bc) + dot(ca, ca));
         if (!(squares > 0.))
@@ -107,7 +107,7 @@ namespace Exemplar
       }
 
       const std::vector<SpaceVector> &vertices;
-      std::vector<unsigned int>   rest;
+      std::vector<unsigned int>       rest;
       SpaceVector                     normal;
     };
   } // namespace

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Surfaces for tests, made of formulas or of the boundary of a mesh: (vertices, faces), counted from 0.
 
-Usage: python3 tests/scenes/surfaces.py cat|horse|sphere|torus|creature FILE.obj
+Usage: python3 tests/scenes/surfaces.py cat|horse|sphere|torus|creature|mouth FILE.obj
 """
 import math
 import sys
@@ -195,9 +195,27 @@ def creature(n=90):
     return level_set(value, (-1.3, -.45, -.2), (1.15, .45, 1.2), n)
 
 
+def mouth(gap, h):
+    """A block 1 x .4 x .5, a little bent, with a wedge `gap` wide and .6 deep cut into it: two lips. Two of its faces
+    are polygons."""
+    corners = [(0, 0), (1, 0), (1, .25 - gap / 2), (.4, .25), (1, .25 + gap / 2), (1, .5), (0, .5)]
+    profile = []
+    for (x, z), (x_next, z_next) in zip(corners, corners[1:] + corners[:1]):
+        n = max(1, round(math.hypot(x_next - x, z_next - z) / h))
+        profile += [(x + i / n * (x_next - x), z + i / n * (z_next - z)) for i in range(n)]
+    n, m = len(profile), round(.4 / h)
+    vertices = [(x, .4 * j / m, z + .02 * math.sin(3 * x) * math.cos(2 * j / m)) for j in range(m + 1) for x, z in profile]
+    faces = [tuple(range(n)), tuple(reversed(range(m * n, (m + 1) * n)))]
+    for j in range(m):
+        for i in range(n):
+            a, b = j * n + i, j * n + (i + 1) % n
+            faces.append((a, a + n, b + n, b))
+    return vertices, faces
+
+
 def main():
     kind, file = sys.argv[1:]
-    surface = {"sphere": lambda: sphere(5), "torus": lambda: torus(140, 50), "creature": creature,
+    surface = {"sphere": lambda: sphere(5), "torus": lambda: torus(140, 50), "creature": creature, "mouth": lambda: mouth(.003, .03),
                "cat": lambda: smoothed(*boundary_of(MESHES / "cat.msh")),
                "horse": lambda: smoothed(*boundary_of(MESHES / "horse.msh"))}[kind]()
     write_obj(file, *surface)

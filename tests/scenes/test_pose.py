@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Surface poses on tetrahedra: what `exemplar pose` writes, and what it says of wrong input."""
+"""Surface poses on tetrahedra: what `exemplar pose` writes; test_bad_surfaces.py has what it refuses."""
 
 import csv
 import unittest
@@ -103,35 +103,12 @@ class Pose(SceneTest):
         self.assertEqual(row["inverted_cells"], "0")
         self.assertGreater(float(row["min_det_F"]), 1e-3)
 
-    def test_surfaces_that_are_no_poses_are_refused(self):
-        identity = [list(face) for face in self.faces]
-        self.surface("good.obj", bent)
-        identity[6] = identity[6][1:] + identity[6][:1]
-        self.surface("order.obj", bent, identity)
-        self.refuse(["order.obj is no pose of rest.obj: face 7 has the vertices"], "good.obj", "order.obj")
-        write_obj(self.directory / "fewer.obj", self.points[:-1],
-                  [face for face in self.faces if len(self.points) - 1 not in face])
-        self.refuse([f"fewer.obj is no pose of rest.obj: it has {len(self.points) - 1} vertices"], "fewer.obj")
-        self.surface("mirror.obj", lambda x, y, z: (x, -y, z))
-        self.refuse(["mirror.obj", "mirror image"], "mirror.obj")
-        self.surface("mm.obj", lambda x, y, z: (1000 * x, 1000 * y, 1000 * z))
-        self.refuse(["mm.obj", "1e+03 times larger", "unit"], "mm.obj")
-        self.surface("nan.obj", lambda x, y, z: (x, float("nan") if x > 3.9 else y, z))
-        self.refuse(["nan.obj"], "nan.obj")
-        self.refuse(["No file matches hop_*.obj"], "hop_*.obj")
-        self.refuse(["absent.obj"], "absent.obj")
-
-    def test_surfaces_of_another_body_are_refused(self):
-        self.surface("swapped.obj", lambda x, y, z: (y, -x, z))
-        self.refuse(["bar.msh is no mesh of the inside of swapped.obj", "node"], "swapped.obj", rest="swapped.obj")
-
     def test_outputs_overwrite_no_input_and_no_other_output(self):
         (self.directory / "more").mkdir()
         for name in ("bar.obj", "more/p.obj", "p.obj"):
             self.surface(name, bent)
         self.refuse(["bar.msh is the mesh"], "bar.obj", output=".")
         self.refuse(["p.obj and more/p.obj would both be written"], "p.obj", "more/p.obj")
-        self.refuse(["--attach"], "p.obj", arguments=["--attach", "-1"])
 
 
 if __name__ == "__main__":

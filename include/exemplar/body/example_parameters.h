@@ -26,6 +26,7 @@ namespace Exemplar
   struct ExampleParameters
   {
     std::vector<std::string> poses;
+    double                   attach = 30.; ///< of poses that are surfaces
     std::string              pose_functions;
     bool                     include_rest_pose = true;
     double                   importance        = 0.8; ///< eta

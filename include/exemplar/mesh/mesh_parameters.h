@@ -25,7 +25,9 @@ namespace Exemplar
   struct MeshParameters
   {
     std::string                 file;
-    std::string                 surface; ///< a file; empty: see surface_file()
+    std::string                 surface;           ///< a file; empty: see surface_file()
+    unsigned int                n_cells   = 10000; ///< wanted, if `file` is a surface
+    bool                        repair    = false; ///< whether a surface is mended first
     MeshGenerator               generator = MeshGenerator::none;
     std::array<double, 3>       box_size{ { 1., 1., 1. } };
     std::array<unsigned int, 3> box_cells{ { 4, 4, 4 } };
@@ -41,10 +43,22 @@ namespace Exemplar
     std::string
     name() const;
 
-    /// The surface that bounds the body as its maker has it; empty if none is named.
+    /// Whether `file` is a surface, which is to be filled with cells.
+    bool
+    is_surface() const;
+
+    /// The surface that bounds the body as its maker has it: `surface`, or else `file` if that is
+    /// one; empty if none is named.
     std::string
     surface_file() const;
   };
+
+  /// Whether a file is a surface, by its extension: .obj, .ply or .stl, in capitals, too.
+  bool
+  is_surface_file(const std::string &file);
+
+  /// How many cells may be asked for.
+  constexpr unsigned int least_n_cells = 10, most_n_cells = 10000000;
 } // namespace Exemplar
 
 #endif

@@ -3,6 +3,7 @@
 #define exemplar_inputs_h
 
 #include <exemplar/mesh/mesh_inputs.h>
+#include <exemplar/run/surface_inputs.h>
 #include <exemplar/surface/painted_map.h>
 #include <exemplar/surface/point_cache.h>
 
@@ -24,13 +25,20 @@ namespace Exemplar
     NamedMaps                          maps = {}; ///< by FILE:ATTRIBUTE, of the surface's vertices
     /// Of Follow cache, by the names of handles. Sequences of files keep a reference to the surface.
     std::map<std::string, std::shared_ptr<const PointCache>> caches = {};
+    /// How mesh and poses became of surfaces; null if none did.
+    std::shared_ptr<const MadeOfSurfaces> made = {};
   };
 
   /// Read or generate what a scene needs and `given` does not hold. Without importance no
   /// example pose is read. Throws UserError for a file that cannot be read or is none of the
-  /// mesh, naming what is wrong.
+  /// mesh, naming what is wrong. Surfaces are checked before anything is made of them, which may take
+  /// long unless it is kept; `announce` is told of it.
   Inputs
-  read_inputs(SceneParameters scene, Inputs given = {});
+  read_inputs(SceneParameters scene, Inputs given = {}, const Announce &announce = {});
+
+  /// load_mesh(), also of a surface.
+  MshFile
+  load_or_make_mesh(const MeshParameters &parameters);
 } // namespace Exemplar
 
 #endif

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 // What directories of results have in common, of runs and of studies. Messages end in
 // `remedy`, which says how to choose another directory.
@@ -17,6 +18,12 @@ namespace Exemplar
   /// Throws UserError if that fails.
   void
   make_directory(const std::filesystem::path &path, const std::string &remedy);
+
+  /// Throws UserError if a file to be written is there and is no regular file, or one of `inputs`.
+  void
+  require_replaceable(const std::filesystem::path              &file,
+                      const std::vector<std::filesystem::path> &inputs,
+                      const std::string                        &remedy);
 
   /// Whether a file begins with this line, by which a directory is known as ours.
   bool

@@ -89,9 +89,9 @@ namespace Exemplar
   };
 
   /// The problem of a scene and of the files that it names. Throws UserError whatever fails, as
-  /// the scene is to blame before the first step is solved.
+  /// the scene is to blame before the first step is solved. See read_inputs() for `announce`.
   std::unique_ptr<Problem>
-  make_problem(const SceneParameters &parameters);
+  make_problem(const SceneParameters &parameters, const Announce &announce = {});
 } // namespace Exemplar
 
 #endif

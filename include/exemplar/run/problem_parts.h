@@ -35,6 +35,8 @@ namespace Exemplar
     const SurfaceReadings readings; ///< off the surface
     const Material        material;
     const FESpace         fe_space;
+    /// How the mesh and its poses became of surfaces; null if none did.
+    const std::shared_ptr<const MadeOfSurfaces> made;
   };
 
   /// What holds the body, and what is left free.

@@ -89,6 +89,13 @@ namespace Exemplar
       return path / "final.msh";
     }
 
+    /// Of the mesh that was made, if Mesh/File is a surface: final.msh is a pose of it.
+    std::filesystem::path
+    rest_mesh() const
+    {
+      return path / "rest.msh";
+    }
+
     std::filesystem::path
     checkpoint() const
     {

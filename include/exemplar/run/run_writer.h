@@ -68,6 +68,9 @@ namespace Exemplar
     write_original() const;
 
     void
+    write_rest_mesh() const;
+
+    void
     write_final_pose() const;
 
     /// What is saved of the present state.

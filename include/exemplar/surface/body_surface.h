@@ -15,11 +15,13 @@ namespace Exemplar
     std::vector<std::string> notes; ///< what was seen and mended
   };
 
-  /// Read and check a surface. With `mend`, what is wrong is repaired, and if that does not do, the
+  struct SurfaceMeshingOptions;
+
+  /// Read and check a surface. With `repair`, what is wrong is repaired, and if that does not do, the
   /// surface is wrapped; the notes say what was done and how far the surface moved. Throws UserError
   /// with all that is wrong and where.
   BodySurface
-  read_body_surface(const std::filesystem::path &file, bool mend);
+  read_body_surface(const SurfaceMeshingOptions &options);
 } // namespace Exemplar
 
 #endif

@@ -3,24 +3,13 @@
 #define exemplar_pose_transfer_h
 
 #include <exemplar/surface/fold_solver.h>
+#include <exemplar/surface/pose_quality.h>
 #include <exemplar/surface/surface_attachment.h>
 
 #include <memory>
 
 namespace Exemplar
 {
-  /// What a pose on tetrahedra is like. Stretches are singular values of F, of all cells.
-  struct PoseQuality
-  {
-    unsigned int n_inverted = 0;
-    double       least_det = 0., greatest_det = 0.;
-    double       least_stretch = 0., stretch_1 = 0., stretch_99 = 0., greatest_stretch = 0.;
-    double       mean_error = 0., greatest_error = 0.; ///< of boundary nodes, over the diagonal
-    double       rotation   = 0.; ///< of the rigid motion that was stripped [degrees]
-    double       shift      = 0.; ///< of the body's boundary [m]
-    unsigned int iterations = 0, releases = 0;
-  };
-
   /// Carries poses of a surface onto a tetrahedral mesh of its inside, without inverted cells.
   class PoseTransfer
   {

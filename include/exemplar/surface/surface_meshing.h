@@ -13,16 +13,25 @@ namespace Exemplar
   struct SurfaceMeshingOptions
   {
     std::filesystem::path surface;
-    unsigned int          n_cells = 0; ///< wanted
-    bool                  repair  = false;
+    unsigned int          n_cells   = 0; ///< wanted
+    bool                  repair    = false;
+    std::filesystem::path materials = {}; ///< a table, see read_material_seeds(); or empty
+    /// What the user calls cells and repair, for messages.
+    std::string cells_option = "--cells", repair_option = "--repair";
+  };
+
+  /// How a mesh became.
+  struct MeshingReport
+  {
+    std::vector<std::pair<std::string, std::string>> table; ///< (what, how much)
+    std::vector<std::string>                         notes; ///< lines for the user
   };
 
   /// A mesh inside a surface, and how it became.
   struct MeshedSurface
   {
-    MshFile mesh; ///< groups of faces are its physical surfaces, shells its physical volumes
-    std::vector<std::pair<std::string, std::string>> table; ///< (what, how much)
-    std::vector<std::string>                         notes; ///< lines for the user
+    MshFile       mesh; ///< groups of faces are its physical surfaces, shells its physical volumes
+    MeshingReport report;
   };
 
   /// Read a surface, check it (and mend it, if that is wished), make its edges as long as the number

@@ -10,6 +10,10 @@
 
 namespace Exemplar
 {
+  /// All bytes of a file. Throws UserError for one that cannot be read.
+  std::string
+  read_surface_bytes(const std::filesystem::path &file);
+
   /// Takes a file of a surface apart: lines of words, or binary numbers. It knows where it is, so
   /// that every complaint names the line or byte. All reading functions throw UserError.
   class SurfaceScanner

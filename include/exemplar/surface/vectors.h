@@ -43,7 +43,10 @@ namespace Exemplar
 
   /// Six times the volume of the tetrahedron; positive if d is where a, b, c are clockwise.
   inline double
-  six_volumes(const SpaceVector &a, const SpaceVector &b, const SpaceVector &c, const SpaceVector &d)
+  six_volumes(const SpaceVector &a,
+              const SpaceVector &b,
+              const SpaceVector &c,
+              const SpaceVector &d)
   {
     return dot(cross(minus(b, a), minus(c, a)), minus(d, a));
   }

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A simple creature with body, neck, head, four limbs and a tail: its surface, and ten strong poses of it by bones.
+"""A simple creature with body, neck, head, four limbs and a tail: its surface, and poses of it by bones.
 
-Usage: python3 creature.py DIRECTORY [--cell H] [--poses N]
-Writes DIRECTORY/rest.obj and pose_1.obj to pose_10.obj, in the same order of vertices. The surface is that of round
-cones around the bones, blended (an isosurface, found by surface nets on a grid of spacing H: .0365 gives 7,000
-vertices). Units m, facing +x, up +z.
+Usage: python3 creature.py DIRECTORY [--cell H] [--poses strong|tutorial]
+Writes DIRECTORY/rest.obj and, in the same order of vertices, ten strong poses, pose_1.obj to pose_10.obj, or those of
+the tutorial, crouch.obj and reach.obj. The surface is that of round cones around the bones, blended (an isosurface,
+found by surface nets on a grid of spacing H: .0365 gives 7,000 vertices). Units m, facing +x, up +z.
 """
 import argparse
 from pathlib import Path
@@ -114,7 +114,21 @@ def leg(name, upper, lower, axis=Y):
     return {f"{name} upper": (axis, upper), f"{name} lower": (axis, lower)}
 
 
-def make_poses():
+def tutorial_poses():
+    crouch, reach = {"neck": (Y, 35), "head": (Y, -15), **tail(-50, Y)}, {}
+    for side in ("right", "left"):
+        crouch.update({**leg(f"fore {side}", 45, -90), **leg(f"hind {side}", -45, 90)})
+    reach.update({"chest": (Y, -25), "neck": (Y, -25), "head": (Y, 20), **tail(90, Y)})
+    for side in ("right", "left"):  # the forelegs stay upright
+        reach.update(leg(f"fore {side}", 25, 0))
+    return {"crouch": crouch, "reach": reach}
+
+
+def strong_poses():
+    return {f"pose_{number}": pose for number, pose in enumerate(list_of_strong_poses(), 1)}
+
+
+def list_of_strong_poses():
     fr, fl, hr, hl = "fore right", "fore left", "hind right", "hind left"
     return [
         {**leg(fr, -90, 60), **tail(180)},
@@ -135,16 +149,16 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("directory", type=Path)
     parser.add_argument("--cell", type=float, default=.0365)
-    parser.add_argument("--poses", type=int, default=10)
+    parser.add_argument("--poses", choices=["strong", "tutorial"], default="strong")
     arguments = parser.parse_args()
     arguments.directory.mkdir(parents=True, exist_ok=True)
     skeleton = make_skeleton()
     points, triangles = make_surface(skeleton, arguments.cell)
     share = skinning.smoothed(skinning.weights(points, skeleton, .1), triangles, round(.3 / arguments.cell))
     skinning.write_obj(arguments.directory / "rest.obj", points, triangles)
-    for number, pose in enumerate(make_poses()[:arguments.poses], 1):
-        skinning.write_obj(arguments.directory / f"pose_{number}.obj",
-                           skinning.posed(points, share, skeleton, pose), triangles)
+    poses = strong_poses() if arguments.poses == "strong" else tutorial_poses()
+    for name, pose in poses.items():
+        skinning.write_obj(arguments.directory / f"{name}.obj", skinning.posed(points, share, skeleton, pose), triangles)
     print(f"{len(points)} vertices, {len(triangles)} triangles")
 
 

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_mesh_making_h
+#define exemplar_mesh_making_h
+
+#include <exemplar/surface/surface_meshing.h>
+
+namespace Exemplar
+{
+  /// mesh_surface() in a process of its own, because CGAL and gmsh may crash or never end on odd
+  /// surfaces, and gmsh keeps one model for the whole process. The mesh is written to `msh`, whole
+  /// or not at all. Throws as mesh_surface() does, and SolverFailure for a crash and after 600 s
+  /// and 10 ms a cell.
+  MeshingReport
+  make_mesh_file(const SurfaceMeshingOptions &options, const std::filesystem::path &msh);
+
+  /// A report as one line of text, and back. Throws std::exception for another text.
+  std::string
+  to_text(const MeshingReport &report);
+  MeshingReport
+  report_from_text(const std::string &text);
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_pose_quality_h
+#define exemplar_pose_quality_h
+
+namespace Exemplar
+{
+  /// What a pose on tetrahedra is like. Stretches are singular values of F, of all cells.
+  struct PoseQuality
+  {
+    unsigned int n_inverted = 0;
+    double       least_det = 0., greatest_det = 0.;
+    double       least_stretch = 0., stretch_1 = 0., stretch_99 = 0., greatest_stretch = 0.;
+    double       mean_error = 0., greatest_error = 0.; ///< of boundary nodes, over the diagonal
+    double       rotation   = 0.; ///< of the rigid motion that was stripped [degrees]
+    double       shift      = 0.; ///< of the body's boundary [m]
+    unsigned int iterations = 0, releases = 0;
+  };
+} // namespace Exemplar
+
+#endif

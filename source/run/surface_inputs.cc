@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/digest.h>
+#include <exemplar/base/errors.h>
+#include <exemplar/base/kept_file.h>
+#include <exemplar/base/number_text.h>
+#include <exemplar/base/version.h>
+#include <exemplar/run/scene_parameters.h>
+#include <exemplar/run/surface_inputs.h>
+#include <exemplar/surface/mesh_making.h>
+#include <exemplar/surface/pose_carrying.h>
+#include <exemplar/surface/surface_scanner.h>
+
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <optional>
+
+namespace Exemplar
+{
+  namespace
+  {
+    namespace fs = std::filesystem;
+    using Json   = nlohmann::ordered_json;
+
+    /// To be raised with each change of what is made of the same surfaces.
+    const std::string method = "exemplar " EXEMPLAR_VERSION " surfaces 1\n";
+
+    /// A .msh may have a section of comments, which its readers pass over.
+    void
+    append_comment(const fs::path &msh, const std::string &line)
+    {
+      std::ofstream out(msh, std::ios::binary | std::ios::app);
+      out << "$Comments\n" << line << "\n$EndComments\n" << std::flush;
+      if (!out)
+        throw std::runtime_error("Cannot write " + msh.string() + "; is the disk full?");
+    }
+
+    std::string
+    comment_of(const fs::path &msh)
+    {
+      std::ifstream     in(msh, std::ios::binary);
+      const std::string text{ std::istreambuf_iterator<char>(in), {} };
+      const std::string begin = "\n$Comments\n";
+      const std::size_t at    = text.rfind(begin);
+      if (at == std::string::npos)
+        throw std::runtime_error(msh.string() + " has no comments. Remove it.");
+      const std::size_t line = at + begin.size();
+      return text.substr(line, text.find('\n', line) - line);
+    }
+
+    /// Of a surface's bytes, and of the format that they are in.
+    std::string
+    surface_digest(const std::string &file)
+    {
+      return sha256_of_text(read_surface_bytes(file)) + fs::path(file).extension().string() + "\n";
+    }
+
+    /// Of what a pose on it depends on.
+    std::string
+    mesh_digest(const MshFile &mesh)
+    {
+      Sha256     digest;
+      const auto add = [&](const auto *numbers, const std::size_t n)
+      { digest.update(reinterpret_cast<const char *>(numbers), n * sizeof(*numbers)); };
+      add(mesh.node_numbers.data(), mesh.node_numbers.size());
+      for (const dealii::Point<3> &node : mesh.nodes)
+        add(node.begin_raw(), 3);
+      for (const MshElement &element : mesh.elements)
+        if (element.type == MshElementType::tetrahedron)
+          add(element.nodes.data(), element.nodes.size());
+      return digest.hex_digest() + "\n";
+    }
+
+    std::string
+    to_text(const PoseQuality &q)
+    {
+      return Json{ q.n_inverted, q.least_det,        q.greatest_det, q.least_stretch,  q.stretch_1,
+                   q.stretch_99, q.greatest_stretch, q.mean_error,   q.greatest_error, q.rotation,
+                   q.shift }
+          .dump();
+    }
+
+    PoseQuality
+    quality_from_text(const std::string &text)
+    {
+      const Json  n = Json::parse(text);
+      PoseQuality q;
+      q.n_inverted  = n.at(0);
+      std::size_t i = 1;
+      for (double *const number :
+           { &q.least_det, &q.greatest_det, &q.least_stretch, &q.stretch_1, &q.stretch_99,
+             &q.greatest_stretch, &q.mean_error, &q.greatest_error, &q.rotation, &q.shift })
+        *number = n.at(i++);
+      return q;
+    }
+  } // namespace
+
+  /// What carrying poses needs.
+  struct SurfaceInputs::Poses
+  {
+    explicit Poses(const fs::path &file) : rest(file) {}
+
+    /// Onto a mesh, always the same.
+    PoseTransfer &
+    transfer_to(const MshFile &contents, const SceneParameters &scene)
+    {
+      if (!transfer)
+      {
+        mesh.emplace(contents, scene.mesh.name());
+        transfer.emplace(make_pose_transfer(*mesh, rest, scene.examples.attach));
+      }
+      return *transfer;
+    }
+
+    const RestSurface                  rest;
+    std::map<std::string, SurfaceMesh> surfaces;
+    std::optional<const Mesh>          mesh;
+    std::optional<PoseTransfer>        transfer;
+  };
+
+  SurfaceInputs::SurfaceInputs(const SceneParameters &scene, Announce announce)
+      : scene(scene), announce(announce ? std::move(announce) : [](const std::string &) {})
+  {
+  }
+
+  SurfaceInputs::~SurfaceInputs() = default;
+
+  MadeOfSurfaces &
+  SurfaceInputs::get_made_anew()
+  {
+    if (made == nullptr)
+      made = std::make_shared<MadeOfSurfaces>();
+    return *made;
+  }
+
+  void
+  SurfaceInputs::read_pose(const std::string &file)
+  {
+    if (poses == nullptr)
+      poses = std::make_unique<Poses>(scene.mesh.surface_file());
+    if (poses->surfaces.count(file) == 0)
+      poses->surfaces[file] = read_pose_surface(file, poses->rest);
+  }
+
+  MshFile
+  SurfaceInputs::make_mesh()
+  {
+    const MeshParameters &mesh = scene.mesh;
+    const std::string     key
+        = sha256_of_text(method + surface_digest(mesh.file) + std::to_string(mesh.n_cells)
+                         + (mesh.repair ? " repaired" : ""));
+    const fs::path kept = kept_file(
+        key + ".msh", false,
+        [&](const fs::path &made_file)
+        {
+          announce("filling " + mesh.file + " with " + std::to_string(mesh.n_cells) + " cells");
+          const SurfaceMeshingOptions options{ mesh.file, mesh.n_cells, mesh.repair,
+                                               "",        "Mesh/Cells", "Mesh/Repair = true" };
+          append_comment(made_file, Exemplar::to_text(make_mesh_file(options, made_file)));
+        });
+    get_made_anew().mesh = report_from_text(comment_of(kept));
+    return read_msh(kept);
+  }
+
+  std::vector<dealii::Point<3>>
+  SurfaceInputs::carry(const std::string &file, const MshFile &mesh)
+  {
+    const std::string key
+        = sha256_of_text(method + mesh_digest(mesh) + surface_digest(poses->rest.name)
+                         + surface_digest(file) + shortest_text(scene.examples.attach));
+    const fs::path kept = kept_file(
+        key + ".msh", false,
+        [&](const fs::path &made_file)
+        {
+          PoseTransfer &transfer = poses->transfer_to(mesh, scene);
+          announce("carrying " + file + " onto the mesh");
+          PoseQuality quality;
+          MshFile     pose      = mesh;
+          pose.nodes            = transfer.carry(poses->surfaces.at(file).vertices, quality);
+          const std::string bad = inverted_elements(transfer, *poses->mesh, pose.nodes);
+          if (!bad.empty())
+            throw SolverFailure(file + ": cells stay inverted in this pose: element " + bad
+                                + ". Attach the surface more softly, by Examples/Attach, or take a "
+                                  "finer mesh, by Mesh/Cells.");
+          write_msh(pose, made_file);
+          append_comment(made_file, to_text(quality));
+        });
+    get_made_anew().poses.push_back({ file, quality_from_text(comment_of(kept)) });
+    return Exemplar::read_pose(kept, mesh, scene.mesh.name());
+  }
+} // namespace Exemplar
