@@ -389,6 +389,17 @@ class Caches(BySurface):
         out = self.solve({**scene, "Time/End": "0.5"}, "--resume-from", "8")
         self.assertEqual([edit["step"] for edit in read_summary(out)["edits"]], [8])
 
+    def test_mesh_that_is_made_of_the_surface(self):
+        self.write_bytes("rig.mdd", mdd([k / 8 for k in range(9)], self.samples()))
+        keys = {**self.scene({"Handles/right/Follow cache": "rig.mdd"}), "Handles/left/Select": "group x-",
+                "Handles/right/Select": "group x+", "Mesh/Generator": None, "Mesh/Box size": None, "Mesh/Box cells": None,
+                "Mesh/Surface": None, "Mesh/File": "rest.obj", "Mesh/Cells": "300"}
+        out = self.solve({**BAR, **keys})
+        ends = [(x, y, z) for x, y, z in read_msh(out / "final.msh").nodes.values() if x > 4 - 1e-5]
+        for y, z in ((.5, .5), (-.5, .5)):  # a quarter of a turn takes corners to corners
+            self.assertTrue(any(abs(y - b) + abs(z - c) < 1e-5 for _, b, c in ends))
+        self.assertGreater(read_csv(out)[-1]["work_handles"], 1e4)
+
     def test_overlapping_handles_must_agree(self):
         self.write_bytes("rig.mdd", mdd([k / 8 for k in range(9)], self.samples()))
         keys = {"Handles/right/Follow cache": "rig.mdd", "Handles/left/Select": "group z+"}
