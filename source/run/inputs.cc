@@ -28,17 +28,14 @@ namespace Exemplar
       read()
       {
         for_each_pose([this](const std::string &file) { check(file); });
+        if (scene.needs_surface())
+          add_surface();
         if (inputs.mesh.nodes.empty())
           inputs.mesh = is_to_be_filled(scene.mesh) ? surfaces.make_mesh() : load_mesh(scene.mesh);
-        if (scene.needs_surface())
-          add_surface(scene.mesh.surface_file());
         for (const HandleParameters &handle : scene.handles)
           add_nodes(handle.select, "Handles/" + handle.name);
         for (const LoadParameters &load : scene.loads.named)
           add_nodes(load.select, "Loads/" + load.name);
-        add_maps();
-        for (const HandleParameters &handle : scene.handles)
-          add_cache(handle);
         for_each_pose([this](const std::string &file) { add(file); });
         inputs.made = surfaces.get_made();
       }
@@ -86,19 +83,34 @@ namespace Exemplar
       void
       add_nodes(const Selection &selection, const std::string &key)
       {
-        if (!selection.map().empty())
-          add_map(selection.map(), key + "/Select");
         const std::string file = selection.file();
         if (!file.empty() && inputs.nodes.count(file) == 0)
           inputs.nodes[file] = read_nodes(file, inputs.mesh, name, key + "/Select");
       }
 
+      /// And what is painted on it, or moves it.
       void
-      add_surface(const std::string &file)
+      add_surface()
       {
-        surface_name = file;
         if (inputs.surface == nullptr)
-          inputs.surface = std::make_shared<const SurfaceMesh>(read_surface(file));
+          inputs.surface
+              = std::make_shared<const SurfaceMesh>(read_surface(scene.mesh.surface_file()));
+        add_map(scene.material.youngs_modulus_map, "Material/Young's modulus map");
+        add_map(scene.material.poissons_ratio_map, "Material/Poisson's ratio map");
+        add_map(scene.material.density_map, "Material/Density map");
+        if (scene.examples.are_painted())
+          for (const std::string &map : scene.examples.weight_maps)
+            add_map(map, "Examples/Weight maps");
+        for (const HandleParameters &handle : scene.handles)
+        {
+          add_map(handle.select.map(), "Handles/" + handle.name + "/Select");
+          if (!handle.follow_cache.empty() && inputs.caches.count(handle.name) == 0)
+            inputs.caches[handle.name]
+                = open_point_cache(handle.follow_cache, handle.frames_per_second, *inputs.surface,
+                                   scene.mesh.surface_file());
+        }
+        for (const LoadParameters &load : scene.loads.named)
+          add_map(load.select.map(), "Loads/" + load.name + "/Select");
       }
 
       void
@@ -108,35 +120,14 @@ namespace Exemplar
           return;
         const MapName map = split_map_name(text, key);
         if (inputs.maps.count(map.name()) == 0)
-          inputs.maps[map.name()]
-              = read_painted_map(map.file, map.attribute, *inputs.surface, surface_name);
-      }
-
-      void
-      add_cache(const HandleParameters &handle)
-      {
-        if (!handle.follow_cache.empty() && inputs.caches.count(handle.name) == 0)
-          inputs.caches[handle.name] = open_point_cache(
-              handle.follow_cache, handle.frames_per_second, *inputs.surface, surface_name);
-      }
-
-      void
-      add_maps()
-      {
-        const MaterialParameters &material = scene.material;
-        add_map(material.youngs_modulus_map, "Material/Young's modulus map");
-        add_map(material.poissons_ratio_map, "Material/Poisson's ratio map");
-        add_map(material.density_map, "Material/Density map");
-        if (scene.examples.are_painted())
-          for (const std::string &map : scene.examples.weight_maps)
-            add_map(map, "Examples/Weight maps");
+          inputs.maps[map.name()] = read_painted_map(map.file, map.attribute, *inputs.surface,
+                                                     scene.mesh.surface_file());
       }
 
       const SceneParameters &scene;
       const std::string      name;
       Inputs                &inputs;
       SurfaceInputs          surfaces;
-      std::string            surface_name;
     };
   } // namespace
 

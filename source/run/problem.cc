@@ -246,10 +246,10 @@ namespace Exemplar
       if (part != nullptr)
         all.insert(all.end(), part->get_warnings().begin(), part->get_warnings().end());
     };
+    all.insert(all.end(), body.readings.warnings.begin(), body.readings.warnings.end());
     if (body.made != nullptr)
       for (const std::string &warning : warnings_of(*body.made))
         all.push_back(warning);
-    all.insert(all.end(), body.readings.warnings.begin(), body.readings.warnings.end());
     append(constraints.handles);
     append(examples.poses);
     append(examples.weights);

@@ -161,6 +161,7 @@ namespace Exemplar
       statistics.emplace(StatisticsFile::behind_step(directory.statistics(), step, row));
       accepted_bytes = statistics->n_bytes();
       write_original();
+      write_rest_mesh();
       write_parameters(scene, totals.edits, directory.parameters_prm());
       frames.write_shapes();
       save(); // a crash from now on can be resumed

@@ -95,6 +95,13 @@ namespace Exemplar
       return regions;
     }
 
+    bool
+    ends_with(const std::string &text, const std::string &end)
+    {
+      return text.size() >= end.size()
+             && text.compare(text.size() - end.size(), end.size(), end) == 0;
+    }
+
     /// The files of a sequence that are there.
     void
     append_sequence(const std::string &pattern, std::vector<std::filesystem::path> &files)
@@ -114,8 +121,7 @@ namespace Exemplar
     void
     append_files(const DeclaredKey &key, std::vector<std::filesystem::path> &files)
     {
-      const bool is_map
-          = key.key.size() > 3 && key.key.find(" map", key.key.size() - 5) < key.key.size();
+      const bool is_map = ends_with(key.key, " map") || ends_with(key.key, " maps");
       if (key.is_input_file)
         for (const std::string &file : split_trimmed(key.value, key.is_list ? ',' : '\n'))
           if (is_map && !file.empty())
@@ -303,8 +309,9 @@ namespace Exemplar
   {
     std::vector<std::filesystem::path> files;
     for (const DeclaredKey &key : get_keys())
-      if (key.path() != "Examples/Poses" || parameters.examples.in_use())
-        append_files(key, files); // with importance 0 the poses need not be there
+      if ((key.path() != "Examples/Poses" && key.path() != "Examples/Weight maps")
+          || parameters.examples.in_use())
+        append_files(key, files); // with importance 0 these need not be there
     return files;
   }
 

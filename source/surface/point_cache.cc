@@ -235,6 +235,10 @@ namespace Exemplar
     std::string extension = std::filesystem::path(file).extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](const unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const bool is_one_file = extension == ".mdd" || extension == ".pc2";
+    if (is_one_file && !std::filesystem::is_regular_file(file))
+      throw UserError(file
+                      + ": there is no such file. Give the point cache that is to be followed.");
     if (extension == ".mdd")
       return std::make_unique<FileCache>(open_mdd(file, rest, rest_name), file);
     if (extension == ".pc2")

@@ -5,7 +5,7 @@ import struct
 import unittest
 from math import cos, pi, sin
 
-from exemplar_runner import SceneTest, read_csv, read_msh, timeless_statistics
+from exemplar_runner import SceneTest, read_csv, read_msh, read_summary, results, timeless_statistics
 
 LENGTH, CELLS = (4., 1., 1.), (8, 2, 2)  # of the bar, and of its surface's grid
 BAR = {
@@ -352,7 +352,8 @@ class Caches(BySurface):
                 ("d.pc2", pc2(0., 1., [VERTICES])[:50], ("truncated",)),
                 ("a.abc", b"x", ("a point cache is a .mdd or .pc2 file",)),
                 ("a_1.obj", obj(VERTICES[:-1] + [(9., 9., 9.)]).replace("f 1 ", "f 2 ").encode(), ("is no pose of", "face")),
-                ("none_*.obj", None, ("No file matches",))):
+                ("none_*.obj", None, ("No file matches",)),
+                ("none.mdd", None, ("there is no such file",))):
             with self.subTest(name):
                 if content is not None:
                     self.write_bytes(name, content)
@@ -373,6 +374,31 @@ class Caches(BySurface):
         self.write_bytes("rig.mdd", mdd([0., 1.], [self.samples()[4], self.samples()[8]]))
         run = self.attempt({**BAR, **self.scene({"Handles/right/Follow cache": "rig.mdd"})})
         self.assertIn("they jump in the first step", run.stderr)
+
+    def test_resumed(self):
+        self.write_bytes("rig.mdd", mdd([k / 8 for k in range(9)], self.samples()))
+        scene = {**BAR, **self.scene({"Handles/right/Follow cache": "rig.mdd"}), "Scene": "dynamic", "Time/Step": "0.05",
+                 "Output/Every": "1"}
+        whole = self.solve({**scene, "Time/End": "0.4"}, output="whole")
+        self.solve({**scene, "Time/End": "0.2"})
+        out = self.solve({**scene, "Time/End": "0.4"}, "--resume")
+        self.assertEqual(results(out), results(whole))
+        self.write_bytes("rig.mdd", mdd([k / 8 for k in range(9)], self.samples(9)[:9]))
+        run = self.attempt({**scene, "Time/End": "0.5"}, "--resume")
+        self.assertIn("rig.mdd has changed since", run.stderr)
+        out = self.solve({**scene, "Time/End": "0.5"}, "--resume-from", "8")
+        self.assertEqual([edit["step"] for edit in read_summary(out)["edits"]], [8])
+
+    def test_mesh_that_is_made_of_the_surface(self):
+        self.write_bytes("rig.mdd", mdd([k / 8 for k in range(9)], self.samples()))
+        keys = {**self.scene({"Handles/right/Follow cache": "rig.mdd"}), "Handles/left/Select": "group x-",
+                "Handles/right/Select": "group x+", "Mesh/Generator": None, "Mesh/Box size": None, "Mesh/Box cells": None,
+                "Mesh/Surface": None, "Mesh/File": "rest.obj", "Mesh/Cells": "300"}
+        out = self.solve({**BAR, **keys})
+        ends = [(x, y, z) for x, y, z in read_msh(out / "final.msh").nodes.values() if x > 4 - 1e-5]
+        for y, z in ((.5, .5), (-.5, .5)):  # a quarter of a turn takes corners to corners
+            self.assertTrue(any(abs(y - b) + abs(z - c) < 1e-5 for _, b, c in ends))
+        self.assertGreater(read_csv(out)[-1]["work_handles"], 1e4)
 
     def test_overlapping_handles_must_agree(self):
         self.write_bytes("rig.mdd", mdd([k / 8 for k in range(9)], self.samples()))

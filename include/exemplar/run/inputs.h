@@ -22,11 +22,11 @@ namespace Exemplar
     NamedNodes nodes; ///< of Select = nodes FILE
     /// Of Mesh/Surface; null unless the scene needs it.
     std::shared_ptr<const SurfaceMesh> surface = {};
-    /// How mesh and poses became of surfaces; null if none did.
-    std::shared_ptr<const MadeOfSurfaces> made = {};
-    NamedMaps maps = {}; ///< by FILE:ATTRIBUTE, of the surface's vertices
+    NamedMaps                          maps = {}; ///< by FILE:ATTRIBUTE, of the surface's vertices
     /// Of Follow cache, by the names of handles. Sequences of files keep a reference to the surface.
     std::map<std::string, std::shared_ptr<const PointCache>> caches = {};
+    /// How mesh and poses became of surfaces; null if none did.
+    std::shared_ptr<const MadeOfSurfaces> made = {};
   };
 
   /// Read or generate what a scene needs and `given` does not hold. Without importance no

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
+
 #include "body.h"
 
 #include <gtest/gtest.h>
@@ -68,6 +70,45 @@ namespace Exemplar::Testing
       const RegionShares shares(body.fe_space, body.mesh.get_material_ids(), 1.);
       for (unsigned int cell = 0; cell < body.fe_space.n_cells(); ++cell)
         EXPECT_EQ(share_of(shares, 0, cell), 1.);
+    }
+
+    TEST(RegionShares, ThatArePaintedSumToOne)
+    {
+      // less than one, more than one, one, and as good as nothing
+      const RegionShares shares({ { .25, 1., 1., 1e-6 }, { .5, 1., 0., 0. } });
+      ASSERT_EQ(shares.n_regions(), 3u);
+      const double expected[4][3]
+          = { { .25, .25, .5 }, { 0., .5, .5 }, { 0., 1., 0. }, { 1., 0., 0. } };
+      for (unsigned int cell = 0; cell < 4; ++cell)
+        for (unsigned int region = 0; region < 3; ++region)
+          EXPECT_DOUBLE_EQ(share_of(shares, region, cell), expected[cell][region]);
+      for (unsigned int region = 0; region < 3; ++region)
+        EXPECT_EQ(shares.material_id(region), region);
+    }
+
+    TEST(RegionShares, HaveNoRestWherePaintCoversAll)
+    {
+      const RegionShares shares({ { .5, 1. }, { .5, 0. } });
+      ASSERT_EQ(shares.n_regions(), 2u);
+      EXPECT_EQ(shares.material_id(0), 1u);
+      EXPECT_THROW(RegionShares({ { 1., 1. }, { 0., 0. } }), UserError);
+    }
+
+    TEST(Material, PaintIsAFactorOfEachRegionOrStandsInstead)
+    {
+      MaterialParameters parameters;
+      parameters.everywhere = { 100., .25, 10. };
+      parameters.regions[2] = { 300., .25, 20. };
+      const PaintedMaterial painted{ { { 1., 2., 3. }, true }, {}, { { 5., 6., 7. }, false } };
+      const Material        material(parameters, { 1, 2, 2 }, {}, painted);
+      const double          moduli[3] = { 100., 600., 900. };
+      for (unsigned int cell = 0; cell < 3; ++cell)
+      {
+        EXPECT_DOUBLE_EQ(material.youngs_modulus(cell), moduli[cell]);
+        EXPECT_DOUBLE_EQ(material.density(cell), 5. + cell);
+      }
+      EXPECT_THROW(Material(parameters, { 1, 2, 2 }, {}, { {}, { { 1., 2., 1. }, true }, {} }),
+                   UserError);
     }
   } // namespace
 } // namespace Exemplar::Testing
