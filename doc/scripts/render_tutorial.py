@@ -251,6 +251,33 @@ def step5(program):
     picture.write("step5_bar.png")
 
 
+def step6(program):
+    """Three surfaces, the creature on its way, and its weights."""
+    picture, view = Picture(1500, 420), ((-0.15, 0, 0.75), (0.45, -1, 0.25), 1.05)
+    for c, name in enumerate(("rest", "crouch", "reach")):
+        reader = vtk.vtkOBJReader()
+        reader.SetFileName("meshes/surfaces/creature/%s.obj" % name)
+        reader.Update()
+        picture.panel((500 * c, 0, 500, 420), [body(reader.GetOutput(), PLAIN, 60)], view, name + ".obj", 24)
+    picture.write("step6_surfaces.png")
+
+    frames = run(program, "prm/tutorial/step6_creature.prm", "step6/run", "Output/Formats=vtu, obj, pc2, usda")
+    picture = Picture(1640, 640)
+    for i, step in enumerate((0, 7, 13, 19, 25, 31, 38, 44)):
+        reader = vtk.vtkOBJReader()
+        reader.SetFileName(frames[step].replace(".vtu", ".obj"))
+        reader.Update()
+        picture.panel((410 * (i % 4), 320 * (i // 4), 410, 320), [body(reader.GetOutput(), WITH, 60)], view,
+                      "t = %g s" % (0.04 * step), 22)
+    picture.write("step6_strip.png")
+
+    with open("output/tutorial/step6/run/statistics.csv", newline="") as file:
+        rows = list(csv.DictReader(file))
+    lines = [(title, "lines lw 2 lc rgb '%s'" % colour, [(float(row["time"]), float(row["weight_%d" % i])) for row in rows])
+             for i, (title, colour) in enumerate((("rest", "gray40"), ("crouch", "#d97a1e"), ("reach", "#3d76a8")))]
+    plot("step6_weights.svg", "set xlabel 't [s]'\nset ylabel 'weight'\nset yrange [0:1]\nset key center right", *lines)
+
+
 def main():
     if len(sys.argv) < 2:
         sys.exit(__doc__)

@@ -14,7 +14,9 @@ namespace Exemplar
     double
     time_limit(const SurfaceMeshingOptions &options)
     {
-      return 600. + .01 * options.n_cells;
+      std::error_code none;
+      const auto      n_bytes = std::filesystem::file_size(options.surface, none);
+      return 15. + .03 * options.n_cells + (none ? 0. : 1e-4 * static_cast<double>(n_bytes));
     }
   } // namespace
 

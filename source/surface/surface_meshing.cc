@@ -3,11 +3,11 @@
 #include <exemplar/base/number_text.h>
 #include <exemplar/surface/body_surface.h>
 #include <exemplar/surface/cell_angles.h>
-#include <exemplar/surface/surface_edges.h>
 #include <exemplar/surface/surface_geometry.h>
 #include <exemplar/surface/surface_meshing.h>
 #include <exemplar/surface/surface_msh.h>
 #include <exemplar/surface/surface_remeshing.h>
+#include <exemplar/surface/vectors.h>
 
 #include <algorithm>
 #include <cmath>
@@ -19,6 +19,38 @@ namespace Exemplar
     constexpr unsigned int n_attempts = 8;
     /// Nearer to the wanted number of cells than this, nothing more is tried.
     constexpr double near_enough = .05;
+
+    /// About how many triangles a surface has with edges of this length.
+    double
+    n_triangles(const TriangleSurface &surface, const double edge_length)
+    {
+      double area = 0.;
+      for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+        area += area_of(surface, t);
+      return 2.3 * area / (edge_length * edge_length);
+    }
+
+    /// Refuses edges so short that remeshing would make far more triangles than the body has cells:
+    /// the surface has a part that is very long and thin, whose long edges are divided.
+    void
+    require_few_triangles(const TriangleSurface &surface,
+                          const double           edge_length,
+                          const double           n_cells,
+                          const std::string     &cells_option)
+    {
+      double longest = 0.;
+      for (const auto &[a, b, c] : surface.triangles)
+        longest = std::max({ longest, norm(minus(surface.vertices[a], surface.vertices[b])),
+                             norm(minus(surface.vertices[b], surface.vertices[c])) });
+      const double n = n_triangles(surface, edge_length) + std::pow(longest / edge_length, 2);
+      if (!(n < 1e5 + 50. * n_cells))
+        throw SolverFailure("The surface has a part that is very long and thin: "
+                            + short_text(n_cells) + " cells are about " + short_text(edge_length)
+                            + " large, and would have " + short_text(n)
+                            + " triangles on it. Look for vertices far away from the others, or "
+                              "ask for more cells ("
+                            + cells_option + ").");
+    }
 
     /// The mesh with the number of cells nearest to the one wanted: n ~ h^-p with p from the last
     /// two attempts.
@@ -37,6 +69,7 @@ namespace Exemplar
         TetrahedralMesh mesh;
         try
         {
+          require_few_triangles(surface, h, n_cells, cells_option);
           mesh = fill(remesh_without_intersections(surface, h, keep_edges, cells_option));
         }
         catch (const SolverFailure &)
@@ -106,13 +139,15 @@ namespace Exemplar
     JudgedMesh
     best_mesh(const BodySurface &body, const SurfaceMeshingOptions &options)
     {
-      constexpr unsigned int few = 1000;
-      JudgedMesh             best;
+      constexpr std::size_t few = 1000, quickly_remeshed = 20000;
+      const bool            is_quick
+          = options.n_cells <= few && body.surface.triangles.size() <= quickly_remeshed;
+      JudgedMesh best;
       for (const double factor : { 1., 1.07, .93, 1.14, .88 })
         for (const bool keep_edges : { true, false })
           try
           {
-            if (factor != 1. && options.n_cells > few)
+            if (factor != 1. && !is_quick)
               return best;
             TetrahedralMesh mesh = fill_with(body.surface, factor * options.n_cells, keep_edges,
                                              options.cells_option);

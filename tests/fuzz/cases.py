@@ -8,6 +8,7 @@ from collections import namedtuple
 import bases
 import bodies
 import mutations
+import skins
 
 # files: {name: bytes}; arguments: after the program's name; earlier: arguments of runs that come before and that must
 # succeed; damage: {"file", "seed"} changes a file that these have left; plants: {name: text} of files put there then, a
@@ -269,7 +270,57 @@ def command_case(r, keys):
     return Case("command", files, [word.replace("\0", "0") for word in words])
 
 
-KINDS = [(scene_case, 24), (extreme_case, 16), (formula_case, 12), (mesh_case, 16), (pose_case, 8), (list_case, 3),
+USE = {"Scene": "dynamic", "Mesh/File": "made.msh", "Time/Step": "0.01", "Time/End": "0.01"}
+
+
+def surface_case(r, _):
+    """A surface to be meshed."""
+    ending, make = skins.form_of(r)
+    data = skins.spoilt(r, skins.box_skin(), make)
+    words = ["mesh", "--surface", "skin" + ending, "--cells", r.choice(skins.CELLS), "--output", "made.msh"]
+    return Case("surface", {"skin" + ending: data, "use.prm": prm_bytes(USE.items())},
+                words + r.choice([[], [], ["--repair"]]), check="meshed")
+
+
+def posed_case(r, _):
+    """A pose of a surface, or the surface at rest, or the mesh, is another one."""
+    ending, make = skins.form_of(r)
+    files = {"mesh.msh": bases.msh_text(bases.box_mesh()), "rest" + ending: make(skins.box_skin()),
+             "posed" + ending: make(skins.box_skin(bases.bent))}
+    bad = r.choice(["posed", "posed", "rest", "both", "mesh.msh"])
+    for name, moved in (("posed", bases.bent), ("rest", bases.place)):
+        if bad in (name, "both"):
+            files[name + ending] = skins.spoilt(r, skins.box_skin(moved), make)
+    if bad == "both" and r.random() < 0.5:
+        files["posed" + ending] = files["rest" + ending]
+    if bad == "mesh.msh":
+        mesh = bases.box_mesh()
+        mesh.nodes = bodies.odd_geometry(r, mesh.nodes)
+        files[bad] = bases.msh_text(mesh)
+    return Case("posed", files, ["pose", "--mesh", "mesh.msh", "--rest", "rest" + ending, "--pose", "posed" + ending,
+                                 "--output", "out", "--attach", r.choice(["30", "30", "0.001", "1e6"])])
+
+
+def skin_scene_case(r, _):
+    """A scene that names surfaces."""
+    ending, make = skins.form_of(r)
+    rest, posed = "rest" + ending, "posed" + ending
+    files = {rest: make(skins.box_skin()), posed: make(skins.box_skin(bases.bent)),
+             "mesh.msh": bases.msh_text(bases.box_mesh())}
+    for name, moved in r.choice([[(rest, bases.place)], [(posed, bases.bent)], [(posed, bases.bent)], []]):
+        files[name] = skins.spoilt(r, skins.box_skin(moved), make)
+    entries = {**bases.HELD, **bases.LATER, "Scene": "dynamic", "Mesh/File": rest, "Mesh/Cells": r.choice(skins.CELLS),
+               "Handles/left/Select": "box -1 -1 -1 0.1 1 1", "Examples/Poses": posed, "Mesh/Repair": r.choice(["true", "false"]),
+               "Mesh/Scale": r.choice(["1", "1", "0.001", "1e3"])}
+    if r.random() < 0.3:
+        entries = {**entries, "Mesh/File": "mesh.msh", "Mesh/Surface": rest, "Mesh/Scale": "1"}
+    extra = r.choice([{}, {}, {}, {}, {}, {}, {"Initial/Pose": posed}, {"Handles/left/Follow pose": posed}, {"Examples/Attach": mutations.number(r)},
+                      {"Mesh/Generator": "box"}, {"Mesh/Surface": posed}, {"Mesh/Surface": "absent.obj"}])
+    return Case("skin_scene", {**files, "scene.prm": prm_bytes({**entries, **extra}.items())}, ["scene.prm", *OUT],
+                check=r.choice([None, "again", "validate"]))
+
+
+KINDS = [(surface_case, 2), (posed_case, 3), (skin_scene_case, 2), (scene_case, 20), (extreme_case, 16), (formula_case, 12), (mesh_case, 16), (pose_case, 8), (list_case, 3),
          (study_case, 5), (checkpoint_case, 8), (command_case, 7), (geo_case, 1), (directory_case, 3)]
 PLACES = ["a b", "é", "a#b", "a,b", "a;b", 'a"b', "a\nb", "\udcff", "%s", "a\\", "-", "n" * 200, "$HOME", "a=b", "a'b", "a|b",
           "\x1b[1m"]

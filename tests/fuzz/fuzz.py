@@ -102,6 +102,11 @@ class Fuzzer:
         faults = oracle.faults_of_difference(directory / "again", results(directory / "out"))
         return ["parameters.prm: " + fault for fault in faults]
 
+    def check_meshed(self, directory):
+        """A scene takes the mesh."""
+        ended = self.call(directory, ["--validate", "use.prm"])
+        return [] if ended.status == 0 else [f"a scene refuses the mesh: {ended.stderr.decode(errors='replace')}"]
+
     def check_resumed(self, directory):
         return oracle.faults_of_difference(directory / "out", results(directory / "whole"))
 

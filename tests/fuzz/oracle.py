@@ -174,6 +174,21 @@ def faults_of_study(table):
     return [f"study.csv says '{word}'" for word in ("nan", "-nan", "inf", "-inf", "crash") if word in words]
 
 
+def faults_of_made(table, text, meshes):
+    """What `exemplar mesh` or `exemplar pose` has left, its table and meshes or poses."""
+    faults = []
+    rows = list(csv.reader(text.decode().splitlines()))
+    if not all(math.isfinite(float(cell)) for row in rows[1:] for cell in row[1:]):
+        faults.append(f"{os.fsdecode(os.path.basename(table))}: not finite")
+    if "inverted_cells" in rows[0] and any(row[1] != "0" for row in rows[1:]) and meshes:
+        faults.append("a pose with inverted cells")
+    for mesh in meshes:
+        positions = read_msh(os.fsdecode(mesh)).nodes.values()
+        if not positions or not all(math.isfinite(x) for node in positions for x in node):
+            faults.append(f"{os.fsdecode(os.path.basename(mesh))}: not finite or empty")
+    return faults
+
+
 def faults_of_difference(output, expected):
     """What a run left in place of the expected results()."""
     try:
@@ -218,5 +233,10 @@ def faults_of_files(ended, before, after):
             faults += [f"{name} is missing" for name in kept if not (output / name).exists()]
             faults += [f"{os.fsdecode(name)} is left" for name in inside & new if name.endswith(b".tmp")]
         covered |= inside | with_parents(os.fsencode(output))
+    for table in new:
+        if after[table] is not None and after[table].startswith((b"quantity,value", b"pose,inverted_cells")):
+            inside = {name for name in new if os.path.dirname(name) == os.path.dirname(table)}
+            covered |= {table, os.path.dirname(table)} | {name for name in inside if name.endswith(b".msh")}
+            faults += faults_of_made(table, after[table], [name for name in inside if name.endswith(b".msh")])
     strays = sorted(os.fsdecode(os.path.basename(name)) for name in new - covered)
     return faults + [f"wrote {name} outside the output directory" for name in strays[:3]]

@@ -8,8 +8,8 @@ namespace Exemplar
 {
   /// mesh_surface() in a process of its own, because CGAL and gmsh may crash or never end on odd
   /// surfaces, and gmsh keeps one model for the whole process. The mesh is written to `msh`, whole
-  /// or not at all. Throws as mesh_surface() does, and SolverFailure for a crash and after 600 s
-  /// and 10 ms a cell.
+  /// or not at all. Throws as mesh_surface() does, and SolverFailure for a crash and after 15 s
+  /// and 30 ms a cell and 0.1 ms a byte of the surface.
   MeshingReport
   make_mesh_file(const SurfaceMeshingOptions &options, const std::filesystem::path &msh);
 
