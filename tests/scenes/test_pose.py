@@ -107,7 +107,7 @@ class Pose(SceneTest):
         (self.directory / "more").mkdir()
         for name in ("bar.obj", "more/p.obj", "p.obj"):
             self.surface(name, bent)
-        self.refuse(["bar.msh is the mesh"], "bar.obj", output=".")
+        self.refuse(["bar.msh: is to be written, but is the input"], "bar.obj", output=".")
         self.refuse(["p.obj and more/p.obj would both be written"], "p.obj", "more/p.obj")
 
 
