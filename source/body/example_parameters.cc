@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/body/example_parameters.h>
+#include <exemplar/mesh/map_name.h>
 #include <exemplar/prm/assignments.h>
 #include <exemplar/prm/key_table.h>
 
@@ -126,6 +127,8 @@ namespace Exemplar
     if (weights == WeightRule::prescribed && in_use() && prescribed_weights.empty())
       throw UserError("Examples/Weights = prescribed, but Examples/Prescribed weights is empty. "
                       "Give one function of t for each example, for instance '1-t; t'.");
+    for (const std::string &map : weight_maps)
+      split_map_name(map, "Examples/Weight maps");
     if (!weight_maps.empty() && weights_per_region)
       throw UserError(
           "Examples/Weight maps and Examples/Weights per region are both given, but only "

@@ -25,7 +25,7 @@ namespace Exemplar
     using Json   = nlohmann::ordered_json;
 
     /// To be raised with each change of what is made of the same surfaces.
-    const std::string method = "exemplar " EXEMPLAR_VERSION " surfaces 1\n";
+    const std::string method = "exemplar " EXEMPLAR_VERSION " surfaces 2\n";
 
     /// A .msh may have a section of comments, which its readers pass over.
     void

@@ -6,6 +6,9 @@
 #include <exemplar/surface/surface_meshing.h>
 #include <exemplar/surface/surface_repair.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace Exemplar
 {
   namespace
@@ -37,24 +40,58 @@ namespace Exemplar
              + " % from the old one (mean " + short_text(100. * back.mean / diagonal) + " %)";
     }
 
+    /// Openings that a wrap closes, over the diagonal. A finer wrap than the cells need costs minutes
+    /// for nothing.
+    double
+    openings(const unsigned int n_cells)
+    {
+      return std::max(.01, .25 / std::cbrt(n_cells));
+    }
+
+    /// Whether a wrap at a distance is no body: it has gone through an opening and runs along both sides
+    /// of the surface, so that its volume is its area times the distance. Parts as thick as the
+    /// openings that are closed have ten times that.
+    bool
+    is_thin_shell(const TriangleSurface &wrapped, const double distance)
+    {
+      double area = 0.;
+      for (std::size_t t = 0; t < wrapped.triangles.size(); ++t)
+        area += area_of(wrapped, t);
+      return std::abs(enclosed_volume(wrapped)) < 4. * area * distance;
+    }
+
+    /// The faults that are left.
+    std::vector<std::string>
+    wrap_surface(BodySurface &body, const double openings)
+    {
+      body.surface = wrap(body.original, openings);
+      if (is_thin_shell(body.surface,
+                        wrap_distance * openings * diagonal_of(body.original.vertices)))
+        return { "openings wider than " + short_text(100. * openings)
+                 + " % of the diagonal, through which the wrap goes: fill them, or ask for fewer "
+                   "cells, which wraps more coarsely" };
+      return check_surface({ body.surface, {} }).faults;
+    }
+
     /// Repaired; if there are still faults, wrapped. Returns the faults of the last attempt.
     std::vector<std::string>
-    mend_surface(BodySurface &body)
+    mend_surface(BodySurface &body, const unsigned int n_cells)
     {
       RepairedSurface          repaired = repair(body.original);
       std::vector<std::string> faults{ "nothing is left of it" };
       if (!repaired.surface.triangles.empty())
         faults = check_surface({ repaired.surface, {} }).faults;
       if (faults.empty())
+      {
         append(body.notes, repaired.done);
+        body.surface = std::move(repaired.surface);
+      }
       else
       {
         body.notes.push_back("repair was not enough, so the surface was wrapped; left were:");
         append(body.notes, faults);
-        repaired.surface = wrap(body.original);
-        faults           = check_surface({ repaired.surface, {} }).faults;
+        faults = wrap_surface(body, openings(n_cells));
       }
-      body.surface = std::move(repaired.surface);
       if (faults.empty())
         body.notes.push_back(movement_text(body.original, body.surface));
       return faults;
@@ -81,7 +118,7 @@ namespace Exemplar
     if (!findings.faults.empty())
     {
       append(body.notes, findings.faults);
-      const auto left = mend_surface(body);
+      const auto left = mend_surface(body, options.n_cells);
       if (!left.empty())
         throw UserError(file.string() + ": the surface does not bound a body:"
                         + list_lines(findings.faults) + "\n  and could not be repaired; left are:"

@@ -183,7 +183,7 @@ namespace Exemplar
     to_soup(surface, points, polygons);
     const double alpha = openings * diagonal_of(surface.vertices);
     CgalMesh     mesh;
-    CGAL::alpha_wrap_3(points, polygons, alpha, alpha / 20., mesh);
+    CGAL::alpha_wrap_3(points, polygons, alpha, wrap_distance * alpha, mesh);
     TriangleSurface wrapped = from_cgal_mesh(mesh, [](const CgalMesh::Face_index) { return 0U; });
     take_groups(wrapped, surface);
     return wrapped;

@@ -16,7 +16,7 @@ namespace Exemplar
     {
       std::error_code none;
       const auto      n_bytes = std::filesystem::file_size(options.surface, none);
-      return 15. + .03 * options.n_cells + (none ? 0. : 1e-4 * static_cast<double>(n_bytes));
+      return 60. + .03 * options.n_cells + (none ? 0. : 1e-4 * static_cast<double>(n_bytes));
     }
   } // namespace
 

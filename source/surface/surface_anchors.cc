@@ -3,13 +3,10 @@
 #include <exemplar/base/number_text.h>
 #include <exemplar/mesh/mesh.h>
 #include <exemplar/surface/cell_finder.h>
-#include <exemplar/surface/closest_points.h>
+#include <exemplar/surface/facing_points.h>
 #include <exemplar/surface/surface_anchors.h>
-#include <exemplar/surface/vectors.h>
 
 #include <algorithm>
-#include <map>
-#include <optional>
 
 namespace Exemplar
 {
@@ -59,28 +56,6 @@ namespace Exemplar
       return normals;
     }
 
-    /// Of a triangle, of length 1; 0 if it has no area.
-    SpaceVector
-    triangle_normal(const TriangleSurface &surface, const unsigned int triangle)
-    {
-      const auto       &t = surface.triangles[triangle];
-      const SpaceVector n = cross(minus(surface.vertices[t[1]], surface.vertices[t[0]]),
-                                  minus(surface.vertices[t[2]], surface.vertices[t[0]]));
-      const double      l = norm(n);
-      return l > 0. ? plus({ { 0., 0., 0. } }, 1. / l, n) : SpaceVector{ { 0., 0., 0. } };
-    }
-
-    double
-    longest_edge(const TriangleSurface &surface, const unsigned int triangle)
-    {
-      const auto &t      = surface.triangles[triangle];
-      double      length = 0.;
-      for (int a = 0; a < 3; ++a)
-        length = std::max(length,
-                          norm(minus(surface.vertices[t[a]], surface.vertices[t[(a + 1) % 3]])));
-      return length;
-    }
-
     dealii::Point<3>
     point_at(const SpaceVector &x)
     {
@@ -101,13 +76,6 @@ namespace Exemplar
     private:
       SurfaceAnchor
       on_boundary(const SurfacePoint &point) const;
-
-      /// The nearest points of faces that look the same way as the vertices do; none where they
-      /// are too far.
-      std::map<std::size_t, SurfacePoint>
-      facing_points(const std::vector<std::size_t> &vertices,
-                    const SurfaceMesh              &surface,
-                    const Normals                  &normals) const;
 
       /// Whether some of the way between two points is outside the mesh.
       bool
@@ -140,50 +108,6 @@ namespace Exemplar
       return false;
     }
 
-    std::map<std::size_t, SurfacePoint>
-    AnchorFinder::facing_points(const std::vector<std::size_t> &vertices,
-                                const SurfaceMesh              &surface,
-                                const Normals                  &normals) const
-    {
-      // by the direction of the 26 to the neighbours in a grid that is next to the normal
-      std::map<std::array<int, 3>, std::vector<std::size_t>> by_direction;
-      for (const std::size_t v : vertices)
-      {
-        std::array<int, 3> direction;
-        for (int c = 0; c < 3; ++c) // sin(22.5 degrees)
-          direction[c] = normals[v][c] > .383 ? 1 : normals[v][c] < -.383 ? -1 : 0;
-        by_direction[direction].push_back(v);
-      }
-      std::map<std::size_t, SurfacePoint> found;
-      for (const auto &[direction, of_direction] : by_direction)
-      {
-        SpaceVector along{ { double(direction[0]), double(direction[1]), double(direction[2]) } };
-        along = plus({ { 0., 0., 0. } }, 1. / norm(along), along);
-        TriangleSurface           facing{ boundary.vertices, {}, {} };
-        std::vector<unsigned int> number;
-        for (unsigned int t = 0; t < boundary.triangles.size(); ++t)
-          if (dot(triangle_normal(boundary, t), along) > .5)
-          {
-            facing.triangles.push_back(boundary.triangles[t]);
-            number.push_back(t);
-          }
-        if (facing.triangles.empty())
-          continue;
-        std::vector<SpaceVector> places;
-        for (const std::size_t v : of_direction)
-          places.push_back(surface.vertices[v]);
-        const auto nearest = closest_points(facing, places);
-        for (std::size_t i = 0; i < places.size(); ++i)
-        {
-          const SurfacePoint point{ number[nearest[i].triangle], nearest[i].share };
-          if (on_boundary(point).place.distance(point_at(places[i]))
-              <= longest_edge(boundary, point.triangle))
-            found[of_direction[i]] = point;
-        }
-      }
-      return found;
-    }
-
     std::vector<SurfaceAnchor>
     AnchorFinder::find(const SurfaceMesh &surface) const
     {
@@ -191,6 +115,7 @@ namespace Exemplar
       const auto                 nearest = closest_points(boundary, surface.vertices);
       std::vector<SurfaceAnchor> anchors;
       std::vector<std::size_t>   doubtful;
+      std::vector<SpaceVector>   places, outwards; // of those
       for (std::size_t v = 0; v < surface.vertices.size(); ++v)
       {
         const dealii::Point<3> X = point_at(surface.vertices[v]);
@@ -198,12 +123,20 @@ namespace Exemplar
           anchors.push_back({ mesh.get_cells()[cell->cell], cell->shares, X });
         else
           anchors.push_back(on_boundary(nearest[v]));
-        if (dot(normals[v], triangle_normal(boundary, nearest[v].triangle)) < -.25)
+        if (faces_away(boundary, nearest[v].triangle, normals[v]))
+        {
           doubtful.push_back(v);
+          places.push_back(surface.vertices[v]);
+          outwards.push_back(normals[v]);
+        }
       }
-      for (const auto &[v, point] : facing_points(doubtful, surface, normals))
+      const auto facing = closest_facing_points(boundary, places, outwards);
+      for (std::size_t i = 0; i < doubtful.size(); ++i)
       {
-        const SurfaceAnchor    other     = on_boundary(point);
+        if (!facing[i])
+          continue;
+        const std::size_t      v         = doubtful[i];
+        const SurfaceAnchor    other     = on_boundary(*facing[i]);
         const dealii::Point<3> X         = point_at(surface.vertices[v]);
         const bool             is_inside = anchors[v].place == X;
         if (!is_inside || has_gap(X, other.place))

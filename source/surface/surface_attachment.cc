@@ -3,6 +3,7 @@
 #include <exemplar/base/number_text.h>
 #include <exemplar/kernels/polar_decomposition.h>
 #include <exemplar/mesh/mesh.h>
+#include <exemplar/surface/facing_points.h>
 #include <exemplar/surface/surface_attachment.h>
 
 #include <algorithm>
@@ -63,6 +64,32 @@ namespace Exemplar
         add_product(turned, normal / size, B); // as heavy as the edges
       return closest_rotation(B);
     }
+
+    /// Where a nearest point is of a part that faces the other way, take that of the part which faces
+    /// as the body does there.
+    void
+    prefer_facing(const TriangleSurface          &surface,
+                  const Vertices                 &places,
+                  const std::vector<SpaceVector> &normals,
+                  std::vector<SurfacePoint>      &nearest)
+    {
+      std::vector<std::size_t> doubtful;
+      Vertices                 doubtful_places;
+      std::vector<SpaceVector> doubtful_normals;
+      for (std::size_t k = 0; k < places.size(); ++k)
+        if (faces_away(surface, nearest[k].triangle, normals[k]))
+        {
+          doubtful.push_back(k);
+          doubtful_places.push_back(places[k]);
+          doubtful_normals.push_back(normals[k]);
+        }
+      if (2 * doubtful.size() > places.size())
+        return; // the surface is inside out
+      const auto facing = closest_facing_points(surface, doubtful_places, doubtful_normals);
+      for (std::size_t i = 0; i < doubtful.size(); ++i)
+        if (facing[i])
+          nearest[doubtful[i]] = *facing[i];
+    }
   } // namespace
 
   SurfaceAttachment::SurfaceAttachment(const Points                    &all_nodes,
@@ -70,20 +97,31 @@ namespace Exemplar
                                        TriangleSurface                  surface)
       : rest(std::move(surface))
   {
-    std::map<unsigned int, double> area_of;
+    struct Share
+    {
+      double area = 0.;
+      Offset normal;
+    };
+    std::map<unsigned int, Share> share_of;
     for (const BoundaryFace &face : faces)
     {
-      const TriangleCorners x
-          = { { all_nodes[face.nodes[0]], all_nodes[face.nodes[1]], all_nodes[face.nodes[2]] } };
+      const Offset area = area_vector(
+          { { all_nodes[face.nodes[0]], all_nodes[face.nodes[1]], all_nodes[face.nodes[2]] } });
       for (const unsigned int node : face.nodes)
-        area_of[node] += area_vector(x).norm() / 3.;
+      {
+        share_of[node].area += area.norm() / 3.;
+        share_of[node].normal += area;
+      }
     }
-    for (const auto &[node, area] : area_of)
+    std::vector<SpaceVector> normals;
+    for (const auto &[node, share] : share_of)
     {
       nodes.push_back(node);
-      areas.push_back(area);
+      areas.push_back(share.area);
+      const Offset normal = share.normal / std::max(share.normal.norm(), 1e-300);
+      normals.push_back({ { normal[0], normal[1], normal[2] } });
     }
-    hang(all_nodes);
+    hang(all_nodes, normals);
   }
 
   SurfaceAttachment::SurfaceAttachment(const Points             &all_nodes,
@@ -91,11 +129,11 @@ namespace Exemplar
                                        TriangleSurface           surface)
       : nodes(std::move(which)), areas(nodes.size(), 0.), rest(std::move(surface))
   {
-    hang(all_nodes);
+    hang(all_nodes, {});
   }
 
   void
-  SurfaceAttachment::hang(const Points &all_nodes)
+  SurfaceAttachment::hang(const Points &all_nodes, const std::vector<SpaceVector> &normals)
   {
     Vertices places;
     for (const unsigned int node : nodes)
@@ -104,6 +142,8 @@ namespace Exemplar
       places.push_back({ { x[0], x[1], x[2] } });
     }
     points = closest_points(rest, places);
+    if (!normals.empty())
+      prefer_facing(rest, places, normals, points);
     for (std::size_t k = 0; k < nodes.size(); ++k)
     {
       offsets.push_back(all_nodes[nodes[k]] - place(points[k], rest.vertices));

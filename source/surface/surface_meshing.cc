@@ -43,7 +43,7 @@ namespace Exemplar
         longest = std::max({ longest, norm(minus(surface.vertices[a], surface.vertices[b])),
                              norm(minus(surface.vertices[b], surface.vertices[c])) });
       const double n = n_triangles(surface, edge_length) + std::pow(longest / edge_length, 2);
-      if (!(n < 1e5 + 50. * n_cells))
+      if (!(n < 1e4 + 50. * n_cells))
         throw SolverFailure("The surface has a part that is very long and thin: "
                             + short_text(n_cells) + " cells are about " + short_text(edge_length)
                             + " large, and would have " + short_text(n)
@@ -92,7 +92,9 @@ namespace Exemplar
           break;
         last_h = h;
         last_n = n;
-        h *= std::pow(n / n_cells, 1. / power);
+        h = std::min(h * std::pow(n / n_cells, 1. / power), .5 * diagonal_of(surface.vertices));
+        if (h == last_h)
+          break; // no number nearer
       }
       return best;
     }

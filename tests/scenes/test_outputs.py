@@ -239,7 +239,8 @@ class Outputs(SceneTest):
         for formats in ("wobble", "vtu, wobble", "vtu, vtu", "vtu,", ""):
             run = self.attempt({**BAR, "Output/Formats": formats})
             self.assertEqual(run.status, 1)
-            self.assertIn(f"Output/Formats = '{formats}' is not allowed. Allowed: one or more of vtu, each once",
+            self.assertIn(f"Output/Formats = '{formats}' is not allowed. Allowed: one or more of vtu, obj, ply, mdd, pc2, usda, "
+                          "each once",
                           run.stderr)
 
     def test_set_overrides_the_scene(self):

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Steps 4 and 5 of doc/tutorial show what their pages say."""
+"""Steps 4 to 6 of doc/tutorial show what their pages say."""
 
+import json
 import unittest
 from math import cos, log2, pi
 
@@ -109,6 +110,19 @@ class TutorialDynamics(Tutorial):
                 self.assertAlmostEqual(error / other, 1, delta=0.03)
         for error, other in zip(self.orders(rows, Method="one pass")[0], newton):
             self.assertGreater(error, other)
+
+    @shows("step6_creature")
+    def test_the_creature_crouches_and_reaches(self):
+        output = self.scene("step6_creature", "creature", "Mesh/Cells=1500", "Time/Step=0.1", "Output/Every=1")
+        rows = read_csv(output)
+        self.assertEqual({row["inverted_cells"] for row in rows}, {0})
+        self.assertGreater(max(row["weight_1"] for row in rows if row["time"] < 1), 0.6)
+        self.assertGreater(max(row["weight_2"] for row in rows if row["time"] > 1), 0.6)
+        poses = json.loads((output / "summary.json").read_text())["poses_carried"]
+        self.assertEqual([pose["inverted_cells"] for pose in poses], [0, 0])
+        surface = (REPOSITORY / "meshes/surfaces/creature/rest.obj").read_text()
+        n_vertices = surface.count("v ")
+        self.assertEqual((output / "animation.pc2").stat().st_size, 32 + 12 * n_vertices * len(rows))
 
 
 if __name__ == "__main__":

@@ -4,11 +4,13 @@
 
 #include <exemplar/mesh/mesh_inputs.h>
 #include <exemplar/surface/closest_points.h>
+#include <exemplar/surface/vectors.h>
 
 namespace Exemplar
 {
   /// How the boundary nodes of a tetrahedral mesh hang on a surface: each at the nearest point of
-  /// the surface at rest, and at a distance from it that turns with the triangle. Surface and
+  /// the surface at rest that faces as the body does, and at a distance from it that turns with the
+  /// triangle. Surface and
   /// boundary need not have the same resolution.
   class SurfaceAttachment
   {
@@ -21,7 +23,7 @@ namespace Exemplar
                       const std::vector<BoundaryFace> &faces,
                       TriangleSurface                  surface);
 
-    /// The same for some nodes, which may lie inside; their get_areas() are 0.
+    /// The same for some nodes, which may lie inside, at the nearest points; their get_areas() are 0.
     SurfaceAttachment(const Points             &nodes,
                       std::vector<unsigned int> which,
                       TriangleSurface           surface);
@@ -67,7 +69,7 @@ namespace Exemplar
 
   private:
     void
-    hang(const Points &nodes);
+    hang(const Points &nodes, const std::vector<SpaceVector> &normals);
 
     dealii::Point<3>
     place(const SurfacePoint &point, const Vertices &vertices) const;

@@ -20,11 +20,14 @@ namespace Exemplar
   RepairedSurface
   repair(const TriangleSurface &surface);
 
+  /// How far a wrap runs outside, over the openings that it closes.
+  constexpr double wrap_distance = .05;
+
   /// A closed surface around whatever the triangles are (Portaneri et al. 2022, alpha wrapping, by
-  /// CGAL): openings of less than `openings` times the diagonal are closed, and it runs a twentieth
-  /// of that outside.
+  /// CGAL): openings of less than `openings` times the diagonal are closed, and it runs
+  /// wrap_distance of that outside.
   TriangleSurface
-  wrap(const TriangleSurface &surface, double openings = .01);
+  wrap(const TriangleSurface &surface, double openings);
 } // namespace Exemplar
 
 #endif

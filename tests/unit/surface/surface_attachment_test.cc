@@ -4,6 +4,7 @@
 
 #include "fold_bodies.h"
 #include "matrices.h"
+#include "surfaces.h"
 
 #include <gtest/gtest.h>
 
@@ -73,6 +74,26 @@ namespace Exemplar::Testing
       EXPECT_EQ(attachment.get_nodes().size(), 2u * 9u + 7u * 8u);
       for (const double distance : attachment.get_distances())
         EXPECT_NEAR(distance, 0., 1e-14);
+    }
+
+    TEST(SurfaceAttachment, AGapThatTheMeshDoesNotResolveIsNotCrossed)
+    {
+      // two bodies .01 apart; the first one's mesh comes nearer to the other's surface than to its own
+      Points nodes;
+      for (const double x : { 1.008, 0. })
+        for (const auto &[y, z] : { std::pair(.1, .1), { .9, .1 }, { .9, .9 }, { .1, .9 } })
+          nodes.emplace_back(x, y, z);
+      const std::vector<BoundaryFace> faces = { { { { 0, 1, 2 } }, 0 },
+                                                { { { 0, 2, 3 } }, 0 },
+                                                { { { 4, 6, 5 } }, 0 },
+                                                { { { 4, 7, 6 } }, 0 } };
+      const TriangleSurface           two   = joined(cube(), cube({ { 1.01, 0., 0. } }));
+      const SurfaceAttachment         attachment(nodes, faces, two);
+      for (std::size_t k = 0; k < nodes.size(); ++k)
+      {
+        EXPECT_LT(attachment.get_points()[k].triangle, 12u);
+        EXPECT_NEAR(attachment.get_distances()[k], k < 4 ? .008 : 0., 1e-12);
+      }
     }
 
     TEST(SurfaceAttachment, TheDistanceFromTheSurfaceTurnsWithIt)
