@@ -316,6 +316,8 @@ def main(arguments):
     shapes = dict(shape.split("=", 1) for shape in options.shape if "=" in shape)
     if len(shapes) != len(options.shape):
         parser.error("--shape takes WEIGHT=FILE.obj, each weight once")
+    if bpy.app.background and not bpy.data.filepath:
+        bpy.ops.wm.read_homefile(use_empty=True)  # without the cube that a new file has
     shown = load_run(options.directory, shapes, options.up, options.start, options.save)
     keys = shown.data.shape_keys
     print(f"{shown.name}: {len(shown.data.vertices)} vertices, {bpy.context.scene.frame_end - options.start + 1} frames, "

@@ -253,7 +253,7 @@ def step5(program):
 
 def step6(program):
     """Three surfaces, the creature on its way, and its weights."""
-    picture, view = Picture(1500, 420), ((-0.15, 0, 0.75), (0.45, -1, 0.25), 1.05)
+    picture, view = Picture(1500, 420), ((-0.13, 0, 0.72), (0.3, -1, 0.25), 1.42)
     for c, name in enumerate(("rest", "crouch", "reach")):
         reader = vtk.vtkOBJReader()
         reader.SetFileName("meshes/surfaces/creature/%s.obj" % name)

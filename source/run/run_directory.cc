@@ -60,6 +60,14 @@ namespace Exemplar
               { "checkpoint.bin", "exemplar checkpoint " } };
       return files;
     }
+
+    /// The surface at rest or in the pose of an example.
+    bool
+    is_shape(const std::string &name)
+    {
+      static const std::regex shape("rest\\.obj|weight_[0-9_]+\\.obj");
+      return std::regex_match(name, shape);
+    }
   } // namespace
 
   RunDirectory::RunDirectory(fs::path path, const std::vector<FrameFormat> &formats)
@@ -76,8 +84,7 @@ namespace Exemplar
       return single_files().at("checkpoint.bin");
     if (const auto found = single_files().find(without_number(name)); found != single_files().end())
       return found->second;
-    static const std::regex shape("rest\\.obj|weight_[0-9_]+\\.obj");
-    if (std::regex_match(name, shape))
+    if (is_shape(name))
       return "# a shape by exemplar\n";
     for (const FrameFormat &format : formats)
       if (auto beginning = format.beginning_of(name))
@@ -195,6 +202,14 @@ namespace Exemplar
             refusal_of(name, objection)
             + " Move it away, or run the scene without --resume into another directory.");
     }
+  }
+
+  void
+  RunDirectory::remove_shapes() const
+  {
+    for (const std::string &name : own_names())
+      if (is_shape(name) && objection_to(name).empty())
+        fs::remove(path / name);
   }
 
   void

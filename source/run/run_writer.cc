@@ -111,7 +111,8 @@ namespace Exemplar
       write_original();
       write_rest_mesh();
       write_parameters(scene, checkpoint.totals.edits, directory.parameters_prm());
-      frames.write_shapes(); // Output/Formats may have changed
+      directory.remove_shapes(); // Output/Formats may have changed
+      frames.write_shapes();
     }
     accepted_bytes = checkpoint.statistics_bytes;
     diagnostics.resume(checkpoint.work);
@@ -163,6 +164,7 @@ namespace Exemplar
       write_original();
       write_rest_mesh();
       write_parameters(scene, totals.edits, directory.parameters_prm());
+      directory.remove_shapes();
       frames.write_shapes();
       save(); // a crash from now on can be resumed
       fs::remove(directory.final_pose());

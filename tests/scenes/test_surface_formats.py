@@ -136,6 +136,17 @@ class SurfaceFormats(SceneTest):
         self.assertEqual(len(read_pc2(self.directory / "out/animation.pc2")[1]), 4)
         self.assertEqual(results(self.solve(SCENE, "--resume")), whole)
 
+    def test_an_edited_scene_goes_on(self):
+        kept = {**SCENE, "Output/Keep states": "true"}
+        before = read_pc2(self.solve(kept) / "animation.pc2")[1]
+        output = self.directory / "out"
+        self.write("scene.prm", prm({**kept, "Examples/Pose functions": None, "Examples/Importance": "0"}))
+        self.assertEqual(self.call("scene.prm", "--quiet", "--output", output, "--resume-from", "4").status, 0)
+        after = read_pc2(output / "animation.pc2")[1]
+        self.assertEqual((len(after), after[:3]), (len(before), before[:3]))
+        self.assertNotEqual(after[3:], before[3:])
+        self.assertEqual(sorted(file.name for file in output.glob("weight_*")), [])
+
     def test_killed_and_interrupted_runs(self):
         long = {**SCENE, "Time/Step": "0.001", "Time/End": "0.3", "Output/Every": "3"}
         whole = results(self.solve(long, output="whole"))

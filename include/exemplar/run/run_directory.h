@@ -39,6 +39,10 @@ namespace Exemplar
     void
     remove_frames_after(unsigned int step) const;
 
+    /// Remove surfaces of examples, of which an edited scene may have fewer.
+    void
+    remove_shapes() const;
+
     /// Throws std::runtime_error if the directory that was taken has been removed or replaced, for what
     /// stands there now may be another run's.
     void
