@@ -121,7 +121,7 @@ class Run:
     def weights(self):
         """{name: a value a frame} of the weights."""
         names = [name for name in self.rows[0] if re.fullmatch(r"weight_[0-9_]+", name)]
-        return {name: np.array([float(row[name]) for row in self.rows]) for name in names}
+        return {name: np.array([float(row[name] or 0) for row in self.rows]) for name in names}
 
     def frames_per_second(self):
         times = [float(row["time"]) for row in self.rows]
@@ -293,7 +293,7 @@ def load_run(directory, shapes=None, up=None, start=1, save=None):
     found = read_shapes(run, shapes or {})
     shown = make_object(run.directory.name, run)
     add_shape_keys(shown, run, found, start)
-    cache = add_residual(shown, run, found, start, run.directory / "residual.pc2")
+    cache = add_residual(shown, run, found, start, run.directory / (f"{Path(save).stem}_residual.pc2" if save else "residual.pc2"))
     if not (run.z_is_up() if up is None else up == "z"):
         shown.rotation_euler[0] = np.pi / 2
     set_playback(run, start)

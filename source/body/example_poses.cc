@@ -156,6 +156,17 @@ namespace Exemplar
           });
   }
 
+  double
+  ExamplePoses::share(const unsigned int cell, const unsigned int region) const
+  {
+    if (!regions)
+      return 1.;
+    for (std::size_t i = regions->first(cell); i < regions->last(cell); ++i)
+      if (regions->list()[i].region == region)
+        return regions->list()[i].value;
+    return 0.;
+  }
+
   std::vector<double>
   ExamplePoses::volume_fractions() const
   {

@@ -72,19 +72,18 @@ namespace Exemplar
     const unsigned int  region = i / poses.size();
     Vector              u      = poses.pose(i % poses.size());
     u -= problem.body.fe_space.rest_positions();
-    const auto id = poses.material_id(region);
-    if (!id)
+    if (poses.n_regions() == 1)
       return u;
-    // on the border of regions each has its share
-    std::vector<double> inside(mesh.n_nodes(), 0.), all(mesh.n_nodes(), 0.);
+    // at a node the mean share of its cells
+    std::vector<double> share(mesh.n_nodes(), 0.), n_cells(mesh.n_nodes(), 0.);
     for (unsigned int cell = 0; cell < mesh.n_cells(); ++cell)
       for (const unsigned int node : mesh.get_cells()[cell])
       {
-        all[node] += 1.;
-        inside[node] += mesh.get_material_ids()[cell] == *id ? 1. : 0.;
+        n_cells[node] += 1.;
+        share[node] += poses.share(cell, region);
       }
     for (unsigned int dof = 0; dof < u.size(); ++dof)
-      u[dof] *= all[dof / 3] > 0. ? inside[dof / 3] / all[dof / 3] : 0.;
+      u[dof] *= n_cells[dof / 3] > 0. ? share[dof / 3] / n_cells[dof / 3] : 0.;
     return u;
   }
 
@@ -156,8 +155,9 @@ namespace Exemplar
   FrameOutput::write_animations() const
   {
     for (const auto &[format, writer] : writers)
-      if (!format->animation.empty())
-        writer->write_animation(written_frames(*format), directory / format->animation);
+      if (const auto written = written_frames(*format);
+          !format->animation.empty() && !written.empty())
+        writer->write_animation(written, directory / format->animation);
   }
 
   std::vector<WrittenFrame>

@@ -86,10 +86,13 @@ namespace Exemplar
 
     /// What makes other states: a run cannot go on with another one.
     bool
-    is_fixed(const std::string &key)
+    is_fixed(const ChangedKey &changed)
     {
+      const std::string &key = changed.key;
+      if (key == "Mesh/Surface") // frames may show one from now on, but no other one
+        return !changed.before.empty();
       return key == "Scene" || key == "Time/Step" || key == "Time/Increments"
-             || (key.compare(0, 5, "Mesh/") == 0 && key != "Mesh/Surface");
+             || key.compare(0, 5, "Mesh/") == 0;
     }
 
     void
@@ -103,12 +106,15 @@ namespace Exemplar
           = " The kind of scene, its mesh and its steps of time must stay. Change "
             "it back, or run the scene from its start, without --resume-from.";
       for (const ChangedKey &changed : changed_keys(checkpoint, scene))
-        if (is_fixed(changed.key))
+        if (is_fixed(changed))
           throw UserError(failure + changed.text() + remedy);
-      const auto files = changed_files(checkpoint, input_digests);
-      if (std::count(files.begin(), files.end(), scene.get_parameters().mesh.file) > 0)
-        throw UserError(failure + "the mesh " + scene.get_parameters().mesh.file
-                        + " has changed since." + remedy);
+      const auto            files = changed_files(checkpoint, input_digests);
+      const MeshParameters &mesh  = scene.get_parameters().mesh;
+      for (const auto &[what, name] :
+           { std::pair("mesh ", mesh.file), std::pair("surface ", mesh.surface) })
+        if (std::count(files.begin(), files.end(), name) > 0
+            && checkpoint.input_digests.count(name) > 0)
+          throw UserError(failure + "the " + what + name + " has changed since." + remedy);
     }
 
     void

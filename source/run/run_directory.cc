@@ -213,6 +213,15 @@ namespace Exemplar
   }
 
   void
+  RunDirectory::remove_animations() const
+  {
+    for (const FrameFormat &format : formats)
+      if (!format.animation.empty() && fs::exists(path / format.animation)
+          && objection_to(format.animation).empty())
+        fs::remove(path / format.animation);
+  }
+
+  void
   RunDirectory::remove_frames_after(const unsigned int step) const
   {
     const auto is_later = [&](const std::string &name)

@@ -178,6 +178,7 @@ namespace Exemplar
   RunWriter::go_on_from(const Checkpoint &checkpoint)
   {
     directory.remove_frames_after(checkpoint.state.step);
+    directory.remove_animations();
     if (is_only_last_frame(checkpoint) && !frames.is_due(checkpoint.state.step))
       frames.remove(checkpoint.state.step);
     if (frames.is_due(checkpoint.state.step)) // an earlier resume may have removed it
@@ -272,8 +273,8 @@ namespace Exemplar
       frames.drain();
       directory.require_taken();
       write_final_pose();
+      save(); // whatever happens to animations
       frames.write_animations();
-      save();
     }
     lap();
     const auto mesh_digest = input_digests.find(problem.parameters.mesh.file);

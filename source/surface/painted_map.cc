@@ -64,6 +64,8 @@ namespace Exemplar
         std::string       text;
         while (std::getline(in, text))
         {
+          if (line == 0 && text.compare(0, 3, "\xEF\xBB\xBF") == 0)
+            text.erase(0, 3); // a mark that spreadsheets put before UTF-8
           ++line;
           if (text.find_first_not_of(" \t\r") < text.size() && text[0] != '#')
             read_line(cells_of(text));

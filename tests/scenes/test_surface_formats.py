@@ -2,6 +2,7 @@
 """Frames of the body's surface: obj, ply, mdd, pc2 and usda, what they hold, and that they outlive interrupted runs."""
 
 import csv
+import math
 import signal
 import struct
 import subprocess
@@ -146,6 +147,28 @@ class SurfaceFormats(SceneTest):
         self.assertEqual((len(after), after[:3]), (len(before), before[:3]))
         self.assertNotEqual(after[3:], before[3:])
         self.assertEqual(sorted(file.name for file in output.glob("weight_*")), [])
+
+        self.write("other.obj", obj_text(bar_surface()))
+        self.write("scene.prm", prm({**kept, "Mesh/Surface": "other.obj"}))
+        run = self.call("scene.prm", "--quiet", "--output", output, "--resume-from", "4")
+        self.assertEqual(run.status, 1)
+        self.assertIn("Mesh/Surface was", run.stderr)
+
+    def test_shapes_of_painted_weights(self):
+        """By a map that grows along the bar: the shapes of both parts sum to the whole pose."""
+        places = list(enumerate(self.surface.vertices, 1))
+        self.write("ramp.csv", "\ufeffvertex,w\n" + "".join(f"{i},{place[0] / 4!r}\n" for i, place in reversed(places)))
+        short = {**SCENE, "Time/End": "0.02", "Output/Formats": "obj"}
+        whole = read_obj(self.solve(short, output="whole") / "weight_1.obj")[0]
+        painted = self.solve({**short, "Examples/Weight maps": "ramp.csv:w"}, output="painted")
+        near, far = (read_obj(painted / name)[0] for name in ("weight_0_1.obj", "weight_1_1.obj"))
+        for rest, end, *parts in zip(self.surface.vertices, whole, near, far):
+            for x, u, *moved in zip(rest, end, *parts):
+                self.assertAlmostEqual(sum(p - x for p in moved), u - x, delta=1e-9)
+        for x, least, most in ((4, 0.9, 1), (2, 0.35, 0.65)):
+            i = min(range(len(whole)), key=lambda i: abs(self.surface.vertices[i][0] - x))
+            share = math.dist(far[i], self.surface.vertices[i]) / math.dist(whole[i], self.surface.vertices[i])
+            self.assertTrue(least < share < most, share)
 
     def test_killed_and_interrupted_runs(self):
         long = {**SCENE, "Time/Step": "0.001", "Time/End": "0.3", "Output/Every": "3"}

@@ -69,6 +69,10 @@ namespace Exemplar
     std::optional<unsigned int>
     material_id(unsigned int region) const;
 
+    /// How much of a region's weights acts in a cell, from 0 to 1.
+    double
+    share(unsigned int cell, unsigned int region) const;
+
     /// Volume of each region over that of the body, with shares counted; they sum to one.
     std::vector<double>
     volume_fractions() const;

@@ -39,6 +39,10 @@ namespace Exemplar
     void
     remove_frames_after(unsigned int step) const;
 
+    /// Remove files that show all frames: a run that goes on writes its own at its end.
+    void
+    remove_animations() const;
+
     /// Remove surfaces of examples, of which an edited scene may have fewer.
     void
     remove_shapes() const;
