@@ -179,6 +179,10 @@ namespace Exemplar
     if (nodes.empty())
     {
       const double least = select(std::numeric_limits<double>::infinity()).second;
+      if (std::isinf(least))
+        throw UserError(choice + " selects no node: no face of the surface uses "
+                        + (vertices.size() > 1 ? "these vertices" : "this vertex")
+                        + ". Pick one that lies on a face.");
       throw UserError(
           choice + " selects no node: the nearest node of the boundary of " + mesh.get_name()
           + " is " + short_text(least)

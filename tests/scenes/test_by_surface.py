@@ -204,6 +204,9 @@ class Selections(BySurface):
             self.write("rows.csv", "1\n2\n")
             with self.subTest(choice):
                 self.refused(held(choice), *words)
+        self.write("rest.obj", obj(VERTICES) + "v 2 0 0.6\n")
+        self.refused(held(f"vertex {len(VERTICES) + 1} within 5"), "no face of the surface uses this vertex")
+        self.write("rest.obj", obj(VERTICES))
         self.refused({**held("vertex 3"), "Mesh/Surface": None}, "Set Mesh/Surface", "Handles/left/Select")
         self.write("rest.obj", obj([tuple(1e3 * c for c in x) for x in VERTICES]))
         self.refused(held("vertex 3"), "is no mesh of the inside of")
