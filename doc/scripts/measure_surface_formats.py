@@ -10,6 +10,7 @@ weight 1) is from the pose.
 import argparse
 import csv
 import json
+import os
 import statistics
 import subprocess
 import sys
@@ -49,7 +50,7 @@ def aligned(moved, to):
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--cells", default="10000")
-    parser.add_argument("--program", default=REPOSITORY / "build/release/exemplar")
+    parser.add_argument("--program", type=os.path.abspath, default=REPOSITORY / "build/release/exemplar")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as holder:
         directory = Path(holder)
