@@ -10,6 +10,17 @@ namespace Exemplar
   {
     constexpr SpaceVector nowhere{ { 0., 0., 0. } };
 
+    /// Of length 1; 0 if the triangle has no area.
+    SpaceVector
+    triangle_normal(const TriangleSurface &surface, const unsigned int triangle)
+    {
+      const auto       &t = surface.triangles[triangle];
+      const SpaceVector n = cross(minus(surface.vertices[t[1]], surface.vertices[t[0]]),
+                                  minus(surface.vertices[t[2]], surface.vertices[t[0]]));
+      const double      l = norm(n);
+      return l > 0. ? plus(nowhere, 1. / l, n) : nowhere;
+    }
+
     /// One of the 26 directions to the neighbours in a grid, or none.
     using GridDirection = std::array<int, 3>;
 
@@ -66,16 +77,6 @@ namespace Exemplar
     }
   } // namespace
 
-  SpaceVector
-  triangle_normal(const TriangleSurface &surface, const unsigned int triangle)
-  {
-    const auto       &t = surface.triangles[triangle];
-    const SpaceVector n = cross(minus(surface.vertices[t[1]], surface.vertices[t[0]]),
-                                minus(surface.vertices[t[2]], surface.vertices[t[0]]));
-    const double      l = norm(n);
-    return l > 0. ? plus(nowhere, 1. / l, n) : nowhere;
-  }
-
   bool
   faces_away(const TriangleSurface &surface, const unsigned int triangle, const SpaceVector &normal)
   {
@@ -83,13 +84,15 @@ namespace Exemplar
   }
 
   std::vector<std::optional<SurfacePoint>>
-  closest_facing_points(const TriangleSurface                  &surface,
-                        const std::vector<SurfaceMesh::Vertex> &points,
-                        const std::vector<SpaceVector>         &normals)
+  facing_points(const TriangleSurface                  &surface,
+                const std::vector<SurfaceMesh::Vertex> &points,
+                const std::vector<SpaceVector>         &normals,
+                const std::vector<SurfacePoint>        &nearest)
   {
     std::map<GridDirection, std::vector<std::size_t>> by_direction;
     for (std::size_t i = 0; i < points.size(); ++i)
-      by_direction[grid_direction(normals[i])].push_back(i);
+      if (faces_away(surface, nearest[i].triangle, normals[i]))
+        by_direction[grid_direction(normals[i])].push_back(i);
     by_direction.erase(GridDirection{ { 0, 0, 0 } });
 
     std::vector<std::optional<SurfacePoint>> found(points.size());
@@ -101,12 +104,12 @@ namespace Exemplar
       std::vector<SurfaceMesh::Vertex> places;
       for (const std::size_t i : which)
         places.push_back(points[i]);
-      const auto nearest = closest_points(part.surface, places);
+      const auto on_part = closest_points(part.surface, places);
       for (std::size_t k = 0; k < places.size(); ++k)
       {
-        const double distance = norm(minus(place_of(part.surface, nearest[k]), places[k]));
-        if (distance <= longest_edge(part.surface, nearest[k].triangle))
-          found[which[k]] = { part.number[nearest[k].triangle], nearest[k].share };
+        const double distance = norm(minus(place_of(part.surface, on_part[k]), places[k]));
+        if (distance <= longest_edge(part.surface, on_part[k].triangle))
+          found[which[k]] = { part.number[on_part[k].triangle], on_part[k].share };
       }
     }
     return found;

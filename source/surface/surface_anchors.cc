@@ -114,8 +114,6 @@ namespace Exemplar
       const Normals              normals = vertex_normals(surface);
       const auto                 nearest = closest_points(boundary, surface.vertices);
       std::vector<SurfaceAnchor> anchors;
-      std::vector<std::size_t>   doubtful;
-      std::vector<SpaceVector>   places, outwards; // of those
       for (std::size_t v = 0; v < surface.vertices.size(); ++v)
       {
         const dealii::Point<3> X = point_at(surface.vertices[v]);
@@ -123,20 +121,13 @@ namespace Exemplar
           anchors.push_back({ mesh.get_cells()[cell->cell], cell->shares, X });
         else
           anchors.push_back(on_boundary(nearest[v]));
-        if (faces_away(boundary, nearest[v].triangle, normals[v]))
-        {
-          doubtful.push_back(v);
-          places.push_back(surface.vertices[v]);
-          outwards.push_back(normals[v]);
-        }
       }
-      const auto facing = closest_facing_points(boundary, places, outwards);
-      for (std::size_t i = 0; i < doubtful.size(); ++i)
+      const auto facing = facing_points(boundary, surface.vertices, normals, nearest);
+      for (std::size_t v = 0; v < facing.size(); ++v)
       {
-        if (!facing[i])
+        if (!facing[v])
           continue;
-        const std::size_t      v         = doubtful[i];
-        const SurfaceAnchor    other     = on_boundary(*facing[i]);
+        const SurfaceAnchor    other     = on_boundary(*facing[v]);
         const dealii::Point<3> X         = point_at(surface.vertices[v]);
         const bool             is_inside = anchors[v].place == X;
         if (!is_inside || has_gap(X, other.place))

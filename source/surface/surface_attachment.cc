@@ -73,22 +73,14 @@ namespace Exemplar
                   const std::vector<SpaceVector> &normals,
                   std::vector<SurfacePoint>      &nearest)
     {
-      std::vector<std::size_t> doubtful;
-      Vertices                 doubtful_places;
-      std::vector<SpaceVector> doubtful_normals;
+      std::size_t n_away = 0;
       for (std::size_t k = 0; k < places.size(); ++k)
-        if (faces_away(surface, nearest[k].triangle, normals[k]))
-        {
-          doubtful.push_back(k);
-          doubtful_places.push_back(places[k]);
-          doubtful_normals.push_back(normals[k]);
-        }
-      if (2 * doubtful.size() > places.size())
+        n_away += faces_away(surface, nearest[k].triangle, normals[k]) ? 1 : 0;
+      if (2 * n_away > places.size())
         return; // the surface is inside out
-      const auto facing = closest_facing_points(surface, doubtful_places, doubtful_normals);
-      for (std::size_t i = 0; i < doubtful.size(); ++i)
-        if (facing[i])
-          nearest[doubtful[i]] = *facing[i];
+      const auto facing = facing_points(surface, places, normals, nearest);
+      for (std::size_t k = 0; k < places.size(); ++k)
+        nearest[k] = facing[k].value_or(nearest[k]);
     }
   } // namespace
 

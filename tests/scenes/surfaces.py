@@ -33,6 +33,19 @@ def cube(origin=(0., 0., 0.), size=1., inside_out=False):
     return vertices, [f[::-1] for f in faces] if inside_out else faces
 
 
+def moved(vertices, by):
+    return [tuple(x + d for x, d in zip(v, by)) for v in vertices]
+
+
+def joined(*parts):
+    """Of several (vertices, faces) one."""
+    vertices, faces = [], []
+    for v, f in parts:
+        faces += [tuple(i + len(vertices) for i in face) for face in f]
+        vertices += v
+    return vertices, faces
+
+
 def grid_surface(n_u, n_v, place):
     """A surface that closes in both parameters: place(u, v) for u, v in [0, 1)."""
     vertices = [place(i / n_u, j / n_v) for i in range(n_u) for j in range(n_v)]

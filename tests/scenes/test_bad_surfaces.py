@@ -10,28 +10,13 @@ import unittest
 import surfaces
 from bad_inputs import NO_MESSAGE
 from exemplar_runner import SceneTest, bent, prm
+from surfaces import cube, joined, moved
 from test_surface_scenes import bar, write_ply
 
 NAN = float("nan")
 SCENE = {"Scene": "static", "Mesh/File": "rest.obj", "Mesh/Cells": "100", "Time/Increments": "1", "Handles/Names": "left",
          "Handles/left/Select": "boundary left"}
 ORDER = "export both from the same model"
-
-
-def joined(*parts):
-    vertices, faces = [], []
-    for v, f in parts:
-        faces += [tuple(i + len(vertices) for i in face) for face in f]
-        vertices += v
-    return vertices, faces
-
-
-def moved(vertices, by):
-    return [tuple(x + d for x, d in zip(v, by)) for v in vertices]
-
-
-def cube(*arguments, **keywords):
-    return surfaces.cube(*arguments, **keywords)
 
 
 def without(n):

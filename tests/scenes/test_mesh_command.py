@@ -8,21 +8,10 @@ import unittest
 
 import surfaces
 from exemplar_runner import SceneTest, read_msh
+from surfaces import joined, moved
 
 STATIC = {"Scene": "static", "Mesh/File": "body.msh", "Time/Increments": "1", "Handles/Names": "base",
           "Handles/base/Select": "boundary 1", "Loads/Gravity": "0, 0, -1"}
-
-
-def moved(vertices, by):
-    return [tuple(x + d for x, d in zip(v, by)) for v in vertices]
-
-
-def joined(*parts):
-    vertices, faces = [], []
-    for v, f in parts:
-        faces += [tuple(i + len(vertices) for i in face) for face in f]
-        vertices += v
-    return vertices, faces
 
 
 class MeshCommandTest(SceneTest):

@@ -12,20 +12,18 @@
 
 namespace Exemplar
 {
-  /// Of a triangle, of length 1; 0 if it has no area.
-  SpaceVector
-  triangle_normal(const TriangleSurface &surface, unsigned int triangle);
-
   /// Whether a triangle faces so much against a normal of length 1 that it must be of another part.
   bool
   faces_away(const TriangleSurface &surface, unsigned int triangle, const SpaceVector &normal);
 
-  /// The points nearest to each of `points` on triangles that face the same way as its normal, of
-  /// length 1, does; nothing where that is farther than the triangle is long, or the normal is 0.
+  /// For each of `points`, of which `nearest` are the nearest on the surface: nothing, unless its nearest
+  /// triangle faces_away() from its normal. Then the point nearest to it on triangles that face the same way; nothing if that is farther than the
+  /// triangle is long.
   std::vector<std::optional<SurfacePoint>>
-  closest_facing_points(const TriangleSurface                  &surface,
-                        const std::vector<SurfaceMesh::Vertex> &points,
-                        const std::vector<SpaceVector>         &normals);
+  facing_points(const TriangleSurface                  &surface,
+                const std::vector<SurfaceMesh::Vertex> &points,
+                const std::vector<SpaceVector>         &normals,
+                const std::vector<SurfacePoint>        &nearest);
 } // namespace Exemplar
 
 #endif
