@@ -165,6 +165,7 @@ namespace Exemplar
       write_rest_mesh();
       write_parameters(scene, totals.edits, directory.parameters_prm());
       directory.remove_shapes();
+      directory.remove_animations();
       frames.write_shapes();
       save(); // a crash from now on can be resumed
       fs::remove(directory.final_pose());
@@ -178,7 +179,6 @@ namespace Exemplar
   RunWriter::go_on_from(const Checkpoint &checkpoint)
   {
     directory.remove_frames_after(checkpoint.state.step);
-    directory.remove_animations();
     if (is_only_last_frame(checkpoint) && !frames.is_due(checkpoint.state.step))
       frames.remove(checkpoint.state.step);
     if (frames.is_due(checkpoint.state.step)) // an earlier resume may have removed it
