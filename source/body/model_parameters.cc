@@ -12,6 +12,7 @@ namespace Exemplar
             { StrainMeasure::green, "green" } };
     const EnumTable<GradientKind> gradient_kinds
         = { { GradientKind::consistent, "consistent" }, { GradientKind::frozen, "frozen" } };
+    const EnumTable<Element> elements = { { Element::P1, "P1" }, { Element::P2, "P2" } };
   } // namespace
 
   void
@@ -27,6 +28,13 @@ namespace Exemplar
         "consistent: the force is the gradient of the energy; frozen: the paper's force R T, "
         "which holds the rotation fixed while it differentiates the energy. The linear and green "
         "strains have no rotations and always use their gradient.");
+    keys.add(
+        "Element", element, elements,
+        "P1: linear tetrahedra, the cells of the mesh with their nodes; P2: quadratic "
+        "tetrahedra with straight edges at rest and a further node in the middle of each edge, "
+        "which may bend and are far more accurate on the same mesh, where Poisson's ratio is "
+        "near 1/2 above all. Strains, rotations and example strains are at four points of each "
+        "cell then.");
     keys.leave_subsection();
   }
 } // namespace Exemplar

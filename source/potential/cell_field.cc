@@ -7,7 +7,7 @@ namespace Exemplar
                        const double        guard_bound,
                        const FESpace      &fe_space,
                        const Material     &material)
-      : strain(strain), guard_bound(guard_bound), kernels(best_kernels()),
+      : strain(strain), guard_bound(guard_bound), kernels(best_kernels(fe_space.element())),
         batches(fe_space, material), node_positions(4 * fe_space.n_nodes())
   {
   }

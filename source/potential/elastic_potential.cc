@@ -16,9 +16,9 @@ namespace Exemplar
     /// Cells are summed in stripes, each by one thread. How many there are depends on the mesh
     /// alone, so that the sums do not depend on the number of threads.
     std::size_t
-    choose_n_stripes(const std::size_t n_cells)
+    choose_n_stripes(const std::size_t n_points)
     {
-      return std::clamp<std::size_t>(n_cells / 50000, 2, 16);
+      return std::clamp<std::size_t>(n_points / 50000, 2, 16);
     }
 
     /// What the cells of a stripe sum up.
@@ -57,17 +57,18 @@ namespace Exemplar
           = 2. * std::numeric_limits<double>::epsilon() * fe_space.rest_positions().linfty_norm();
       CellRounding rounding;
       Vector       force(fe_space.n_nodes());
-      for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
+      for (unsigned int point = 0; point < fe_space.n_points(); ++point)
       {
-        const Tetrahedron<double> &tet      = fe_space.tetrahedron(cell);
-        double                     norms[4] = {};
-        for (unsigned int a = 0; a < 4; ++a)
-          norms[a] = std::sqrt(dot(tet.shape_gradient[a], tet.shape_gradient[a]));
-        const double strain = of_positions * *std::max_element(norms, norms + 4);
+        const unsigned int  cell  = fe_space.cell_of(point);
+        const auto          nodes = fe_space.nodes(cell);
+        std::vector<double> norms;
+        for (const Vector3<double> &g : fe_space.gradients(point))
+          norms.push_back(std::sqrt(dot(g, g)));
+        const double strain = of_positions * *std::max_element(norms.begin(), norms.end());
         const double stress = strain * parts.material.elasticity(cell).norm_estimate();
-        rounding.stress_norm += tet.volume * stress * stress;
-        for (unsigned int a = 0; a < 4; ++a)
-          force[fe_space.nodes(cell)[a]] += std::pow(tet.volume * stress * norms[a], 2);
+        rounding.stress_norm += fe_space.volume(point) * stress * stress;
+        for (unsigned int a = 0; a < nodes.size(); ++a)
+          force[nodes[a]] += std::pow(fe_space.volume(point) * stress * norms[a], 2);
       }
       rounding.force
           = std::sqrt(max_entry(force.begin(), force.end())); // cells round independently
@@ -84,8 +85,8 @@ namespace Exemplar
                                           : parts.examples->guard_bound(),
               parts.fe_space,
               parts.material),
-        scatter(cells, parts.fe_space.n_cells(), pattern, parts.free_dofs),
-        n_stripes(choose_n_stripes(parts.fe_space.n_cells())),
+        scatter(parts.fe_space, pattern, parts.free_dofs),
+        n_stripes(choose_n_stripes(parts.fe_space.n_points())),
         nodal_sums(4 * n_stripes * parts.fe_space.n_nodes()), rounding(estimate_rounding(parts))
   {
   }
@@ -121,12 +122,12 @@ namespace Exemplar
   }
 
   Matrix3<double>
-  ElasticPotential::example_strain(const unsigned int         cell,
+  ElasticPotential::example_strain(const unsigned int         point,
                                    const std::vector<double> &weights) const
   {
     if (parts.examples == nullptr)
       return Matrix3<double>{};
-    const Matrix3<double> E = parts.examples->strain(cell, weights);
+    const Matrix3<double> E = parts.examples->strain(point, weights);
     return combine(parts.examples->importance(), E, 0., E);
   }
 
@@ -197,7 +198,7 @@ namespace Exemplar
     nodal_sums.fill(0.);
     const OpenMPScope scope(OpenMPScope::Threads::several);
     // to start a thread costs as much as a thousand cells
-    const int n_at_once = parts.fe_space.n_cells() < 4000 ? 1 : static_cast<int>(parts.n_threads);
+    const int n_at_once = parts.fe_space.n_points() < 4000 ? 1 : static_cast<int>(parts.n_threads);
 #pragma omp parallel for num_threads(n_at_once)
     for (std::size_t stripe = 0; stripe < n_stripes; ++stripe)
     {
@@ -239,26 +240,33 @@ namespace Exemplar
   ElasticPotential::cell_results(const Vector &positions, const std::vector<double> &weights)
   {
     cells.refresh_rotations();
-    const unsigned int n = parts.fe_space.n_cells();
+    const unsigned int n        = parts.fe_space.n_cells();
+    const unsigned int n_points = parts.fe_space.n_points();
     CellResults results{ std::vector<double>(n), std::vector<double>(n), std::vector<double>(n) };
-    for (unsigned int cell = 0; cell < n; ++cell)
+    for (unsigned int point = 0; point < n_points; ++point)
     {
-      const CellMaterial<double> &lame = parts.material.elasticity(cell);
-      const Matrix3<double>       F    = parts.fe_space.deformation_gradient(cell, positions);
-      const Matrix3<double> R          = cells.rotation(cell);
-      const Matrix3<double> strain     = model_strain(parts.model.strain, R, F);
-      Matrix3<double>       T          = stress(lame, strain);
+      const unsigned int          cell   = parts.fe_space.cell_of(point);
+      const CellMaterial<double> &lame   = parts.material.elasticity(cell);
+      const Matrix3<double>       F      = parts.fe_space.deformation_gradient(point, positions);
+      const Matrix3<double>       R      = cells.rotation(point);
+      const Matrix3<double>       strain = model_strain(parts.model.strain, R, F);
+      Matrix3<double>             T      = stress(lame, strain);
 
-      results.strain_energy_density[cell]
+      const double energy
           = 0.5 * contract(T, strain)
             + model_stretch_energy(parts.model.strain, lame, R, F, cells.get_guard_bound());
-      results.det_F[cell]                 = determinant(F);
       if (parts.examples != nullptr)
-        T = stress(lame, combine(1., strain, -1., example_strain(cell, weights)));
+        T = stress(lame, combine(1., strain, -1., example_strain(point, weights)));
       const double third = trace(T) / 3.;
       for (int i = 0; i < 3; ++i)
         T[i][i] -= third;
-      results.von_mises_stress[cell] = std::sqrt(1.5 * contract(T, T));
+      const double von_mises = std::sqrt(1.5 * contract(T, T));
+      const double det       = determinant(F);
+      const double part      = parts.fe_space.volume(point) / parts.fe_space.cell_volume(cell);
+      results.strain_energy_density[cell] += part * energy;
+      results.von_mises_stress[cell] += part * von_mises;
+      const bool is_first = point == 0 || parts.fe_space.cell_of(point - 1) != cell;
+      results.det_F[cell] = is_first ? det : min_or_nan(results.det_F[cell], det);
     }
     return results;
   }

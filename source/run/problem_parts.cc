@@ -22,8 +22,8 @@ namespace Exemplar
     {
       if (parameters.handles.empty())
         return nullptr;
-      return std::make_unique<Handles>(parameters.handles, body.mesh, axis, inputs.poses,
-                                       inputs.nodes, body.readings.motions);
+      return std::make_unique<Handles>(parameters.handles, body.mesh, body.fe_space, axis,
+                                       inputs.poses, inputs.nodes, body.readings.motions);
     }
 
     std::optional<StaticallyDeterminateSupport>
@@ -139,7 +139,7 @@ namespace Exemplar
         readings(read_off_surface(parameters, mesh, inputs)),
         material(
             parameters.material, mesh.get_material_ids(), mesh.get_contents(), readings.material),
-        fe_space(mesh), made(inputs.made)
+        fe_space(mesh, parameters.model.element), made(inputs.made)
   {
     inputs.nodes.insert(readings.nodes.begin(), readings.nodes.end());
   }
@@ -159,7 +159,8 @@ namespace Exemplar
   {
     if (parameters.scene != SceneKind::statics)
       return;
-    const unsigned int n_free = n_free_rigid_motions(body.mesh, held_dofs(parameters, body, *this));
+    const unsigned int n_free = n_free_rigid_motions(body.mesh, body.fe_space.rest_positions(),
+                                                     held_dofs(parameters, body, *this));
     if (n_free > 0)
       throw UserError(
           parameters.name + ": the handles leave " + std::to_string(n_free)

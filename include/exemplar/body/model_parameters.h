@@ -19,6 +19,7 @@ namespace Exemplar
   {
     StrainMeasure strain   = StrainMeasure::corotational;
     GradientKind  gradient = GradientKind::consistent;
+    Element       element  = Element::P1;
 
     void
     declare(KeyTable &keys);

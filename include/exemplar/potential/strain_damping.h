@@ -13,7 +13,7 @@ namespace Exemplar
   class StrainDamping
   {
   public:
-    /// From now on with this s, 0 for none. Cells that the guard of Eq. (16) had to hold at one of
+    /// From now on with this s, 0 for none. Points that the guard of Eq. (16) had to hold at one of
     /// the positions x_m are left out: their rotation is ambiguous.
     void
     set(double                                s,
@@ -29,23 +29,23 @@ namespace Exemplar
       return s;
     }
 
-    /// s in a cell: 0 where it is left out.
+    /// s at a point: 0 where it is left out.
     double
-    factor(const unsigned int cell) const
+    factor(const unsigned int point) const
     {
-      return factors.empty() ? 0. : factors[cell];
+      return factors.empty() ? 0. : factors[point];
     }
 
-    /// C with the damping in a cell.
+    /// C with the damping at a point.
     CellMaterial<double>
-    damped(const unsigned int cell, const CellMaterial<double> &material) const
+    damped(const unsigned int point, const CellMaterial<double> &material) const
     {
-      return material.scaled(1. + factor(cell));
+      return material.scaled(1. + factor(point));
     }
 
     /// The strain around which the sum of both quadratics stands if the energy's does around D.
     Matrix3<double>
-    damped(const unsigned int cell, const Matrix3<double> &D) const;
+    damped(const unsigned int point, const Matrix3<double> &D) const;
 
     /// For the loops; without damping there is nothing in them.
     DampingArrays

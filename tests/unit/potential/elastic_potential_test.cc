@@ -49,15 +49,32 @@ namespace Exemplar::Testing
       return examples.is_strained(weight) ? columns[examples.strained_index(weight) * n + i] : 0.;
     }
 
-    // The frozen energy is quadratic in (x, w), so central differences are exact.
-    TEST(ElasticPotential, GradientsAreThoseOfTheFrozenEnergy)
+    /// On both elements.
+    class ElasticPotentialTest : public testing::TestWithParam<Element>
     {
-      const Body     body;
-      const auto     examples = body.examples(two_examples());
-      const FreeDofs free_dofs(body.fe_space.n_dofs(), {});
-      BodyPotential  elastic(body, frozen_model(), examples, free_dofs);
-      std::mt19937   generator(1);
-      auto           positions = body.random_positions(generator, 0.1);
+    };
+
+    INSTANTIATE_TEST_SUITE_P(, ElasticPotentialTest, testing::Values(Element::P1, Element::P2));
+
+    /// A bar of the element that is tested.
+    class ParametricBody : public Body
+    {
+    public:
+      ParametricBody()
+          : Body(box_mesh(4., 4, 1), MaterialParameters(), ElasticPotentialTest::GetParam())
+      {
+      }
+    };
+
+    // The frozen energy is quadratic in (x, w), so central differences are exact.
+    TEST_P(ElasticPotentialTest, GradientsAreThoseOfTheFrozenEnergy)
+    {
+      const ParametricBody body;
+      const auto           examples = body.examples(two_examples());
+      const FreeDofs       free_dofs(body.fe_space.n_dofs(), {});
+      BodyPotential        elastic(body, frozen_model(), examples, free_dofs);
+      std::mt19937         generator(1);
+      auto                 positions = body.random_positions(generator, 0.1);
       elastic.update_rotations(body.random_positions(generator, 0.3));
       std::vector<double> weights = { 0.2, 0.5, 0.3 };
 
@@ -81,17 +98,17 @@ namespace Exemplar::Testing
         EXPECT_NEAR(at.weight_gradient[i], difference(weights[i]), 1e-8 * at.weight_scale);
     }
 
-    TEST(ElasticPotential, MatrixAndColumnsAreTheDerivativesOfTheGradient)
+    TEST_P(ElasticPotentialTest, MatrixAndColumnsAreTheDerivativesOfTheGradient)
     {
-      const Body     body;
-      const auto     examples = body.examples(two_examples());
-      const FreeDofs free_dofs(body.fe_space.n_dofs(), { 0, 4, 8, 30 });
-      const Mass     mass(body.fe_space, body.material, MassMatrix::consistent);
-      TimeIntegrator integrator{ TimeParameters() };
-      InertiaTerm    inertia(mass, integrator);
-      BodyPotential  elastic(body, frozen_model(), examples, free_dofs);
-      std::mt19937   generator(2);
-      auto           positions = body.random_positions(generator, 0.1);
+      const ParametricBody body;
+      const auto           examples = body.examples(two_examples());
+      const FreeDofs       free_dofs(body.fe_space.n_dofs(), { 0, 4, 8, 30 });
+      const Mass           mass(body.fe_space, body.material, MassMatrix::consistent);
+      TimeIntegrator       integrator{ TimeParameters() };
+      InertiaTerm          inertia(mass, integrator);
+      BodyPotential        elastic(body, frozen_model(), examples, free_dofs);
+      std::mt19937         generator(2);
+      auto                 positions = body.random_positions(generator, 0.1);
       elastic.update_rotations(positions);
       std::vector<double> weights = { 0.2, 0.5, 0.3 };
 
@@ -137,6 +154,7 @@ namespace Exemplar::Testing
 
     struct TangentCase
     {
+      Element       element;
       StrainMeasure strain;
       bool          per_region;
       double        damping;
@@ -146,7 +164,7 @@ namespace Exemplar::Testing
     void
     expect_derivatives(const TangentCase &test_case)
     {
-      const Body        body(bar_of_two_regions(2., box_mesh(4., 4, 1)));
+      const Body        body(bar_of_two_regions(2., box_mesh(4., 4, 1)), test_case.element);
       ExampleParameters parameters   = two_examples();
       parameters.weights_per_region  = test_case.per_region;
       parameters.region_blend_length = 2.;
@@ -213,35 +231,35 @@ namespace Exemplar::Testing
       }
     }
 
-    TEST(ElasticPotential, TangentsAreDerivativesInEveryModel)
+    TEST_P(ElasticPotentialTest, TangentsAreDerivativesInEveryModel)
     {
       for (const StrainMeasure strain :
            { StrainMeasure::corotational, StrainMeasure::linear, StrainMeasure::green })
-        expect_derivatives({ strain, false, 0. });
+        expect_derivatives({ GetParam(), strain, false, 0. });
     }
 
-    TEST(ElasticPotential, TangentsAreDerivativesWithDamping)
+    TEST_P(ElasticPotentialTest, TangentsAreDerivativesWithDamping)
     {
       for (const StrainMeasure strain :
            { StrainMeasure::corotational, StrainMeasure::linear, StrainMeasure::green })
-        expect_derivatives({ strain, false, 0.7 });
+        expect_derivatives({ GetParam(), strain, false, 0.7 });
     }
 
-    TEST(ElasticPotential, TangentsAreDerivativesWithWeightsPerRegion)
+    TEST_P(ElasticPotentialTest, TangentsAreDerivativesWithWeightsPerRegion)
     {
-      expect_derivatives({ StrainMeasure::corotational, true, 0. });
-      expect_derivatives({ StrainMeasure::green, true, 0.7 });
+      expect_derivatives({ GetParam(), StrainMeasure::corotational, true, 0. });
+      expect_derivatives({ GetParam(), StrainMeasure::green, true, 0.7 });
     }
 
-    TEST(ElasticPotential, ResponseBesideHeldNodesIsTheDerivativeByThem)
+    TEST_P(ElasticPotentialTest, ResponseBesideHeldNodesIsTheDerivativeByThem)
     {
       for (const StrainMeasure strain :
            { StrainMeasure::corotational, StrainMeasure::linear, StrainMeasure::green })
       {
-        const Body      body;
-        const auto      examples = body.examples(two_examples(), strain);
-        const FreeDofs  free_dofs(body.fe_space.n_dofs(), { 0, 4, 8, 30 });
-        ModelParameters model;
+        const ParametricBody body;
+        const auto           examples = body.examples(two_examples(), strain);
+        const FreeDofs       free_dofs(body.fe_space.n_dofs(), { 0, 4, 8, 30 });
+        ModelParameters      model;
         model.strain = strain;
         BodyPotential             elastic(body, model, examples, free_dofs);
         std::mt19937              generator(5);
@@ -272,14 +290,14 @@ namespace Exemplar::Testing
       }
     }
 
-    TEST(ElasticPotential, ForcesOfABodySumToZero)
+    TEST_P(ElasticPotentialTest, ForcesOfABodySumToZero)
     {
-      const Body     body;
-      const auto     examples = body.examples(two_examples());
-      const FreeDofs free_dofs(body.fe_space.n_dofs(), {});
-      BodyPotential  elastic(body, frozen_model(), examples, free_dofs);
-      std::mt19937   generator(3);
-      const auto     positions = body.random_positions(generator, 0.2);
+      const ParametricBody body;
+      const auto           examples = body.examples(two_examples());
+      const FreeDofs       free_dofs(body.fe_space.n_dofs(), {});
+      BodyPotential        elastic(body, frozen_model(), examples, free_dofs);
+      std::mt19937         generator(3);
+      const auto           positions = body.random_positions(generator, 0.2);
       elastic.update_rotations(positions);
       ElasticEvaluation evaluation;
       elastic.evaluate(positions, { 0.2, 0.5, 0.3 }, evaluation);
@@ -293,14 +311,14 @@ namespace Exemplar::Testing
     }
 
     // In cells that are stretched far the guard of Eq. (24) is part of both.
-    TEST(ElasticPotential, TheDensitiesOfCellsSumToTheElasticEnergy)
+    TEST_P(ElasticPotentialTest, TheDensitiesOfCellsSumToTheElasticEnergy)
     {
-      const Body     body;
-      const Examples none;
-      const FreeDofs free_dofs(body.fe_space.n_dofs(), {});
-      BodyPotential  elastic(body, ModelParameters(), none, free_dofs);
-      std::mt19937   generator(6);
-      auto           positions = body.random_positions(generator, 0.1);
+      const ParametricBody body;
+      const Examples       none;
+      const FreeDofs       free_dofs(body.fe_space.n_dofs(), {});
+      BodyPotential        elastic(body, ModelParameters(), none, free_dofs);
+      std::mt19937         generator(6);
+      auto                 positions = body.random_positions(generator, 0.1);
       for (unsigned int dof = 0; dof < positions.size(); ++dof)
         positions[dof] *= dof % 3 == 0 ? 10. : 0.1;
       elastic.update_rotations(positions);
@@ -309,17 +327,17 @@ namespace Exemplar::Testing
       const CellResults results = elastic.cell_results(positions, {});
       double            sum     = 0.;
       for (unsigned int cell = 0; cell < body.fe_space.n_cells(); ++cell)
-        sum += body.fe_space.tetrahedron(cell).volume * results.strain_energy_density[cell];
+        sum += body.fe_space.cell_volume(cell) * results.strain_energy_density[cell];
       EXPECT_NEAR(sum / evaluation.energy_elastic, 1., 1e-12);
     }
 
-    TEST(ElasticPotential, ARigidMotionOfAnExampleIsFreeOfForceAtFullImportance)
+    TEST_P(ElasticPotentialTest, ARigidMotionOfAnExampleIsFreeOfForceAtFullImportance)
     {
-      const Body        body;
-      ExampleParameters parameters   = two_examples();
-      parameters.importance          = 1.;
-      parameters.weight_penalty      = "0";
-      const auto            examples = body.examples(parameters);
+      const ParametricBody body;
+      ExampleParameters    parameters = two_examples();
+      parameters.importance           = 1.;
+      parameters.weight_penalty       = "0";
+      const auto            examples  = body.examples(parameters);
       const FreeDofs        free_dofs(body.fe_space.n_dofs(), {});
       BodyPotential         elastic(body, frozen_model(), examples, free_dofs);
       const Matrix3<double> Q         = rotation_about({ { 1., 1., 0. } }, 2.);
