@@ -37,8 +37,8 @@ namespace Exemplar
     const OutputParameters &output = problem.parameters.output;
     for (const std::string &name : output.formats)
       if (const FrameFormat &format = find_format(name, formats); output.every > 0)
-        writers.emplace_back(
-            &format, format.make_writer({ problem.body.mesh, problem.surface.get(), playback() }));
+        writers.emplace_back(&format, format.make_writer({ problem.body.mesh, problem.body.fe_space,
+                                                           problem.surface.get(), playback() }));
   }
 
   Playback
