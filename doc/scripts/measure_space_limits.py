@@ -2,20 +2,31 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Limits under refinement of the bodies in doc/space.md, by elements of high order that share nothing with the program.
 
-    /usr/bin/python3 doc/scripts/measure_space_limits.py [bar] [cook]
+    /usr/bin/python3 doc/scripts/measure_space_limits.py [bar] [cook] [cat] [horse] [--write]
 
-Linear elasticity by spectral elements: Lagrange polynomials at Gauss-Lobatto points on quadrilaterals (Cook's membrane, plane strain) or
+Linear elasticity. The bar and Cook's membrane by spectral elements: Lagrange polynomials at Gauss-Lobatto points on quadrilaterals (Cook's membrane, plane strain) or
 bricks (the bar 4:1:1, clamped at x = 0, under its own weight across its length), integrated by Gauss's rule with one point more. Elements
 shrink geometrically towards clamped edges, where stresses are singular. Printed for two orders, so that one sees which digits stand:
 Cook's membrane for unit load, modulus and thickness: displacement along the load of the middle and the upper corner of the loaded edge,
 and the mean over it (the work of the load). The bar of unit modulus under a unit body force: the work, and the displacement of the
-middle of the end.
+middle of the end. Cat and horse stand
+on their soles under a unit body force; each mesh is a body of its own, a polyhedron, whose limit comes from quadratic tetrahedra with
+the mean dilatation of a cell on the mesh with each cell cut in eight, the finest mesh as it is. --write keeps the works in
+doc/studies/space_limits.csv, as energies of the studies prm/studies/space_*.prm. Half an hour.
 """
+import csv
 import itertools
 import sys
+from pathlib import Path
 
-from space_elements import Factor, lame, np, sp
+from space_elements import Elements, Factor, Solid, edges_of, lame, np, read_mesh, refined, sp
 
+TOP = Path(__file__).resolve().parents[2]
+FILE = TOP / "doc/studies/space_limits.csv"
+# energy of a study's scene over the work for unit modulus and force: half of (density g)^2 / E, of force^2 / E
+ENERGY = {"bar": 0.5e6 / 1e8, "cat": 0.5e6 / 1e8, "horse": 0.5e6 / 1e8, "cook": 0.5e-8}
+MESHES = {"cat": ("cat_68mm.geo", "cat_48mm.geo", "cat.msh", "cat_26mm.geo"),
+          "horse": ("horse_91mm.geo", "horse_64mm.geo", "horse.msh", "horse_34mm.geo")}
 NUS = (.3, 1 / 3, .45, .49, .499, .4999)
 
 
@@ -134,14 +145,49 @@ def bar(order):
     return rows
 
 
+def animal(mesh):
+    """Work of the weight on the limit of one mesh."""
+    file = TOP / "meshes" / mesh if mesh.endswith(".msh") else TOP / "prm/studies/meshes" / mesh
+    places, cells = read_mesh(file)
+    held = places[:, 2] < 1e-3
+    if len(cells) < 12000:
+        held = np.concatenate([held, held[edges_of(cells)[0]].all(axis=1)])
+        places, cells = refined(places, cells)
+    elements = Elements(places, cells, "P2")
+    fixed = 3 * np.nonzero(elements.held(held))[0][:, None] + np.arange(3)
+    solid = Solid(elements, fixed.ravel(), np.arange(len(cells)))
+    forces = elements.gravity([0, 0, -1])
+    return [(nu, forces @ solid.solve(1., nu, forces)[0], len(cells)) for nu in NUS]
+
+
+def keep(body, mesh, rows):
+    """In the file of the limits, beside the others."""
+    others = [row for row in csv.reader(FILE.open()) if row[:2] != [body, mesh]][1:] if FILE.exists() else []
+    ours = [[body, mesh, f"{nu:.4g}", f"{ENERGY[body] * work:.6g}"] for nu, work in rows]
+    with FILE.open("w", newline="") as file:
+        csv.writer(file, lineterminator="\n").writerows([["body", "mesh", "nu", "energy"], *sorted(others + ours)])
+
+
+def show(title, columns, rows):
+    print(f"\n{title}\n| nu | " + " | ".join(columns) + " |\n|" + " --- |" * (len(columns) + 1))
+    for nu, *values in rows:
+        print(f"| {nu:.4g} | " + " | ".join(f"{v:.6g}" for v in values) + " |", flush=True)
+
+
 def main():
-    studies = {"cook": (cook, (6, 8), ("middle", "corner", "work")), "bar": (bar, (3, 4), ("work", "end"))}
-    for name in sys.argv[1:] or studies:
-        function, orders, columns = studies[name]
-        print(f"\n{name}\n| nu | order | " + " | ".join(columns) + " |\n|" + " --- |" * (len(columns) + 2))
-        for order in orders:
-            for nu, *values in function(order):
-                print(f"| {nu:.4g} | {order} | " + " | ".join(f"{v:.6g}" for v in values) + " |", flush=True)
+    bodies = [word for word in sys.argv[1:] if word in ENERGY] or list(ENERGY)
+    for body in bodies:
+        if body in MESHES:
+            runs = [(mesh, mesh, ("work", "cells"), lambda mesh=mesh: animal(mesh)) for mesh in MESHES[body]]
+        elif body == "cook":
+            runs = [("", f"cook, order {order}", ("middle", "corner", "work"), lambda order=order: cook(order)) for order in (6, 8)]
+        else:
+            runs = [("", f"bar, order {order}", ("work", "end"), lambda order=order: bar(order)) for order in (3, 4)]
+        for mesh, title, columns, run in runs:
+            rows = run()
+            show(title, columns, rows)
+            if "--write" in sys.argv:
+                keep(body, mesh, [(row[0], row[1 + columns.index("work")]) for row in rows])
 
 
 if __name__ == "__main__":
