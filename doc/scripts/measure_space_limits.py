@@ -4,15 +4,15 @@
 
     /usr/bin/python3 doc/scripts/measure_space_limits.py [bar] [cook] [cat] [horse] [--write]
 
-Linear elasticity. The bar and Cook's membrane by spectral elements: Lagrange polynomials at Gauss-Lobatto points on quadrilaterals (Cook's membrane, plane strain) or
-bricks (the bar 4:1:1, clamped at x = 0, under its own weight across its length), integrated by Gauss's rule with one point more. Elements
-shrink geometrically towards clamped edges, where stresses are singular. Printed for two orders, so that one sees which digits stand:
-Cook's membrane for unit load, modulus and thickness: displacement along the load of the middle and the upper corner of the loaded edge,
-and the mean over it (the work of the load). The bar of unit modulus under a unit body force: the work, and the displacement of the
-middle of the end. Cat and horse stand
-on their soles under a unit body force; each mesh is a body of its own, a polyhedron, whose limit comes from quadratic tetrahedra with
-the mean dilatation of a cell on the mesh with each cell cut in eight, the finest mesh as it is. --write keeps the works in
-doc/studies/space_limits.csv, as energies of the studies prm/studies/space_*.prm. Half an hour.
+Linear elasticity. The bar and Cook's membrane by spectral elements: Lagrange polynomials at Gauss-Lobatto points on quadrilaterals
+(Cook's membrane, plane strain) or bricks (the bar 4:1:1, clamped at x = 0, under its own weight across its length), integrated by
+Gauss's rule with one point more. Elements shrink geometrically towards clamped edges, where stresses are singular. Printed for two
+orders, so that one sees which digits stand. Cook's membrane for unit load, modulus and thickness: displacement along the load of the
+middle and the upper corner of the loaded edge, and the mean over it (the work of the load). The bar of unit modulus under a unit body
+force: the work, and the displacement of the middle of the end. Cat and horse stand on their soles under a unit body force; each mesh is
+a body of its own, a polyhedron, whose limit comes from quadratic tetrahedra with the mean dilatation of a cell on the mesh with each
+cell cut in eight, the finest mesh as it is. --write keeps the works in doc/studies/space_limits.csv, as energies of the studies
+prm/studies/space_*.prm. Half an hour.
 """
 import csv
 import itertools

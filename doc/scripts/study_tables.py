@@ -205,8 +205,8 @@ def draw_space(names):
     """doc/figures/space.svg: error against seconds, a row a body, a column a ratio of Poisson, with the Pareto fronts."""
     nus = ("0.3", "0.45", "0.49", "0.499")
     script = [f"set terminal svg noenhanced size 1240,{300 * len(names)} font 'sans-serif,12' background 'white'",
-              "set output 'space.svg'", f"set multiplot layout {len(names)},{len(nus)}", "set logscale xy", "set format '%g'", "set grid",
-              "set yrange [2e-4:1]"]
+              "set output 'space.svg'", f"set multiplot layout {len(names)},{len(nus)}", "set logscale xy", "set format '%g'",
+              "set grid", "set yrange [2e-4:1]"]
     for name in names:
         runs = list(space_runs(name))
         for nu in nus:
