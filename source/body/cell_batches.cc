@@ -9,11 +9,13 @@
 
 namespace Exemplar
 {
-  CellBatches::CellBatches(const FESpace &fe_space, const Material &body_material)
+  CellBatches::CellBatches(const FESpace  &fe_space,
+                           const Material &body_material,
+                           const bool      has_patches)
       : n_cells(fe_space.n_cells()), nodes(batched_size(n_cells, 4)),
         gradients(batched_size(n_cells, 9)), volumes(batched_size(n_cells, 1)),
         material(batched_size(n_cells, CellMaterial<double>::n_numbers)),
-        rotations(batched_size(n_cells, 9))
+        guard_material(has_patches ? material.size() : 0), rotations(batched_size(n_cells, 9))
   {
     // slots behind the last cell repeat it, without a volume
     for (std::size_t slot = 0; slot < volumes.size(); ++slot)
@@ -32,20 +34,35 @@ namespace Exemplar
         for (unsigned int i = 0; i < 3 && a > 0; ++i)
           gradients[batch_index(slot, 9, 3 * (a - 1) + i)] = g[i];
       }
-      volumes[slot]                   = slot < n_cells ? tet.volume : 0.;
-      constexpr std::size_t n_numbers = CellMaterial<double>::n_numbers;
-      for (std::size_t k = 0; k < n_numbers; ++k)
-        material[batch_index(slot, n_numbers, k)] = body_material.elasticity(cell).number(k);
+      volumes[slot] = slot < n_cells ? tet.volume : 0.;
+      store_material(body_material.elasticity(cell), slot);
       for (const unsigned int diagonal : { 0, 4, 8 })
         rotations[batch_index(slot, 9, diagonal)] = 1.;
+    }
+  }
+
+  void
+  CellBatches::store_material(const CellMaterial<double> &elasticity, const std::size_t slot)
+  {
+    constexpr std::size_t      n         = CellMaterial<double>::n_numbers;
+    const bool                 has_parts = !guard_material.empty();
+    const CellMaterial<double> acting    = has_parts ? elasticity.without_dilatation() : elasticity;
+    for (std::size_t k = 0; k < n; ++k)
+    {
+      material[batch_index(slot, n, k)] = acting.number(k);
+      if (has_parts)
+        guard_material[batch_index(slot, n, k)] = elasticity.number(k);
     }
   }
 
   CellArrays
   CellBatches::arrays(const StrainMeasure strain, const double guard_bound)
   {
-    return { n_cells,         nodes.data(),     gradients.data(), volumes.data(),
-             material.data(), rotations.data(), strain,           guard_bound };
+    return { n_cells,          nodes.data(),
+             gradients.data(), volumes.data(),
+             material.data(),  guard_material.empty() ? material.data() : guard_material.data(),
+             rotations.data(), strain,
+             guard_bound };
   }
 
   std::size_t
@@ -53,6 +70,6 @@ namespace Exemplar
   {
     return dealii::MemoryConsumption::memory_consumption(nodes) + gradients.memory_consumption()
            + volumes.memory_consumption() + material.memory_consumption()
-           + rotations.memory_consumption();
+           + guard_material.memory_consumption() + rotations.memory_consumption();
   }
 } // namespace Exemplar

@@ -70,6 +70,7 @@ namespace Exemplar
                              const Mesh                             &mesh,
                              const FESpace                          &fe_space,
                              const Material                         &material,
+                             const Patches                          *patches,
                              const NamedPoses                       &poses,
                              const std::vector<std::vector<double>> &painted)
       : fe_space(fe_space), eta(parameters.importance), measure(measure),
@@ -86,7 +87,9 @@ namespace Exemplar
       if (const std::string problem = describe_pose(mesh, fe_space, positions[i]); !problem.empty())
         warnings.push_back("Example " + std::to_string(i) + " (" + names[i] + ") " + problem);
     compute_strains();
-    compute_gram_matrix(material);
+    if (patches != nullptr)
+      compute_patch_dilatations(*patches);
+    compute_gram_matrix(material, patches);
   }
 
   std::optional<unsigned int>
@@ -138,7 +141,21 @@ namespace Exemplar
   }
 
   void
-  ExamplePoses::compute_gram_matrix(const Material &material)
+  ExamplePoses::compute_patch_dilatations(const Patches &patches)
+  {
+    patch_dilatations.reinit(patches.size(), n_weights());
+    for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
+    {
+      const unsigned int patch    = patches.of_cell(cell);
+      const double       fraction = fe_space.tetrahedron(cell).volume / patches.volume(patch);
+      for_each_weight(
+          cell, [&](const unsigned int weight, const unsigned int i, const double share)
+          { patch_dilatations(patch, weight) += fraction * share * trace(strain(cell, i)); });
+    }
+  }
+
+  void
+  ExamplePoses::compute_gram_matrix(const Material &material, const Patches *patches)
   {
     gram.reinit(n_weights(), n_weights());
     for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
@@ -146,7 +163,9 @@ namespace Exemplar
           cell,
           [&](const unsigned int v, const unsigned int i, const double share_v)
           {
-            const Matrix3<double> T = stress(material.elasticity(cell), strain(cell, i));
+            const CellMaterial<double> &C = material.elasticity(cell);
+            const Matrix3<double>       T
+                = stress(patches == nullptr ? C : C.without_dilatation(), strain(cell, i));
             for_each_weight(cell,
                             [&](const unsigned int w, const unsigned int j, const double share_w)
                             {
@@ -154,6 +173,11 @@ namespace Exemplar
                                             * contract(T, strain(cell, j));
                             });
           });
+    for (unsigned int patch = 0; patch < patch_dilatations.m(); ++patch)
+      for (unsigned int v = 0; v < n_weights(); ++v)
+        for (unsigned int w = 0; w < n_weights(); ++w)
+          gram(v, w) += patches->lambda(patch) * patches->volume(patch)
+                        * patch_dilatations(patch, v) * patch_dilatations(patch, w);
   }
 
   double
@@ -186,6 +210,7 @@ namespace Exemplar
   {
     using dealii::MemoryConsumption::memory_consumption;
     return memory_consumption(positions) + strains.memory_consumption()
-           + memory_consumption(strain_norms) + gram.memory_consumption();
+           + memory_consumption(strain_norms) + patch_dilatations.memory_consumption()
+           + gram.memory_consumption();
   }
 } // namespace Exemplar

@@ -6,9 +6,10 @@ namespace Exemplar
   CellField::CellField(const StrainMeasure strain,
                        const double        guard_bound,
                        const FESpace      &fe_space,
-                       const Material     &material)
+                       const Material     &material,
+                       const bool          has_patches)
       : strain(strain), guard_bound(guard_bound), kernels(best_kernels()),
-        batches(fe_space, material), node_positions(4 * fe_space.n_nodes())
+        batches(fe_space, material, has_patches), node_positions(4 * fe_space.n_nodes())
   {
   }
 

@@ -39,6 +39,15 @@ namespace Exemplar
       result.guarded_cells  = sums.guarded_cells;
     }
 
+    std::unique_ptr<PatchDilatation>
+    make_dilatation(const ElasticParts &parts)
+    {
+      if (parts.patches == nullptr)
+        return nullptr;
+      return std::make_unique<PatchDilatation>(*parts.patches, parts.examples, parts.fe_space,
+                                               parts.free_dofs);
+    }
+
     std::vector<double>
     sum_of_lanes(const dealii::AlignedVector<double> &lanes)
     {
@@ -83,9 +92,10 @@ namespace Exemplar
               : parts.examples == nullptr ? default_guard_bound
                                           : parts.examples->guard_bound(),
               parts.fe_space,
-              parts.material),
+              parts.material,
+              parts.patches != nullptr),
         scatter(cells, parts.fe_space.n_cells(), pattern, parts.free_dofs),
-        n_stripes(choose_n_stripes(parts.fe_space.n_cells())),
+        dilatation(make_dilatation(parts)), n_stripes(choose_n_stripes(parts.fe_space.n_cells())),
         nodal_sums(4 * n_stripes * parts.fe_space.n_nodes()), rounding(estimate_rounding(parts))
   {
   }
@@ -104,6 +114,8 @@ namespace Exemplar
   ElasticPotential::set_damping(const double s, const std::vector<WeightedPositions> &history)
   {
     damping.set(s, history, cells, parts.fe_space, parts.material);
+    if (dilatation != nullptr)
+      dilatation->set_damping(damping);
   }
 
   CellTask
@@ -111,13 +123,25 @@ namespace Exemplar
                          const std::vector<double> &weights,
                          const RotationUse          rotations)
   {
-    CellTask task = cells.task(positions, rotations);
-    task.damping  = damping.arrays();
+    // the forces of the patches take a loop of their own, which needs the rotations
+    const bool must_store = dilatation != nullptr && rotations == RotationUse::find_and_forget;
+    CellTask   task       = cells.task(positions, must_store ? RotationUse::update : rotations);
+    task.damping          = damping.arrays();
+    if (dilatation != nullptr)
+      task.dilatation = dilatation->arrays();
     if (parts.examples != nullptr)
       task.examples = parts.examples->arrays();
     task.weights          = weights.data();
     task.with_weight_sums = has_unknown_weights();
     return task;
+  }
+
+  void
+  ElasticPotential::update_pressures(const Vector &positions, const std::vector<double> &weights)
+  {
+    const CellTask cell_task = task(positions, weights, RotationUse::keep);
+    cells.loops().dilatations(cell_task, 0, cell_task.cells.n_batches());
+    dilatation->set_pressures(weights);
   }
 
   Matrix3<double>
@@ -182,6 +206,19 @@ namespace Exemplar
     }
   }
 
+  template <typename Function>
+  void
+  ElasticPotential::for_each_stripe(const Function &function) const
+  {
+    const std::size_t n_batches = (parts.fe_space.n_cells() + batch_size - 1) / batch_size;
+    const OpenMPScope scope(OpenMPScope::Threads::several);
+    // to start a thread costs as much as a thousand cells
+    const int n_at_once = parts.fe_space.n_cells() < 4000 ? 1 : static_cast<int>(parts.n_threads);
+#pragma omp parallel for num_threads(n_at_once)
+    for (std::size_t stripe = 0; stripe < n_stripes; ++stripe)
+      function(stripe, stripe * n_batches / n_stripes, (stripe + 1) * n_batches / n_stripes);
+  }
+
   void
   ElasticPotential::evaluate(const Vector              &positions,
                              const std::vector<double> &weights,
@@ -191,22 +228,17 @@ namespace Exemplar
   {
     CellTask cell_task = task(positions, weights, rotations);
     cell_task.with_weight_sums &= linear_term == nullptr;
-    const std::size_t       n_batches = cell_task.cells.n_batches();
-    const std::size_t       n_lanes   = has_unknown_weights() ? batch_size * weights.size() : 0;
+    const std::size_t       n_lanes = has_unknown_weights() ? batch_size * weights.size() : 0;
     std::vector<StripeSums> stripes(n_stripes);
     nodal_sums.fill(0.);
-    const OpenMPScope scope(OpenMPScope::Threads::several);
-    // to start a thread costs as much as a thousand cells
-    const int n_at_once = parts.fe_space.n_cells() < 4000 ? 1 : static_cast<int>(parts.n_threads);
-#pragma omp parallel for num_threads(n_at_once)
-    for (std::size_t stripe = 0; stripe < n_stripes; ++stripe)
-    {
-      stripes[stripe].weights.resize(n_lanes);
-      cells.loops().evaluate(cell_task, stripe * n_batches / n_stripes,
-                             (stripe + 1) * n_batches / n_stripes,
-                             &nodal_sums[4 * stripe * parts.fe_space.n_nodes()],
-                             stripes[stripe].weights.data(), stripes[stripe].cells);
-    }
+    for_each_stripe(
+        [&](const std::size_t stripe, const std::size_t begin, const std::size_t end)
+        {
+          stripes[stripe].weights.resize(n_lanes);
+          cells.loops().evaluate(cell_task, begin, end,
+                                 &nodal_sums[4 * stripe * parts.fe_space.n_nodes()],
+                                 stripes[stripe].weights.data(), stripes[stripe].cells);
+        });
     CellSums                      sums;
     dealii::AlignedVector<double> weight_sums(n_lanes);
     for (const StripeSums &stripe : stripes)
@@ -215,15 +247,33 @@ namespace Exemplar
       for (std::size_t i = 0; i < weight_sums.size(); ++i)
         weight_sums[i] += stripe.weights[i];
     }
-    gather_forces(result);
     copy_sums(sums, result);
     result.weight_gradient = sum_of_lanes(weight_sums);
     result.weight_scale    = 0.;
+    if (dilatation != nullptr)
+      sums.stress_square += add_dilatation(cell_task, weights, result);
+    gather_forces(result);
     if (!has_unknown_weights())
       return;
     add_penalty(weights, std::sqrt(sums.stress_square), result);
     if (linear_term != nullptr)
       set_weight_gradient(weights, *linear_term, result);
+  }
+
+  double
+  ElasticPotential::add_dilatation(const CellTask            &cell_task,
+                                   const std::vector<double> &weights,
+                                   ElasticEvaluation         &result)
+  {
+    dilatation->set_pressures(weights);
+    for_each_stripe(
+        [&](const std::size_t stripe, const std::size_t begin, const std::size_t end)
+        {
+          cells.loops().add_pressure_forces(cell_task, begin, end,
+                                            &nodal_sums[4 * stripe * parts.fe_space.n_nodes()]);
+        });
+    dilatation->add_energies(weights, result);
+    return dilatation->stress_square();
   }
 
   std::vector<double>
@@ -232,27 +282,35 @@ namespace Exemplar
     const CellTask                cell_task = task(positions, {}, rotations);
     dealii::AlignedVector<double> weight_sums(batch_size * parts.examples->n_weights());
     cells.loops().weight_linear_term(cell_task, 0, cell_task.cells.n_batches(), weight_sums.data());
-    return sum_of_lanes(weight_sums);
+    std::vector<double> linear_term = sum_of_lanes(weight_sums);
+    if (dilatation != nullptr)
+      dilatation->add_linear_term(linear_term);
+    return linear_term;
   }
 
   CellResults
   ElasticPotential::cell_results(const Vector &positions, const std::vector<double> &weights)
   {
     cells.refresh_rotations();
+    if (dilatation != nullptr)
+      update_pressures(positions, weights);
     const unsigned int n = parts.fe_space.n_cells();
     CellResults results{ std::vector<double>(n), std::vector<double>(n), std::vector<double>(n) };
     for (unsigned int cell = 0; cell < n; ++cell)
     {
-      const CellMaterial<double> &lame = parts.material.elasticity(cell);
-      const Matrix3<double>       F    = parts.fe_space.deformation_gradient(cell, positions);
-      const Matrix3<double> R          = cells.rotation(cell);
-      const Matrix3<double> strain     = model_strain(parts.model.strain, R, F);
-      Matrix3<double>       T          = stress(lame, strain);
+      const CellMaterial<double> lame   = own_material(cell);
+      const Matrix3<double>      F      = parts.fe_space.deformation_gradient(cell, positions);
+      const Matrix3<double>      R      = cells.rotation(cell);
+      const Matrix3<double>      strain = model_strain(parts.model.strain, R, F);
+      Matrix3<double>            T      = stress(lame, strain);
 
       results.strain_energy_density[cell]
           = 0.5 * contract(T, strain)
-            + model_stretch_energy(parts.model.strain, lame, R, F, cells.get_guard_bound());
-      results.det_F[cell]                 = determinant(F);
+            + model_stretch_energy(parts.model.strain, parts.material.elasticity(cell), R, F,
+                                   cells.get_guard_bound());
+      if (dilatation != nullptr)
+        results.strain_energy_density[cell] += dilatation->elastic_density(cell);
+      results.det_F[cell] = determinant(F);
       if (parts.examples != nullptr)
         T = stress(lame, combine(1., strain, -1., example_strain(cell, weights)));
       const double third = trace(T) / 3.;
@@ -269,6 +327,7 @@ namespace Exemplar
     using dealii::MemoryConsumption::memory_consumption;
     return cells.memory_consumption() + memory_consumption(pattern.column_start)
            + memory_consumption(pattern.row) + scatter.memory_consumption()
-           + nodal_sums.memory_consumption() + damping.memory_consumption();
+           + nodal_sums.memory_consumption() + damping.memory_consumption()
+           + (dilatation != nullptr ? dilatation->memory_consumption() : 0);
   }
 } // namespace Exemplar

@@ -71,11 +71,10 @@ namespace Exemplar
     {
       const Matrix3<double> dF = parts.fe_space.deformation_gradient(cell, displacement);
       const Matrix3<double> de = symmetric_part(transpose_times(cells.rotation(cell), dF));
-      add_force(cell, stress(damping.damped(cell, parts.material.elasticity(cell)), de),
-                result.gradient);
+      add_force(cell, stress(damping.damped(cell, own_material(cell)), de), result.gradient);
       if (!result.weight_gradient.empty())
       {
-        const Matrix3<double> dT = stress(parts.material.elasticity(cell), de);
+        const Matrix3<double> dT = stress(own_material(cell), de);
         const double          factor
             = parts.examples->importance() * parts.fe_space.tetrahedron(cell).volume;
         parts.examples->for_each_weight(
@@ -96,10 +95,16 @@ namespace Exemplar
                                const Vector              &positions,
                                const std::vector<double> &weights) const
   {
-    Cell state(parts.material.elasticity(cell), cells.rotation(cell),
+    Cell state(own_material(cell), cells.rotation(cell),
                parts.fe_space.deformation_gradient(cell, positions), cells.get_guard_bound());
     state.scale_material(1. + damping.factor(cell));
     state.set_target(damping.damped(cell, example_strain(cell, weights)));
+    if constexpr (Cell::traits.has_patches)
+      if (dilatation != nullptr)
+      {
+        state.set_guard_material(parts.material.elasticity(cell));
+        state.add_pressure(dilatation->pressure(cell));
+      }
     if constexpr (!Cell::traits.convex_is_rotated)
       if (tangent == Tangent::convex)
         state.make_convex();
@@ -113,8 +118,10 @@ namespace Exemplar
                                      std::vector<double>       &matrix_values,
                                      std::vector<double>       &columns)
   {
-    const bool rotated   = is_rotated_stiffness(tangent);
-    CellTask   cell_task = task(positions, weights, RotationUse::keep);
+    const bool rotated = is_rotated_stiffness(tangent);
+    if (dilatation != nullptr)
+      update_pressures(positions, weights);
+    CellTask cell_task = task(positions, weights, RotationUse::keep);
     if (tangent == Tangent::convex)
       cell_task.damping = damping.arrays_of_all_cells();
     const TangentTask to
@@ -124,10 +131,16 @@ namespace Exemplar
     add_mixed_cells(cell_task, to, rotated, matrix_values);
     const bool has_guard = traits_of(parts.model.strain).has_guard && !parts.model.is_frozen();
     if (tangent == Tangent::convex && has_guard)
-      add_stretch_stiffness(parts.fe_space, parts.material, cells, scatter, positions,
-                            matrix_values);
+      add_stretch_stiffness(parts.fe_space, parts.material, cells, scatter, dilatation.get(),
+                            positions, matrix_values);
     if (has_unknown_weights())
       assemble_coupling(cell_task, to, rotated, columns);
+    if (dilatation != nullptr)
+    {
+      dilatation->add_tangent(cells, tangent == Tangent::convex, pattern, matrix_values);
+      if (has_unknown_weights())
+        dilatation->add_coupling(cells, columns);
+    }
   }
 
   template <typename Cell>
@@ -167,6 +180,11 @@ namespace Exemplar
                                  ElasticEvaluation         &result)
   {
     cells.refresh_rotations();
+    if (dilatation != nullptr)
+    {
+      update_pressures(positions, weights);
+      dilatation->add_response(cells, displacement, result);
+    }
     if (is_rotated_stiffness(tangent))
     {
       add_rotated_responses(displacement, result);

@@ -23,9 +23,12 @@ namespace Exemplar
     }
 
     std::vector<std::pair<unsigned int, unsigned int>>
-    couplings_of(const std::vector<std::unique_ptr<PotentialTerm>> &terms)
+    couplings_of(const std::vector<std::unique_ptr<PotentialTerm>> &terms,
+                 const ElasticParts                                &parts)
     {
       std::vector<std::pair<unsigned int, unsigned int>> couplings;
+      if (parts.patches != nullptr)
+        couplings = PatchScatter::couplings(*parts.patches, parts.fe_space);
       for (const auto &term : terms)
       {
         const auto more = term->couplings();
@@ -47,7 +50,7 @@ namespace Exemplar
                                              std::vector<std::unique_ptr<PotentialTerm>> new_terms,
                                              TimeIntegrator                             *integrator)
       : terms(std::move(new_terms)),
-        pattern(make_pattern(parts.fe_space, couplings_of(terms), parts.free_dofs)),
+        pattern(make_pattern(parts.fe_space, couplings_of(terms, parts), parts.free_dofs)),
         cells(parts, pattern), weights(parts.weights), integrator(integrator),
         free_dofs(parts.free_dofs)
   {

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/kernels/symmetric.h>
 #include <exemplar/potential/strain_damping.h>
 
 namespace Exemplar
@@ -36,8 +35,7 @@ namespace Exemplar
     const double s_cell = factor(cell);
     if (s_cell == 0.)
       return D;
-    const Matrix3<double> past = load_stored(strains.data(), cell, 1, 0);
-    return combine(1. / (1. + s_cell), D, s_cell / (1. + s_cell), past);
+    return combine(1. / (1. + s_cell), D, s_cell / (1. + s_cell), past_strain(cell));
   }
 
   DampingArrays

@@ -6,13 +6,37 @@
 
 namespace Exemplar
 {
+  namespace
+  {
+    /// A cell without examples.
+    CorotationalCell<double>
+    cell_without_target(const CellMaterial<double> &elasticity,
+                        const Matrix3<double>      &R,
+                        const Matrix3<double>      &F,
+                        const PatchDilatation      *dilatation,
+                        const unsigned int          cell)
+    {
+      const bool               has_patches = dilatation != nullptr;
+      CorotationalCell<double> state(has_patches ? elasticity.without_dilatation() : elasticity, R,
+                                     F, default_guard_bound);
+      state.set_target(Matrix3<double>{});
+      if (has_patches)
+      {
+        state.set_guard_material(elasticity);
+        state.add_pressure(dilatation->elastic_pressure(cell));
+      }
+      return state;
+    }
+  } // namespace
+
   void
-  add_stretch_stiffness(const FESpace       &fe_space,
-                        const Material      &material,
-                        const CellField     &cells,
-                        const CellScatter   &scatter,
-                        const Vector        &positions,
-                        std::vector<double> &values)
+  add_stretch_stiffness(const FESpace         &fe_space,
+                        const Material        &material,
+                        const CellField       &cells,
+                        const CellScatter     &scatter,
+                        const PatchDilatation *dilatation,
+                        const Vector          &positions,
+                        std::vector<double>   &values)
   {
     for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
     {
@@ -20,10 +44,11 @@ namespace Exemplar
       const Matrix3<double>       F          = fe_space.deformation_gradient(cell, positions);
       if (!is_strongly_stretched(elasticity, F))
         continue;
-      const Matrix3<double> R                           = closest_rotation(F);
-      const StretchModes    modes                       = stretch_modes(elasticity, R, F);
-      const auto           &nodes                       = fe_space.nodes(cell);
-      double                blocks[3 * n_block_columns] = {};
+      const Matrix3<double> R = closest_rotation(F);
+      const StretchModes    modes
+          = stretch_modes(cell_without_target(elasticity, R, F, dilatation, cell), R, F);
+      const auto &nodes                       = fe_space.nodes(cell);
+      double      blocks[3 * n_block_columns] = {};
       for (int m = 0; m < 9; ++m)
       {
         const Matrix3<double> RD = R * modes.direction[m];

@@ -74,8 +74,8 @@ namespace Exemplar
       if (!parameters.examples.in_use())
         return nullptr;
       return std::make_unique<ExamplePoses>(parameters.examples, parameters.model.strain, body.mesh,
-                                            body.fe_space, body.material, inputs.poses,
-                                            body.readings.shares);
+                                            body.fe_space, body.material, body.patches.get(),
+                                            inputs.poses, body.readings.shares);
     }
 
     std::unique_ptr<ExampleWeights>
@@ -139,7 +139,10 @@ namespace Exemplar
         readings(read_off_surface(parameters, mesh, inputs)),
         material(
             parameters.material, mesh.get_material_ids(), mesh.get_contents(), readings.material),
-        fe_space(mesh), made(inputs.made)
+        fe_space(mesh), patches(parameters.model.has_patches()
+                                    ? std::make_unique<const Patches>(mesh, fe_space, material)
+                                    : nullptr),
+        made(inputs.made)
   {
     inputs.nodes.insert(readings.nodes.begin(), readings.nodes.end());
   }

@@ -29,6 +29,7 @@ namespace Exemplar
   {
     if (scene == SceneKind::interpolation)
       check_interpolation();
+    model.check();
     material.check();
     examples.check();
     initial.check();

@@ -85,12 +85,20 @@ namespace Exemplar::Testing
     {
     }
 
+    /// Mean dilatation by patches from now on.
+    void
+    make_patches()
+    {
+      patches = std::make_unique<const Patches>(mesh, fe_space, material);
+    }
+
     Examples
     examples(const ExampleParameters &parameters,
              const StrainMeasure      measure = StrainMeasure::corotational) const
     {
       Examples result;
-      result.poses = std::make_unique<ExamplePoses>(parameters, measure, mesh, fe_space, material);
+      result.poses   = std::make_unique<ExamplePoses>(parameters, measure, mesh, fe_space, material,
+                                                    patches.get());
       result.weights = std::make_unique<ExampleWeights>(parameters, *result.poses,
                                                         unit_energy(fe_space, material),
                                                         TimeAxis::of_increments(TimeParameters()));
@@ -107,9 +115,10 @@ namespace Exemplar::Testing
       return positions;
     }
 
-    const Mesh     mesh;
-    const Material material;
-    const FESpace  fe_space;
+    const Mesh                     mesh;
+    const Material                 material;
+    const FESpace                  fe_space;
+    std::unique_ptr<const Patches> patches; ///< null: cells know their own dilatation
   };
 
   /// The pattern that a potential refers to, made before it.
@@ -117,6 +126,14 @@ namespace Exemplar::Testing
   {
     SymmetricPattern matrix_pattern;
   };
+
+  inline std::vector<std::pair<unsigned int, unsigned int>>
+  couplings_of(const Body &body)
+  {
+    if (body.patches == nullptr)
+      return {};
+    return PatchScatter::couplings(*body.patches, body.fe_space);
+  }
 
   /// The elastic potential of a body.
   class BodyPotential : public MatrixPattern, public ElasticPotential
@@ -126,9 +143,9 @@ namespace Exemplar::Testing
                   const ModelParameters &model,
                   const Examples        &examples,
                   const FreeDofs        &free_dofs)
-        : MatrixPattern{ make_pattern(body.fe_space, {}, free_dofs) },
-          ElasticPotential({ model, body.fe_space, body.material, examples.poses.get(),
-                             examples.weights.get(), free_dofs },
+        : MatrixPattern{ make_pattern(body.fe_space, couplings_of(body), free_dofs) },
+          ElasticPotential({ model, body.fe_space, body.material, body.patches.get(),
+                             examples.poses.get(), examples.weights.get(), free_dofs },
                            matrix_pattern)
     {
     }

@@ -14,7 +14,8 @@ namespace Exemplar
   class CellBatches
   {
   public:
-    CellBatches(const FESpace &fe_space, const Material &material);
+    /// With `has_patches` the volume part of the energy is not the cells'.
+    CellBatches(const FESpace &fe_space, const Material &material, bool has_patches);
 
     /// What the kernels see, for a model with this strain and p_0 of Eq. (16). Loops that update
     /// rotations write them here.
@@ -42,11 +43,15 @@ namespace Exemplar
     memory_consumption() const;
 
   private:
+    void
+    store_material(const CellMaterial<double> &elasticity, std::size_t slot);
+
     const std::size_t             n_cells;
     std::vector<int>              nodes;
     dealii::AlignedVector<double> gradients;
     dealii::AlignedVector<double> volumes;
     dealii::AlignedVector<double> material;
+    dealii::AlignedVector<double> guard_material; ///< empty if it is the same
     dealii::AlignedVector<double> rotations;
   };
 } // namespace Exemplar

@@ -5,6 +5,7 @@
 #include <exemplar/body/example_parameters.h>
 #include <exemplar/body/fe_space.h>
 #include <exemplar/body/material.h>
+#include <exemplar/body/patches.h>
 #include <exemplar/body/region_shares.h>
 #include <exemplar/kernels/cell_model.h>
 #include <exemplar/kernels/symmetric.h>
@@ -30,12 +31,14 @@ namespace Exemplar
   {
   public:
     /// Those of Examples/Poses are among `poses`, the values of Examples/Weight maps in each cell
-    /// are `painted`. Throws UserError for a pose that is not.
+    /// are `painted`; `patches` is null where cells know their own dilatation. Throws UserError for
+    /// a pose that is not.
     ExamplePoses(const ExampleParameters                &parameters,
                  StrainMeasure                           measure,
                  const Mesh                             &mesh,
                  const FESpace                          &fe_space,
                  const Material                         &material,
+                 const Patches                          *patches,
                  const NamedPoses                       &poses   = {},
                  const std::vector<std::vector<double>> &painted = {});
 
@@ -166,6 +169,13 @@ namespace Exemplar
       return strain_norms[weight];
     }
 
+    /// dtheta_p/dw of a patch, the mean of tr E over its volume, for a weight; Eq. (25).
+    double
+    patch_dilatation(const unsigned int patch, const unsigned int weight) const
+    {
+      return patch_dilatations(patch, weight);
+    }
+
     /// p_0 of Eq. (16): such that the guard leaves every example as it is.
     double
     guard_bound() const
@@ -173,7 +183,7 @@ namespace Exemplar
       return p_0;
     }
 
-    /// sum V E_i : C : E_j for all pairs of weights [J].
+    /// sum V E_i : C : E_j for all pairs of weights [J]; with patches, the volume part by Eq. (25).
     const dealii::FullMatrix<double> &
     gram_matrix() const
     {
@@ -204,7 +214,10 @@ namespace Exemplar
     compute_strains();
 
     void
-    compute_gram_matrix(const Material &material);
+    compute_gram_matrix(const Material &material, const Patches *patches);
+
+    void
+    compute_patch_dilatations(const Patches &patches);
 
     const FESpace                      &fe_space;
     const double                        eta;
@@ -215,7 +228,8 @@ namespace Exemplar
     const unsigned int                  first_strained;
     dealii::AlignedVector<double>       strains; ///< as ExampleArrays has them
     std::vector<double>                 strain_norms;
-    dealii::FullMatrix<double>          gram; ///< sum V E_i : C : E_j
+    dealii::FullMatrix<double>          patch_dilatations; ///< patch, weight; empty without patches
+    dealii::FullMatrix<double>          gram;              ///< sum V E_i : C : E_j
     double                              p_0 = default_guard_bound;
     std::vector<std::string>            warnings;
   };

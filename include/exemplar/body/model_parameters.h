@@ -14,14 +14,32 @@ namespace Exemplar
     frozen
   };
 
+  /// Of what the volume part of the energy knows the dilatation.
+  enum class DilatationKind
+  {
+    cells,
+    patches ///< its mean, Eq. (25)
+  };
+
   /// Subsection Model.
   struct ModelParameters
   {
-    StrainMeasure strain   = StrainMeasure::corotational;
-    GradientKind  gradient = GradientKind::consistent;
+    StrainMeasure  strain     = StrainMeasure::corotational;
+    GradientKind   gradient   = GradientKind::consistent;
+    DilatationKind dilatation = DilatationKind::cells;
 
     void
     declare(KeyTable &keys);
+
+    bool
+    has_patches() const
+    {
+      return dilatation == DilatationKind::patches;
+    }
+
+    /// Throws UserError for a strain without what the scene asks of it.
+    void
+    check() const;
 
     /// Whether forces are the paper's, which hold the rotations fixed: never in models without
     /// rotations.

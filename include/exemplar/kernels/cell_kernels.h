@@ -21,11 +21,12 @@ namespace Exemplar
   struct CellArrays
   {
     std::size_t   n_cells;
-    const int    *nodes;     ///< 4; ascending in each cell
-    const double *gradients; ///< 9: g_a of the last three of those nodes [1/m]
-    const double *volumes;   ///< 1 [m^3]
-    const double *material;  ///< those of CellMaterial
-    double       *rotations; ///< 9: R by rows
+    const int    *nodes;          ///< 4; ascending in each cell
+    const double *gradients;      ///< 9: g_a of the last three of those nodes [1/m]
+    const double *volumes;        ///< 1 [m^3]
+    const double *material;       ///< those of CellMaterial
+    const double *guard_material; ///< the same for Eq. (24): with patches `material` has lambda = 0
+    double       *rotations;      ///< 9: R by rows
     StrainMeasure strain;
     double        guard_bound; ///< p_0 of Eq. (16)
 
@@ -63,6 +64,14 @@ namespace Exemplar
     const double *strains = nullptr; ///< 6: e_past
   };
 
+  /// Mean dilatation by patches, Eq. (25): what the cells tell of their volume and what they are told.
+  struct DilatationArrays
+  {
+    double       *traces = nullptr; ///< 1: tr(e), written by loops that evaluate; null: no patches
+    const double *pressures = nullptr; ///< 1: of the cell's patch [Pa]; null: not needed
+    const double *scales    = nullptr; ///< 1: |C:e| + eta |C:E(w)| of the volume part alone [Pa]
+  };
+
   /// What a loop over the cells does with their rotations: it takes those that are stored, or it
   /// finds those of the positions and stores them, or it finds them for itself alone, because
   /// storing them takes as much memory traffic as all the rest.
@@ -76,13 +85,14 @@ namespace Exemplar
   /// A loop's input.
   struct CellTask
   {
-    CellArrays    cells;
-    ExampleArrays examples; ///< n_weights = 0: none
-    DampingArrays damping;
-    const double *positions        = nullptr; ///< four numbers a node, the fourth unused [m]
-    const double *weights          = nullptr;
-    RotationUse   rotation_use     = RotationUse::keep;
-    bool          with_weight_sums = false; ///< for the derivatives by weights
+    CellArrays       cells;
+    ExampleArrays    examples; ///< n_weights = 0: none
+    DampingArrays    damping;
+    DilatationArrays dilatation;
+    const double    *positions        = nullptr; ///< four numbers a node, the fourth unused [m]
+    const double    *weights          = nullptr;
+    RotationUse      rotation_use     = RotationUse::keep;
+    bool             with_weight_sums = false; ///< for the derivatives by weights
   };
 
   /// What a loop sums over its cells.
@@ -151,6 +161,15 @@ namespace Exemplar
                                std::size_t begin,
                                std::size_t end,
                                double     *weight_sums);
+
+    /// tr(e) by the rotations as they are.
+    void (*dilatations)(const CellTask &, std::size_t begin, std::size_t end);
+
+    /// The forces of the pressures and their scales, added to `nodal_sums` as by evaluate().
+    void (*add_pressure_forces)(const CellTask &,
+                                std::size_t begin,
+                                std::size_t end,
+                                double     *nodal_sums);
 
     /// Add R K R^T.
     void (*add_rotated_stiffness)(const CellTask &,

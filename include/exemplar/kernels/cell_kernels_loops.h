@@ -3,6 +3,7 @@
 #define exemplar_cell_kernels_loops_h
 
 #include <exemplar/kernels/loops_coupling.h>
+#include <exemplar/kernels/loops_dilatation.h>
 #include <exemplar/kernels/loops_energy.h>
 #include <exemplar/kernels/loops_rotations.h>
 #include <exemplar/kernels/loops_stiffness.h>
@@ -21,6 +22,8 @@ namespace Exemplar::Loops
              closest_rotations<Number>,
              evaluate<Number>,
              weight_linear_term<Number>,
+             dilatations<Number>,
+             add_pressure_forces<Number>,
              add_rotated_stiffness<Number>,
              add_tangent<Number>,
              coupling<Number> };

@@ -89,8 +89,10 @@ namespace Exemplar
   {
   public:
     static constexpr ModelTraits traits
-        = { /* has_rotations */ true, /* has_guard */ true, /* exact_is_rotated */ false,
-            /* convex_is_rotated */ true, /* turns_freely */ true };
+        = { /* has_rotations */ true,     /* has_guard */ true,
+            /* exact_is_rotated */ false,
+            /* convex_is_rotated */ true, /* has_patches */ true,
+            /* turns_freely */ true };
 
     /// e = S - I, Eq. (2).
     static Matrix3<Number>
@@ -130,11 +132,34 @@ namespace Exemplar
       material = material.scaled(factor);
     }
 
+    /// The guard of the stretch is that of another material.
+    void
+    set_guard_material(const CellMaterial<Number> &guard_material)
+    {
+      elasticity = guard_material;
+    }
+
+    /// A pressure p I [Pa] of the cell's patch, Eq. (25), joins the stress, once the target is set. W does not
+    /// change: I commutes with S.
+    void
+    add_pressure(const Number &p)
+    {
+      for (int i = 0; i < 3; ++i)
+        T[i][i] += p;
+    }
+
     /// Whether the guard acts, for each lane.
     auto
     is_guarded() const
     {
       return phi < Number(1.);
+    }
+
+    /// C without the volume part of patches, with damping.
+    const CellMaterial<Number> &
+    own_material() const
+    {
+      return material;
     }
 
     /// e = S - I, Eq. (2).

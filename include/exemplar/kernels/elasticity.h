@@ -44,6 +44,13 @@ namespace Exemplar
       return { factor * lambda, factor * mu };
     }
 
+    /// What is left of it in a cell whose volume part is its patch's, Eq. (25).
+    Isotropic
+    without_dilatation() const
+    {
+      return { Number(0.), mu };
+    }
+
     /// An estimate of the norm of C [Pa]: how much the rounding of a strain can grow in its stress.
     Number
     norm_estimate() const

@@ -32,8 +32,10 @@ namespace Exemplar
   {
   public:
     static constexpr ModelTraits traits
-        = { /* has_rotations */ false, /* has_guard */ false, /* exact_is_rotated */ false,
-            /* convex_is_rotated */ false, /* turns_freely */ true };
+        = { /* has_rotations */ false,     /* has_guard */ false,
+            /* exact_is_rotated */ false,
+            /* convex_is_rotated */ false, /* has_patches */ false,
+            /* turns_freely */ true };
 
     static Matrix3<Number>
     strain_of(const Matrix3<Number> & /*rotation*/, const Matrix3<Number> &deformation_gradient)

@@ -16,8 +16,10 @@ namespace Exemplar
   {
   public:
     static constexpr ModelTraits traits
-        = { /* has_rotations */ false, /* has_guard */ false, /* exact_is_rotated */ true,
-            /* convex_is_rotated */ true, /* turns_freely */ false };
+        = { /* has_rotations */ false,    /* has_guard */ false,
+            /* exact_is_rotated */ true,
+            /* convex_is_rotated */ true, /* has_patches */ true,
+            /* turns_freely */ false };
 
     /// e = sym(F) - I.
     static Matrix3<Number>

@@ -35,7 +35,7 @@ namespace Exemplar::Loops
   {
     const Tetrahedron<Number>  tet      = load_tetrahedron(task.cells, group);
     const Matrix3<Number>      R        = load_rotation(task.cells, group);
-    const CellMaterial<Number> material = load_material(task.cells, group);
+    const CellMaterial<Number> material = load_material(task.cells.material, group);
     const Number               factor   = Number(task.examples.importance);
     for (unsigned int i = 0; i < task.examples.n; ++i)
       store_coupling(

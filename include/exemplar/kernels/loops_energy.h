@@ -111,7 +111,7 @@ namespace Exemplar::Loops
     const Tetrahedron<Number> tet = load_tetrahedron(task.cells, group);
     const Matrix3<Number>     F   = deformation_gradient(task, group, tet);
     const Matrix3<Number>     R   = rotation<Cell>(task, group, F);
-    const Cell                cell(load_material(task.cells, group), R, F, task.cells.guard_bound);
+    const Cell cell(load_material(task.cells.guard_material, group), R, F, task.cells.guard_bound);
     if (!cell.is_stretched())
       return;
     const StretchGuard<Number> guard  = cell.stretch();
@@ -136,7 +136,7 @@ namespace Exemplar::Loops
     const bool                 frozen       = task.cells.guard_bound == no_guard;
     const bool                 has_examples = task.examples.n_weights > 0;
     const Tetrahedron<Number>  tet          = load_tetrahedron(task.cells, group);
-    const CellMaterial<Number> material     = load_material(task.cells, group);
+    const CellMaterial<Number> material     = load_material(task.cells.material, group);
     const Matrix3<Number>      F            = deformation_gradient(task, group, tet);
     const Matrix3<Number>      R            = rotation<Cell>(task, group, F);
     const auto                 is_real      = tet.volume > Number(0.);
@@ -151,6 +151,8 @@ namespace Exemplar::Loops
     sums.min_det                         = select(det >= sums.min_det, sums.min_det, det);
     sums.inverted += one(is_real & (det <= Number(0.)));
     sums.elastic += elastic;
+    if (task.dilatation.traces != nullptr)
+      Lanes<Number>::store(trace(cell.strain()), task.dilatation.traces + group.at(1, 0));
 
     // R^T P; without examples and damping this is all of it
     Matrix3<Number> P = elastic_stress;
@@ -243,8 +245,11 @@ namespace Exemplar::Loops
               {
                 const Tetrahedron<Number> tet = load_tetrahedron(task.cells, group);
                 const Matrix3<Number>     F   = deformation_gradient(task, group, tet);
-                const Cell cell(load_material(task.cells, group), rotation<Cell>(task, group, F), F,
-                                task.cells.guard_bound);
+                const Cell                cell(load_material(task.cells.material, group),
+                                               rotation<Cell>(task, group, F), F, task.cells.guard_bound);
+                if (task.dilatation.traces != nullptr)
+                  Lanes<Number>::store(trace(cell.strain()),
+                                       task.dilatation.traces + group.at(1, 0));
                 add_weight_sums(task, group, Number(task.examples.importance) * tet.volume,
                                 cell.weight_stress(Matrix3<Number>{}), weight_sums);
               });

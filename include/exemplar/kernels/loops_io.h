@@ -55,13 +55,14 @@ namespace Exemplar::Loops
     return Lanes<Number>::load(from + group.at(n, e));
   }
 
+  /// From CellArrays::material or guard_material.
   template <typename Number>
   inline CellMaterial<Number>
-  load_material(const CellArrays &cells, const LaneGroup<Number> &group)
+  load_material(const double *material, const LaneGroup<Number> &group)
   {
     constexpr std::size_t n = CellMaterial<Number>::n_numbers;
     return CellMaterial<Number>::from_numbers([&](const std::size_t k)
-                                              { return load(cells.material, group, n, k); });
+                                              { return load(material, group, n, k); });
   }
 
   template <typename Number>

@@ -31,7 +31,7 @@ namespace Exemplar::Loops
     Number                    factor = tet.volume;
     if (task.damping.factors != nullptr)
       factor *= Number(1.) + load(task.damping.factors, group, 1, 0);
-    const auto [lambda, mu] = load_material(task.cells, group).scaled(factor);
+    const auto [lambda, mu] = load_material(task.cells.material, group).scaled(factor);
     Vector3<Number> g[4];
     rotate_gradients(tet, R, g);
     for (int a = 0; a < 4; ++a)

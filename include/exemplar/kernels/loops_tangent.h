@@ -17,7 +17,7 @@ namespace Exemplar::Loops
               const Tetrahedron<Number> &tet,
               const Matrix3<Number>     &R)
   {
-    Cell cell(load_material(task.cells, group), R, deformation_gradient(task, group, tet),
+    Cell cell(load_material(task.cells.material, group), R, deformation_gradient(task, group, tet),
               task.cells.guard_bound);
     Matrix3<Number> D = target(task, group);
     if (task.damping.factors != nullptr)
@@ -27,6 +27,12 @@ namespace Exemplar::Loops
       cell.scale_material(Number(1.) + s);
     }
     cell.set_target(D);
+    if constexpr (Cell::traits.has_patches)
+      if (task.dilatation.pressures != nullptr)
+      {
+        cell.set_guard_material(load_material(task.cells.guard_material, group));
+        cell.add_pressure(load(task.dilatation.pressures, group, 1, 0));
+      }
     if constexpr (!Cell::traits.convex_is_rotated)
       if (tangent.convex)
         cell.make_convex();

@@ -21,6 +21,9 @@ namespace Exemplar
     /// that.
     bool convex_is_rotated;
 
+    /// Its volume part may be that of patches of cells, Eq. (25).
+    bool has_patches;
+
     /// The energy without examples stays as it is when the body turns.
     bool turns_freely;
   };

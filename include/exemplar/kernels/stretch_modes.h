@@ -29,17 +29,15 @@ namespace Exemplar
     return kink.slope > -kink.margin;
   }
 
-  /// The positive part of the exact tangent without examples less R K R^T. Both have the same
+  /// The positive part of the exact tangent of a cell without examples, its target set, less R K R^T. Both have the same
   /// principal modes (Smith et al. 2019): with the eigenvectors v_i of S these are the three
   /// turns v_i v_j^T - v_j v_i^T, the three shears v_i v_j^T + v_j v_i^T, and combinations of the
   /// three stretches v_i v_i^T.
   inline StretchModes
-  stretch_modes(const CellMaterial<double> &material,
-                const Matrix3<double>      &rotation,
-                const Matrix3<double>      &deformation_gradient)
+  stretch_modes(const CorotationalCell<double> &cell,
+                const Matrix3<double>          &rotation,
+                const Matrix3<double>          &deformation_gradient)
   {
-    CorotationalCell<double> cell(material, rotation, deformation_gradient, default_guard_bound);
-    cell.set_target(Matrix3<double>{});
     const Matrix3<double> V
         = symmetric_eigensystem(symmetric_part(transpose_times(rotation, deformation_gradient)))
               .vectors;
@@ -52,7 +50,7 @@ namespace Exemplar
       return A;
     };
     const auto difference = [&](const Matrix3<double> &M)
-    { return combine(1., cell.response(M), -1., stress(material, symmetric_part(M))); };
+    { return combine(1., cell.response(M), -1., stress(cell.own_material(), symmetric_part(M))); };
 
     StretchModes modes;
     int          mode = 0;

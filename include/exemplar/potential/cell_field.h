@@ -19,11 +19,12 @@ namespace Exemplar
   class CellField
   {
   public:
-    /// `guard_bound` is p_0 of Eq. (16).
+    /// `guard_bound` is p_0 of Eq. (16); `has_patches` as CellBatches has it.
     CellField(StrainMeasure   strain,
               double          guard_bound,
               const FESpace  &fe_space,
-              const Material &material);
+              const Material &material,
+              bool            has_patches);
 
     /// The input of a loop over these cells at these positions, by degree of freedom [m]. It refers
     /// to arrays of this object.

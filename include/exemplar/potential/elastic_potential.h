@@ -6,9 +6,11 @@
 #include <exemplar/body/model_parameters.h>
 #include <exemplar/potential/cell_scatter.h>
 #include <exemplar/potential/evaluation.h>
+#include <exemplar/potential/patch_dilatation.h>
 #include <exemplar/potential/strain_damping.h>
 
 #include <array>
+#include <memory>
 #include <vector>
 
 namespace Exemplar
@@ -28,6 +30,7 @@ namespace Exemplar
     ModelParameters       model;
     const FESpace        &fe_space;
     const Material       &material;
+    const Patches        *patches; ///< null: each cell knows its own dilatation
     const ExamplePoses   *examples;
     const ExampleWeights *weights;
     const FreeDofs       &free_dofs;
@@ -139,6 +142,23 @@ namespace Exemplar
     CellTask
     task(const Vector &positions, const std::vector<double> &weights, RotationUse rotations);
 
+    /// C of a cell's own energy.
+    CellMaterial<double>
+    own_material(unsigned int cell) const
+    {
+      const CellMaterial<double> &C = parts.material.elasticity(cell);
+      return dilatation == nullptr ? C : C.without_dilatation();
+    }
+
+    /// Patches: the pressures at these positions and weights, by the rotations as they are.
+    void
+    update_pressures(const Vector &positions, const std::vector<double> &weights);
+
+    /// Call function(stripe, begin, end) for the batches of each stripe.
+    template <typename Function>
+    void
+    for_each_stripe(const Function &function) const;
+
     /// eta E(w) in a cell; 0 without examples.
     Matrix3<double>
     example_strain(unsigned int cell, const std::vector<double> &weights) const;
@@ -146,6 +166,13 @@ namespace Exemplar
     /// Sums of the cells' forces at the nodes.
     void
     gather_forces(ElasticEvaluation &result) const;
+
+    /// Add the volume part of patches to the sums of the nodes and to energies; gives its
+    /// PatchDilatation::stress_square().
+    double
+    add_dilatation(const CellTask            &task,
+                   const std::vector<double> &weights,
+                   ElasticEvaluation         &result);
 
     void
     add_penalty(const std::vector<double> &weights,
@@ -193,14 +220,15 @@ namespace Exemplar
     void
     add_force(unsigned int cell, const Matrix3<double> &dP, Vector &gradient) const;
 
-    const ElasticParts            parts;
-    const SymmetricPattern       &pattern;
-    CellField                     cells;
-    const CellScatter             scatter;
-    StrainDamping                 damping;
-    const std::size_t             n_stripes;  ///< in which the cells are summed
-    dealii::AlignedVector<double> nodal_sums; ///< of forces and scales, stripe by stripe
-    const CellRounding            rounding;
+    const ElasticParts                     parts;
+    const SymmetricPattern                &pattern;
+    CellField                              cells;
+    const CellScatter                      scatter;
+    StrainDamping                          damping;
+    const std::unique_ptr<PatchDilatation> dilatation; ///< null without patches
+    const std::size_t                      n_stripes;  ///< in which the cells are summed
+    dealii::AlignedVector<double>          nodal_sums; ///< of forces and scales, stripe by stripe
+    const CellRounding                     rounding;
   };
 } // namespace Exemplar
 

@@ -3,6 +3,7 @@
 #define exemplar_strain_damping_h
 
 #include <exemplar/body/time_integrator.h>
+#include <exemplar/kernels/symmetric.h>
 #include <exemplar/potential/cell_field.h>
 
 namespace Exemplar
@@ -34,6 +35,13 @@ namespace Exemplar
     factor(const unsigned int cell) const
     {
       return factors.empty() ? 0. : factors[cell];
+    }
+
+    /// sum_m c_m e(x_m) in a cell; with damping alone.
+    Matrix3<double>
+    past_strain(const unsigned int cell) const
+    {
+      return load_stored(strains.data(), cell, 1, 0);
     }
 
     /// C with the damping in a cell.

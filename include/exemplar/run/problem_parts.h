@@ -31,10 +31,11 @@ namespace Exemplar
     /// Takes the mesh of the inputs, and adds to their nodes what is selected by the surface.
     Body(const SceneParameters &parameters, Inputs &inputs);
 
-    const Mesh            mesh;
-    const SurfaceReadings readings; ///< off the surface
-    const Material        material;
-    const FESpace         fe_space;
+    const Mesh                           mesh;
+    const SurfaceReadings                readings; ///< off the surface
+    const Material                       material;
+    const FESpace                        fe_space;
+    const std::unique_ptr<const Patches> patches; ///< of one mean dilatation each
     /// How the mesh and its poses became of surfaces; null if none did.
     const std::shared_ptr<const MadeOfSurfaces> made;
   };

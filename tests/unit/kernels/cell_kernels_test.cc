@@ -36,14 +36,14 @@ namespace Exemplar::Testing
         parameters.pose_functions     = twist(60.) + " | 1.1*x; 0.9*y; z";
         parameters.importance         = 0.7;
         parameters.weights_per_region = per_region;
-        const auto        examples    = body.examples(parameters);
-        CellBatches       batches(body.fe_space, body.material);
-        std::mt19937      generator(5);
-        auto              x       = body.random_positions(generator, 0.8); // some cells invert
+        const auto   examples         = body.examples(parameters);
+        CellBatches  batches(body.fe_space, body.material, false);
+        std::mt19937 generator(5);
+        auto         x = body.random_positions(generator, 0.8); // some cells invert
         if (is_pulled)
           pull(x, body.fe_space);
-        const std::size_t n       = body.fe_space.n_cells();
-        const std::size_t n_nodes = body.fe_space.n_nodes();
+        const std::size_t             n       = body.fe_space.n_cells();
+        const std::size_t             n_nodes = body.fe_space.n_nodes();
         dealii::AlignedVector<double> positions(4 * n_nodes);
         for (unsigned int dof = 0; dof < x.size(); ++dof)
           positions[dof / 3 * 4 + dof % 3] = x[dof];

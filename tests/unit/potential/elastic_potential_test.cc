@@ -81,9 +81,9 @@ namespace Exemplar::Testing
         EXPECT_NEAR(at.weight_gradient[i], difference(weights[i]), 1e-8 * at.weight_scale);
     }
 
-    TEST(ElasticPotential, MatrixAndColumnsAreTheDerivativesOfTheGradient)
+    void
+    expect_frozen_derivatives(const Body &body)
     {
-      const Body     body;
       const auto     examples = body.examples(two_examples());
       const FreeDofs free_dofs(body.fe_space.n_dofs(), { 0, 4, 8, 30 });
       const Mass     mass(body.fe_space, body.material, MassMatrix::consistent);
@@ -135,18 +135,29 @@ namespace Exemplar::Testing
       }
     }
 
+    TEST(ElasticPotential, MatrixAndColumnsAreTheDerivativesOfTheGradient)
+    {
+      Body body;
+      expect_frozen_derivatives(body);
+      body.make_patches();
+      expect_frozen_derivatives(body);
+    }
+
     struct TangentCase
     {
       StrainMeasure strain;
       bool          per_region;
       double        damping;
+      bool          has_patches = false;
     };
 
     /// Gradient, exact tangent and columns by central differences of energy and gradient.
     void
     expect_derivatives(const TangentCase &test_case)
     {
-      const Body        body(bar_of_two_regions(2., box_mesh(4., 4, 1)));
+      Body body(bar_of_two_regions(2., box_mesh(4., 4, 1)));
+      if (test_case.has_patches)
+        body.make_patches();
       ExampleParameters parameters   = two_examples();
       parameters.weights_per_region  = test_case.per_region;
       parameters.region_blend_length = 2.;
@@ -233,12 +244,26 @@ namespace Exemplar::Testing
       expect_derivatives({ StrainMeasure::green, true, 0.7 });
     }
 
+    TEST(ElasticPotential, TangentsAreDerivativesWithPatches)
+    {
+      for (const StrainMeasure strain : { StrainMeasure::corotational, StrainMeasure::linear })
+        for (const double damping : { 0., 0.7 })
+        {
+          expect_derivatives({ strain, false, damping, true });
+          expect_derivatives({ strain, true, damping, true });
+        }
+    }
+
     TEST(ElasticPotential, ResponseBesideHeldNodesIsTheDerivativeByThem)
     {
-      for (const StrainMeasure strain :
-           { StrainMeasure::corotational, StrainMeasure::linear, StrainMeasure::green })
+      for (const auto &[strain, has_patches] :
+           { std::pair(StrainMeasure::corotational, false), std::pair(StrainMeasure::linear, false),
+             std::pair(StrainMeasure::green, false), std::pair(StrainMeasure::corotational, true),
+             std::pair(StrainMeasure::linear, true) })
       {
-        const Body      body;
+        Body body;
+        if (has_patches)
+          body.make_patches();
         const auto      examples = body.examples(two_examples(), strain);
         const FreeDofs  free_dofs(body.fe_space.n_dofs(), { 0, 4, 8, 30 });
         ModelParameters model;
@@ -293,9 +318,9 @@ namespace Exemplar::Testing
     }
 
     // In cells that are stretched far the guard of Eq. (24) is part of both.
-    TEST(ElasticPotential, TheDensitiesOfCellsSumToTheElasticEnergy)
+    void
+    expect_densities(const Body &body)
     {
-      const Body     body;
       const Examples none;
       const FreeDofs free_dofs(body.fe_space.n_dofs(), {});
       BodyPotential  elastic(body, ModelParameters(), none, free_dofs);
@@ -311,6 +336,14 @@ namespace Exemplar::Testing
       for (unsigned int cell = 0; cell < body.fe_space.n_cells(); ++cell)
         sum += body.fe_space.tetrahedron(cell).volume * results.strain_energy_density[cell];
       EXPECT_NEAR(sum / evaluation.energy_elastic, 1., 1e-12);
+    }
+
+    TEST(ElasticPotential, TheDensitiesOfCellsSumToTheElasticEnergy)
+    {
+      Body body;
+      expect_densities(body);
+      body.make_patches();
+      expect_densities(body);
     }
 
     TEST(ElasticPotential, ARigidMotionOfAnExampleIsFreeOfForceAtFullImportance)

@@ -86,10 +86,10 @@ namespace Exemplar::Testing
       explicit SprungBar(const Exchange &exchange = Exchange::serial())
           : body(box_mesh(4., 6, 1)),
             free_dofs(body.fe_space.n_dofs(), { 0, 1, 2, 5, 9 }, exchange),
-            potential(
-                { ModelParameters(), body.fe_space, body.material, nullptr, nullptr, free_dofs },
-                springs(body.fe_space.n_nodes() - 1),
-                nullptr)
+            potential({ ModelParameters(), body.fe_space, body.material, nullptr, nullptr, nullptr,
+                        free_dofs },
+                      springs(body.fe_space.n_nodes() - 1),
+                      nullptr)
       {
         std::mt19937 generator(1);
         state.positions = body.random_positions(generator, 0.05);

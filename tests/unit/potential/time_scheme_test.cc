@@ -49,7 +49,7 @@ namespace Exemplar::Testing
                                         std::string("Time/Scheme=") + (is_bdf2 ? "bdf2" : "implicit euler") });
         Problem         &p = scene.problem;
         ElasticPotential undamped({ p.parameters.model, p.body.fe_space, p.body.material, nullptr,
-                                    nullptr, p.constraints.free_dofs },
+                                    nullptr, nullptr, p.constraints.free_dofs },
                                   p.potential.matrix_pattern());
         std::vector<Vector> x = { p.state.positions }, v = { p.state.velocities };
         while (p.state.step < p.time_axis.n_steps())

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_patches_h
+#define exemplar_patches_h
+
+#include <exemplar/body/fe_space.h>
+#include <exemplar/body/material.h>
+
+#include <vector>
+
+namespace Exemplar
+{
+  /// Disjoint patches that hold all cells. In a patch the volume part of the energy knows one mean
+  /// dilatation, Eq. (25), and not that of each cell, which linear tetrahedra cannot keep small one by one.
+  class Patches
+  {
+  public:
+    /// Stars of nodes: the node with the most cells that have no patch yet takes these, first as long as
+    /// they are 18 or more, then 9. In between and at the end cells that are left join a patch with
+    /// which they share a face, first if all their nodes are nodes of the patch. Nodes with
+    /// equally many cells are taken in the order of their numbers. A patch lies in one region,
+    /// and its Lamé constants lambda, where they are painted, within a factor of two.
+    Patches(const Mesh &mesh, const FESpace &fe_space, const Material &material);
+
+    unsigned int
+    size() const
+    {
+      return volumes.size();
+    }
+
+    unsigned int
+    of_cell(const unsigned int cell) const
+    {
+      return patch_of_cell[cell];
+    }
+
+    /// Its cells, in ascending order.
+    const std::vector<unsigned int> &
+    cells(const unsigned int patch) const
+    {
+      return cells_of_patch[patch];
+    }
+
+    /// At rest [m^3].
+    double
+    volume(const unsigned int patch) const
+    {
+      return volumes[patch];
+    }
+
+    /// The mean over its volume [Pa].
+    double
+    lambda(const unsigned int patch) const
+    {
+      return lambdas[patch];
+    }
+
+    /// In bytes.
+    std::size_t
+    memory_consumption() const;
+
+  private:
+    void
+    collect(const FESpace &fe_space, const Material &material);
+
+    std::vector<unsigned int>              patch_of_cell;
+    std::vector<std::vector<unsigned int>> cells_of_patch;
+    std::vector<double>                    volumes;
+    std::vector<double>                    lambdas;
+  };
+} // namespace Exemplar
+
+#endif

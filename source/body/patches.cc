@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/body/patches.h>
+
+#include <deal.II/base/memory_consumption.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <queue>
+#include <set>
+
+namespace Exemplar
+{
+  namespace
+  {
+    constexpr unsigned int no_patch = static_cast<unsigned int>(-1);
+
+    /// Cells with the same kind may share a patch: material id, sign and octave of lambda.
+    using Kind = std::array<int, 3>;
+
+    std::vector<Kind>
+    kinds_of_cells(const Mesh &mesh, const Material &material)
+    {
+      std::vector<Kind> kinds(mesh.n_cells());
+      for (unsigned int cell = 0; cell < kinds.size(); ++cell)
+      {
+        const double lambda = material.elasticity(cell).lambda;
+        int          octave = 0;
+        std::frexp(lambda, &octave);
+        kinds[cell]
+            = { { static_cast<int>(mesh.get_material_ids()[cell]), lambda < 0. ? -1 : 1, octave } };
+      }
+      return kinds;
+    }
+
+    std::vector<std::vector<unsigned int>>
+    cells_by_node(const Mesh &mesh)
+    {
+      std::vector<std::vector<unsigned int>> cells(mesh.n_nodes());
+      for (unsigned int cell = 0; cell < mesh.n_cells(); ++cell)
+        for (const unsigned int node : mesh.get_cells()[cell])
+          cells[node].push_back(cell);
+      return cells;
+    }
+
+    /// The choice of the patches.
+    class Stars
+    {
+    public:
+      Stars(const Mesh &mesh, const std::vector<Kind> &kinds)
+          : mesh(mesh), kinds(kinds), around(cells_by_node(mesh)), patch(mesh.n_cells(), no_patch)
+      {
+        for (const std::size_t least : { 18, 9 }) // at an inner node there are 24 on average
+        {
+          take_stars(least);
+          join_neighbours(0);
+        }
+        join_neighbours(1);
+        take_stars(1); // of cells with no neighbour of their kind that has a patch
+      }
+
+      std::vector<unsigned int>
+      take()
+      {
+        return std::move(patch);
+      }
+
+    private:
+      /// The cells at a node that have no patch, of the kind that most of them have.
+      std::vector<unsigned int>
+      star(const unsigned int node) const
+      {
+        std::map<Kind, std::vector<unsigned int>> free;
+        for (const unsigned int cell : around[node])
+          if (patch[cell] == no_patch)
+            free[kinds[cell]].push_back(cell);
+        std::vector<unsigned int> most;
+        for (auto &[kind, cells] : free)
+          if (cells.size() > most.size())
+            most = std::move(cells);
+        return most;
+      }
+
+      /// The stars of `least` cells or more become patches, the greatest first.
+      void
+      take_stars(const std::size_t least)
+      {
+        // by number of cells, then by least node; a number may be older than the last patch
+        using Entry = std::pair<std::size_t, long>;
+        std::priority_queue<Entry> queue;
+        const auto                 push = [&](const unsigned int node)
+        {
+          if (const std::size_t n = star(node).size(); n >= least)
+            queue.emplace(n, -static_cast<long>(node));
+        };
+        for (unsigned int node = 0; node < around.size(); ++node)
+          push(node);
+        while (!queue.empty())
+        {
+          const auto [n_cells, minus_node] = queue.top();
+          queue.pop();
+          const auto                      node  = static_cast<unsigned int>(-minus_node);
+          const std::vector<unsigned int> cells = star(node);
+          if (cells.size() == n_cells)
+            add_patch(cells);
+          push(node);
+        }
+      }
+
+      void
+      add_patch(const std::vector<unsigned int> &cells)
+      {
+        n_cells.push_back(0);
+        nodes.emplace_back();
+        for (const unsigned int cell : cells)
+          assign(cell, n_cells.size() - 1);
+      }
+
+      void
+      assign(const unsigned int cell, const unsigned int to)
+      {
+        patch[cell] = to;
+        ++n_cells[to];
+        nodes[to].insert(mesh.get_cells()[cell].begin(), mesh.get_cells()[cell].end());
+      }
+
+      /// Cells without a patch join one with which they share a face, as long as it gains no more than so many
+      /// nodes; the cell with the best choice is always the next.
+      void
+      join_neighbours(const int most_gain)
+      {
+        std::priority_queue<Choice, std::vector<Choice>, std::greater<>> queue;
+        const auto push = [&](const unsigned int cell)
+        {
+          if (patch[cell] == no_patch)
+            if (const Choice choice = best_choice(cell); choice[0] <= most_gain)
+              queue.push(choice);
+        };
+        for (unsigned int cell = 0; cell < patch.size(); ++cell)
+          push(cell);
+        while (!queue.empty())
+        {
+          const Choice choice = queue.top();
+          queue.pop();
+          const unsigned int cell = choice[3];
+          if (patch[cell] != no_patch || choice != best_choice(cell))
+          {
+            push(cell);
+            continue;
+          }
+          assign(cell, choice[4]);
+          for (const unsigned int node : mesh.get_cells()[cell])
+            for (const unsigned int other : around[node])
+              push(other);
+        }
+      }
+
+      /// The number of nodes that a patch would gain by a cell, minus the number of their common faces, the
+      /// number of its cells, the cell, the patch: less is better.
+      using Choice = std::array<int, 5>;
+
+      Choice
+      best_choice(const unsigned int cell) const
+      {
+        Choice best = { { 4, 0, 0, static_cast<int>(cell), 0 } };
+        for (const auto &[candidate, n_faces] : patches_beside(cell))
+        {
+          int gain = 4;
+          for (const unsigned int node : mesh.get_cells()[cell])
+            gain -= static_cast<int>(nodes[candidate].count(node));
+          best = std::min(best, Choice{ { gain, -n_faces, n_cells[candidate],
+                                          static_cast<int>(cell), static_cast<int>(candidate) } });
+        }
+        return best;
+      }
+
+      /// The patches that share a face with a cell of their kind, and how many faces each does.
+      std::map<unsigned int, int>
+      patches_beside(const unsigned int cell) const
+      {
+        std::map<unsigned int, int> n_common; // nodes of each cell that shares a node
+        for (const unsigned int node : mesh.get_cells()[cell])
+          for (const unsigned int other : around[node])
+            ++n_common[other];
+        std::map<unsigned int, int> n_faces;
+        for (const auto &[other, n] : n_common)
+          if (n == 3 && patch[other] != no_patch && kinds[other] == kinds[cell])
+            ++n_faces[patch[other]];
+        return n_faces;
+      }
+
+      const Mesh                                  &mesh;
+      const std::vector<Kind>                     &kinds;
+      const std::vector<std::vector<unsigned int>> around;  ///< the cells at each node
+      std::vector<unsigned int>                    patch;   ///< of each cell
+      std::vector<int>                             n_cells; ///< of each patch
+      std::vector<std::set<unsigned int>>          nodes;   ///< of each patch
+    };
+  } // namespace
+
+  Patches::Patches(const Mesh &mesh, const FESpace &fe_space, const Material &material)
+      : patch_of_cell(Stars(mesh, kinds_of_cells(mesh, material)).take())
+  {
+    collect(fe_space, material);
+  }
+
+  void
+  Patches::collect(const FESpace &fe_space, const Material &material)
+  {
+    const unsigned int n = 1 + *std::max_element(patch_of_cell.begin(), patch_of_cell.end());
+    cells_of_patch.resize(n);
+    volumes.assign(n, 0.);
+    lambdas.assign(n, 0.);
+    for (unsigned int cell = 0; cell < patch_of_cell.size(); ++cell)
+    {
+      const unsigned int patch  = patch_of_cell[cell];
+      const double       volume = fe_space.tetrahedron(cell).volume;
+      cells_of_patch[patch].push_back(cell);
+      volumes[patch] += volume;
+      lambdas[patch] += volume * material.elasticity(cell).lambda;
+    }
+    for (unsigned int patch = 0; patch < n; ++patch)
+      lambdas[patch] /= volumes[patch];
+  }
+
+  std::size_t
+  Patches::memory_consumption() const
+  {
+    using dealii::MemoryConsumption::memory_consumption;
+    return memory_consumption(patch_of_cell) + memory_consumption(cells_of_patch)
+           + memory_consumption(volumes) + memory_consumption(lambdas);
+  }
+} // namespace Exemplar
