@@ -5,9 +5,9 @@
     /usr/bin/python3 doc/scripts/measure_patches.py [BODY]... [--patches FILE] [--nu NU,...] [--refine 0|1] [--modes N]
 
 BODY is bar, unstructured, cat, horse, slivers or a mesh file (.msh 2.2 or .geo) whose lowest nodes are then held; without one all
-but files. FILE holds a patch number a cell, in the order of the mesh file, and is added to the partitions made here: cells (P1), node
-stars, node stars of which small ones join a neighbour, clusters of about 8 cells (METIS), pairs of cells with a common face. Quadratic
-elements with the dilatation of each point, and with the mean of a cell, are beside them. The elements are those of
+but files. FILE holds a patch number a cell, in the order of the mesh file, and is added to the partitions made here: cells (P1), the
+program's, node stars, node stars of which small ones join a neighbour, clusters of about 8 cells (METIS), pairs of cells with a common
+face. Quadratic elements with the dilatation of each point, and with the mean of a cell, are beside them. The elements are those of
 doc/scripts/space_elements.py, not the program's. A row a ratio of Poisson and partition; the truth is P2 with the mean dilatation of
 a cell on the mesh with each cell cut in eight:
 
@@ -25,7 +25,7 @@ import time
 from pathlib import Path
 
 from space_elements import (Elements, Solid, box_mesh, clusters, edges_of, face_areas, face_pairs, gmsh_mesh, inner_faces, np,
-                            oriented, read_mesh, refined, stars)
+                            oriented, program_stars, read_mesh, refined, stars)
 
 TOP = Path(__file__).resolve().parents[2]
 
@@ -67,8 +67,9 @@ def dofs_of(nodes):
 
 def partitions(cells, n_nodes, file):
     yield "cells (P1)", None
+    yield "the program's", program_stars(cells, n_nodes)
     yield "node stars", stars(cells, n_nodes)
-    for least in (4, 8, 12):
+    for least in (4, 8):
         yield f"stars of {least} or more", stars(cells, n_nodes, least)
     yield "clusters of 8", clusters(cells, 8)
     yield "pairs", face_pairs(cells)

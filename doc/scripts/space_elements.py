@@ -428,6 +428,78 @@ def joined(cells, patch):
     return patch
 
 
+def program_stars(cells, n_nodes, thresholds=(18, 9)):
+    """The patches of Model/Dilatation = patches, from the description in include/exemplar/body/patches.h, for one material: stars of
+    18 cells or more, cells that lie within a patch join it, stars of 9 or more, again, and what is left joins neighbours."""
+    import heapq
+    around = [[] for _ in range(n_nodes)]
+    for c, cell in enumerate(cells):
+        for a in cell:
+            around[a].append(c)
+    pairs, _ = inner_faces(cells)
+    neighbours = defaultdict(list)
+    for c, d in pairs:
+        neighbours[c].append(d)
+        neighbours[d].append(c)
+    patch, nodes, sizes = np.full(len(cells), -1), [], []
+
+    def assign(c, p):
+        patch[c] = p
+        sizes[p] += 1
+        nodes[p].update(cells[c])
+
+    def take(least):
+        def free(a):
+            return [c for c in around[a] if patch[c] < 0]
+        queue = [(-len(free(a)), a) for a in range(n_nodes)]
+        heapq.heapify(queue)
+        while queue:
+            count, a = heapq.heappop(queue)
+            star = free(a)
+            if len(star) < least:
+                continue
+            if len(star) != -count:
+                heapq.heappush(queue, (-len(star), a))
+                continue
+            nodes.append(set())
+            sizes.append(0)
+            for c in star:
+                assign(c, len(sizes) - 1)
+
+    def best(c):
+        faces = defaultdict(int)
+        for d in neighbours[c]:
+            if patch[d] >= 0:
+                faces[patch[d]] += 1
+        return min(((4 - len(nodes[p].intersection(cells[c])), -n, sizes[p], c, p) for p, n in faces.items()), default=(4,))
+
+    def join(most):
+        queue = []
+
+        def push(c):
+            if patch[c] < 0:
+                choice = best(c)
+                if choice[0] <= most:
+                    heapq.heappush(queue, choice)
+        for c in range(len(cells)):
+            push(c)
+        while queue:
+            choice = heapq.heappop(queue)
+            c = choice[3]
+            if patch[c] >= 0 or choice != best(c):
+                push(c)
+                continue
+            assign(c, choice[4])
+            for d in {d for a in cells[c] for d in around[a]}:
+                push(d)
+    for least in thresholds:
+        take(least)
+        join(0)
+    join(1)
+    take(1)
+    return patch
+
+
 def clusters(cells, size=8):
     """Clusters of about `size` cells: METIS on the graph of faces."""
     pairs, _ = inner_faces(cells)

@@ -23,6 +23,13 @@ namespace Exemplar::Verification
     const Element linear{ "P1", {} }, patches{ "patches", { "Model/Dilatation=patches" } },
         quadratic{ "P2", { "Model/Element=P2" } };
 
+    /// Cells across a body in its coarsest mesh: two patches, where one would be the whole of it.
+    unsigned int
+    coarsest(const Element &element)
+    {
+      return element.name == patches.name ? 8 : 4;
+    }
+
     using Cells = std::array<unsigned int, 3>;
     using Map   = std::function<dealii::Point<3>(const dealii::Point<3> &)>;
 
@@ -184,7 +191,7 @@ namespace Exemplar::Verification
     {
       Refinement expansion;
       for (unsigned int mesh = 0; mesh < 3; ++mesh)
-        expansion.values[mesh] = cylinder_expansion(element, poisson, 4u << mesh);
+        expansion.values[mesh] = cylinder_expansion(element, poisson, coarsest(element) << mesh);
       return { { "inner wall, limit", lame_expansion(poisson), expansion.limit(),
                  Comparison::relative, tolerance },
                { "order", 1., expansion.order(), Comparison::at_least } };
@@ -225,7 +232,8 @@ namespace Exemplar::Verification
       const double L = 4., E = 1. / (1. - poisson * poisson), nu = poisson / (1. - poisson);
       Refinement   deflection;
       for (unsigned int mesh = 0; mesh < 3; ++mesh)
-        deflection.values[mesh] = timoshenko_deflection(element, poisson, 4u << mesh);
+        deflection.values[mesh]
+            = timoshenko_deflection(element, poisson, coarsest(element) << mesh);
       return { { "end, limit", 2. / E * ((4. + 5. * nu) * L / 4. + 2. * L * L * L),
                  deflection.limit(), Comparison::relative, tolerance },
                { "order", 1., deflection.order(), Comparison::at_least } };
@@ -252,8 +260,7 @@ namespace Exemplar::Verification
     const auto add_closed_form
         = [&](const std::string &name, const std::string &description, const auto &measure)
     {
-      add(name + "-0.3-P1", description + ", nu = 0.3",
-          [=] { return measure(linear, 0.3, 0.01); });
+      add(name + "-0.3-P1", description + ", nu = 0.3", [=] { return measure(linear, 0.3, 0.01); });
       for (const Element &element : { patches, quadratic })
         add(name + "-0.4999-" + element.name, description + ", nu = 0.4999",
             [=] { return measure(element, 0.4999, 0.01); });
