@@ -40,12 +40,12 @@ namespace Exemplar
     }
 
     std::unique_ptr<PatchDilatation>
-    make_dilatation(const ElasticParts &parts)
+    make_dilatation(const ElasticParts &parts, const SymmetricPattern &pattern)
     {
       if (parts.patches == nullptr)
         return nullptr;
       return std::make_unique<PatchDilatation>(*parts.patches, parts.examples, parts.fe_space,
-                                               parts.free_dofs);
+                                               pattern, parts.free_dofs);
     }
 
     std::vector<double>
@@ -95,7 +95,8 @@ namespace Exemplar
               parts.material,
               parts.patches != nullptr),
         scatter(cells, parts.fe_space.n_cells(), pattern, parts.free_dofs),
-        dilatation(make_dilatation(parts)), n_stripes(choose_n_stripes(parts.fe_space.n_cells())),
+        dilatation(make_dilatation(parts, pattern)),
+        n_stripes(choose_n_stripes(parts.fe_space.n_cells())),
         nodal_sums(4 * n_stripes * parts.fe_space.n_nodes()), rounding(estimate_rounding(parts))
   {
   }

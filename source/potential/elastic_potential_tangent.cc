@@ -137,7 +137,7 @@ namespace Exemplar
       assemble_coupling(cell_task, to, rotated, columns);
     if (dilatation != nullptr)
     {
-      dilatation->add_tangent(cells, tangent == Tangent::convex, pattern, matrix_values);
+      dilatation->add_tangent(cells, tangent == Tangent::convex, matrix_values);
       if (has_unknown_weights())
         dilatation->add_coupling(cells, columns);
     }

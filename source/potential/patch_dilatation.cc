@@ -7,14 +7,18 @@
 
 namespace Exemplar
 {
-  PatchDilatation::PatchDilatation(const Patches      &patches,
-                                   const ExamplePoses *examples,
-                                   const FESpace      &fe_space,
-                                   const FreeDofs     &free_dofs)
-      : patches(patches), examples(examples), fe_space(fe_space), free_dofs(free_dofs),
-        scatter(patches, fe_space, free_dofs), means(patches.size(), 0.),
-        traces(batched_size(fe_space.n_cells(), 1)), pressures(traces.size()), scales(traces.size())
+  PatchDilatation::PatchDilatation(const Patches          &patches,
+                                   const ExamplePoses     *examples,
+                                   const FESpace          &fe_space,
+                                   const SymmetricPattern &pattern,
+                                   const FreeDofs         &free_dofs)
+      : patches(patches), examples(examples), free_dofs(free_dofs),
+        scatter(patches, fe_space, pattern, free_dofs), fractions(fe_space.n_cells()),
+        means(patches.size(), 0.), traces(batched_size(fe_space.n_cells(), 1)),
+        pressures(traces.size()), scales(traces.size())
   {
+    for (unsigned int cell = 0; cell < fractions.size(); ++cell)
+      fractions[cell] = fe_space.tetrahedron(cell).volume / patches.volume(patches.of_cell(cell));
   }
 
   DilatationArrays
@@ -34,11 +38,10 @@ namespace Exemplar
     }
     past_means.assign(patches.size(), 0.);
     damping_factors.assign(patches.size(), whole_damping);
-    for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
+    for (unsigned int cell = 0; cell < fractions.size(); ++cell)
     {
       const unsigned int patch = patches.of_cell(cell);
-      past_means[patch] += fe_space.tetrahedron(cell).volume / patches.volume(patch)
-                           * trace(damping.past_strain(cell));
+      past_means[patch] += fractions[cell] * trace(damping.past_strain(cell));
       if (damping.factor(cell) == 0.)
         damping_factors[patch] = 0.;
     }
@@ -48,10 +51,8 @@ namespace Exemplar
   PatchDilatation::find_means()
   {
     std::fill(means.begin(), means.end(), 0.);
-    for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
-      means[patches.of_cell(cell)] += fe_space.tetrahedron(cell).volume * traces[cell];
-    for (unsigned int patch = 0; patch < patches.size(); ++patch)
-      means[patch] /= patches.volume(patch);
+    for (unsigned int cell = 0; cell < fractions.size(); ++cell)
+      means[patches.of_cell(cell)] += fractions[cell] * traces[cell];
   }
 
   double
@@ -83,7 +84,7 @@ namespace Exemplar
             += s * root * std::abs(lambda) * (std::abs(means[patch]) + std::abs(past_means[patch]));
       }
     }
-    for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
+    for (unsigned int cell = 0; cell < fractions.size(); ++cell)
     {
       pressures[cell] = of_patch[patches.of_cell(cell)];
       scales[cell]    = scale[patches.of_cell(cell)];
@@ -113,8 +114,8 @@ namespace Exemplar
   PatchDilatation::stress_square() const
   {
     double sum = 0.;
-    for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
-      sum += fe_space.tetrahedron(cell).volume * scales[cell] * scales[cell];
+    for (unsigned int cell = 0; cell < fractions.size(); ++cell)
+      sum += fractions[cell] * patches.volume(patches.of_cell(cell)) * scales[cell] * scales[cell];
     return sum;
   }
 
@@ -129,17 +130,16 @@ namespace Exemplar
   }
 
   void
-  PatchDilatation::add_tangent(const CellField        &cells,
-                               const bool              damp_all,
-                               const SymmetricPattern &pattern,
-                               std::vector<double>    &values) const
+  PatchDilatation::add_tangent(const CellField     &cells,
+                               const bool           damp_all,
+                               std::vector<double> &values) const
   {
     std::vector<double> b;
     for (unsigned int patch = 0; patch < patches.size(); ++patch)
     {
       scatter.gradient(patch, cells, b);
       const double s = damp_all ? whole_damping : damping_factor(patch);
-      scatter.add_product(patch, (1. + s) * stiffness(patch), b, pattern, values);
+      scatter.add_product(patch, (1. + s) * stiffness(patch), b, values);
     }
   }
 
@@ -170,13 +170,13 @@ namespace Exemplar
       if (!scatter.is_beside_held(patch))
         continue;
       scatter.gradient(patch, cells, b);
-      const std::vector<unsigned int> &dofs   = scatter.dofs(patch);
+      const std::vector<unsigned int> &nodes  = scatter.nodes(patch);
       double                           change = 0.;
-      for (std::size_t i = 0; i < dofs.size(); ++i)
-        change += b[i] * displacement[dofs[i]];
+      for (std::size_t i = 0; i < b.size(); ++i)
+        change += b[i] * displacement[3 * nodes[i / 3] + i % 3];
       const double factor = (1. + damping_factor(patch)) * stiffness(patch) * change;
-      for (std::size_t i = 0; i < dofs.size(); ++i)
-        result.gradient[dofs[i]] += factor * b[i];
+      for (std::size_t i = 0; i < b.size(); ++i)
+        result.gradient[3 * nodes[i / 3] + i % 3] += factor * b[i];
       for (unsigned int weight = 0; weight < result.weight_gradient.size(); ++weight)
         result.weight_gradient[weight] -= examples->importance() * stiffness(patch) * change
                                           * examples->patch_dilatation(patch, weight);
@@ -187,7 +187,8 @@ namespace Exemplar
   PatchDilatation::memory_consumption() const
   {
     using dealii::MemoryConsumption::memory_consumption;
-    return patches.memory_consumption() + scatter.memory_consumption() + memory_consumption(means)
+    return patches.memory_consumption() + scatter.memory_consumption()
+           + memory_consumption(fractions) + memory_consumption(means)
            + memory_consumption(past_means) + memory_consumption(damping_factors)
            + traces.memory_consumption() + pressures.memory_consumption()
            + scales.memory_consumption();

@@ -21,20 +21,44 @@ namespace Exemplar
     }
   } // namespace
 
-  PatchScatter::PatchScatter(const Patches  &patches,
-                             const FESpace  &fe_space,
-                             const FreeDofs &free_dofs)
-      : patches(patches), fe_space(fe_space), free_dofs(free_dofs), dofs_of_patch(patches.size()),
-        beside_held(patches.size(), false)
+  PatchScatter::PatchScatter(const Patches          &patches,
+                             const FESpace          &fe_space,
+                             const SymmetricPattern &pattern,
+                             const FreeDofs         &free_dofs)
+      : patches(patches), fe_space(fe_space), free_dofs(free_dofs), layouts(patches.size())
   {
     for (unsigned int patch = 0; patch < patches.size(); ++patch)
-      for (const unsigned int node : nodes_of(patches, fe_space, patch))
+    {
+      Layout &layout = layouts[patch];
+      layout.nodes   = nodes_of(patches, fe_space, patch);
+      for (const unsigned int cell : patches.cells(patch))
+        for (const unsigned int node : fe_space.nodes(cell))
+          layout.places.push_back(std::lower_bound(layout.nodes.begin(), layout.nodes.end(), node)
+                                  - layout.nodes.begin());
+      for (unsigned int place = 0; place < layout.nodes.size(); ++place)
+      {
         for (unsigned int c = 0; c < 3; ++c)
-        {
-          dofs_of_patch[patch].push_back(3 * node + c);
-          if (free_dofs.free_index(3 * node + c) == FreeDofs::held)
-            beside_held[patch] = true;
-        }
+          if (free_dofs.free_index(3 * layout.nodes[place] + c) != FreeDofs::held)
+            layout.free_dofs.push_back(3 * place + c);
+        layout.node_ends.push_back(layout.free_dofs.size());
+      }
+      find_entries(pattern, layout);
+    }
+  }
+
+  void
+  PatchScatter::find_entries(const SymmetricPattern &pattern, Layout &layout) const
+  {
+    const auto index = [&](const unsigned int i)
+    {
+      const unsigned int dof = layout.free_dofs[i];
+      return free_dofs.free_index(3 * layout.nodes[dof / 3] + dof % 3);
+    };
+    for (unsigned int j = 0; j < layout.free_dofs.size(); ++j)
+      for (unsigned int place = layout.free_dofs[j] / 3, i = j; place < layout.nodes.size();
+           i = layout.node_ends[place++])
+        if (i < layout.node_ends[place]) // not all of the node is held
+          layout.entries.push_back(pattern.position(index(i), index(j)));
   }
 
   std::vector<std::pair<unsigned int, unsigned int>>
@@ -56,20 +80,19 @@ namespace Exemplar
                          const CellField     &cells,
                          std::vector<double> &b) const
   {
-    const std::vector<unsigned int> &dofs = dofs_of_patch[patch];
-    b.assign(dofs.size(), 0.);
+    const Layout &layout = layouts[patch];
+    b.assign(3 * layout.nodes.size(), 0.);
+    auto place = layout.places.begin();
     for (const unsigned int cell : patches.cells(patch))
     {
       const Tetrahedron<double> &tet      = fe_space.tetrahedron(cell);
       const Matrix3<double>      R        = cells.rotation(cell);
       const double               fraction = tet.volume / patches.volume(patch);
-      for (unsigned int a = 0; a < 4; ++a)
+      for (unsigned int a = 0; a < 4; ++a, ++place)
       {
         const Vector3<double> Rg = R * tet.shape_gradient[a];
-        const auto place = std::lower_bound(dofs.begin(), dofs.end(), 3 * fe_space.nodes(cell)[a])
-                           - dofs.begin();
         for (unsigned int c = 0; c < 3; ++c)
-          b[place + c] += fraction * Rg[c];
+          b[3 * *place + c] += fraction * Rg[c];
       }
     }
   }
@@ -78,25 +101,22 @@ namespace Exemplar
   PatchScatter::add_product(const unsigned int         patch,
                             const double               factor,
                             const std::vector<double> &b,
-                            const SymmetricPattern    &pattern,
                             std::vector<double>       &values) const
   {
-    const std::vector<unsigned int> &dofs = dofs_of_patch[patch];
-    for (std::size_t j = 0; j < dofs.size(); ++j)
-    {
-      const int column = free_dofs.free_index(dofs[j]);
-      if (column == FreeDofs::held)
-        continue;
-      // the rows of a column ascend as those of the patch do, which are among them
-      std::size_t position = pattern.column_start[column];
-      for (std::size_t i = j; i < dofs.size(); ++i)
-        if (const int row = free_dofs.free_index(dofs[i]); row != FreeDofs::held)
-        {
-          while (pattern.row[position] != row)
-            ++position;
-          values[position] += factor * b[i] * b[j];
-        }
-    }
+    const Layout       &layout = layouts[patch];
+    std::vector<double> free(layout.free_dofs.size());
+    for (std::size_t i = 0; i < free.size(); ++i)
+      free[i] = b[layout.free_dofs[i]];
+    auto entry = layout.entries.begin();
+    for (unsigned int j = 0; j < free.size(); ++j)
+      for (unsigned int place = layout.free_dofs[j] / 3, i = j; place < layout.nodes.size();
+           ++place)
+      {
+        if (i == layout.node_ends[place])
+          continue;
+        for (double *value = &values[*entry++]; i < layout.node_ends[place]; ++i)
+          *value++ += factor * free[j] * free[i];
+      }
   }
 
   void
@@ -105,15 +125,20 @@ namespace Exemplar
                            const std::vector<double> &b,
                            double                    *column) const
   {
-    const std::vector<unsigned int> &dofs = dofs_of_patch[patch];
-    for (std::size_t i = 0; i < dofs.size(); ++i)
-      if (const int index = free_dofs.free_index(dofs[i]); index != FreeDofs::held)
-        column[index] += factor * b[i];
+    const Layout &layout = layouts[patch];
+    for (const unsigned int dof : layout.free_dofs)
+      column[free_dofs.free_index(3 * layout.nodes[dof / 3] + dof % 3)] += factor * b[dof];
   }
 
   std::size_t
   PatchScatter::memory_consumption() const
   {
-    return dealii::MemoryConsumption::memory_consumption(dofs_of_patch);
+    using dealii::MemoryConsumption::memory_consumption;
+    std::size_t bytes = layouts.size() * sizeof(Layout);
+    for (const Layout &layout : layouts)
+      bytes += memory_consumption(layout.nodes) + memory_consumption(layout.places)
+               + memory_consumption(layout.free_dofs) + memory_consumption(layout.node_ends)
+               + memory_consumption(layout.entries);
+    return bytes;
   }
 } // namespace Exemplar

@@ -51,6 +51,7 @@ namespace Exemplar
       { "own support of interpolation", problem.constraints.support.has_value(), {} },
       { "gravity", actions.loads != nullptr && actions.loads->has_gravity(), {} },
       { "loads", actions.loads != nullptr && actions.loads->has_named_loads(), {} },
+      { "mean dilatation by patches", problem.body.patches != nullptr, {} },
       { "example poses", poses != nullptr, poses == nullptr ? 0 : poses->memory_consumption() },
       { "weight block", has_weights, problem.system.memory_of_weights() },
       { "weights per region",

@@ -21,10 +21,11 @@ namespace Exemplar
   {
   public:
     /// `examples` may be null. All must outlive it.
-    PatchDilatation(const Patches      &patches,
-                    const ExamplePoses *examples,
-                    const FESpace      &fe_space,
-                    const FreeDofs     &free_dofs);
+    PatchDilatation(const Patches          &patches,
+                    const ExamplePoses     *examples,
+                    const FESpace          &fe_space,
+                    const SymmetricPattern &pattern,
+                    const FreeDofs         &free_dofs);
 
     /// Where loops write tr(e) of the cells, and where they find the pressures of set_pressures().
     DilatationArrays
@@ -74,10 +75,7 @@ namespace Exemplar
     /// Add its part of A with the rotations of `cells`: lambda_p V_p b b^T for b = dtheta_p/dx, times 1 + s.
     /// With `damp_all` no patch is left out of the damping.
     void
-    add_tangent(const CellField        &cells,
-                bool                    damp_all,
-                const SymmetricPattern &pattern,
-                std::vector<double>    &values) const;
+    add_tangent(const CellField &cells, bool damp_all, std::vector<double> &values) const;
 
     /// Add its part of the columns G, as ElasticPotential::assemble_tangent() has them.
     void
@@ -117,9 +115,9 @@ namespace Exemplar
 
     const Patches                &patches;
     const ExamplePoses           *examples;
-    const FESpace                &fe_space;
     const FreeDofs               &free_dofs;
     const PatchScatter            scatter;
+    std::vector<double>           fractions;          ///< of each cell in the volume of its patch
     std::vector<double>           means;              ///< theta_p
     std::vector<double>           past_means;         ///< that damping remembers; empty without it
     std::vector<double>           damping_factors;    ///< s, or 0

@@ -16,37 +16,39 @@ namespace Exemplar
   class PatchScatter
   {
   public:
-    /// All must outlive it.
-    PatchScatter(const Patches &patches, const FESpace &fe_space, const FreeDofs &free_dofs);
+    /// `pattern` has the couplings(). All must outlive it.
+    PatchScatter(const Patches          &patches,
+                 const FESpace          &fe_space,
+                 const SymmetricPattern &pattern,
+                 const FreeDofs         &free_dofs);
 
     /// All pairs of nodes that share a patch, for make_pattern().
     static std::vector<std::pair<unsigned int, unsigned int>>
     couplings(const Patches &patches, const FESpace &fe_space);
 
-    /// dtheta_p/dx of Eq. (25) with the rotations of `cells`: numbers for the degrees of freedom that dofs() lists [1/m].
+    /// dtheta_p/dx of Eq. (25) with the rotations of `cells`: three numbers for each of nodes() [1/m].
     void
     gradient(unsigned int patch, const CellField &cells, std::vector<double> &b) const;
 
-    /// Of the nodes of a patch, ascending.
+    /// Of a patch, ascending.
     const std::vector<unsigned int> &
-    dofs(const unsigned int patch) const
+    nodes(const unsigned int patch) const
     {
-      return dofs_of_patch[patch];
+      return layouts[patch].nodes;
     }
 
-    /// Whether some of them are held.
+    /// Whether some of their degrees of freedom are held.
     bool
     is_beside_held(const unsigned int patch) const
     {
-      return beside_held[patch];
+      return layouts[patch].free_dofs.size() < 3 * layouts[patch].nodes.size();
     }
 
-    /// Add factor b b^T to the values on a pattern that has the couplings().
+    /// Add factor b b^T to the values on the pattern.
     void
     add_product(unsigned int               patch,
                 double                     factor,
                 const std::vector<double> &b,
-                const SymmetricPattern    &pattern,
                 std::vector<double>       &values) const;
 
     /// Add factor b to a column by free degree of freedom.
@@ -61,11 +63,24 @@ namespace Exemplar
     memory_consumption() const;
 
   private:
-    const Patches                         &patches;
-    const FESpace                         &fe_space;
-    const FreeDofs                        &free_dofs;
-    std::vector<std::vector<unsigned int>> dofs_of_patch;
-    std::vector<bool>                      beside_held;
+    struct Layout
+    {
+      std::vector<unsigned int> nodes;
+      std::vector<unsigned int> places;    ///< of the nodes of each cell among these
+      std::vector<unsigned int> free_dofs; ///< the free ones of 3 place + component
+      std::vector<unsigned int> node_ends; ///< after the free ones of each node
+      /// The entry where the rows of a node begin in the column of a free one, for each column and
+      /// each node from the column's on; of its own node, with the diagonal.
+      std::vector<int> entries;
+    };
+
+    void
+    find_entries(const SymmetricPattern &pattern, Layout &layout) const;
+
+    const Patches      &patches;
+    const FESpace      &fe_space;
+    const FreeDofs     &free_dofs;
+    std::vector<Layout> layouts;
   };
 } // namespace Exemplar
 
