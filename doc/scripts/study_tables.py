@@ -15,6 +15,8 @@ A page says itself which table it wants, in a comment before it; a table ends wi
                                                                                of the first axis
 <!-- cost: NAME: AXIS -->              seconds of the cheapest run whose error is below a bound, a column a value of AXIS
 <!-- extrapolation: NAME: AXIS; COLUMN; EXACT -->   a quantity as a mesh is refined, and its limit; EXACT: from elsewhere
+<!-- space: NAME: NU -->             deflection over the limit and seconds of a study of errors in space, a line a mesh, a
+                                    column an element; <!-- reach: NAME: ERROR --> seconds to that error, a column a ratio of Poisson
 <!-- stability: all -->, <!-- failures: all -->     the stability studies
 """
 import csv
@@ -151,6 +153,82 @@ def extrapolation(name, where, wishes):
     return markdown([axis.split("/")[-1], column, f"from {exact}"], body)
 
 
+ELEMENTS = {("P1", "cells"): "P1", ("P1", "patches"): "P1, patches", ("P2", "cells"): "P2", ("P2", "patches"): "P2, patches"}
+
+
+def space_runs(name):
+    """Of a study of errors in space that went well: mesh, element, ratio of Poisson, deflection over its limit, seconds, cells of
+    the mesh. A limit holds for one mesh, whose polyhedron is the body, or for all."""
+    with open(FILES / "space_limits.csv", newline="") as file:
+        limits = {(row["body"], row["mesh"], row["nu"]): float(row["energy"]) for row in csv.DictReader(file)}
+    body = name.split("_")[1]
+    for row in read(name):
+        mesh = next(row[key] for key in ("Mesh/File", "Mesh/Box cells") if key in row)
+        nu = row["Material/Poisson's ratio"]
+        limit = limits.get((body, Path(mesh).name, nu)) or limits[body, "", nu]
+        if row["status"] == "converged":
+            yield (Path(mesh).name, ELEMENTS[row["Model/Element"], row["Model/Dilatation"]], nu, float(row["energy_elastic"]) / limit,
+                   float(row["seconds_median"]))
+
+
+def space(name, where, nu):
+    runs = [run for run in space_runs(name) if run[2] == nu.strip()]
+    cells = {(mesh, element): f"{ratio:.3f} ({short(seconds)} s)" for mesh, element, _, ratio, seconds in runs}
+    elements = [element for element in ELEMENTS.values() if any(run[1] == element for run in runs)]
+    meshes = list(dict.fromkeys(run[0] for run in runs))
+    return markdown(["mesh", *elements], [[mesh, *(cells.get((mesh, element), "–") for element in elements)] for mesh in meshes])
+
+
+def seconds_to(points, bound):
+    """Of (seconds, error), meshes from coarse to fine: where the straight line between two of them, in logarithms, meets the bound
+    for the last time. Text: "<" if the coarsest mesh is there, ">" if the finest is not."""
+    if points[-1][1] > bound:
+        return f"> {short(points[-1][0])} s"
+    for (t0, e0), (t1, e1) in reversed(list(zip(points, points[1:]))):
+        if e0 > bound >= e1:
+            return f"{short(math.exp(math.log(t0) + math.log(t1 / t0) * math.log(e0 / bound) / math.log(e0 / e1)))} s"
+    return f"< {short(points[0][0])} s"
+
+
+def reach(name, where, bound):
+    runs = list(space_runs(name))
+    nus = list(dict.fromkeys(run[2] for run in runs))
+    body = []
+    for element in ELEMENTS.values():
+        lines = [[(run[4], max(abs(run[3] - 1), 1e-4)) for run in runs if run[1:3] == (element, nu)] for nu in nus]
+        if any(lines):
+            body.append([element, *(seconds_to(line, float(bound)) if line else "–" for line in lines)])
+    return markdown(["element", *(f"ν = {nu}" for nu in nus)], body)
+
+
+def draw_space(names):
+    """doc/figures/space.svg: error against seconds, a row a body, a column a ratio of Poisson, with the Pareto fronts."""
+    nus = ("0.3", "0.45", "0.49", "0.499")
+    script = [f"set terminal svg noenhanced size 1240,{300 * len(names)} font 'sans-serif,12' background 'white'",
+              "set output 'space.svg'", f"set multiplot layout {len(names)},{len(nus)}", "set logscale xy", "set format '%g'",
+              "set grid", "set yrange [2e-4:1]"]
+    for name in names:
+        runs = list(space_runs(name))
+        for nu in nus:
+            plots, every = [], []
+            for i, element in enumerate(ELEMENTS.values()):
+                points = [(run[4], max(abs(run[3] - 1), 2e-4)) for run in runs if run[1:3] == (element, nu)]
+                if points:
+                    script += [f"$e{i} << EOD", *(f"{x:g} {y:g}" for x, y in points), "EOD"]
+                    plots.append(f"$e{i} with linespoints lw 2 pt 7 ps 0.6 lc {i + 1} title '{element}'")
+                    every += points
+            front = []
+            for x, y in sorted(every):
+                if not front or y < front[-1][1]:
+                    front.append((x, y))
+            script += ["$front << EOD", *(f"{x:g} {y:g}" for x, y in front), "EOD"]
+            plots.append("$front with points pt 6 ps 1.5 lw 2 lc 'black' title 'Pareto front'")
+            key = "set key bottom left" if (name, nu) == (names[0], nus[0]) else "set nokey"
+            script += [key, f"set title '{name.split('_')[1]}, nu = {nu}'", "set xlabel 'seconds'",
+                       "set ylabel 'error of the deflection'", "plot " + ", ".join(plots)]
+    subprocess.run(["gnuplot"], input="\n".join(script) + "\n", text=True, check=True, cwd=FIGURES)
+
+
 def stability(*_):
     body = []
     for file in sorted(FILES.glob("stability_*.csv")):
@@ -182,7 +260,7 @@ def failures(*_):
     return markdown(["study", "case", "how it ended", "steps before"], body)
 
 
-KINDS = {make.__name__: make for make in (table, orders, cost, extrapolation, stability, failures)}
+KINDS = {make.__name__: make for make in (table, orders, cost, extrapolation, space, reach, stability, failures)}
 
 
 def page_with_tables(page):
@@ -204,6 +282,9 @@ def main():
         for name in sys.argv[2:] or STUDIES:
             print(name, file=sys.stderr, flush=True)
             run(name)
+        bodies = [name for name in STUDIES if name.startswith("space_") and (FILES / f"{name}.csv").exists()]
+        if any(name in bodies for name in sys.argv[2:] or STUDIES):
+            draw_space(bodies)
         return
     missing = [name for name in STUDIES if not (FILES / f"{name}.csv").exists()]
     if missing:

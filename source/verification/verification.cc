@@ -37,7 +37,7 @@ namespace Exemplar
       {
         std::vector<Case> all;
         for (const auto &subject : { kernel_cases, derivative_cases, static_cases, beam_cases,
-                                     dynamic_cases, example_cases })
+                                     space_cases, dynamic_cases, example_cases })
           for (Case &one : subject())
             all.push_back(std::move(one));
         return all;

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-// Beams and Cook's membrane. Linear tetrahedra are too stiff in bending, so no case looks
+// Beams. Linear tetrahedra are too stiff in bending, so no case looks
 // at one mesh: three, each with cells of half the size, give the order and the limit.
 
 namespace Exemplar::Verification
@@ -29,18 +29,6 @@ namespace Exemplar::Verification
                          { { "end", set("Select", "boundary 1") },
                            { "front", set("Select", "boundary 3") + set("Components", "y") },
                            { "back", set("Select", "boundary 4") + set("Components", "y") } });
-
-    /// Mean displacement of the nodes of a boundary.
-    dealii::Tensor<1, 3>
-    mean_displacement(const Problem &p, const State &state, const std::string &boundary)
-    {
-      dealii::Tensor<1, 3> sum;
-      const auto           nodes = Selection{ boundary }.nodes(p.body.mesh, "verify");
-      for (const unsigned int node : nodes)
-        for (unsigned int c = 0; c < 3; ++c)
-          sum[c] += state.positions[3 * node + c] - p.body.fe_space.rest_positions()[3 * node + c];
-      return sum / static_cast<double>(nodes.size());
-    }
 
     std::string
     increments(const unsigned int n)
@@ -139,45 +127,6 @@ namespace Exemplar::Verification
       };
     }
 
-    /// Cook's membrane (0,0), (48,44), (48,60), (0,44) in plane strain: the mean displacement
-    /// of the middle of the loaded edge along it, for F = 1.
-    double
-    cook_deflection(const double poisson, const unsigned int cells)
-    {
-      const Inputs membrane = moved_box(
-          { { 1., 1., 1. } }, { { cells, cells, 1 } },
-          [](const dealii::Point<3> &p)
-          {
-            const double eta = p[1] + 0.5;
-            return dealii::Point<3>(48. * p[0], 44. * p[0] + eta * (44. - 28. * p[0]), p[2]);
-          });
-      const double force = 1e-4; // of the small load, for which the result is linear
-      const auto   plane = set("Components", "z");
-      Scene        scene(
-                 set("Scene", "static")
-                     + section("Material", set("Young's modulus", 1.) + set("Poisson's ratio", poisson))
-                     + named_sections("Handles", { { "end", set("Select", "boundary 1") },
-                                                   { "back", set("Select", "boundary 5") + plane },
-                                                   { "front", set("Select", "boundary 6") + plane } })
-                     + named_sections("Loads", { { "edge", set("Select", "boundary 2")
-                                                               + set("Force", "0; 1e-4*t; 0") } })
-                     + increments(1),
-                 {}, membrane);
-      return mean_displacement(scene.problem, scene.solve(), "box 47.9 51.9 -1 48.1 52.1 1")[1]
-             / force;
-    }
-
-    std::vector<Measurement>
-    cook(const double poisson, const double expected)
-    {
-      Refinement deflection;
-      for (unsigned int mesh = 0; mesh < 3; ++mesh)
-        deflection.values[mesh] = cook_deflection(poisson, 16u << mesh);
-      return { { "mid-point of the loaded edge", expected, deflection.limit(), Comparison::relative,
-                 0.01 },
-               { "order", 1., deflection.order(), Comparison::at_least } };
-    }
-
     /// f_1 [Hz] of the stiffness at rest and the mass, by inverse iteration: K y = M x, with the
     /// Rayleigh quotient y.K y / y.M y.
     double
@@ -250,10 +199,6 @@ namespace Exemplar::Verification
           "end moment, E I phi / L with phi = 90 degrees, L/h = 20: an arc of a circle; "
           "differs by O((kappa h)^2)",
           pure_bending });
-    cases.push_back({ "cook-0.333", "Cook's membrane, plane strain, nu = 1/3, small load",
-                      [] { return cook(1. / 3., 21.524); } });
-    cases.push_back({ "cook-0.3", "Cook's membrane, plane strain, nu = 0.3, small load",
-                      [] { return cook(0.3, 21.945); } });
     cases.push_back({ "frequency",
                       "clamped-free beam, L/h = 20: f_1 = 1.8751^2 / (2 pi L^2) sqrt(E I / rho A)",
                       frequency });

@@ -177,6 +177,18 @@ namespace Exemplar::Verification
     return max_entry(difference.begin(), difference.end());
   }
 
+  dealii::Tensor<1, 3>
+  mean_displacement(const Problem &problem, const State &state, const std::string &selection)
+  {
+    dealii::Tensor<1, 3> sum;
+    const auto           nodes = Selection{ selection }.nodes(problem.body.mesh, "verify");
+    for (const unsigned int node : nodes)
+      for (unsigned int c = 0; c < 3; ++c)
+        sum[c] += state.positions[3 * node + c]
+                  - problem.body.fe_space.rest_positions()[3 * node + c];
+    return sum / static_cast<double>(nodes.size());
+  }
+
   ElasticEvaluation
   evaluate(Problem                      &problem,
            const dealii::Vector<double> &positions,

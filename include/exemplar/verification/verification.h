@@ -62,6 +62,8 @@ namespace Exemplar
     std::vector<Case>
     beam_cases();
     std::vector<Case>
+    space_cases();
+    std::vector<Case>
     dynamic_cases();
     std::vector<Case>
     example_cases();

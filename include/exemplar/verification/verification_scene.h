@@ -93,6 +93,10 @@ namespace Exemplar::Verification
   double
   max_difference(const dealii::Vector<double> &a, const dealii::Vector<double> &b);
 
+  /// Mean displacement of the nodes of the mesh that a selection holds.
+  dealii::Tensor<1, 3>
+  mean_displacement(const Problem &problem, const State &state, const std::string &selection);
+
   /// Evaluate at positions and weights of one's own, with the rotations of the positions.
   ElasticEvaluation
   evaluate(Problem                      &problem,
