@@ -97,7 +97,8 @@ namespace Exemplar
     if (!p.follow_pose.empty())
       handle.path.emplace(
           rest_positions(handle),
-          choose(fe_space.complete(mesh.find_pose(poses, p.follow_pose, key + "/Follow pose")),
+          choose(fe_space.complete(mesh.find_pose(poses, p.follow_pose, key + "/Follow pose"),
+                                   key + "/Follow pose"),
                  handle.nodes));
     return handle;
   }
