@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
 #include <exemplar/body/fe_space.h>
 
 #include <deal.II/base/quadrature_lib.h>
@@ -16,6 +17,26 @@ namespace Exemplar
     polynomial_degree(const Element element)
     {
       return element == Element::P1 ? 1 : 2;
+    }
+
+    /// Throws unless the places after those of the nodes are in the middle of the edges.
+    void
+    check_straight(const std::vector<dealii::Point<3>>            &places,
+                   const std::vector<std::array<unsigned int, 2>> &edges,
+                   const double                                    size,
+                   const std::string                              &key)
+    {
+      const std::size_t n_nodes = places.size() - edges.size();
+      for (std::size_t edge = 0; edge < edges.size(); ++edge)
+      {
+        const auto &[a, b] = edges[edge];
+        if (const auto straight = places[a] + 0.5 * (places[b] - places[a]);
+            !(places[n_nodes + edge].distance(straight) <= 1e-9 * size))
+          throw UserError(key
+                          + ": the pose has 10-node tetrahedra with curved edges, but "
+                            "Model/Element = P1 has straight ones. Set Model/Element = P2, or give "
+                            "a pose of 4-node tetrahedra.");
+      }
     }
 
     /// Exact for products of two gradients, with points_per_cell() points.
@@ -45,7 +66,7 @@ namespace Exemplar
       number_edges();
     compute_gradients();
     rest.reinit(n_dofs());
-    const std::vector<dealii::Point<3>> nodes = complete(mesh.get_nodes());
+    const std::vector<dealii::Point<3>> nodes = complete(mesh.get_nodes(), "rest pose");
     for (unsigned int node = 0; node < n_nodes(); ++node)
       for (unsigned int c = 0; c < 3; ++c)
         rest[3 * node + c] = nodes[node][c];
@@ -103,8 +124,10 @@ namespace Exemplar
   }
 
   std::vector<dealii::Point<3>>
-  FESpace::complete(std::vector<dealii::Point<3>> places) const
+  FESpace::complete(std::vector<dealii::Point<3>> places, const std::string &key) const
   {
+    if (places.size() > n_nodes())
+      check_straight(places, edges_of(mesh.get_cells()), mesh.diameter(), key);
     if (places.size() == mesh.n_nodes())
       for (const auto &[a, b] : edges)
         places.push_back(0.5 * places[a] + 0.5 * dealii::Tensor<1, 3>(places[b]));

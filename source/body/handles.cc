@@ -69,7 +69,7 @@ namespace Exemplar
     {
       handles.push_back(make_handle(p, poses, nodes));
       if (const auto given = motions.find(p.name); given != motions.end())
-        handles.back().function = given->second;
+        handles.back().function = at_middles_too(given->second, handles.back().nodes);
     }
     dealii::Vector<double> anywhere(fe_space.n_dofs());
     move(axis.time(0), anywhere); // are the formulas finite?
@@ -97,9 +97,34 @@ namespace Exemplar
     if (!p.follow_pose.empty())
       handle.path.emplace(
           rest_positions(handle),
-          choose(fe_space.complete(mesh.find_pose(poses, p.follow_pose, key + "/Follow pose")),
+          choose(fe_space.complete(mesh.find_pose(poses, p.follow_pose, key + "/Follow pose"),
+                                   key + "/Follow pose"),
                  handle.nodes));
     return handle;
+  }
+
+  Motion
+  Handles::at_middles_too(const Motion &motion, const std::vector<unsigned int> &nodes) const
+  {
+    const auto position = [&](const unsigned int node)
+    { return std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin(); };
+    const auto n_vertices = static_cast<std::size_t>(position(mesh.n_nodes()));
+
+    std::vector<std::array<std::size_t, 2>> ends; // of the edges, among the nodes
+    for (std::size_t i = n_vertices; i < nodes.size(); ++i)
+    {
+      const auto &[a, b] = fe_space.edge_of(nodes[i]);
+      ends.push_back(
+          { { static_cast<std::size_t>(position(a)), static_cast<std::size_t>(position(b)) } });
+    }
+    return [=](const std::vector<dealii::Point<3>> &rest, const double time)
+    {
+      const auto                        end    = rest.begin() + std::ptrdiff_t(n_vertices);
+      std::vector<dealii::Tensor<1, 3>> result = motion({ rest.begin(), end }, time);
+      for (const auto &[a, b] : ends)
+        result.push_back(0.5 * (result.at(a) + result.at(b)));
+      return result;
+    };
   }
 
   std::vector<dealii::Point<3>>

@@ -158,9 +158,10 @@ namespace Exemplar
               std::vector<double> &values) const;
 
     /// The places of all nodes, from those of the mesh file's nodes, with the others in the middle
-    /// of their edges, or from those of both, of which linear elements take the file's.
+    /// of their edges, or from those of both. Throws UserError, calling the places `key`, for curved
+    /// edges, which linear elements have not.
     std::vector<dealii::Point<3>>
-    complete(std::vector<dealii::Point<3>> places) const;
+    complete(std::vector<dealii::Point<3>> places, const std::string &key) const;
 
     /// `nodes` of the mesh file and the nodes on edges between two of them, in ascending order.
     std::vector<unsigned int>

@@ -48,7 +48,7 @@ namespace Exemplar
   {
   public:
     /// The poses that handles follow are among `poses`, the files of nodes among `nodes`;
-    /// those in `motions` move as these say, instead of by their formulas. Throws UserError for a selection without nodes, a formula that is not understood, a
+    /// those in `motions` move as these say of nodes of the mesh file, instead of by their formulas. Throws UserError for a selection without nodes, a formula that is not understood, a
     /// pose that is not there, and for handles that overlap and disagree in any step.
     Handles(const std::vector<HandleParameters> &parameters,
             const Mesh                          &mesh,
@@ -122,6 +122,11 @@ namespace Exemplar
     make_handle(const HandleParameters &parameters,
                 const NamedPoses       &poses,
                 const NamedNodes       &nodes) const;
+
+    /// A motion of the nodes of the mesh file among some (ascending), and that of the middles of
+    /// edges as the means of their ends.
+    Motion
+    at_middles_too(const Motion &motion, const std::vector<unsigned int> &nodes) const;
 
     std::vector<dealii::Point<3>>
     rest_positions(const Handle &handle) const;

@@ -10,14 +10,58 @@
 
 namespace Exemplar::Loops
 {
+  /// How many cells are in some state, at any of their points.
+  template <typename Number, int n_nodes>
+  class CellCount
+  {
+  public:
+    template <typename Mask>
+    void
+    add(const LaneGroup<Number> &group, const Mask &mask)
+    {
+      const auto one = [&] { return select(mask, Number(1.), Number(0.)); };
+      if constexpr (points_of_cell(n_nodes) == 1)
+        lanes += one();
+      else if (any(mask)) // hardly ever
+      {
+        alignas(64) double lane[LaneGroup<Number>::width];
+        Lanes<Number>::store(one(), lane);
+        for (std::size_t l = 0; l < LaneGroup<Number>::width; ++l)
+          if (const std::size_t next = group.cell(l) / points_of_cell(n_nodes) + 1;
+              lane[l] > 0. && next != end)
+          {
+            end = next;
+            n += 1.;
+          }
+      }
+    }
+
+    double
+    total() const
+    {
+      alignas(64) double lane[LaneGroup<Number>::width];
+      Lanes<Number>::store(lanes, lane);
+      double sum = n;
+      for (const double value : lane)
+        sum += value;
+      return sum;
+    }
+
+  private:
+    Number      lanes = Number(0.);
+    double      n     = 0.;
+    std::size_t end   = 0; ///< behind the last cell that was counted
+  };
+
   /// CellSums, of the cells of each lane apart.
-  template <typename Number>
+  template <typename Number, int n_nodes>
   struct LaneSums
   {
     Number energy = Number(0.), elastic = Number(0.), damping = Number(0.);
     Number stress_square = Number(0.);
     Number min_det       = Number(std::numeric_limits<double>::max());
-    Number inverted = Number(0.), guarded = Number(0.);
+
+    CellCount<Number, n_nodes> inverted, guarded;
 
     void
     add_to(CellSums &sums) const
@@ -26,8 +70,8 @@ namespace Exemplar::Loops
       sums.energy_elastic += total(elastic);
       sums.energy_damping += total(damping);
       sums.stress_square += total(stress_square);
-      sums.inverted_cells += static_cast<unsigned int>(total(inverted));
-      sums.guarded_cells += static_cast<unsigned int>(total(guarded));
+      sums.inverted_cells += static_cast<unsigned int>(inverted.total());
+      sums.guarded_cells += static_cast<unsigned int>(guarded.total());
       alignas(64) double lane[LaneGroup<Number>::width];
       Lanes<Number>::store(min_det, lane);
       for (const double det : lane)
@@ -103,10 +147,10 @@ namespace Exemplar::Loops
   /// hardly any cell needs.
   template <typename Cell, int n_nodes, typename Number>
   [[gnu::noinline, gnu::cold]] void
-  add_stretch_guard(const CellTask          &task,
-                    const LaneGroup<Number> &group,
-                    double                  *nodal_sums,
-                    LaneSums<Number>        &sums)
+  add_stretch_guard(const CellTask            &task,
+                    const LaneGroup<Number>   &group,
+                    double                    *nodal_sums,
+                    LaneSums<Number, n_nodes> &sums)
   {
     const auto            tet = load_tetrahedron<n_nodes>(task.cells, group);
     const Matrix3<Number> F   = deformation_gradient(task, group, tet);
@@ -127,11 +171,11 @@ namespace Exemplar::Loops
 
   template <typename Cell, int n_nodes, typename Number>
   inline void
-  evaluate_group(const CellTask          &task,
-                 const LaneGroup<Number> &group,
-                 double                  *nodal_sums,
-                 double                  *weight_sums,
-                 LaneSums<Number>        &sums)
+  evaluate_group(const CellTask            &task,
+                 const LaneGroup<Number>   &group,
+                 double                    *nodal_sums,
+                 double                    *weight_sums,
+                 LaneSums<Number, n_nodes> &sums)
   {
     const bool                 frozen       = task.cells.guard_bound == no_guard;
     const bool                 has_examples = task.examples.n_weights > 0;
@@ -140,7 +184,6 @@ namespace Exemplar::Loops
     const Matrix3<Number>      F            = deformation_gradient(task, group, tet);
     const Matrix3<Number>      R            = rotation<Cell>(task, group, F);
     const auto                 is_real      = tet.volume > Number(0.);
-    const auto one = [](const auto &mask) { return select(mask, Number(1.), Number(0.)); };
 
     const Number          det = determinant(F);
     Cell                  cell(material, R, F, task.cells.guard_bound);
@@ -149,7 +192,7 @@ namespace Exemplar::Loops
     const Number          elastic        = tet.volume * density;
     Number                scale          = norm(elastic_stress);
     sums.min_det                         = select(det >= sums.min_det, sums.min_det, det);
-    sums.inverted += one(is_real & (det <= Number(0.)));
+    sums.inverted.add(group, is_real & (det <= Number(0.)));
     sums.elastic += elastic;
     if (task.dilatation.traces != nullptr)
       Lanes<Number>::store(trace(cell.strain()), task.dilatation.traces + group.at(1, 0));
@@ -165,7 +208,7 @@ namespace Exemplar::Loops
       scale += norm(stress(material, D));
       sums.stress_square += tet.volume * scale * scale;
       sums.energy += tet.volume * cell.energy(D);
-      sums.guarded += one(is_real & cell.is_guarded());
+      sums.guarded.add(group, is_real & cell.is_guarded());
       if (frozen || task.with_weight_sums)
       {
         P = cell.weight_stress(D);
@@ -213,7 +256,7 @@ namespace Exemplar::Loops
            double           *weight_sums,
            CellSums         &result)
   {
-    LaneSums<Number> sums;
+    LaneSums<Number, n_nodes> sums;
     with_cell_model<Number>(
         task.cells.strain,
         [&](auto model)
