@@ -32,13 +32,16 @@ namespace Exemplar
                  const FESpace                          &fe_space,
                  const std::vector<std::vector<double>> &painted)
     {
+      const unsigned int n_points = points_per_cell(fe_space.element());
       if (!painted.empty())
-        return RegionShares(painted);
+        return RegionShares(painted, n_points);
       if (!parameters.weights_per_region)
         return {};
       // beyond the body's size all regions have the same share everywhere
       const double length = std::min(parameters.region_blend_length, 1e3 * mesh.diameter());
-      return RegionShares(fe_space, mesh.get_material_ids(), length);
+      if (fe_space.element() == Element::P1)
+        return RegionShares(fe_space, mesh.get_material_ids(), length);
+      return RegionShares(FESpace(mesh), mesh.get_material_ids(), length, n_points);
     }
   } // namespace
 
@@ -47,20 +50,20 @@ namespace Exemplar
   {
     double sum = 0.;
     for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
-      sum += material.youngs_modulus(cell) * fe_space.tetrahedron(cell).volume;
+      sum += material.youngs_modulus(cell) * fe_space.cell_volume(cell);
     return sum;
   }
 
   namespace
   {
-    /// What a pose function makes of points.
+    /// What a pose function makes of the nodes.
     std::vector<dealii::Point<3>>
-    images(const std::string &function, const std::vector<dealii::Point<3>> &points)
+    images(const std::string &function, const FESpace &fe_space)
     {
       const Expression              expression("Examples/Pose functions", function, "xyz", 3);
       std::vector<dealii::Point<3>> images;
-      for (const dealii::Point<3> &x : points)
-        images.emplace_back(expression.vector(x, 0.));
+      for (unsigned int node = 0; node < fe_space.n_nodes(); ++node)
+        images.emplace_back(expression.vector(fe_space.rest_position(node), 0.));
       return images;
     }
   } // namespace
@@ -82,7 +85,7 @@ namespace Exemplar
     for (const std::string &name : parameters.poses)
       add_pose(name, mesh.find_pose(poses, name, "Examples/Poses"));
     for (const std::string &function : split_trimmed(parameters.pose_functions, '|'))
-      add_pose("pose function '" + function + "'", images(function, mesh.get_nodes()));
+      add_pose("pose function '" + function + "'", images(function, fe_space));
     for (unsigned int i = first_strained; i < size(); ++i)
       if (const std::string problem = describe_pose(mesh, fe_space, positions[i]); !problem.empty())
         warnings.push_back("Example " + std::to_string(i) + " (" + names[i] + ") " + problem);
@@ -101,8 +104,9 @@ namespace Exemplar
   }
 
   void
-  ExamplePoses::add_pose(const std::string &name, const std::vector<dealii::Point<3>> &nodes)
+  ExamplePoses::add_pose(const std::string &name, const std::vector<dealii::Point<3>> &places)
   {
+    const std::vector<dealii::Point<3>> nodes = fe_space.complete(places, "Examples, " + name);
     names.push_back(name);
     positions.emplace_back(fe_space.n_dofs());
     for (unsigned int node = 0; node < nodes.size(); ++node)
@@ -113,24 +117,24 @@ namespace Exemplar
   void
   ExamplePoses::compute_strains()
   {
-    strains.resize(batched_size(fe_space.n_cells(), 6 * n_strained()), 0.);
+    strains.resize(batched_size(fe_space.n_points(), 6 * n_strained()), 0.);
     strain_norms.assign(n_weights(), 0.);
-    for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
+    for (unsigned int point = 0; point < fe_space.n_points(); ++point)
     {
       for (unsigned int i = first_strained; i < size(); ++i)
       {
-        const Matrix3<double> F = fe_space.deformation_gradient(cell, positions[i]);
+        const Matrix3<double> F = fe_space.deformation_gradient(point, positions[i]);
         const Matrix3<double> E = model_strain(measure, model_rotation(measure, F), F);
-        add_to_stored(strains.data(), cell, n_strained(), i - first_strained, 1., E);
+        add_to_stored(strains.data(), point, n_strained(), i - first_strained, 1., E);
         if (traits_of(measure).has_guard)
           p_0 = min_or_nan(p_0, 0.5 * guard_product(E));
       }
-      for_each_weight(cell,
+      for_each_weight(point,
                       [&](const unsigned int weight, const unsigned int i, const double share)
                       {
-                        const Matrix3<double> E = strain(cell, i);
+                        const Matrix3<double> E = strain(point, i);
                         strain_norms[weight]
-                            += fe_space.tetrahedron(cell).volume * share * share * contract(E, E);
+                            += fe_space.volume(point) * share * share * contract(E, E);
                       });
     }
     for (double &norm : strain_norms)
@@ -144,13 +148,13 @@ namespace Exemplar
   ExamplePoses::compute_patch_dilatations(const Patches &patches)
   {
     patch_dilatations.reinit(patches.size(), n_weights());
-    for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
+    for (unsigned int point = 0; point < fe_space.n_points(); ++point)
     {
-      const unsigned int patch    = patches.of_cell(cell);
-      const double       fraction = fe_space.tetrahedron(cell).volume / patches.volume(patch);
+      const unsigned int patch    = patches.of_point(point);
+      const double       fraction = fe_space.volume(point) / patches.volume(patch);
       for_each_weight(
-          cell, [&](const unsigned int weight, const unsigned int i, const double share)
-          { patch_dilatations(patch, weight) += fraction * share * trace(strain(cell, i)); });
+          point, [&](const unsigned int weight, const unsigned int i, const double share)
+          { patch_dilatations(patch, weight) += fraction * share * trace(strain(point, i)); });
     }
   }
 
@@ -158,19 +162,18 @@ namespace Exemplar
   ExamplePoses::compute_gram_matrix(const Material &material, const Patches *patches)
   {
     gram.reinit(n_weights(), n_weights());
-    for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
+    for (unsigned int point = 0; point < fe_space.n_points(); ++point)
       for_each_weight(
-          cell,
+          point,
           [&](const unsigned int v, const unsigned int i, const double share_v)
           {
-            const CellMaterial<double> &C = material.elasticity(cell);
+            const CellMaterial<double> &C = material.elasticity(fe_space.cell_of(point));
             const Matrix3<double>       T
-                = stress(patches == nullptr ? C : C.without_dilatation(), strain(cell, i));
-            for_each_weight(cell,
-                            [&](const unsigned int w, const unsigned int j, const double share_w)
-                            {
-                              gram(v, w) += fe_space.tetrahedron(cell).volume * share_v * share_w
-                                            * contract(T, strain(cell, j));
+                = stress(patches == nullptr ? C : C.without_dilatation(), strain(point, i));
+            for_each_weight(point,
+                            [&](const unsigned int w, const unsigned int j, const double share_w) {
+                              gram(v, w) += fe_space.volume(point) * share_v * share_w
+                                            * contract(T, strain(point, j));
                             });
           });
     for (unsigned int patch = 0; patch < patch_dilatations.m(); ++patch)
@@ -185,7 +188,8 @@ namespace Exemplar
   {
     if (!regions)
       return 1.;
-    for (std::size_t i = regions->first(cell); i < regions->last(cell); ++i)
+    const unsigned int point = cell * points_per_cell(fe_space.element());
+    for (std::size_t i = regions->first(point); i < regions->last(point); ++i)
       if (regions->list()[i].region == region)
         return regions->list()[i].value;
     return 0.;
@@ -198,10 +202,10 @@ namespace Exemplar
       return { 1. }; // without the sum's rounding
     const double        total = fe_space.total_volume();
     std::vector<double> fraction(n_regions(), 0.);
-    for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
-      for (std::size_t s = regions->first(cell); s < regions->last(cell); ++s)
+    for (unsigned int point = 0; point < fe_space.n_points(); ++point)
+      for (std::size_t s = regions->first(point); s < regions->last(point); ++s)
         fraction[regions->list()[s].region]
-            += regions->list()[s].value * fe_space.tetrahedron(cell).volume / total;
+            += regions->list()[s].value * fe_space.volume(point) / total;
     return fraction;
   }
 

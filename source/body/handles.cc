@@ -58,19 +58,20 @@ namespace Exemplar
 
   Handles::Handles(const std::vector<HandleParameters> &parameters,
                    const Mesh                          &mesh,
+                   const FESpace                       &fe_space,
                    const TimeAxis                      &axis,
                    const NamedPoses                    &poses,
                    const NamedNodes                    &nodes,
                    const NamedMotions                  &motions)
-      : mesh(mesh)
+      : mesh(mesh), fe_space(fe_space)
   {
     for (const HandleParameters &p : parameters)
     {
       handles.push_back(make_handle(p, poses, nodes));
       if (const auto given = motions.find(p.name); given != motions.end())
-        handles.back().function = given->second;
+        handles.back().function = at_middles_too(given->second, handles.back().nodes);
     }
-    dealii::Vector<double> anywhere(3 * mesh.n_nodes());
+    dealii::Vector<double> anywhere(fe_space.n_dofs());
     move(axis.time(0), anywhere); // are the formulas finite?
     move(axis.time(axis.n_steps()), anywhere);
     const std::set<unsigned int> shared = shared_nodes();
@@ -87,7 +88,7 @@ namespace Exemplar
     p.check();
     const std::string key = "Handles/" + p.name;
     Handle            handle{ p.name,
-                   p.select.nodes(mesh, key, named_nodes),
+                   fe_space.with_edges(p.select.nodes(mesh, key, named_nodes)),
                    parse_components(p.components, key),
                    Expression(key + "/Motion", p.motion, "xyzt", 3),
                    Expression(key + "/Progress", p.progress, "t", 1),
@@ -96,14 +97,43 @@ namespace Exemplar
     if (!p.follow_pose.empty())
       handle.path.emplace(
           rest_positions(handle),
-          choose(mesh.find_pose(poses, p.follow_pose, key + "/Follow pose"), handle.nodes));
+          choose(fe_space.complete(mesh.find_pose(poses, p.follow_pose, key + "/Follow pose"),
+                                   key + "/Follow pose"),
+                 handle.nodes));
     return handle;
+  }
+
+  Motion
+  Handles::at_middles_too(const Motion &motion, const std::vector<unsigned int> &nodes) const
+  {
+    const auto position = [&](const unsigned int node)
+    { return std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin(); };
+    const auto n_vertices = static_cast<std::size_t>(position(mesh.n_nodes()));
+
+    std::vector<std::array<std::size_t, 2>> ends; // of the edges, among the nodes
+    for (std::size_t i = n_vertices; i < nodes.size(); ++i)
+    {
+      const auto &[a, b] = fe_space.edge_of(nodes[i]);
+      ends.push_back(
+          { { static_cast<std::size_t>(position(a)), static_cast<std::size_t>(position(b)) } });
+    }
+    return [=](const std::vector<dealii::Point<3>> &rest, const double time)
+    {
+      const auto                        end    = rest.begin() + std::ptrdiff_t(n_vertices);
+      std::vector<dealii::Tensor<1, 3>> result = motion({ rest.begin(), end }, time);
+      for (const auto &[a, b] : ends)
+        result.push_back(0.5 * (result.at(a) + result.at(b)));
+      return result;
+    };
   }
 
   std::vector<dealii::Point<3>>
   Handles::rest_positions(const Handle &handle) const
   {
-    return choose(mesh.get_nodes(), handle.nodes);
+    std::vector<dealii::Point<3>> places;
+    for (const unsigned int node : handle.nodes)
+      places.push_back(fe_space.rest_position(node));
+    return places;
   }
 
   std::vector<dealii::Tensor<1, 3>>
@@ -178,13 +208,24 @@ namespace Exemplar
         {
           const auto [first, is_new] = targets.emplace(3 * node + c, Target{ displacement[c], h });
           if (std::abs(first->second.displacement - displacement[c]) > tolerance)
-            throw UserError(
-                "Handles '" + handles[first->second.handle].name + "' and '" + handles[h].name
-                + "' both hold node " + std::to_string(mesh.get_contents().node_numbers[node])
-                + ", but move it differently at t = " + shortest_text(time) + ". Change Handles/"
-                + handles[h].name + "/Select so that they do not overlap.");
+            throw UserError("Handles '" + handles[first->second.handle].name + "' and '"
+                            + handles[h].name + "' both hold " + name_of_node(node)
+                            + ", but move it differently at t = " + shortest_text(time)
+                            + ". Change Handles/" + handles[h].name
+                            + "/Select so that they do not overlap.");
         }
       }
+  }
+
+  std::string
+  Handles::name_of_node(const unsigned int node) const
+  {
+    const auto number = [&](const unsigned int vertex)
+    { return std::to_string(mesh.get_contents().node_numbers[vertex]); };
+    if (node < mesh.n_nodes())
+      return "node " + number(node);
+    const auto &[a, b] = fe_space.edge_of(node);
+    return "the middle between nodes " + number(a) + " and " + number(b);
   }
 
   std::vector<unsigned int>
@@ -207,7 +248,7 @@ namespace Exemplar
       {
         const unsigned int node = handles[h].nodes[point];
         for (const unsigned int c : handles[h].components)
-          positions[3 * node + c] = mesh.get_nodes()[node][c] + all[h][point][c];
+          positions[3 * node + c] = fe_space.rest_positions()[3 * node + c] + all[h][point][c];
       }
     // what is no formula could not be checked at all times before
     if (std::any_of(handles.begin(), handles.end(), [](const Handle &h) { return h.function; }))

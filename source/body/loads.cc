@@ -16,24 +16,77 @@ namespace Exemplar
     std::vector<double>
     nodal_masses(const FESpace &fe_space, const Material &material)
     {
+      const NodeShares    shares = shares_in_cell(fe_space.element(), ShareRule::consistent);
       std::vector<double> masses(fe_space.n_nodes(), 0.);
       for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
-        for (const unsigned int node : fe_space.nodes(cell))
-          masses[node] += material.density(cell) * fe_space.tetrahedron(cell).volume / 4.;
+        fe_space.share_out(material.density(cell) * fe_space.cell_volume(cell), shares, cell,
+                           masses);
       return masses;
     }
 
-    std::vector<double>
-    nodal_areas(const Mesh &mesh, const std::vector<BoundaryFace> &faces)
+    ShareRule
+    rule(const bool is_whole)
     {
-      std::vector<double> areas(mesh.n_nodes(), 0.);
+      return is_whole ? ShareRule::consistent : ShareRule::lumped;
+    }
+
+    /// A mass [kg] at each of the chosen nodes that is never negative in sum: the integral of rho
+    /// N_a over the cells of which all nodes are chosen and, over others, what the lumped mass has.
+    std::vector<double>
+    chosen_masses(const FESpace                   &fe_space,
+                  const Material                  &material,
+                  const std::vector<unsigned int> &nodes)
+    {
+      std::vector<bool> is_chosen(fe_space.n_nodes(), false);
+      for (const unsigned int node : nodes)
+        is_chosen[node] = true;
+      std::vector<double> masses(fe_space.n_nodes(), 0.);
+      for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
+      {
+        const auto cell_nodes = fe_space.nodes(cell);
+        const bool is_whole   = std::all_of(cell_nodes.begin(), cell_nodes.end(),
+                                            [&](const unsigned int n) { return is_chosen[n]; });
+        fe_space.share_out(material.density(cell) * fe_space.cell_volume(cell),
+                           shares_in_cell(fe_space.element(), rule(is_whole)), cell, masses);
+      }
+      return masses;
+    }
+
+    double
+    area(const Mesh &mesh, const BoundaryFace &face)
+    {
+      const auto                &x      = mesh.get_nodes();
+      const dealii::Tensor<1, 3> normal = dealii::cross_product_3d(
+          x[face.nodes[1]] - x[face.nodes[0]], x[face.nodes[2]] - x[face.nodes[0]]);
+      return normal.norm() / 2.;
+    }
+
+    /// Areas at the nodes, such that a constant traction on the faces gives each node its share.
+    /// Of quadratic faces with chosen vertices alone, all is at the middles of the edges; of others
+    /// vertices have what a lumped matrix gives them.
+    std::vector<double>
+    nodal_areas(const Mesh                      &mesh,
+                const FESpace                   &fe_space,
+                const std::vector<BoundaryFace> &faces,
+                const std::vector<unsigned int> &nodes)
+    {
+      std::vector<double> areas(fe_space.n_nodes(), 0.);
+      std::vector<bool>   is_chosen(fe_space.n_nodes(), false);
+      for (const unsigned int node : nodes)
+        is_chosen[node] = true;
       for (const BoundaryFace &face : faces)
       {
-        const auto                &x      = mesh.get_nodes();
-        const dealii::Tensor<1, 3> normal = dealii::cross_product_3d(
-            x[face.nodes[1]] - x[face.nodes[0]], x[face.nodes[2]] - x[face.nodes[0]]);
-        for (const unsigned int node : face.nodes)
-          areas[node] += normal.norm() / 6.;
+        const bool is_whole
+            = is_chosen[face.nodes[0]] && is_chosen[face.nodes[1]] && is_chosen[face.nodes[2]];
+        const NodeShares shares = shares_on_face(fe_space.element(), rule(is_whole));
+        for (unsigned int v = 0; v < 3; ++v)
+        {
+          const unsigned int node = face.nodes[v];
+          areas[node] += shares.of_vertex(area(mesh, face));
+          if (fe_space.element() == Element::P2)
+            areas[fe_space.node_between(node, face.nodes[(v + 1) % 3])]
+                += shares.of_edge(area(mesh, face));
+        }
       }
       return areas;
     }
@@ -82,12 +135,14 @@ namespace Exemplar
     }
     for (const LoadParameters &p : parameters)
     {
-      const std::string         key   = "Loads/" + p.name;
-      const auto                nodes = p.select.nodes(mesh, key, named_nodes);
+      const std::string         key      = "Loads/" + p.name;
+      const auto                vertices = p.select.nodes(mesh, key, named_nodes);
+      const auto                nodes    = fe_space.with_edges(vertices);
       const std::vector<double> weights
-          = p.select.is_boundary()     ? nodal_areas(mesh, p.select.faces(mesh, key))
-            : p.select.is_of_surface() ? nodal_areas(mesh, faces_between(nodes, mesh))
-                                       : masses;
+          = p.select.is_boundary() ? nodal_areas(mesh, fe_space, p.select.faces(mesh, key), nodes)
+            : p.select.is_of_surface()
+                ? nodal_areas(mesh, fe_space, faces_between(vertices, mesh), nodes)
+                : chosen_masses(fe_space, material, nodes);
       const bool          by_area = p.select.is_boundary() || p.select.is_of_surface();
       std::vector<double> shares;
       for (const unsigned int node : nodes)

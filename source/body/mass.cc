@@ -10,8 +10,9 @@ namespace Exemplar
 {
   namespace
   {
+    /// The sums of the rows on the diagonal.
     void
-    lump(dealii::SparseMatrix<double> &mass)
+    sum_rows(dealii::SparseMatrix<double> &mass)
     {
       for (unsigned int row = 0; row < mass.m(); ++row)
       {
@@ -23,6 +24,22 @@ namespace Exemplar
         }
         mass.set(row, row, sum);
       }
+    }
+
+    /// Of quadratic elements the sums are negative at vertices. So the diagonal of each cell's
+    /// matrix is scaled to the cell's mass (Hinton, Rock, Zienkiewicz 1976).
+    void
+    scale_diagonals(const FESpace                &fe_space,
+                    const std::vector<double>    &density,
+                    dealii::SparseMatrix<double> &mass)
+    {
+      const NodeShares    shares = shares_in_cell(fe_space.element(), ShareRule::lumped);
+      std::vector<double> diagonal(fe_space.n_nodes(), 0.);
+      for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
+        fe_space.share_out(density[cell] * fe_space.cell_volume(cell), shares, cell, diagonal);
+      mass = 0.;
+      for (unsigned int node = 0; node < diagonal.size(); ++node)
+        mass.set(node, node, diagonal[node]);
     }
   } // namespace
 
@@ -37,8 +54,10 @@ namespace Exemplar
     if (!std::isfinite(max_row_sum))
       throw UserError("Material/Density: the mass of the body is not a finite number. Look at the "
                       "density, and at the mesh's unit.");
-    if (kind == MassMatrix::lumped)
-      lump(matrix);
+    if (kind == MassMatrix::lumped && fe_space.element() == Element::P1)
+      sum_rows(matrix);
+    else if (kind == MassMatrix::lumped)
+      scale_diagonals(fe_space, density, matrix);
     copy_rows();
   }
 

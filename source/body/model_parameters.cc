@@ -15,6 +15,7 @@ namespace Exemplar
         = { { GradientKind::consistent, "consistent" }, { GradientKind::frozen, "frozen" } };
     const EnumTable<DilatationKind> dilatation_kinds
         = { { DilatationKind::cells, "cells" }, { DilatationKind::patches, "patches" } };
+    const EnumTable<Element> elements = { { Element::P1, "P1" }, { Element::P2, "P2" } };
   } // namespace
 
   void
@@ -38,6 +39,13 @@ namespace Exemplar
         "also "
         "near Poisson's ratio 0.5, at up to 1.6 times the cost of a factorisation (doc/space.md). "
         "For the corotational and linear strains.");
+    keys.add(
+        "Element", element, elements,
+        "P1: linear tetrahedra, the cells of the mesh with their nodes; P2: quadratic "
+        "tetrahedra with straight edges at rest and a further node in the middle of each edge, "
+        "which may bend and are far more accurate on the same mesh, where Poisson's ratio is "
+        "near 1/2 above all. Strains, rotations and example strains are at four points of each "
+        "cell then.");
     keys.leave_subsection();
   }
 

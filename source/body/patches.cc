@@ -201,25 +201,30 @@ namespace Exemplar
   } // namespace
 
   Patches::Patches(const Mesh &mesh, const FESpace &fe_space, const Material &material)
-      : patch_of_cell(Stars(mesh, kinds_of_cells(mesh, material)).take())
+      : patch_of_point(fe_space.n_points())
   {
+    if (fe_space.element() == Element::P1)
+      patch_of_point = Stars(mesh, kinds_of_cells(mesh, material)).take();
+    else
+      for (unsigned int point = 0; point < patch_of_point.size(); ++point)
+        patch_of_point[point] = fe_space.cell_of(point);
     collect(fe_space, material);
   }
 
   void
   Patches::collect(const FESpace &fe_space, const Material &material)
   {
-    const unsigned int n = 1 + *std::max_element(patch_of_cell.begin(), patch_of_cell.end());
-    cells_of_patch.resize(n);
+    const unsigned int n = 1 + *std::max_element(patch_of_point.begin(), patch_of_point.end());
+    points_of_patch.resize(n);
     volumes.assign(n, 0.);
     lambdas.assign(n, 0.);
-    for (unsigned int cell = 0; cell < patch_of_cell.size(); ++cell)
+    for (unsigned int point = 0; point < patch_of_point.size(); ++point)
     {
-      const unsigned int patch  = patch_of_cell[cell];
-      const double       volume = fe_space.tetrahedron(cell).volume;
-      cells_of_patch[patch].push_back(cell);
+      const unsigned int patch  = patch_of_point[point];
+      const double       volume = fe_space.volume(point);
+      points_of_patch[patch].push_back(point);
       volumes[patch] += volume;
-      lambdas[patch] += volume * material.elasticity(cell).lambda;
+      lambdas[patch] += volume * material.elasticity(fe_space.cell_of(point)).lambda;
     }
     for (unsigned int patch = 0; patch < n; ++patch)
       lambdas[patch] /= volumes[patch];
@@ -229,7 +234,7 @@ namespace Exemplar
   Patches::memory_consumption() const
   {
     using dealii::MemoryConsumption::memory_consumption;
-    return memory_consumption(patch_of_cell) + memory_consumption(cells_of_patch)
+    return memory_consumption(patch_of_point) + memory_consumption(points_of_patch)
            + memory_consumption(volumes) + memory_consumption(lambdas);
   }
 } // namespace Exemplar

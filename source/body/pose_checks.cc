@@ -33,15 +33,16 @@ namespace Exemplar
     {
       PoseMeasures pose;
       double       square = 0., volume = 0.;
-      for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
+      for (unsigned int point = 0; point < fe_space.n_points(); ++point)
       {
-        const Matrix3<double> F = fe_space.deformation_gradient(cell, positions);
-        square += fe_space.tetrahedron(cell).volume * contract(F, F) / 3.;
-        volume += fe_space.tetrahedron(cell).volume;
-        const double det    = determinant(F);
-        pose.max_abs_volume = std::max(pose.max_abs_volume, std::abs(det));
-        if (det <= 0.)
-          pose.inverted.push_back(mesh.element_number(cell));
+        const Matrix3<double> F = fe_space.deformation_gradient(point, positions);
+        square += fe_space.volume(point) * contract(F, F) / 3.;
+        volume += fe_space.volume(point);
+        const double det          = determinant(F);
+        pose.max_abs_volume       = std::max(pose.max_abs_volume, std::abs(det));
+        const std::size_t element = mesh.element_number(fe_space.cell_of(point));
+        if (det <= 0. && (pose.inverted.empty() || pose.inverted.back() != element))
+          pose.inverted.push_back(element);
         const Matrix3<double> C = transpose_times(F, F);
         for (int i = 0; i < 3; ++i)
           for (int j = 0; j < 3; ++j)

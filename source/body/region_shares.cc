@@ -41,7 +41,7 @@ namespace Exemplar
       std::fill(values.begin(), values.end(), 0.);
       for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
       {
-        const Tetrahedron<double> &tet = fe_space.tetrahedron(cell);
+        const auto g = fe_space.gradients(cell);
         for (unsigned int a = 0; a < 4; ++a)
           for (unsigned int b = 0; b < 4; ++b)
           {
@@ -49,17 +49,16 @@ namespace Exemplar
             const auto column = static_cast<int>(fe_space.nodes(cell)[b]);
             if (row >= column)
               values[pattern.position(row, column)]
-                  += tet.volume
-                     * (l_square * dot(tet.shape_gradient[a], tet.shape_gradient[b])
-                        + (a == b ? 0.25 : 0.));
+                  += fe_space.volume(cell) * (l_square * dot(g[a], g[b]) + (a == b ? 0.25 : 0.));
           }
       }
     }
   } // namespace
 
-  RegionShares::RegionShares(const FESpace                   &fe_space,
+  RegionShares::RegionShares(const FESpace                   &linear,
                              const std::vector<unsigned int> &material_ids,
-                             const double                     blend_length)
+                             const double                     blend_length,
+                             const unsigned int               points_per_cell)
   {
     const std::set<unsigned int> sorted(material_ids.begin(), material_ids.end());
     ids.assign(sorted.begin(), sorted.end());
@@ -71,10 +70,12 @@ namespace Exemplar
     }
     start.push_back(shares.size());
     if (blend_length > 0. && n_regions() > 1)
-      blend(fe_space, blend_length);
+      blend(linear, blend_length);
+    spread(points_per_cell);
   }
 
-  RegionShares::RegionShares(const std::vector<std::vector<double>> &painted)
+  RegionShares::RegionShares(const std::vector<std::vector<double>> &painted,
+                             const unsigned int                      points_per_cell)
   {
     const std::size_t                n = painted.size();
     std::vector<std::vector<double>> shares_of_cell(painted.front().size());
@@ -113,35 +114,54 @@ namespace Exemplar
         throw UserError("Examples/Weight maps: map " + std::to_string(ids[region])
                         + " is 0 in all cells, so its weights would act nowhere. Paint it, or "
                           "remove it from the list.");
+    spread(points_per_cell);
   }
 
   void
-  RegionShares::blend(const FESpace &fe_space, const double length)
+  RegionShares::spread(const unsigned int points_per_cell)
   {
-    const SymmetricPattern pattern = lower_pattern(fe_space.nodal_pattern());
+    if (points_per_cell == 1)
+      return;
+    const std::vector<RegionShare> of_cells = std::move(shares);
+    const std::vector<std::size_t> of_cell  = std::move(start);
+    shares.clear();
+    start = { 0 };
+    for (std::size_t cell = 0; cell + 1 < of_cell.size(); ++cell)
+      for (unsigned int point = 0; point < points_per_cell; ++point)
+      {
+        shares.insert(shares.end(), of_cells.begin() + static_cast<std::ptrdiff_t>(of_cell[cell]),
+                      of_cells.begin() + static_cast<std::ptrdiff_t>(of_cell[cell + 1]));
+        start.push_back(shares.size());
+      }
+  }
+
+  void
+  RegionShares::blend(const FESpace &linear, const double length)
+  {
+    const SymmetricPattern pattern = lower_pattern(linear.nodal_pattern());
     const auto             filter  = make_cholesky_operator();
     filter->reinit(pattern);
-    assemble_filter(fe_space, length * length / 12., *filter, pattern);
-    filter->factorize(fe_space.rest_positions());
+    assemble_filter(linear, length * length / 12., *filter, pattern);
+    filter->factorize(linear.rest_positions());
 
-    const std::size_t   n = fe_space.n_nodes();
+    const std::size_t   n = linear.n_nodes();
     std::vector<double> columns(n * n_regions());
-    for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
-      for (const unsigned int node : fe_space.nodes(cell))
-        columns[shares[cell].region * n + node] += 0.25 * fe_space.tetrahedron(cell).volume;
+    for (unsigned int cell = 0; cell < linear.n_cells(); ++cell)
+      for (const unsigned int node : linear.nodes(cell))
+        columns[shares[cell].region * n + node] += 0.25 * linear.volume(cell);
     filter->solve(columns);
 
     const std::vector<RegionShare> own_shares = std::move(shares);
     shares.clear();
     start.clear();
-    for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
+    for (unsigned int cell = 0; cell < linear.n_cells(); ++cell)
     {
       const unsigned int  own = own_shares[cell].region;
       std::vector<double> value(n_regions());
       double              sum = 0.;
       for (unsigned int region = 0; region < n_regions(); ++region)
       {
-        for (const unsigned int node : fe_space.nodes(cell))
+        for (const unsigned int node : linear.nodes(cell))
           value[region] += 0.25 * columns[region * n + node];
         // obtuse cells can push a share a little below zero; far regions do not matter
         if (region != own && value[region] < negligible_share)

@@ -63,17 +63,20 @@ namespace Exemplar
   } // namespace
 
   unsigned int
-  n_free_rigid_motions(const Mesh &mesh, const std::vector<unsigned int> &held_dofs)
+  n_free_rigid_motions(const Mesh                      &mesh,
+                       const dealii::Vector<double>    &rest_positions,
+                       const std::vector<unsigned int> &held_dofs)
   {
     // rows: the six rigid motions at a held degree of freedom, lengths in diameters
-    const dealii::Point<3>     center   = centroid(mesh.get_nodes());
-    const double               diameter = mesh.diameter();
-    dealii::FullMatrix<double> motions(held_dofs.size(), 6);
+    const std::vector<dealii::Point<3>> nodes    = nodes_of(rest_positions);
+    const dealii::Point<3>              center   = centroid(mesh.get_nodes());
+    const double                        diameter = mesh.diameter();
+    dealii::FullMatrix<double>          motions(held_dofs.size(), 6);
     for (unsigned int row = 0; row < held_dofs.size(); ++row)
     {
       const unsigned int         node = held_dofs[row] / 3, c = held_dofs[row] % 3;
       const unsigned int         d = (c + 1) % 3, e = (c + 2) % 3;
-      const dealii::Tensor<1, 3> r = (mesh.get_nodes()[node] - center) / diameter;
+      const dealii::Tensor<1, 3> r = (nodes[node] - center) / diameter;
       motions(row, c)              = 1.;
       motions(row, 3 + d)          = r[e]; // (omega x r)_c = omega_d r_e - omega_e r_d
       motions(row, 3 + e)          = -r[d];

@@ -4,42 +4,41 @@
 
 namespace Exemplar
 {
-  CellKernels
-  cell_kernels_scalar();
-  CellKernels
-  cell_kernels_baseline();
+  namespace
+  {
+    template <Element element>
+    std::vector<const CellKernels *>
+    all_kernels_of()
+    {
+      static const CellKernels         scalar   = cell_kernels_scalar<element>();
+      static const CellKernels         baseline = cell_kernels_baseline<element>();
+      std::vector<const CellKernels *> all      = { &scalar, &baseline };
 #ifdef __x86_64__
-  CellKernels
-  cell_kernels_avx2();
-  CellKernels
-  cell_kernels_avx512();
+      // even the function that names the loops is compiled with the instructions of its set
+      if (best_instruction_set() >= InstructionSet::avx2)
+      {
+        static const CellKernels avx2 = cell_kernels_avx2<element>();
+        all.push_back(&avx2);
+      }
+      if (best_instruction_set() >= InstructionSet::avx512)
+      {
+        static const CellKernels avx512 = cell_kernels_avx512<element>();
+        all.push_back(&avx512);
+      }
 #endif
+      return all;
+    }
+  } // namespace
 
   std::vector<const CellKernels *>
-  all_kernels()
+  all_kernels(const Element element)
   {
-    static const CellKernels         scalar   = cell_kernels_scalar();
-    static const CellKernels         baseline = cell_kernels_baseline();
-    std::vector<const CellKernels *> all      = { &scalar, &baseline };
-#ifdef __x86_64__
-    // even the function that names the loops is compiled with the instructions of its set
-    if (best_instruction_set() >= InstructionSet::avx2)
-    {
-      static const CellKernels avx2 = cell_kernels_avx2();
-      all.push_back(&avx2);
-    }
-    if (best_instruction_set() >= InstructionSet::avx512)
-    {
-      static const CellKernels avx512 = cell_kernels_avx512();
-      all.push_back(&avx512);
-    }
-#endif
-    return all;
+    return element == Element::P1 ? all_kernels_of<Element::P1>() : all_kernels_of<Element::P2>();
   }
 
   const CellKernels &
-  best_kernels()
+  best_kernels(const Element element)
   {
-    return *all_kernels().back();
+    return *all_kernels(element).back();
   }
 } // namespace Exemplar

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The loops over the cells for CPUs with AVX2.
+// The loops over linear cells for CPUs with AVX2.
 #include <exemplar/kernels/cell_kernels_loops.h>
 
 #include <xsimd/xsimd.hpp>
 
 namespace Exemplar
 {
+  template <>
   CellKernels
-  cell_kernels_avx2()
+  cell_kernels_avx2<Element::P1>()
   {
-    return Loops::make_kernels<xsimd::batch<double, xsimd::fma3<xsimd::avx2>>>("avx2");
+    return Loops::make_kernels<xsimd::batch<double, xsimd::fma3<xsimd::avx2>>, Element::P1>("avx2");
   }
 } // namespace Exemplar

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The loops over the cells for the instruction set that every CPU of the kind has, one by one
+// The loops over linear cells for the instruction set that every CPU of the kind has, one by one
 // and as many at once as its registers hold.
 #include <exemplar/kernels/cell_kernels_loops.h>
 
@@ -7,15 +7,17 @@
 
 namespace Exemplar
 {
+  template <>
   CellKernels
-  cell_kernels_scalar()
+  cell_kernels_scalar<Element::P1>()
   {
-    return Loops::make_kernels<double>("scalar");
+    return Loops::make_kernels<double, Element::P1>("scalar");
   }
 
+  template <>
   CellKernels
-  cell_kernels_baseline()
+  cell_kernels_baseline<Element::P1>()
   {
-    return Loops::make_kernels<xsimd::batch<double, xsimd::default_arch>>("baseline");
+    return Loops::make_kernels<xsimd::batch<double, xsimd::default_arch>, Element::P1>("baseline");
   }
 } // namespace Exemplar

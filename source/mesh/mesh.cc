@@ -159,6 +159,8 @@ namespace Exemplar
     for (auto &node : contents.nodes)
       node *= scale;
     check_places(contents.nodes, contents, name);
+    if (!contents.note.empty())
+      warnings.push_back(contents.note);
 
     Tetrahedra tetrahedra = extract_tetrahedra(contents, name);
     const auto swapped    = orient_tetrahedra(contents, name, tetrahedra);

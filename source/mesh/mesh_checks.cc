@@ -147,7 +147,10 @@ namespace Exemplar
       for (unsigned int d = 0; d < 3; ++d)
         if (!(std::abs(nodes[node][d]) < largest_place))
           throw UserError(
-              name + ": node " + std::to_string(contents.node_numbers[node])
+              name + ": "
+              + (node < contents.node_numbers.size()
+                     ? "node " + std::to_string(contents.node_numbers[node])
+                     : "a node in the middle of an edge")
               + " lies at a coordinate that is no finite number, or larger than 1e50 m. "
                 "Look at the file, and at Mesh/Scale.");
   }

@@ -2,6 +2,7 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/mesh/mesh_generation.h>
 #include <exemplar/mesh/mesh_inputs.h>
+#include <exemplar/mesh/quadratic_msh.h>
 
 #include <numeric>
 
@@ -45,8 +46,12 @@ namespace Exemplar
                       + (has_file ? "both File and Generator are given" : "no mesh is given")
                       + ". Set Mesh/File to a .msh or .geo file or to a surface, or set "
                         "Mesh/Generator = box; exactly one of them.");
-    return has_box ? generate_box(parameters.box_size, parameters.box_cells)
-                   : read_msh(msh_of(parameters));
+    if (has_box)
+      return generate_box(parameters.box_size, parameters.box_cells);
+    MshFile msh = read_msh(msh_of(parameters));
+    if (has_quadratic_tetrahedra(msh))
+      take_corners(msh, parameters.name());
+    return msh;
   }
 
   MshFile

@@ -2,6 +2,8 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/mesh/mesh.h>
 #include <exemplar/mesh/mesh_checks.h>
+#include <exemplar/mesh/mesh_edges.h>
+#include <exemplar/mesh/quadratic_msh.h>
 
 namespace Exemplar
 {
@@ -68,6 +70,8 @@ namespace Exemplar
   {
     MshFile           pose   = read_msh(file);
     const std::string prefix = file.string() + " is no pose of " + mesh_name + ": ";
+    if (has_quadratic_tetrahedra(pose))
+      return quadratic_pose(pose, mesh, prefix);
     compare_node_numbers(mesh, pose, prefix);
     compare_tetrahedra(mesh, pose, prefix);
     return std::move(pose.nodes);
@@ -95,8 +99,9 @@ namespace Exemplar
     if (found == poses.end())
       throw UserError(key + ": there is no pose '" + pose
                       + "' among the inputs. Hand it in by this name, or read it from a file.");
-    if (found->second.size() != n_nodes())
-      throw UserError(key + ": the pose '" + pose + "' has " + std::to_string(found->second.size())
+    const std::size_t n = found->second.size();
+    if (n != n_nodes() && n != n_nodes() + edges_of(cells).size())
+      throw UserError(key + ": the pose '" + pose + "' has " + std::to_string(n)
                       + " nodes, the mesh " + std::to_string(n_nodes())
                       + ". Hand in a place for each node.");
     return scaled(found->second);
@@ -106,10 +111,17 @@ namespace Exemplar
   Mesh::write_pose(const std::vector<dealii::Point<3>> &positions,
                    const std::filesystem::path         &file) const
   {
-    AssertDimension(positions.size(), contents.nodes.size());
+    std::vector<dealii::Point<3>> places = positions;
+    for (dealii::Point<3> &place : places)
+      place /= scale;
+    if (places.size() > contents.nodes.size())
+    {
+      write_msh(with_middles(contents, edges_of(cells), places), file);
+      return;
+    }
+    AssertDimension(places.size(), contents.nodes.size());
     MshFile pose = contents;
-    for (std::size_t i = 0; i < positions.size(); ++i)
-      pose.nodes[i] = positions[i] / scale;
+    pose.nodes   = std::move(places);
     write_msh(pose, file);
   }
 } // namespace Exemplar

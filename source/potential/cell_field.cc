@@ -8,7 +8,7 @@ namespace Exemplar
                        const FESpace      &fe_space,
                        const Material     &material,
                        const bool          has_patches)
-      : strain(strain), guard_bound(guard_bound), kernels(best_kernels()),
+      : strain(strain), guard_bound(guard_bound), kernels(best_kernels(fe_space.element())),
         batches(fe_space, material, has_patches), node_positions(4 * fe_space.n_nodes())
   {
   }

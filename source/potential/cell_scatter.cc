@@ -66,58 +66,65 @@ namespace Exemplar
     return pattern;
   }
 
-  CellScatter::CellScatter(const CellField        &cells,
-                           const unsigned int      n_cells,
+  CellScatter::CellScatter(const FESpace          &fe_space,
                            const SymmetricPattern &pattern,
                            const FreeDofs         &free_dofs)
-      : pattern(pattern), free_dofs(free_dofs),
-        block_positions(n_block_columns * n_cells, FreeDofs::held)
+      : fe_space(fe_space), pattern(pattern), free_dofs(free_dofs),
+        block_positions(n_block_columns(nodes_per_cell(fe_space.element())) * fe_space.n_cells(),
+                        FreeDofs::held)
   {
-    for (unsigned int cell = 0; cell < n_cells; ++cell)
+    for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
     {
-      int n_held[4];
-      for (unsigned int a = 0; a < 4; ++a)
-        n_held[a] = n_held_components(free_dofs, cells.node(cell, a));
-      if (std::any_of(n_held, n_held + 4, [](const int n) { return n > 0; }))
+      std::vector<int> n_held;
+      for (const unsigned int node : nodes(cell))
+        n_held.push_back(n_held_components(free_dofs, node));
+      if (std::any_of(n_held.begin(), n_held.end(), [](const int n) { return n > 0; }))
         beside_held.push_back(cell);
-      if (std::any_of(n_held, n_held + 4, [](const int n) { return n == 1 || n == 2; }))
+      if (std::any_of(n_held.begin(), n_held.end(), [](const int n) { return n == 1 || n == 2; }))
         mixed.push_back(cell);
       else
-        find_positions(cells, cell, n_held);
+        find_positions(cell, n_held);
     }
   }
 
-  void
-  CellScatter::find_positions(const CellField   &cells,
-                              const unsigned int cell,
-                              const int (&n_held)[4])
+  std::vector<unsigned int>
+  CellScatter::nodes(const unsigned int cell) const
   {
-    int *position = &block_positions[n_block_columns * cell];
-    for (unsigned int a = 0; a < 4; ++a)
+    const auto                of_cell = fe_space.nodes(cell);
+    std::vector<unsigned int> ascending(of_cell.begin(), of_cell.end());
+    std::sort(ascending.begin(), ascending.end());
+    return ascending;
+  }
+
+  void
+  CellScatter::find_positions(const unsigned int cell, const std::vector<int> &n_held)
+  {
+    const std::vector<unsigned int> node = nodes(cell);
+    int *position                        = &block_positions[n_block_columns(node.size()) * cell];
+    for (unsigned int a = 0; a < node.size(); ++a)
       for (unsigned int b = 0; b <= a; ++b)
         for (unsigned int j = 0; j < 3; ++j, ++position)
           if (n_held[a] == 0 && n_held[b] == 0)
           {
-            const int column = free_dofs.free_index(3 * cells.node(cell, b) + j);
-            *position
-                = a == b ? pattern.position(column, column) - static_cast<int>(j)
-                         : pattern.position(free_dofs.free_index(3 * cells.node(cell, a)), column);
+            const int column = free_dofs.free_index(3 * node[b] + j);
+            *position        = a == b ? pattern.position(column, column) - static_cast<int>(j)
+                                      : pattern.position(free_dofs.free_index(3 * node[a]), column);
           }
   }
 
   void
-  CellScatter::add_blocks(const CellField     &cells,
-                          const unsigned int   cell,
+  CellScatter::add_blocks(const unsigned int   cell,
                           const double        *blocks,
                           std::vector<double> &values) const
   {
-    for (unsigned int a = 0; a < 4; ++a)
+    const std::vector<unsigned int> node = nodes(cell);
+    for (unsigned int a = 0; a < node.size(); ++a)
       for (unsigned int b = 0; b <= a; ++b)
         for (unsigned int j = 0; j < 3; ++j)
           for (unsigned int i = 0; i < 3; ++i, ++blocks)
           {
-            const int row    = free_dofs.free_index(3 * cells.node(cell, a) + i);
-            const int column = free_dofs.free_index(3 * cells.node(cell, b) + j);
+            const int row    = free_dofs.free_index(3 * node[a] + i);
+            const int column = free_dofs.free_index(3 * node[b] + j);
             if (row != FreeDofs::held && column != FreeDofs::held && row >= column)
               values[pattern.position(row, column)] += *blocks;
           }

@@ -16,9 +16,9 @@ namespace Exemplar
     /// Cells are summed in stripes, each by one thread. How many there are depends on the mesh
     /// alone, so that the sums do not depend on the number of threads.
     std::size_t
-    choose_n_stripes(const std::size_t n_cells)
+    choose_n_stripes(const std::size_t n_points)
     {
-      return std::clamp<std::size_t>(n_cells / 50000, 2, 16);
+      return std::clamp<std::size_t>(n_points / 50000, 2, 16);
     }
 
     /// What the cells of a stripe sum up.
@@ -45,7 +45,7 @@ namespace Exemplar
       if (parts.patches == nullptr)
         return nullptr;
       return std::make_unique<PatchDilatation>(*parts.patches, parts.examples, parts.fe_space,
-                                               pattern, parts.free_dofs);
+                                               parts.material, pattern, parts.free_dofs);
     }
 
     std::vector<double>
@@ -66,17 +66,18 @@ namespace Exemplar
           = 2. * std::numeric_limits<double>::epsilon() * fe_space.rest_positions().linfty_norm();
       CellRounding rounding;
       Vector       force(fe_space.n_nodes());
-      for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
+      for (unsigned int point = 0; point < fe_space.n_points(); ++point)
       {
-        const Tetrahedron<double> &tet      = fe_space.tetrahedron(cell);
-        double                     norms[4] = {};
-        for (unsigned int a = 0; a < 4; ++a)
-          norms[a] = std::sqrt(dot(tet.shape_gradient[a], tet.shape_gradient[a]));
-        const double strain = of_positions * *std::max_element(norms, norms + 4);
+        const unsigned int  cell  = fe_space.cell_of(point);
+        const auto          nodes = fe_space.nodes(cell);
+        std::vector<double> norms;
+        for (const Vector3<double> &g : fe_space.gradients(point))
+          norms.push_back(std::sqrt(dot(g, g)));
+        const double strain = of_positions * *std::max_element(norms.begin(), norms.end());
         const double stress = strain * parts.material.elasticity(cell).norm_estimate();
-        rounding.stress_norm += tet.volume * stress * stress;
-        for (unsigned int a = 0; a < 4; ++a)
-          force[fe_space.nodes(cell)[a]] += std::pow(tet.volume * stress * norms[a], 2);
+        rounding.stress_norm += fe_space.volume(point) * stress * stress;
+        for (unsigned int a = 0; a < nodes.size(); ++a)
+          force[nodes[a]] += std::pow(fe_space.volume(point) * stress * norms[a], 2);
       }
       rounding.force
           = std::sqrt(max_entry(force.begin(), force.end())); // cells round independently
@@ -94,9 +95,9 @@ namespace Exemplar
               parts.fe_space,
               parts.material,
               parts.patches != nullptr),
-        scatter(cells, parts.fe_space.n_cells(), pattern, parts.free_dofs),
+        scatter(parts.fe_space, pattern, parts.free_dofs),
         dilatation(make_dilatation(parts, pattern)),
-        n_stripes(choose_n_stripes(parts.fe_space.n_cells())),
+        n_stripes(choose_n_stripes(parts.fe_space.n_points())),
         nodal_sums(4 * n_stripes * parts.fe_space.n_nodes()), rounding(estimate_rounding(parts))
   {
   }
@@ -142,16 +143,16 @@ namespace Exemplar
   {
     const CellTask cell_task = task(positions, weights, RotationUse::keep);
     cells.loops().dilatations(cell_task, 0, cell_task.cells.n_batches());
-    dilatation->set_pressures(weights);
+    dilatation->update(cells, positions, weights);
   }
 
   Matrix3<double>
-  ElasticPotential::example_strain(const unsigned int         cell,
+  ElasticPotential::example_strain(const unsigned int         point,
                                    const std::vector<double> &weights) const
   {
     if (parts.examples == nullptr)
       return Matrix3<double>{};
-    const Matrix3<double> E = parts.examples->strain(cell, weights);
+    const Matrix3<double> E = parts.examples->strain(point, weights);
     return combine(parts.examples->importance(), E, 0., E);
   }
 
@@ -211,10 +212,10 @@ namespace Exemplar
   void
   ElasticPotential::for_each_stripe(const Function &function) const
   {
-    const std::size_t n_batches = (parts.fe_space.n_cells() + batch_size - 1) / batch_size;
+    const std::size_t n_batches = (parts.fe_space.n_points() + batch_size - 1) / batch_size;
     const OpenMPScope scope(OpenMPScope::Threads::several);
     // to start a thread costs as much as a thousand cells
-    const int n_at_once = parts.fe_space.n_cells() < 4000 ? 1 : static_cast<int>(parts.n_threads);
+    const int n_at_once = parts.fe_space.n_points() < 4000 ? 1 : static_cast<int>(parts.n_threads);
 #pragma omp parallel for num_threads(n_at_once)
     for (std::size_t stripe = 0; stripe < n_stripes; ++stripe)
       function(stripe, stripe * n_batches / n_stripes, (stripe + 1) * n_batches / n_stripes);
@@ -252,8 +253,10 @@ namespace Exemplar
     result.weight_gradient = sum_of_lanes(weight_sums);
     result.weight_scale    = 0.;
     if (dilatation != nullptr)
-      sums.stress_square += add_dilatation(cell_task, weights, result);
+      sums.stress_square += add_dilatation(cell_task, positions, weights, result);
     gather_forces(result);
+    if (dilatation != nullptr)
+      dilatation->stretch_guard().add_forces(cells, result.gradient);
     if (!has_unknown_weights())
       return;
     add_penalty(weights, std::sqrt(sums.stress_square), result);
@@ -263,10 +266,11 @@ namespace Exemplar
 
   double
   ElasticPotential::add_dilatation(const CellTask            &cell_task,
+                                   const Vector              &positions,
                                    const std::vector<double> &weights,
                                    ElasticEvaluation         &result)
   {
-    dilatation->set_pressures(weights);
+    dilatation->update(cells, positions, weights);
     for_each_stripe(
         [&](const std::size_t stripe, const std::size_t begin, const std::size_t end)
         {
@@ -295,29 +299,34 @@ namespace Exemplar
     cells.refresh_rotations();
     if (dilatation != nullptr)
       update_pressures(positions, weights);
-    const unsigned int n = parts.fe_space.n_cells();
+    const unsigned int n        = parts.fe_space.n_cells();
+    const unsigned int n_points = parts.fe_space.n_points();
     CellResults results{ std::vector<double>(n), std::vector<double>(n), std::vector<double>(n) };
-    for (unsigned int cell = 0; cell < n; ++cell)
+    for (unsigned int point = 0; point < n_points; ++point)
     {
-      const CellMaterial<double> lame   = own_material(cell);
-      const Matrix3<double>      F      = parts.fe_space.deformation_gradient(cell, positions);
-      const Matrix3<double>      R      = cells.rotation(cell);
+      const unsigned int         cell   = parts.fe_space.cell_of(point);
+      const CellMaterial<double> lame   = elasticity(point);
+      const Matrix3<double>      F      = parts.fe_space.deformation_gradient(point, positions);
+      const Matrix3<double>      R      = cells.rotation(point);
       const Matrix3<double>      strain = model_strain(parts.model.strain, R, F);
       Matrix3<double>            T      = stress(lame, strain);
 
-      results.strain_energy_density[cell]
+      const double energy
           = 0.5 * contract(T, strain)
-            + model_stretch_energy(parts.model.strain, parts.material.elasticity(cell), R, F,
-                                   cells.get_guard_bound());
-      if (dilatation != nullptr)
-        results.strain_energy_density[cell] += dilatation->elastic_density(cell);
-      results.det_F[cell] = determinant(F);
+            + model_stretch_energy(parts.model.strain, lame, R, F, cells.get_guard_bound())
+            + (dilatation == nullptr ? 0. : dilatation->elastic_density(point));
       if (parts.examples != nullptr)
-        T = stress(lame, combine(1., strain, -1., example_strain(cell, weights)));
+        T = stress(lame, combine(1., strain, -1., example_strain(point, weights)));
       const double third = trace(T) / 3.;
       for (int i = 0; i < 3; ++i)
         T[i][i] -= third;
-      results.von_mises_stress[cell] = std::sqrt(1.5 * contract(T, T));
+      const double von_mises = std::sqrt(1.5 * contract(T, T));
+      const double det       = determinant(F);
+      const double part      = parts.fe_space.volume(point) / parts.fe_space.cell_volume(cell);
+      results.strain_energy_density[cell] += part * energy;
+      results.von_mises_stress[cell] += part * von_mises;
+      const bool is_first = point == 0 || parts.fe_space.cell_of(point - 1) != cell;
+      results.det_F[cell] = is_first ? det : min_or_nan(results.det_F[cell], det);
     }
     return results;
   }

@@ -16,47 +16,51 @@ namespace Exemplar
                                     std::vector<double> &values)
   {
     // rows of a block are not consecutive there: the kernel writes whole blocks apart
-    constexpr std::size_t n = n_block_columns;
+    const Element     element = parts.fe_space.element();
+    const std::size_t n       = n_block_columns(nodes_per_cell(element));
+    const std::size_t n_cells = batch_size / points_per_cell(element); // in a batch
     for (const unsigned int cell : scatter.mixed_cells())
     {
-      const std::size_t batch = cell / batch_size, lane = cell % batch_size;
-      std::vector<int>  apart(n * batch_size, FreeDofs::held);
-      double            blocks[3 * n + SymmetricPattern::padding] = {};
+      const std::size_t   batch = cell / n_cells;
+      std::vector<int>    apart(n * n_cells, FreeDofs::held);
+      std::vector<double> blocks(3 * n + SymmetricPattern::padding, 0.);
       for (std::size_t column = 0; column < n; ++column)
-        apart[n * lane + column] = static_cast<int>(3 * column);
+        apart[n * (cell % n_cells) + column] = static_cast<int>(3 * column);
       tangent.positions = apart.data();
-      tangent.values    = blocks;
+      tangent.values    = blocks.data();
       (rotated ? cells.loops().add_rotated_stiffness : cells.loops().add_tangent)(task, tangent,
                                                                                   batch, batch + 1);
-      scatter.add_blocks(cells, cell, blocks, values);
+      scatter.add_blocks(cell, blocks.data(), values);
     }
   }
 
+  template <Element element>
   void
   ElasticPotential::assemble_coupling(const CellTask      &task,
                                       const TangentTask   &tangent,
                                       const bool           rotated,
                                       std::vector<double> &columns) const
   {
-    const ExamplePoses &examples = *parts.examples;
-    const std::size_t   n = parts.free_dofs.size(), n_strained = task.examples.n;
+    constexpr std::size_t n_rows   = 3 * nodes_per_cell(element);
+    const ExamplePoses   &examples = *parts.examples;
+    const std::size_t     n = parts.free_dofs.size(), n_strained = task.examples.n;
     columns.assign(n * examples.n_strained_weights(), 0.);
-    dealii::AlignedVector<double> forces(12 * batch_size * n_strained);
-    for (unsigned int cell = 0; cell < parts.fe_space.n_cells(); ++cell)
+    dealii::AlignedVector<double> forces(n_rows * batch_size * n_strained);
+    int                           dof[n_rows];
+    for (unsigned int point = 0; point < parts.fe_space.n_points(); ++point)
     {
-      const std::size_t lane = cell % batch_size;
+      const std::size_t lane = point % batch_size;
       if (lane == 0)
-        cells.loops().coupling(task, tangent, rotated, cell / batch_size, forces.data());
-      int dof[12];
-      for (unsigned int p = 0; p < 12; ++p)
-        dof[p] = parts.free_dofs.free_index(3 * cells.node(cell, p / 3) + p % 3);
+        cells.loops().coupling(task, tangent, rotated, point / batch_size, forces.data());
+      for (unsigned int p = 0; p < n_rows && point % points_per_cell(element) == 0; ++p)
+        dof[p] = parts.free_dofs.free_index(3 * cells.node(point, p / 3) + p % 3);
       examples.for_each_weight(
-          cell,
+          point,
           [&](const unsigned int weight, const unsigned int i, const double share)
           {
             double       *column = columns.data() + n * examples.strained_index(weight);
-            const double *force  = &forces[12 * batch_size * (i - task.examples.first) + lane];
-            for (unsigned int p = 0; p < 12; ++p)
+            const double *force  = &forces[n_rows * batch_size * (i - task.examples.first) + lane];
+            for (unsigned int p = 0; p < n_rows; ++p)
               if (dof[p] != FreeDofs::held)
                 column[dof[p]] += share * force[p * batch_size];
           });
@@ -67,44 +71,40 @@ namespace Exemplar
   ElasticPotential::add_rotated_responses(const Vector      &displacement,
                                           ElasticEvaluation &result) const
   {
-    for (const unsigned int cell : scatter.cells_beside_held_nodes())
-    {
-      const Matrix3<double> dF = parts.fe_space.deformation_gradient(cell, displacement);
-      const Matrix3<double> de = symmetric_part(transpose_times(cells.rotation(cell), dF));
-      add_force(cell, stress(damping.damped(cell, own_material(cell)), de), result.gradient);
-      if (!result.weight_gradient.empty())
-      {
-        const Matrix3<double> dT = stress(own_material(cell), de);
-        const double          factor
-            = parts.examples->importance() * parts.fe_space.tetrahedron(cell).volume;
-        parts.examples->for_each_weight(
-            cell,
-            [&](const unsigned int weight, const unsigned int i, const double share)
-            {
-              result.weight_gradient[weight]
-                  -= share * factor * contract(dT, parts.examples->strain(cell, i));
-            });
-      }
-    }
+    for_points_beside_held_nodes(
+        [&](const unsigned int point)
+        {
+          const Matrix3<double> dF = parts.fe_space.deformation_gradient(point, displacement);
+          const Matrix3<double> de = symmetric_part(transpose_times(cells.rotation(point), dF));
+          add_force(point, stress(damping.damped(point, elasticity(point)), de), result.gradient);
+          if (result.weight_gradient.empty())
+            return;
+          const Matrix3<double> dT = stress(elasticity(point), de);
+          const double factor      = parts.examples->importance() * parts.fe_space.volume(point);
+          parts.examples->for_each_weight(
+              point,
+              [&](const unsigned int weight, const unsigned int i, const double share)
+              {
+                result.weight_gradient[weight]
+                    -= share * factor * contract(dT, parts.examples->strain(point, i));
+              });
+        });
   }
 
   template <typename Cell>
   Cell
   ElasticPotential::cell_state(const Tangent              tangent,
-                               const unsigned int         cell,
+                               const unsigned int         point,
                                const Vector              &positions,
                                const std::vector<double> &weights) const
   {
-    Cell state(own_material(cell), cells.rotation(cell),
-               parts.fe_space.deformation_gradient(cell, positions), cells.get_guard_bound());
-    state.scale_material(1. + damping.factor(cell));
-    state.set_target(damping.damped(cell, example_strain(cell, weights)));
+    Cell state(elasticity(point), cells.rotation(point),
+               parts.fe_space.deformation_gradient(point, positions), cells.get_guard_bound());
+    state.scale_material(1. + damping.factor(point));
+    state.set_target(damping.damped(point, example_strain(point, weights)));
     if constexpr (Cell::traits.has_patches)
       if (dilatation != nullptr)
-      {
-        state.set_guard_material(parts.material.elasticity(cell));
-        state.add_pressure(dilatation->pressure(cell));
-      }
+        dilatation->complete(point, state);
     if constexpr (!Cell::traits.convex_is_rotated)
       if (tangent == Tangent::convex)
         state.make_convex();
@@ -133,14 +133,16 @@ namespace Exemplar
     if (tangent == Tangent::convex && has_guard)
       add_stretch_stiffness(parts.fe_space, parts.material, cells, scatter, dilatation.get(),
                             positions, matrix_values);
-    if (has_unknown_weights())
-      assemble_coupling(cell_task, to, rotated, columns);
     if (dilatation != nullptr)
-    {
-      dilatation->add_tangent(cells, tangent == Tangent::convex, matrix_values);
-      if (has_unknown_weights())
-        dilatation->add_coupling(cells, columns);
-    }
+      dilatation->add_tangent(cells, tangent, matrix_values);
+    if (!has_unknown_weights())
+      return;
+    if (parts.fe_space.element() == Element::P1)
+      assemble_coupling<Element::P1>(cell_task, to, rotated, columns);
+    else
+      assemble_coupling<Element::P2>(cell_task, to, rotated, columns);
+    if (dilatation != nullptr)
+      dilatation->add_coupling(cells, columns);
   }
 
   template <typename Cell>
@@ -151,25 +153,26 @@ namespace Exemplar
                                        const std::vector<double> &weights,
                                        ElasticEvaluation         &result) const
   {
-    for (const unsigned int cell : scatter.cells_beside_held_nodes())
-    {
-      const Cell            state = cell_state<Cell>(tangent, cell, positions, weights);
-      const Matrix3<double> M     = transpose_times(
-              cells.rotation(cell), parts.fe_space.deformation_gradient(cell, displacement));
-      add_force(cell, state.response(M), result.gradient);
-      if (result.weight_gradient.empty())
-        continue;
-      const double factor = parts.examples->importance() / (1. + damping.factor(cell))
-                            * parts.fe_space.tetrahedron(cell).volume;
-      parts.examples->for_each_weight(
-          cell,
-          [&](const unsigned int weight, const unsigned int i, const double share)
-          {
-            result.weight_gradient[weight]
-                -= share * factor
-                   * contract(state.example_response(parts.examples->strain(cell, i)), M);
-          });
-    }
+    for_points_beside_held_nodes(
+        [&](const unsigned int point)
+        {
+          const Cell            state = cell_state<Cell>(tangent, point, positions, weights);
+          const Matrix3<double> M     = transpose_times(
+                  cells.rotation(point), parts.fe_space.deformation_gradient(point, displacement));
+          add_force(point, state.response(M), result.gradient);
+          if (result.weight_gradient.empty())
+            return;
+          const double factor = parts.examples->importance() / (1. + damping.factor(point))
+                                * parts.fe_space.volume(point);
+          parts.examples->for_each_weight(
+              point,
+              [&](const unsigned int weight, const unsigned int i, const double share)
+              {
+                result.weight_gradient[weight]
+                    -= share * factor
+                       * contract(state.example_response(parts.examples->strain(point, i)), M);
+              });
+        });
   }
 
   void
@@ -183,7 +186,7 @@ namespace Exemplar
     if (dilatation != nullptr)
     {
       update_pressures(positions, weights);
-      dilatation->add_response(cells, displacement, result);
+      dilatation->add_response(cells, tangent, displacement, result);
     }
     if (is_rotated_stiffness(tangent))
     {
@@ -201,14 +204,18 @@ namespace Exemplar
   }
 
   void
-  ElasticPotential::add_force(const unsigned int     cell,
+  ElasticPotential::add_force(const unsigned int     point,
                               const Matrix3<double> &dP,
                               Vector                &gradient) const
   {
-    Vector3<double> force[4];
-    frozen_forces(parts.fe_space.tetrahedron(cell), cells.rotation(cell), dP, force);
-    for (unsigned int a = 0; a < 4; ++a)
+    const Matrix3<double> P     = cells.rotation(point) * dP;
+    const auto            nodes = parts.fe_space.nodes(parts.fe_space.cell_of(point));
+    const auto            g     = parts.fe_space.gradients(point);
+    for (unsigned int a = 0; a < nodes.size(); ++a)
+    {
+      const Vector3<double> force = P * g[a];
       for (unsigned int c = 0; c < 3; ++c)
-        gradient[3 * parts.fe_space.nodes(cell)[a] + c] += force[a][c];
+        gradient[3 * nodes[a] + c] += force[c] * parts.fe_space.volume(point);
+    }
   }
 } // namespace Exemplar

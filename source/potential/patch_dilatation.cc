@@ -10,21 +10,23 @@ namespace Exemplar
   PatchDilatation::PatchDilatation(const Patches          &patches,
                                    const ExamplePoses     *examples,
                                    const FESpace          &fe_space,
+                                   const Material         &material,
                                    const SymmetricPattern &pattern,
                                    const FreeDofs         &free_dofs)
       : patches(patches), examples(examples), free_dofs(free_dofs),
-        scatter(patches, fe_space, pattern, free_dofs), fractions(fe_space.n_cells()),
-        means(patches.size(), 0.), traces(batched_size(fe_space.n_cells(), 1)),
-        pressures(traces.size()), scales(traces.size())
+        scatter(patches, fe_space, pattern, free_dofs), guard(patches, fe_space, material),
+        fractions(fe_space.n_points()), means(patches.size(), 0.),
+        traces(batched_size(fractions.size(), 1)), pressures(traces.size()),
+        elastic_pressures(traces.size()), scales(traces.size())
   {
-    for (unsigned int cell = 0; cell < fractions.size(); ++cell)
-      fractions[cell] = fe_space.tetrahedron(cell).volume / patches.volume(patches.of_cell(cell));
+    for (unsigned int point = 0; point < fractions.size(); ++point)
+      fractions[point] = fe_space.volume(point) / patches.volume(patches.of_point(point));
   }
 
   DilatationArrays
   PatchDilatation::arrays()
   {
-    return { traces.data(), pressures.data(), scales.data() };
+    return { traces.data(), pressures.data(), elastic_pressures.data(), scales.data() };
   }
 
   void
@@ -38,11 +40,11 @@ namespace Exemplar
     }
     past_means.assign(patches.size(), 0.);
     damping_factors.assign(patches.size(), whole_damping);
-    for (unsigned int cell = 0; cell < fractions.size(); ++cell)
+    for (unsigned int point = 0; point < fractions.size(); ++point)
     {
-      const unsigned int patch = patches.of_cell(cell);
-      past_means[patch] += fractions[cell] * trace(damping.past_strain(cell));
-      if (damping.factor(cell) == 0.)
+      const unsigned int patch = patches.of_point(point);
+      past_means[patch] += fractions[point] * trace(damping.past_strain(point));
+      if (damping.factor(point) == 0.)
         damping_factors[patch] = 0.;
     }
   }
@@ -51,8 +53,8 @@ namespace Exemplar
   PatchDilatation::find_means()
   {
     std::fill(means.begin(), means.end(), 0.);
-    for (unsigned int cell = 0; cell < fractions.size(); ++cell)
-      means[patches.of_cell(cell)] += fractions[cell] * traces[cell];
+    for (unsigned int point = 0; point < fractions.size(); ++point)
+      means[patches.of_point(point)] += fractions[point] * traces[point];
   }
 
   double
@@ -67,15 +69,24 @@ namespace Exemplar
   }
 
   void
-  PatchDilatation::set_pressures(const std::vector<double> &weights)
+  PatchDilatation::update(const CellField           &cells,
+                          const Vector              &positions,
+                          const std::vector<double> &weights)
   {
     find_means();
+    guard.find(cells, positions, means);
+    find_pressures(weights);
+  }
+
+  void
+  PatchDilatation::find_pressures(const std::vector<double> &weights)
+  {
     std::vector<double> of_patch(patches.size()), scale(patches.size());
     const double        root = std::sqrt(3.); // |p I| = sqrt(3) |p|
     for (unsigned int patch = 0; patch < patches.size(); ++patch)
     {
       const double lambda = patches.lambda(patch), D = target(patch, weights);
-      of_patch[patch] = lambda * (means[patch] - D);
+      of_patch[patch] = lambda * (means[patch] - D) + guard.by_mean(patch) / patches.volume(patch);
       scale[patch]    = root * std::abs(lambda) * (std::abs(means[patch]) + std::abs(D));
       if (const double s = damping_factor(patch); s > 0.)
       {
@@ -84,10 +95,12 @@ namespace Exemplar
             += s * root * std::abs(lambda) * (std::abs(means[patch]) + std::abs(past_means[patch]));
       }
     }
-    for (unsigned int cell = 0; cell < fractions.size(); ++cell)
+    for (unsigned int point = 0; point < fractions.size(); ++point)
     {
-      pressures[cell] = of_patch[patches.of_cell(cell)];
-      scales[cell]    = scale[patches.of_cell(cell)];
+      const unsigned int patch = patches.of_point(point);
+      pressures[point]         = of_patch[patch];
+      elastic_pressures[point] = patches.lambda(patch) * means[patch];
+      scales[point]            = scale[patch];
     }
   }
 
@@ -108,14 +121,18 @@ namespace Exemplar
         result.energy_damping += 0.5 * s * stiffness(patch) * change * change;
       }
     }
+    const double of_guard = guard.energy();
+    result.energy_elastic += of_guard;
+    result.energy += of_guard;
   }
 
   double
   PatchDilatation::stress_square() const
   {
     double sum = 0.;
-    for (unsigned int cell = 0; cell < fractions.size(); ++cell)
-      sum += fractions[cell] * patches.volume(patches.of_cell(cell)) * scales[cell] * scales[cell];
+    for (unsigned int point = 0; point < fractions.size(); ++point)
+      sum += fractions[point] * patches.volume(patches.of_point(point)) * scales[point]
+             * scales[point];
     return sum;
   }
 
@@ -130,16 +147,47 @@ namespace Exemplar
   }
 
   void
+  PatchDilatation::complete(const unsigned int point, CorotationalCell<double> &state) const
+  {
+    state.set_kink(kink(point));
+    state.add_pressure(pressures[point]);
+  }
+
+  void
+  PatchDilatation::complete_elasticity(const unsigned int        point,
+                                       CorotationalCell<double> &state) const
+  {
+    state.set_kink(kink(point));
+    state.add_pressure(elastic_pressures[point]);
+  }
+
+  void
+  PatchDilatation::tangent_vectors(const unsigned int   patch,
+                                   const CellField     &cells,
+                                   const Tangent        tangent,
+                                   std::vector<double> &b,
+                                   std::vector<double> &v) const
+  {
+    scatter.gradient(patch, cells, b);
+    const double s      = tangent == Tangent::convex ? whole_damping : damping_factor(patch);
+    const double factor = (1. + s) * stiffness(patch) + guard.second_by_mean(patch);
+    v.resize(b.size());
+    for (std::size_t i = 0; i < b.size(); ++i)
+      v[i] = 0.5 * factor * b[i];
+    if (tangent == Tangent::exact)
+      guard.add_forces_by_mean(cells, patch, scatter.nodes(patch), v);
+  }
+
+  void
   PatchDilatation::add_tangent(const CellField     &cells,
-                               const bool           damp_all,
+                               const Tangent        tangent,
                                std::vector<double> &values) const
   {
-    std::vector<double> b;
+    std::vector<double> b, v;
     for (unsigned int patch = 0; patch < patches.size(); ++patch)
     {
-      scatter.gradient(patch, cells, b);
-      const double s = damp_all ? whole_damping : damping_factor(patch);
-      scatter.add_product(patch, (1. + s) * stiffness(patch), b, values);
+      tangent_vectors(patch, cells, tangent, b, v);
+      scatter.add_product(patch, b, v, values);
     }
   }
 
@@ -161,24 +209,27 @@ namespace Exemplar
 
   void
   PatchDilatation::add_response(const CellField   &cells,
+                                const Tangent      tangent,
                                 const Vector      &displacement,
                                 ElasticEvaluation &result) const
   {
-    std::vector<double> b;
+    std::vector<double> b, v;
     for (unsigned int patch = 0; patch < patches.size(); ++patch)
     {
       if (!scatter.is_beside_held(patch))
         continue;
-      scatter.gradient(patch, cells, b);
-      const std::vector<unsigned int> &nodes  = scatter.nodes(patch);
-      double                           change = 0.;
+      tangent_vectors(patch, cells, tangent, b, v);
+      const std::vector<unsigned int> &nodes    = scatter.nodes(patch);
+      double                           change_b = 0., change_v = 0.;
       for (std::size_t i = 0; i < b.size(); ++i)
-        change += b[i] * displacement[3 * nodes[i / 3] + i % 3];
-      const double factor = (1. + damping_factor(patch)) * stiffness(patch) * change;
+      {
+        change_b += b[i] * displacement[3 * nodes[i / 3] + i % 3];
+        change_v += v[i] * displacement[3 * nodes[i / 3] + i % 3];
+      }
       for (std::size_t i = 0; i < b.size(); ++i)
-        result.gradient[3 * nodes[i / 3] + i % 3] += factor * b[i];
+        result.gradient[3 * nodes[i / 3] + i % 3] += change_b * v[i] + change_v * b[i];
       for (unsigned int weight = 0; weight < result.weight_gradient.size(); ++weight)
-        result.weight_gradient[weight] -= examples->importance() * stiffness(patch) * change
+        result.weight_gradient[weight] -= examples->importance() * stiffness(patch) * change_b
                                           * examples->patch_dilatation(patch, weight);
     }
   }
@@ -191,6 +242,6 @@ namespace Exemplar
            + memory_consumption(fractions) + memory_consumption(means)
            + memory_consumption(past_means) + memory_consumption(damping_factors)
            + traces.memory_consumption() + pressures.memory_consumption()
-           + scales.memory_consumption();
+           + elastic_pressures.memory_consumption() + scales.memory_consumption();
   }
 } // namespace Exemplar

@@ -13,8 +13,9 @@ namespace Exemplar
     nodes_of(const Patches &patches, const FESpace &fe_space, const unsigned int patch)
     {
       std::vector<unsigned int> nodes;
-      for (const unsigned int cell : patches.cells(patch))
-        nodes.insert(nodes.end(), fe_space.nodes(cell).begin(), fe_space.nodes(cell).end());
+      for (const unsigned int point : patches.points(patch))
+        for (const unsigned int node : fe_space.nodes(fe_space.cell_of(point)))
+          nodes.push_back(node);
       std::sort(nodes.begin(), nodes.end());
       nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
       return nodes;
@@ -31,8 +32,8 @@ namespace Exemplar
     {
       Layout &layout = layouts[patch];
       layout.nodes   = nodes_of(patches, fe_space, patch);
-      for (const unsigned int cell : patches.cells(patch))
-        for (const unsigned int node : fe_space.nodes(cell))
+      for (const unsigned int point : patches.points(patch))
+        for (const unsigned int node : fe_space.nodes(fe_space.cell_of(point)))
           layout.places.push_back(std::lower_bound(layout.nodes.begin(), layout.nodes.end(), node)
                                   - layout.nodes.begin());
       for (unsigned int place = 0; place < layout.nodes.size(); ++place)
@@ -83,39 +84,43 @@ namespace Exemplar
     const Layout &layout = layouts[patch];
     b.assign(3 * layout.nodes.size(), 0.);
     auto place = layout.places.begin();
-    for (const unsigned int cell : patches.cells(patch))
+    for (const unsigned int point : patches.points(patch))
     {
-      const Tetrahedron<double> &tet      = fe_space.tetrahedron(cell);
-      const Matrix3<double>      R        = cells.rotation(cell);
-      const double               fraction = tet.volume / patches.volume(patch);
-      for (unsigned int a = 0; a < 4; ++a, ++place)
+      const Matrix3<double> R        = cells.rotation(point);
+      const double          fraction = fe_space.volume(point) / patches.volume(patch);
+      for (const Vector3<double> &g : fe_space.gradients(point))
       {
-        const Vector3<double> Rg = R * tet.shape_gradient[a];
+        const Vector3<double> Rg = R * g;
         for (unsigned int c = 0; c < 3; ++c)
           b[3 * *place + c] += fraction * Rg[c];
+        ++place;
       }
     }
   }
 
   void
   PatchScatter::add_product(const unsigned int         patch,
-                            const double               factor,
-                            const std::vector<double> &b,
+                            const std::vector<double> &u,
+                            const std::vector<double> &v,
                             std::vector<double>       &values) const
   {
     const Layout       &layout = layouts[patch];
-    std::vector<double> free(layout.free_dofs.size());
-    for (std::size_t i = 0; i < free.size(); ++i)
-      free[i] = b[layout.free_dofs[i]];
+    const auto          n      = static_cast<unsigned int>(layout.free_dofs.size());
+    std::vector<double> free_u(n), free_v(n);
+    for (unsigned int i = 0; i < n; ++i)
+    {
+      free_u[i] = u[layout.free_dofs[i]];
+      free_v[i] = v[layout.free_dofs[i]];
+    }
     auto entry = layout.entries.begin();
-    for (unsigned int j = 0; j < free.size(); ++j)
+    for (unsigned int j = 0; j < n; ++j)
       for (unsigned int place = layout.free_dofs[j] / 3, i = j; place < layout.nodes.size();
            ++place)
       {
         if (i == layout.node_ends[place])
           continue;
         for (double *value = &values[*entry++]; i < layout.node_ends[place]; ++i)
-          *value++ += factor * free[j] * free[i];
+          *value++ += free_u[j] * free_v[i] + free_v[j] * free_u[i];
       }
   }
 

@@ -16,26 +16,27 @@ namespace Exemplar
     if (s == 0.)
       return;
     const StrainMeasure measure = cells.strain_measure();
-    factors.resize(batched_size(fe_space.n_cells(), 1), s);
-    strains.resize(batched_size(fe_space.n_cells(), 6), 0.);
-    for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
+    factors.resize(batched_size(fe_space.n_points(), 1), s);
+    strains.resize(batched_size(fe_space.n_points(), 6), 0.);
+    for (unsigned int point = 0; point < fe_space.n_points(); ++point)
       for (const WeightedPositions &past : history)
       {
-        const Matrix3<double> F = fe_space.deformation_gradient(cell, *past.positions);
+        const Matrix3<double> F = fe_space.deformation_gradient(point, *past.positions);
         const Matrix3<double> R = model_rotation(measure, F);
-        add_to_stored(strains.data(), cell, 1, 0, past.weight, model_strain(measure, R, F));
-        if (model_is_guarded(measure, material.elasticity(cell), R, F, cells.get_guard_bound()))
-          factors[cell] = 0.;
+        add_to_stored(strains.data(), point, 1, 0, past.weight, model_strain(measure, R, F));
+        if (model_is_guarded(measure, material.elasticity(fe_space.cell_of(point)), R, F,
+                             cells.get_guard_bound()))
+          factors[point] = 0.;
       }
   }
 
   Matrix3<double>
-  StrainDamping::damped(const unsigned int cell, const Matrix3<double> &D) const
+  StrainDamping::damped(const unsigned int point, const Matrix3<double> &D) const
   {
-    const double s_cell = factor(cell);
-    if (s_cell == 0.)
+    const double s_point = factor(point);
+    if (s_point == 0.)
       return D;
-    return combine(1. / (1. + s_cell), D, s_cell / (1. + s_cell), past_strain(cell));
+    return combine(1. / (1. + s_point), D, s_point / (1. + s_point), past_strain(point));
   }
 
   DampingArrays

@@ -8,24 +8,46 @@ namespace Exemplar
 {
   namespace
   {
-    /// A cell without examples.
+    /// A point without examples, and the guard of its stretch.
     CorotationalCell<double>
-    cell_without_target(const CellMaterial<double> &elasticity,
-                        const Matrix3<double>      &R,
-                        const Matrix3<double>      &F,
-                        const PatchDilatation      *dilatation,
-                        const unsigned int          cell)
+    without_target(const CellMaterial<double> &elasticity,
+                   const Matrix3<double>      &R,
+                   const Matrix3<double>      &F,
+                   const PatchDilatation      *dilatation,
+                   const unsigned int          point)
     {
       const bool               has_patches = dilatation != nullptr;
       CorotationalCell<double> state(has_patches ? elasticity.without_dilatation() : elasticity, R,
                                      F, default_guard_bound);
       state.set_target(Matrix3<double>{});
       if (has_patches)
-      {
-        state.set_guard_material(elasticity);
-        state.add_pressure(dilatation->elastic_pressure(cell));
-      }
+        dilatation->complete_elasticity(point, state);
       return state;
+    }
+
+    /// Sum over the modes of stiffness V (D : R^T dF)^2 / 2, by the blocks of CellScatter, where
+    /// `g` are the gradients of the nodes in the order of the loops.
+    void
+    add_modes(const StretchModes                 &modes,
+              const Matrix3<double>              &R,
+              const double                        volume,
+              const std::vector<Vector3<double>> &g,
+              std::vector<double>                &blocks)
+    {
+      std::vector<Vector3<double>> turned(g.size());
+      for (int m = 0; m < 9; ++m)
+      {
+        const Matrix3<double> RD = R * modes.direction[m];
+        for (std::size_t a = 0; a < g.size(); ++a)
+          turned[a] = RD * g[a];
+        const double factor = volume * modes.stiffness[m];
+        double      *entry  = blocks.data();
+        for (std::size_t a = 0; a < g.size(); ++a)
+          for (std::size_t b = 0; b <= a; ++b)
+            for (int j = 0; j < 3; ++j)
+              for (int i = 0; i < 3; ++i)
+                *entry++ += factor * turned[a][i] * turned[b][j];
+      }
     }
   } // namespace
 
@@ -38,35 +60,28 @@ namespace Exemplar
                         const Vector          &positions,
                         std::vector<double>   &values)
   {
-    for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
+    for (unsigned int point = 0; point < fe_space.n_points(); ++point)
     {
+      const unsigned int          cell       = fe_space.cell_of(point);
       const CellMaterial<double> &elasticity = material.elasticity(cell);
-      const Matrix3<double>       F          = fe_space.deformation_gradient(cell, positions);
-      if (!is_strongly_stretched(elasticity, F))
+      const Matrix3<double>       F          = fe_space.deformation_gradient(point, positions);
+      const KinkSlope<double>     kink       = dilatation == nullptr
+                                                   ? kink_slope(elasticity, sqrt(contract(F, F)))
+                                                   : dilatation->kink(point);
+      if (!is_strongly_stretched(kink))
         continue;
-      const Matrix3<double> R = closest_rotation(F);
-      const StretchModes    modes
-          = stretch_modes(cell_without_target(elasticity, R, F, dilatation, cell), R, F);
-      const auto &nodes                       = fe_space.nodes(cell);
-      double      blocks[3 * n_block_columns] = {};
-      for (int m = 0; m < 9; ++m)
+      const Matrix3<double>        R     = closest_rotation(F);
+      const auto                   nodes = fe_space.nodes(cell);
+      std::vector<Vector3<double>> g;
+      for (unsigned int a = 0; a < nodes.size(); ++a)
       {
-        const Matrix3<double> RD = R * modes.direction[m];
-        Vector3<double>       g[4]; // in the order of the loops
-        for (unsigned int a = 0; a < 4; ++a)
-        {
-          const auto node = std::find(nodes.begin(), nodes.end(), cells.node(cell, a));
-          g[a]            = RD * fe_space.tetrahedron(cell).shape_gradient[node - nodes.begin()];
-        }
-        const double factor = fe_space.tetrahedron(cell).volume * modes.stiffness[m];
-        double      *entry  = blocks;
-        for (int a = 0; a < 4; ++a)
-          for (int b = 0; b <= a; ++b)
-            for (int j = 0; j < 3; ++j)
-              for (int i = 0; i < 3; ++i)
-                *entry++ += factor * g[a][i] * g[b][j];
+        const auto node = std::find(nodes.begin(), nodes.end(), cells.node(point, a));
+        g.push_back(fe_space.gradients(point)[node - nodes.begin()]);
       }
-      scatter.add_blocks(cells, cell, blocks, values);
+      std::vector<double> blocks(3 * n_block_columns(nodes.size()), 0.);
+      add_modes(stretch_modes(without_target(elasticity, R, F, dilatation, point), R, F), R,
+                fe_space.volume(point), g, blocks);
+      scatter.add_blocks(cell, blocks.data(), values);
     }
   }
 } // namespace Exemplar

@@ -172,13 +172,14 @@ namespace Exemplar::Python
   py::array
   HeldProblem::show(const Vector &field, std::shared_ptr<Shown> &shown)
   {
-    if (stepping != std::thread::id()) // the step will free this memory
-      return py::array_t<double>({ py::ssize_t(field.size() / 3), py::ssize_t(3) }, field.begin());
+    const std::size_t n_nodes = problem->body.mesh.n_nodes(); // without the middles of edges
+    if (stepping != std::thread::id())                        // the step will free this memory
+      return py::array_t<double>({ py::ssize_t(n_nodes), py::ssize_t(3) }, field.begin());
     if (shown == nullptr)
       shown = std::make_shared<Shown>();
     // the memory is of the problem until a step leaves it to the array
     return read_only_rows(
-        field.begin(), field.size() / 3, 3,
+        field.begin(), n_nodes, 3,
         keeper(std::make_shared<std::pair<std::shared_ptr<HeldProblem>, std::shared_ptr<Shown>>>(
             shared_from_this(), shown)));
   }

@@ -37,8 +37,8 @@ namespace Exemplar
     const OutputParameters &output = problem.parameters.output;
     for (const std::string &name : output.formats)
       if (const FrameFormat &format = find_format(name, formats); output.every > 0)
-        writers.emplace_back(
-            &format, format.make_writer({ problem.body.mesh, problem.surface.get(), playback() }));
+        writers.emplace_back(&format, format.make_writer({ problem.body.mesh, problem.body.fe_space,
+                                                           problem.surface.get(), playback() }));
   }
 
   Playback
@@ -67,17 +67,17 @@ namespace Exemplar
   Vector
   FrameOutput::displacement_of_weight(const unsigned int i) const
   {
-    const ExamplePoses &poses  = *problem.examples.poses;
-    const Mesh         &mesh   = problem.body.mesh;
-    const unsigned int  region = i / poses.size();
-    Vector              u      = poses.pose(i % poses.size());
-    u -= problem.body.fe_space.rest_positions();
+    const ExamplePoses &poses    = *problem.examples.poses;
+    const FESpace      &fe_space = problem.body.fe_space;
+    const unsigned int  region   = i / poses.size();
+    Vector              u        = poses.pose(i % poses.size());
+    u -= fe_space.rest_positions();
     if (poses.n_regions() == 1)
       return u;
     // at a node the mean share of its cells
-    std::vector<double> share(mesh.n_nodes(), 0.), n_cells(mesh.n_nodes(), 0.);
-    for (unsigned int cell = 0; cell < mesh.n_cells(); ++cell)
-      for (const unsigned int node : mesh.get_cells()[cell])
+    std::vector<double> share(fe_space.n_nodes(), 0.), n_cells(fe_space.n_nodes(), 0.);
+    for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
+      for (const unsigned int node : fe_space.nodes(cell))
       {
         n_cells[node] += 1.;
         share[node] += poses.share(cell, region);

@@ -16,16 +16,17 @@ namespace Exemplar
     state.positions           = fe_space.rest_positions();
     const auto set_node_field = [&](const Expression &expression, dealii::Vector<double> &field)
     {
-      for (unsigned int node = 0; node < mesh.n_nodes(); ++node)
+      for (unsigned int node = 0; node < fe_space.n_nodes(); ++node)
       {
-        const dealii::Tensor<1, 3> value = expression.vector(mesh.get_nodes()[node], 0.);
+        const dealii::Tensor<1, 3> value = expression.vector(fe_space.rest_position(node), 0.);
         for (unsigned int c = 0; c < 3; ++c)
           field[3 * node + c] = value[c];
       }
     };
     if (!parameters.pose.empty())
     {
-      const auto nodes = mesh.find_pose(poses, parameters.pose, "Initial/Pose");
+      const auto nodes = fe_space.complete(mesh.find_pose(poses, parameters.pose, "Initial/Pose"),
+                                           "Initial/Pose");
       for (unsigned int dof = 0; dof < fe_space.n_dofs(); ++dof)
         state.positions[dof] = nodes[dof / 3][dof % 3];
     }

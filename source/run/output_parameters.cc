@@ -7,6 +7,12 @@
 
 namespace Exemplar
 {
+  namespace
+  {
+    const EnumTable<FinalTetrahedra> final_poses
+        = { { FinalTetrahedra::linear, "linear" }, { FinalTetrahedra::quadratic, "quadratic" } };
+  } // namespace
+
   void
   OutputParameters::declare(KeyTable &keys)
   {
@@ -30,6 +36,11 @@ namespace Exemplar
         "Keep states", keep_states,
         "Whether the state of each frame is kept in full precision, state_NNNN.bin, from which "
         "--resume-from NNNN goes on, also with an edited scene.");
+    keys.add(
+        "Final pose", final_pose, final_poses,
+        "linear: final.msh has the nodes and elements of the mesh; quadratic, with Model/Element "
+        "= P2: also the nodes in the middles of edges, as 10-node tetrahedra and 6-node "
+        "triangles. Both can be poses and initial states of other scenes.");
     keys.leave_subsection();
   }
 

@@ -22,8 +22,8 @@ namespace Exemplar
     {
       if (parameters.handles.empty())
         return nullptr;
-      return std::make_unique<Handles>(parameters.handles, body.mesh, axis, inputs.poses,
-                                       inputs.nodes, body.readings.motions);
+      return std::make_unique<Handles>(parameters.handles, body.mesh, body.fe_space, axis,
+                                       inputs.poses, inputs.nodes, body.readings.motions);
     }
 
     std::optional<StaticallyDeterminateSupport>
@@ -139,9 +139,10 @@ namespace Exemplar
         readings(read_off_surface(parameters, mesh, inputs)),
         material(
             parameters.material, mesh.get_material_ids(), mesh.get_contents(), readings.material),
-        fe_space(mesh), patches(parameters.model.has_patches()
-                                    ? std::make_unique<const Patches>(mesh, fe_space, material)
-                                    : nullptr),
+        fe_space(mesh, parameters.model.element),
+        patches(parameters.model.has_patches()
+                    ? std::make_unique<const Patches>(mesh, fe_space, material)
+                    : nullptr),
         made(inputs.made)
   {
     inputs.nodes.insert(readings.nodes.begin(), readings.nodes.end());
@@ -162,7 +163,8 @@ namespace Exemplar
   {
     if (parameters.scene != SceneKind::statics)
       return;
-    const unsigned int n_free = n_free_rigid_motions(body.mesh, held_dofs(parameters, body, *this));
+    const unsigned int n_free = n_free_rigid_motions(body.mesh, body.fe_space.rest_positions(),
+                                                     held_dofs(parameters, body, *this));
     if (n_free > 0)
       throw UserError(
           parameters.name + ": the handles leave " + std::to_string(n_free)

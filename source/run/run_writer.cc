@@ -286,8 +286,10 @@ namespace Exemplar
   void
   RunWriter::write_final_pose() const
   {
-    std::vector<dealii::Point<3>> nodes(problem.body.mesh.n_nodes());
-    for (unsigned int dof = 0; dof < problem.body.fe_space.n_dofs(); ++dof)
+    const bool is_linear = problem.parameters.output.final_pose == FinalTetrahedra::linear;
+    std::vector<dealii::Point<3>> nodes(is_linear ? problem.body.mesh.n_nodes()
+                                                  : problem.body.fe_space.n_nodes());
+    for (unsigned int dof = 0; dof < 3 * nodes.size(); ++dof)
       nodes[dof / 3][dof % 3] = problem.state.positions[dof];
     problem.body.mesh.write_pose(nodes, directory.final_pose());
   }

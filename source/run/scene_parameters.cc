@@ -35,6 +35,10 @@ namespace Exemplar
     initial.check();
     check_solver();
     check_surface();
+    if (output.final_pose == FinalTetrahedra::quadratic && model.element != Element::P2)
+      throw UserError("Output/Final pose = quadratic writes the nodes in the middles of edges, but "
+                      "Model/Element = P1 has none. Set Model/Element = P2, or Output/Final pose = "
+                      "linear.");
     if (output.keep_states && output.every == 0)
       throw UserError(
           "Output/Keep states = true keeps the state of each frame, but Output/Every = 0 "

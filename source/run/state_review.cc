@@ -16,15 +16,20 @@ namespace Exemplar
   {
     using CellTest = std::function<bool(unsigned int cell, const Matrix3<double> &F)>;
 
-    /// Element numbers of the cells for which `test` holds at the problem's state.
+    /// Element numbers of the cells for which `test` holds somewhere at the problem's state.
     std::vector<std::size_t>
     elements_with(const Problem &problem, const CellTest &test)
     {
       std::vector<std::size_t> elements;
       const FESpace           &fe_space = problem.body.fe_space;
-      for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
-        if (test(cell, fe_space.deformation_gradient(cell, problem.state.positions)))
-          elements.push_back(problem.body.mesh.element_number(cell));
+      for (unsigned int point = 0; point < fe_space.n_points(); ++point)
+      {
+        const unsigned int cell    = fe_space.cell_of(point);
+        const std::size_t  element = problem.body.mesh.element_number(cell);
+        if (test(cell, fe_space.deformation_gradient(point, problem.state.positions))
+            && (elements.empty() || elements.back() != element))
+          elements.push_back(element);
+      }
       return elements;
     }
 
@@ -79,8 +84,8 @@ namespace Exemplar
           });
       if (elements.empty())
         return {};
-      return std::to_string(elements.size()) + " cells are stretched to more than 1 + 1/nu = "
-             + short_text(limit)
+      return std::to_string(elements.size())
+             + " cells are stretched to more than 1 + 1/nu = " + short_text(limit)
              + " times their length at the end: element " + list_numbers(elements)
              + ". Poisson's ratio nu would make them thinner than nothing, so their forces mean "
                "little. Pull less, or take a smaller Material/Poisson's ratio.";
@@ -133,8 +138,7 @@ namespace Exemplar
       if (!(miss > 1e-4))
         return {};
       return "The interpolation ends beside example " + std::to_string(*example) + " ("
-             + problem.examples.poses->name(*example) + "), by up to "
-             + short_text(100. * miss)
+             + problem.examples.poses->name(*example) + "), by up to " + short_text(100. * miss)
              + " % of the body's size: another state has its strains, or less energy, as where an "
                "example has inverted cells. Look at the frames, or take smaller steps.";
     }

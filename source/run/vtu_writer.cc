@@ -54,29 +54,32 @@ namespace Exemplar
     }
 
     std::string
-    head_of(const Mesh &mesh)
+    head_of(const FESpace &fe_space)
     {
       std::ostringstream out;
       out << "<?xml version=\"1.0\"?>\n"
           << "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
              "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n"
-          << "<UnstructuredGrid>\n<Piece NumberOfPoints=\"" << mesh.n_nodes()
-          << "\" NumberOfCells=\"" << mesh.n_cells() << "\">\n";
+          << "<UnstructuredGrid>\n<Piece NumberOfPoints=\"" << fe_space.n_nodes()
+          << "\" NumberOfCells=\"" << fe_space.n_cells() << "\">\n";
       return out.str();
     }
 
     std::string
-    cells_of(const Mesh &mesh)
+    cells_of(const FESpace &fe_space)
     {
+      const bool                is_linear = fe_space.element() == Element::P1;
       std::vector<std::int32_t> connectivity, offsets;
-      connectivity.reserve(4 * mesh.n_cells());
-      offsets.reserve(mesh.n_cells());
-      for (const auto &cell : mesh.get_cells())
+      connectivity.reserve(nodes_per_cell(fe_space.element()) * fe_space.n_cells());
+      offsets.reserve(fe_space.n_cells());
+      for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
       {
-        connectivity.insert(connectivity.end(), cell.begin(), cell.end());
+        const auto nodes = fe_space.nodes(cell);
+        connectivity.insert(connectivity.end(), nodes.begin(), nodes.end());
         offsets.push_back(static_cast<std::int32_t>(connectivity.size()));
       }
-      const std::vector<std::uint8_t> types(mesh.n_cells(), 10); // VTK_TETRA
+      // VTK_TETRA or VTK_QUADRATIC_TETRA
+      const std::vector<std::uint8_t> types(fe_space.n_cells(), is_linear ? 10 : 24);
       std::ostringstream              out;
       out << "<Cells>\n";
       write_array(out, "Int32", "connectivity", 1, connectivity.data(), connectivity.size());
@@ -108,14 +111,14 @@ namespace Exemplar
       write_array(out, "Float64", name, 1, values.data(), values.size());
     }
 
-    /// Writes VTU files: each node once and in file order, and true cell data (deal.II's DataOut
+    /// Writes VTU files: each node once and in the order of FESpace, and true cell data (deal.II's DataOut
     /// repeats nodes cell by cell and has no cell data). Arrays are binary, compressed by zlib.
     /// The animation is a ParaView collection.
     class VtuWriter : public FrameWriter
     {
     public:
-      explicit VtuWriter(const Mesh &mesh)
-          : head(head_of(mesh)), cells(cells_of(mesh)), regions(regions_of(mesh))
+      VtuWriter(const Mesh &mesh, const FESpace &fe_space)
+          : head(head_of(fe_space)), cells(cells_of(fe_space)), regions(regions_of(mesh))
       {
       }
 
@@ -163,6 +166,6 @@ namespace Exemplar
   std::unique_ptr<const FrameWriter>
   make_vtu_writer(const FrameSubject &subject)
   {
-    return std::make_unique<const VtuWriter>(subject.mesh);
+    return std::make_unique<const VtuWriter>(subject.mesh, subject.fe_space);
   }
 } // namespace Exemplar

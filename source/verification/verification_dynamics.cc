@@ -89,11 +89,11 @@ namespace Exemplar::Verification
         for (unsigned int a = 0; a < 4; ++a)
           if (p.body.fe_space.nodes(cell)[a] == node)
           {
-            const auto &C           = p.body.material.elasticity(cell);
-            const auto &tetrahedron = p.body.fe_space.tetrahedron(cell);
-            const auto &g           = tetrahedron.shape_gradient[a];
-            K += tetrahedron.volume * ((C.lambda + C.mu) * g[0] * g[0] + C.mu * dot(g, g));
-            M += p.body.material.density(cell) * tetrahedron.volume / 10.;
+            const auto  &C      = p.body.material.elasticity(cell);
+            const auto  &g      = p.body.fe_space.gradients(cell)[a];
+            const double volume = p.body.fe_space.volume(cell);
+            K += volume * ((C.lambda + C.mu) * g[0] * g[0] + C.mu * dot(g, g));
+            M += p.body.material.density(cell) * volume / 10.;
           }
       return std::sqrt(K / M);
     }

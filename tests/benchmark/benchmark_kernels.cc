@@ -179,7 +179,7 @@ main(int argc, char *argv[])
   benchmark::Initialize(&argc, argv);
   Scene the_scene(argc > 1 ? argv[1] : EXEMPLAR_SOURCE_DIR "/tests/benchmark/scenes/cat_grav.prm");
   scene = &the_scene;
-  for (const CellKernels *kernels : all_kernels())
+  for (const CellKernels *kernels : all_kernels(Element::P1))
   {
     const std::string name = std::string("/") + kernels->name;
     benchmark::RegisterBenchmark(("rotations" + name).c_str(), rotations, kernels);

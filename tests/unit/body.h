@@ -73,15 +73,16 @@ namespace Exemplar::Testing
   struct Body
   {
     explicit Body(const MeshParameters     &mesh_parameters     = box_mesh(4., 4, 1),
-                  const MaterialParameters &material_parameters = MaterialParameters())
+                  const MaterialParameters &material_parameters = MaterialParameters(),
+                  const Element             element             = Element::P1)
         : mesh(mesh_parameters), material(material_parameters, mesh.get_material_ids()),
-          fe_space(mesh)
+          fe_space(mesh, element)
     {
     }
 
-    explicit Body(const MshFile &contents)
+    explicit Body(const MshFile &contents, const Element element = Element::P1)
         : mesh(contents, "test"), material(MaterialParameters(), mesh.get_material_ids()),
-          fe_space(mesh)
+          fe_space(mesh, element)
     {
     }
 

@@ -10,7 +10,8 @@
 
 namespace Exemplar
 {
-  /// The cells in batches, as CellArrays describes them, and the rotation of each.
+  /// The quadrature points of the cells in batches, as CellArrays describes them, and the rotation
+  /// of each.
   class CellBatches
   {
   public:
@@ -23,19 +24,19 @@ namespace Exemplar
     arrays(StrainMeasure strain, double guard_bound);
 
     Matrix3<double>
-    rotation(const unsigned int cell) const
+    rotation(const unsigned int point) const
     {
       Matrix3<double> R;
       for (unsigned int k = 0; k < 9; ++k)
-        R[k / 3][k % 3] = rotations[batch_index(cell, 9, k)];
+        R[k / 3][k % 3] = rotations[batch_index(point, 9, k)];
       return R;
     }
 
-    /// Node a of a cell. All arrays have the nodes of a cell in ascending order of their numbers.
+    /// Node a at a point. All arrays have the nodes of a cell in ascending order of their numbers.
     unsigned int
-    node(const unsigned int cell, const unsigned int a) const
+    node(const unsigned int point, const unsigned int a) const
     {
-      return nodes[batch_index(cell, 4, a)];
+      return nodes[batch_index(point, n_nodes, a)];
     }
 
     /// In bytes.
@@ -43,15 +44,12 @@ namespace Exemplar
     memory_consumption() const;
 
   private:
-    void
-    store_material(const CellMaterial<double> &elasticity, std::size_t slot);
-
-    const std::size_t             n_cells;
+    const std::size_t             n_points;
+    const std::size_t             n_nodes; ///< of each
     std::vector<int>              nodes;
     dealii::AlignedVector<double> gradients;
     dealii::AlignedVector<double> volumes;
     dealii::AlignedVector<double> material;
-    dealii::AlignedVector<double> guard_material; ///< empty if it is the same
     dealii::AlignedVector<double> rotations;
   };
 } // namespace Exemplar

@@ -23,7 +23,7 @@ namespace Exemplar
   double
   unit_energy(const FESpace &fe_space, const Material &material);
 
-  /// The example poses and their strains E_i in every cell, Eq. (4), computed once.
+  /// The example poses and their strains E_i at every quadrature point, Eq. (4), computed once.
   /// Example 0 is the rest pose where it is included. Each example has one weight or,
   /// with Weights per region, one a region: weight r * size() + i is that of example i in
   /// region r.
@@ -94,13 +94,13 @@ namespace Exemplar
       return positions[i];
     }
 
-    /// E_i in a cell.
+    /// E_i at a quadrature point.
     Matrix3<double>
-    strain(const unsigned int cell, const unsigned int i) const
+    strain(const unsigned int point, const unsigned int i) const
     {
       if (i < first_strained)
         return Matrix3<double>{};
-      return load_stored(strains.data(), cell, n_strained(), i - first_strained);
+      return load_stored(strains.data(), point, n_strained(), i - first_strained);
     }
 
     /// What the kernels see of the examples.
@@ -117,17 +117,17 @@ namespace Exemplar
                regions ? regions->list().data() : nullptr };
     }
 
-    /// Call function(weight, example, share) for the weights that matter in a cell. The
+    /// Call function(weight, example, share) for the weights that matter at a point. The
     /// rest pose, where it is included, has no strain and is left out.
     template <typename Function>
     void
-    for_each_weight(const unsigned int cell, const Function &function) const
+    for_each_weight(const unsigned int point, const Function &function) const
     {
       if (!regions)
         for (unsigned int i = first_strained; i < size(); ++i)
           function(i, i, 1.);
       else
-        for (std::size_t s = regions->first(cell); s < regions->last(cell); ++s)
+        for (std::size_t s = regions->first(point); s < regions->last(point); ++s)
           for (unsigned int i = first_strained; i < size(); ++i)
             function(regions->list()[s].region * size() + i, i, regions->list()[s].value);
     }
@@ -152,13 +152,14 @@ namespace Exemplar
       return weight / size() * n_strained() + weight % size() - first_strained;
     }
 
-    /// E(w) = sum_i w_i E_i in a cell.
+    /// E(w) = sum_i w_i E_i at a point.
     Matrix3<double>
-    strain(const unsigned int cell, const std::vector<double> &weights) const
+    strain(const unsigned int point, const std::vector<double> &weights) const
     {
       Matrix3<double> sum{};
-      for_each_weight(cell, [&](const unsigned int weight, const unsigned int i, const double share)
-                      { sum = combine(1., sum, share * weights[weight], strain(cell, i)); });
+      for_each_weight(point,
+                      [&](const unsigned int weight, const unsigned int i, const double share)
+                      { sum = combine(1., sum, share * weights[weight], strain(point, i)); });
       return sum;
     }
 
@@ -208,7 +209,7 @@ namespace Exemplar
     }
 
     void
-    add_pose(const std::string &name, const std::vector<dealii::Point<3>> &nodes);
+    add_pose(const std::string &name, const std::vector<dealii::Point<3>> &places);
 
     void
     compute_strains();

@@ -4,7 +4,9 @@
 
 #include <exemplar/kernels/tetrahedron.h>
 #include <exemplar/mesh/mesh.h>
+#include <exemplar/mesh/mesh_edges.h>
 
+#include <deal.II/base/array_view.h>
 #include <deal.II/base/tensor.h>
 #include <deal.II/fe/fe_system.h>
 #include <deal.II/fe/mapping_fe.h>
@@ -16,45 +18,154 @@
 
 namespace Exemplar
 {
-  /// The finite element space FE_SimplexP(1)^3 on a mesh. Degree of freedom
-  /// 3 i + c is component c of node i of the mesh file. Shape gradients and volumes
-  /// are taken from deal.II's FEValues once and kept, because on linear tetrahedra
+  /// What of an amount in a cell, or on a face, belongs to a vertex and to the middle of an edge.
+  struct NodeShares
+  {
+    double vertex, edge; ///< parts
+    double all;          ///< parts of all nodes
+
+    double
+    of_vertex(const double amount) const
+    {
+      return vertex * amount / all;
+    }
+
+    double
+    of_edge(const double amount) const
+    {
+      return edge * amount / all;
+    }
+  };
+
+  /// Whether shares are the integrals of shape functions (of quadratic ones less than 0 at the
+  /// vertices of a cell), or of their squares, divided by the sum of these.
+  enum class ShareRule
+  {
+    consistent,
+    lumped
+  };
+
+  constexpr NodeShares
+  shares_in_cell(const Element element, const ShareRule rule)
+  {
+    if (element == Element::P1)
+      return { 1., 0., 4. };
+    return rule == ShareRule::consistent ? NodeShares{ -1., 4., 20. } : NodeShares{ 3., 16., 108. };
+  }
+
+  constexpr NodeShares
+  shares_on_face(const Element element, const ShareRule rule)
+  {
+    if (element == Element::P1)
+      return { 1., 0., 3. };
+    return rule == ShareRule::consistent ? NodeShares{ 0., 1., 3. } : NodeShares{ 3., 16., 57. };
+  }
+
+  /// The finite element space FE_SimplexP(1)^3 or FE_SimplexP(2)^3 on a mesh of straight edges.
+  /// Nodes are those of the mesh file and then, of quadratic elements, one in the middle of each
+  /// edge, in ascending order of its ends, the lesser one first. Degree of freedom 3 i + c is component c of node i. Linear
+  /// elements have one quadrature point a cell, quadratic ones four; those of cell c are the points
+  /// c points_per_cell() and following. Shape gradients at the points and the volumes that they
+  /// stand for are taken from deal.II's FEValues once and kept, because
   /// they never change and the hot loops need nothing else. Nor does anything need deal.II's
   /// numbering by cells, so there is no DoFHandler, which would take 100 bytes a cell.
   class FESpace
   {
   public:
-    explicit FESpace(const Mesh &mesh);
+    explicit FESpace(const Mesh &mesh, Element element = Element::P1);
+
+    Element
+    element() const
+    {
+      return kind;
+    }
 
     unsigned int
     n_nodes() const
     {
-      return mesh.n_nodes();
+      return mesh.n_nodes() + edges.size();
     }
 
     unsigned int
     n_dofs() const
     {
-      return 3 * mesh.n_nodes();
+      return 3 * n_nodes();
     }
 
     unsigned int
     n_cells() const
     {
-      return tetrahedra.size();
+      return mesh.n_cells();
     }
 
-    const Tetrahedron<double> &
-    tetrahedron(const unsigned int cell) const
+    unsigned int
+    n_points() const
     {
-      return tetrahedra[cell];
+      return volumes.size();
     }
 
-    const std::array<unsigned int, 4> &
+    /// The cell of a quadrature point.
+    unsigned int
+    cell_of(const unsigned int point) const
+    {
+      return point / static_cast<unsigned int>(points_per_cell(kind));
+    }
+
+    /// Of a cell: its vertices and then the middles of its edges 01, 12, 20, 03, 13, 23, which is
+    /// the order of deal.II and of VTK.
+    dealii::ArrayView<const unsigned int>
     nodes(const unsigned int cell) const
     {
-      return mesh.get_cells()[cell];
+      if (kind == Element::P1)
+        return { mesh.get_cells()[cell].data(), 4 };
+      return { &quadratic_cells[10 * cell], 10 };
     }
+
+    /// The node in the middle of the edge between two nodes of the mesh file, of quadratic elements.
+    unsigned int
+    node_between(const unsigned int a, const unsigned int b) const
+    {
+      return mesh.n_nodes() + find_edge(edges, a, b);
+    }
+
+    /// The nodes at the ends of the edge of which a node is the middle.
+    const std::array<unsigned int, 2> &
+    edge_of(const unsigned int node) const
+    {
+      return edges[node - mesh.n_nodes()];
+    }
+
+    /// Gradients at a point of the shape functions of nodes(), in that order [1/m].
+    dealii::ArrayView<const Vector3<double>>
+    gradients(const unsigned int point) const
+    {
+      const auto n = static_cast<std::size_t>(nodes_per_cell(kind));
+      return { &shape_gradients[n * point], n };
+    }
+
+    /// What a point stands for [m^3]: the cell's volume is the sum over its points.
+    double
+    volume(const unsigned int point) const
+    {
+      return volumes[point];
+    }
+
+    /// Add to values at the nodes of a cell what each has of an amount in the cell.
+    void
+    share_out(double               amount,
+              const NodeShares    &shares,
+              unsigned int         cell,
+              std::vector<double> &values) const;
+
+    /// The places of all nodes, from those of the mesh file's nodes, with the others in the middle
+    /// of their edges, or from those of both. Throws UserError, calling the places `key`, for curved
+    /// edges, which linear elements have not.
+    std::vector<dealii::Point<3>>
+    complete(std::vector<dealii::Point<3>> places, const std::string &key) const;
+
+    /// `nodes` of the mesh file and the nodes on edges between two of them, in ascending order.
+    std::vector<unsigned int>
+    with_edges(std::vector<unsigned int> nodes) const;
 
     /// Positions [m] of all nodes at rest, by degree of freedom.
     const dealii::Vector<double> &
@@ -63,18 +174,34 @@ namespace Exemplar
       return rest;
     }
 
+    /// Of a node.
+    dealii::Point<3>
+    rest_position(const unsigned int node) const
+    {
+      return { rest[3 * node], rest[3 * node + 1], rest[3 * node + 2] };
+    }
+
+    double
+    cell_volume(unsigned int cell) const;
+
     double
     total_volume() const;
 
-    /// Deformation gradient of a cell whose nodes are at `positions`.
+    /// Deformation gradient at a point where the nodes are at `positions`.
     Matrix3<double>
-    deformation_gradient(const unsigned int cell, const dealii::Vector<double> &positions) const
+    deformation_gradient(const unsigned int point, const dealii::Vector<double> &positions) const
     {
-      Vector3<double> x[4];
-      for (unsigned int a = 0; a < 4; ++a)
-        for (unsigned int c = 0; c < 3; ++c)
-          x[a][c] = positions[3 * nodes(cell)[a] + c];
-      return Exemplar::deformation_gradient(tetrahedra[cell], x);
+      const auto      of_cell = nodes(cell_of(point));
+      const auto      g       = gradients(point);
+      Matrix3<double> F{}; // Eq. (1)
+      for (unsigned int a = 0; a < of_cell.size(); ++a)
+      {
+        const double *x = positions.begin() + 3 * of_cell[a];
+        for (int i = 0; i < 3; ++i)
+          for (int j = 0; j < 3; ++j)
+            F[i][j] += x[i] * g[a][j];
+      }
+      return F;
     }
 
     /// Pattern of the nodal graph: all pairs of nodes that share a cell.
@@ -93,13 +220,20 @@ namespace Exemplar
 
   private:
     void
-    compute_tetrahedra();
+    number_edges();
 
-    const Mesh                      &mesh;
-    const dealii::FESystem<3>        fe;
-    const dealii::MappingFE<3>       mapping;
-    std::vector<Tetrahedron<double>> tetrahedra;
-    dealii::Vector<double>           rest;
+    void
+    compute_gradients();
+
+    const Mesh                              &mesh;
+    const Element                            kind;
+    const dealii::FESystem<3>                fe;
+    const dealii::MappingFE<3>               mapping;
+    std::vector<std::array<unsigned int, 2>> edges;           ///< with nodes; empty: linear
+    std::vector<unsigned int>                quadratic_cells; ///< nodes of each; empty: linear
+    std::vector<Vector3<double>>             shape_gradients;
+    std::vector<double>                      volumes;
+    dealii::Vector<double>                   rest;
   };
 } // namespace Exemplar
 

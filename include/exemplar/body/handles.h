@@ -2,6 +2,7 @@
 #ifndef exemplar_handles_h
 #define exemplar_handles_h
 
+#include <exemplar/body/fe_space.h>
 #include <exemplar/body/handle_parameters.h>
 #include <exemplar/body/time_axis.h>
 #include <exemplar/mesh/mesh.h>
@@ -41,15 +42,17 @@ namespace Exemplar
   /// By the names of handles.
   using NamedMotions = std::map<std::string, Motion>;
 
-  /// Nodes held at places that move in time: hard constraints.
+  /// Nodes held at places that move in time: hard constraints. Of quadratic elements also those in
+  /// the middle of edges between two held nodes of the mesh file.
   class Handles
   {
   public:
     /// The poses that handles follow are among `poses`, the files of nodes among `nodes`;
-    /// those in `motions` move as these say, instead of by their formulas. Throws UserError for a selection without nodes, a formula that is not understood, a
+    /// those in `motions` move as these say of nodes of the mesh file, instead of by their formulas. Throws UserError for a selection without nodes, a formula that is not understood, a
     /// pose that is not there, and for handles that overlap and disagree in any step.
     Handles(const std::vector<HandleParameters> &parameters,
             const Mesh                          &mesh,
+            const FESpace                       &fe_space,
             const TimeAxis                      &axis,
             const NamedPoses                    &poses   = {},
             const NamedNodes                    &nodes   = {},
@@ -120,6 +123,11 @@ namespace Exemplar
                 const NamedPoses       &poses,
                 const NamedNodes       &nodes) const;
 
+    /// A motion of the nodes of the mesh file among some (ascending), and that of the middles of
+    /// edges as the means of their ends.
+    Motion
+    at_middles_too(const Motion &motion, const std::vector<unsigned int> &nodes) const;
+
     std::vector<dealii::Point<3>>
     rest_positions(const Handle &handle) const;
 
@@ -140,7 +148,12 @@ namespace Exemplar
     void
     look_for_straight_turns(const TimeAxis &axis);
 
+    /// The mesh file's number of a node, or those of the ends of its edge.
+    std::string
+    name_of_node(unsigned int node) const;
+
     const Mesh              &mesh;
+    const FESpace           &fe_space;
     std::vector<Handle>      handles;
     std::vector<std::string> warnings;
   };

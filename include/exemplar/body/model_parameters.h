@@ -27,6 +27,7 @@ namespace Exemplar
     StrainMeasure  strain     = StrainMeasure::corotational;
     GradientKind   gradient   = GradientKind::consistent;
     DilatationKind dilatation = DilatationKind::cells;
+    Element        element    = Element::P1;
 
     void
     declare(KeyTable &keys);

@@ -9,8 +9,9 @@
 
 namespace Exemplar
 {
-  /// Disjoint patches that hold all cells. In a patch the volume part of the energy knows one mean
-  /// dilatation, Eq. (25), and not that of each cell, which linear tetrahedra cannot keep small one by one.
+  /// Disjoint patches that hold all quadrature points. In a patch the volume part of the energy knows one mean
+  /// dilatation, Eq. (25), and not that of each point, which tetrahedra cannot keep small one by one. Of quadratic
+  /// elements the points of a cell are a patch, of linear ones the cells of a star are.
   class Patches
   {
   public:
@@ -28,16 +29,16 @@ namespace Exemplar
     }
 
     unsigned int
-    of_cell(const unsigned int cell) const
+    of_point(const unsigned int point) const
     {
-      return patch_of_cell[cell];
+      return patch_of_point[point];
     }
 
-    /// Its cells, in ascending order.
+    /// Its quadrature points, in ascending order.
     const std::vector<unsigned int> &
-    cells(const unsigned int patch) const
+    points(const unsigned int patch) const
     {
-      return cells_of_patch[patch];
+      return points_of_patch[patch];
     }
 
     /// At rest [m^3].
@@ -62,8 +63,8 @@ namespace Exemplar
     void
     collect(const FESpace &fe_space, const Material &material);
 
-    std::vector<unsigned int>              patch_of_cell;
-    std::vector<std::vector<unsigned int>> cells_of_patch;
+    std::vector<unsigned int>              patch_of_point;
+    std::vector<std::vector<unsigned int>> points_of_patch;
     std::vector<double>                    volumes;
     std::vector<double>                    lambdas;
   };

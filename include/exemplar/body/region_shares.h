@@ -10,23 +10,25 @@
 namespace Exemplar
 {
   /// How much of each region's example weights acts in each cell: shares in [0, 1] that
-  /// sum to one. Regions are the cells of one material id, or what is painted.
+  /// sum to one, the same at all quadrature points of a cell. Regions are the cells of one material id, or what is painted.
   class RegionShares
   {
   public:
     /// Without a blend length [m] a cell belongs to its own region alone. With one, the
     /// shares change smoothly over about this distance, measured inside the body: they
     /// solve s - l^2 Laplace s = indicator of the region, with natural boundary and
-    /// l = blend_length / (2 sqrt 3), the filter of Lazarov and Sigmund 2011.
-    RegionShares(const FESpace                   &fe_space,
+    /// l = blend_length / (2 sqrt 3), the filter of Lazarov and Sigmund 2011, on linear elements.
+    RegionShares(const FESpace                   &linear,
                  const std::vector<unsigned int> &material_ids,
-                 double                           blend_length);
+                 double                           blend_length,
+                 unsigned int                     points_per_cell = 1);
 
     /// Regions that are painted: for each of them, from number 1 on, its map's value in every
     /// cell. Where values sum to more than one they are divided by their sum; where they sum to
     /// less, the rest is of a region 0, which is not there if nothing is left anywhere. Throws
     /// UserError for a map that is zero everywhere.
-    explicit RegionShares(const std::vector<std::vector<double>> &painted);
+    explicit RegionShares(const std::vector<std::vector<double>> &painted,
+                          unsigned int                            points_per_cell = 1);
 
     unsigned int
     n_regions() const
@@ -41,27 +43,27 @@ namespace Exemplar
       return ids[region];
     }
 
-    /// The regions that act in a cell, in the range first to last - 1 of list().
+    /// The regions that act at a point, in the range first to last - 1 of list().
     std::size_t
-    first(const unsigned int cell) const
+    first(const unsigned int point) const
     {
-      return start[cell];
+      return start[point];
     }
 
     std::size_t
-    last(const unsigned int cell) const
+    last(const unsigned int point) const
     {
-      return start[cell + 1];
+      return start[point + 1];
     }
 
-    /// The shares of all cells, one cell after the other.
+    /// The shares of all points, one point after the other.
     const std::vector<RegionShare> &
     list() const
     {
       return shares;
     }
 
-    /// Where each cell's shares begin in list(), and its end.
+    /// Where each point's shares begin in list(), and its end.
     const std::vector<std::size_t> &
     starts() const
     {
@@ -70,7 +72,11 @@ namespace Exemplar
 
   private:
     void
-    blend(const FESpace &fe_space, double length);
+    blend(const FESpace &linear, double length);
+
+    /// Give each point the shares of its cell.
+    void
+    spread(unsigned int points_per_cell);
 
     std::vector<unsigned int> ids;
     std::vector<std::size_t>  start;

@@ -12,9 +12,11 @@
 namespace Exemplar
 {
   /// Number of the six rigid motions that the held degrees of freedom (3 i + c)
-  /// leave free.
+  /// leave free, of nodes that are at `rest_positions` at rest.
   unsigned int
-  n_free_rigid_motions(const Mesh &mesh, const std::vector<unsigned int> &held_dofs);
+  n_free_rigid_motions(const Mesh                      &mesh,
+                       const dealii::Vector<double>    &rest_positions,
+                       const std::vector<unsigned int> &held_dofs);
 
   /// Six degrees of freedom of one cell that hold a body against rigid motion and
   /// nothing else: three of its first node, two of the second, one of the third.

@@ -10,7 +10,9 @@
 #include <vector>
 
 // The loops over the cells, compiled for several instruction sets; the best that the CPU
-// has is chosen when the program runs. Everything is stored by batches of `batch_size`
+// has is chosen when the program runs. What the loops call a cell is a quadrature point of a cell:
+// of linear elements there is one, of quadratic ones there are four, one after the other, which
+// share their nodes. Everything is stored by batches of `batch_size`
 // cells: entry e of cell c of a quantity with n entries is at (c/8 n + e) 8 + c%8. No
 // deal.II header here: see matrix3.h.
 
@@ -21,12 +23,11 @@ namespace Exemplar
   struct CellArrays
   {
     std::size_t   n_cells;
-    const int    *nodes;          ///< 4; ascending in each cell
-    const double *gradients;      ///< 9: g_a of the last three of those nodes [1/m]
-    const double *volumes;        ///< 1 [m^3]
-    const double *material;       ///< those of CellMaterial
-    const double *guard_material; ///< the same for Eq. (24): with patches `material` has lambda = 0
-    double       *rotations;      ///< 9: R by rows
+    const int    *nodes;     ///< 4 or 10; ascending in each cell
+    const double *gradients; ///< 9 or 27: g_a of all but the first of those nodes [1/m]
+    const double *volumes;   ///< 1 [m^3]
+    const double *material;  ///< those of CellMaterial
+    double       *rotations; ///< 9: R by rows
     StrainMeasure strain;
     double        guard_bound; ///< p_0 of Eq. (16)
 
@@ -68,8 +69,9 @@ namespace Exemplar
   struct DilatationArrays
   {
     double       *traces = nullptr; ///< 1: tr(e), written by loops that evaluate; null: no patches
-    const double *pressures = nullptr; ///< 1: of the cell's patch [Pa]; null: not needed
-    const double *scales    = nullptr; ///< 1: |C:e| + eta |C:E(w)| of the volume part alone [Pa]
+    const double *pressures         = nullptr; ///< 1: of the cell's patch [Pa]
+    const double *elastic_pressures = nullptr; ///< 1: the same without examples and damping [Pa]
+    const double *scales = nullptr; ///< 1: |C:e| + eta |C:E(w)| of the volume part alone [Pa]
   };
 
   /// What a loop over the cells does with their rotations: it takes those that are stored, or it
@@ -120,8 +122,12 @@ namespace Exemplar
     }
   };
 
-  /// Columns of the 10 blocks (a,b), b <= a, of a cell's matrix: three each.
-  constexpr std::size_t n_block_columns = 30;
+  /// Columns of the blocks (a,b), b <= a, of a cell's matrix: three each.
+  constexpr std::size_t
+  n_block_columns(const std::size_t n_nodes)
+  {
+    return 3 * n_nodes * (n_nodes + 1) / 2;
+  }
 
   /// Where the cells' matrices go. Column j of block (a,b) is added to three consecutive values,
   /// rows 0 to 2. Entries above the diagonal of the matrix count as zero, and a zero may be added
@@ -129,8 +135,9 @@ namespace Exemplar
   struct TangentTask
   {
     bool       convex    = false; ///< make_convex() the models whose convex tangent is not R K R^T
-    const int *positions = nullptr; ///< 30 a cell from the first batch on; -1: left out
-    double    *values    = nullptr;
+    const int *positions = nullptr; ///< n_block_columns() a cell (all its points) from the first
+                                    ///< batch on; -1: left out
+    double *values = nullptr;
   };
 
   /// The loops, over batches begin to end - 1.
@@ -181,19 +188,37 @@ namespace Exemplar
     void (*add_tangent)(const CellTask &, const TangentTask &, std::size_t begin, std::size_t end);
 
     /// By how much a unit of each example's weight reduces the nodal forces of the cells of one
-    /// batch: 12 entries an example, each for all cells of the batch. `rotated`: with rotations
-    /// held fixed, as in R K R^T; else by the exact or convex tangent.
+    /// batch: three entries a node and example, each for all cells of the batch. `rotated`: with
+    /// rotations held fixed, as in R K R^T; else by the exact or convex tangent.
     void (*coupling)(
         const CellTask &, const TangentTask &, bool rotated, std::size_t batch, double *forces);
   };
 
-  /// The kernels for the best instruction set that this CPU has.
+  // Those of one instruction set; the scalar ones are for comparison.
+
+  template <Element element>
+  CellKernels
+  cell_kernels_scalar();
+
+  template <Element element>
+  CellKernels
+  cell_kernels_baseline();
+
+  template <Element element>
+  CellKernels
+  cell_kernels_avx2();
+
+  template <Element element>
+  CellKernels
+  cell_kernels_avx512();
+
+  /// The kernels of an element for the best instruction set that this CPU has.
   const CellKernels &
-  best_kernels();
+  best_kernels(Element element);
 
   /// All that this CPU can run; the first is the scalar one, for comparison.
   std::vector<const CellKernels *>
-  all_kernels();
+  all_kernels(Element element);
 } // namespace Exemplar
 
 #endif

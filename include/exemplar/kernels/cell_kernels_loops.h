@@ -11,22 +11,25 @@
 
 namespace Exemplar::Loops
 {
-  /// The loops of loops_*.h for a number type; see loops_io.h for which files may call this.
-  template <typename Number>
+  /// The loops of loops_*.h for a number type and an element; see loops_io.h for which files may
+  /// call this. Each element has files of its own, because how much a compiler inlines depends on
+  /// all that it sees.
+  template <typename Number, Element element>
   CellKernels
   make_kernels(const char *name)
   {
+    constexpr int n_nodes = nodes_per_cell(element);
     return { name,
-             update_rotations<Number>,
-             add_rotations<Number>,
+             update_rotations<Number, n_nodes>,
+             add_rotations<Number, n_nodes>,
              closest_rotations<Number>,
-             evaluate<Number>,
-             weight_linear_term<Number>,
-             dilatations<Number>,
-             add_pressure_forces<Number>,
-             add_rotated_stiffness<Number>,
-             add_tangent<Number>,
-             coupling<Number> };
+             evaluate<Number, n_nodes>,
+             weight_linear_term<Number, n_nodes>,
+             dilatations<Number, n_nodes>,
+             add_pressure_forces<Number, n_nodes>,
+             add_rotated_stiffness<Number, n_nodes>,
+             add_tangent<Number, n_nodes>,
+             coupling<Number, n_nodes> };
   }
 } // namespace Exemplar::Loops
 

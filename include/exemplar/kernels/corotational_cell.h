@@ -132,11 +132,12 @@ namespace Exemplar
       material = material.scaled(factor);
     }
 
-    /// The guard of the stretch is that of another material.
+    /// The guard of the stretch follows this slope and not that of the cell's own stretch.
     void
-    set_guard_material(const CellMaterial<Number> &guard_material)
+    set_kink(const KinkSlope<Number> &slope)
     {
-      elasticity = guard_material;
+      kink     = slope;
+      has_kink = true;
     }
 
     /// A pressure p I [Pa] of the cell's patch, Eq. (25), joins the stress, once the target is set. W does not
@@ -208,7 +209,8 @@ namespace Exemplar
     StretchGuard<Number>
     stretch() const
     {
-      return StretchGuard<Number>(elasticity, S, product);
+      return StretchGuard<Number>(has_kink ? kink : kink_slope(elasticity, sqrt(contract(S, S))), S,
+                                  product);
     }
 
     /// -d psi / dD. The derivative of psi by a weight w_i is -eta times this, contracted with E_i.
@@ -314,6 +316,8 @@ namespace Exemplar
 
     CellMaterial<Number> elasticity;
     CellMaterial<Number> material; ///< with damping
+    KinkSlope<Number>    kink;     ///< where it is not that of the elasticity
+    bool                 has_kink = false;
     Matrix3<Number>      S;
     Matrix3<Number>      e; ///< S - I
     Matrix3<Number>      B; ///< tr(S) I - S

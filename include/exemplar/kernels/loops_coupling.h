@@ -9,33 +9,33 @@
 
 namespace Exemplar::Loops
 {
-  /// The nodal forces factor V R dP g_a of example i into its 12 entries for each cell.
-  template <typename Number>
+  /// The nodal forces factor V R dP g_a of example i into its entries for each cell.
+  template <typename Number, int n_nodes>
   inline void
-  store_coupling(const LaneGroup<Number>   &group,
-                 const Tetrahedron<Number> &tet,
-                 const Matrix3<Number>     &R,
-                 const Number              &factor,
-                 const Matrix3<Number>     &dP,
-                 const unsigned int         i,
-                 double                    *forces)
+  store_coupling(const LaneGroup<Number>            &group,
+                 const Tetrahedron<Number, n_nodes> &tet,
+                 const Matrix3<Number>              &R,
+                 const Number                       &factor,
+                 const Matrix3<Number>              &dP,
+                 const unsigned int                  i,
+                 double                             *forces)
   {
-    Vector3<Number> force[4];
+    Vector3<Number> force[n_nodes];
     frozen_forces(tet, R, dP, force);
-    for (int a = 0; a < 4; ++a)
+    for (int a = 0; a < n_nodes; ++a)
       for (int c = 0; c < 3; ++c)
         Lanes<Number>::store(factor * force[a][c],
-                             forces + (12 * i + 3 * a + c) * batch_size + group.lane);
+                             forces + (3 * (n_nodes * i + a) + c) * batch_size + group.lane);
   }
 
   /// Beside R K R^T: the forces eta V R (C:E_i) g_a of frozen rotations.
-  template <typename Number>
+  template <int n_nodes, typename Number>
   inline void
   couple_rotated(const CellTask &task, const LaneGroup<Number> &group, double *forces)
   {
-    const Tetrahedron<Number>  tet      = load_tetrahedron(task.cells, group);
+    const auto                 tet      = load_tetrahedron<n_nodes>(task.cells, group);
     const Matrix3<Number>      R        = load_rotation(task.cells, group);
-    const CellMaterial<Number> material = load_material(task.cells.material, group);
+    const CellMaterial<Number> material = load_material(task.cells, group);
     const Number               factor   = Number(task.examples.importance);
     for (unsigned int i = 0; i < task.examples.n; ++i)
       store_coupling(
@@ -45,16 +45,16 @@ namespace Exemplar::Loops
   }
 
   /// Beside the tangent of the model.
-  template <typename Cell, typename Number>
+  template <typename Cell, int n_nodes, typename Number>
   inline void
   couple_exactly(const CellTask          &task,
                  const TangentTask       &tangent,
                  const LaneGroup<Number> &group,
                  double                  *forces)
   {
-    const Tetrahedron<Number> tet    = load_tetrahedron(task.cells, group);
-    const Matrix3<Number>     R      = load_rotation(task.cells, group);
-    Number                    factor = Number(task.examples.importance);
+    const auto            tet    = load_tetrahedron<n_nodes>(task.cells, group);
+    const Matrix3<Number> R      = load_rotation(task.cells, group);
+    Number                factor = Number(task.examples.importance);
     // the damped target moves by 1/(1+s) of what the examples' does, see damped_target()
     if (task.damping.factors != nullptr)
       factor /= Number(1.) + load(task.damping.factors, group, 1, 0);
@@ -66,7 +66,7 @@ namespace Exemplar::Loops
           forces);
   }
 
-  template <typename Number>
+  template <typename Number, int n_nodes>
   inline void
   coupling(const CellTask    &task,
            const TangentTask &tangent,
@@ -83,9 +83,9 @@ namespace Exemplar::Loops
                                                      {
                                                        if constexpr (!Cell::traits.exact_is_rotated)
                                                          if (!rotated)
-                                                           return couple_exactly<Cell>(
+                                                           return couple_exactly<Cell, n_nodes>(
                                                                task, tangent, group, forces);
-                                                       couple_rotated(task, group, forces);
+                                                       couple_rotated<n_nodes>(task, group, forces);
                                                      });
                             });
   }

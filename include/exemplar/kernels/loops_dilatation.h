@@ -9,7 +9,7 @@
 
 namespace Exemplar::Loops
 {
-  template <typename Number>
+  template <typename Number, int n_nodes>
   inline void
   dilatations(const CellTask &task, const std::size_t begin, const std::size_t end)
   {
@@ -23,8 +23,8 @@ namespace Exemplar::Loops
                 begin, end,
                 [&](const LaneGroup<Number> &group)
                 {
-                  const Matrix3<Number> F
-                      = deformation_gradient(task, group, load_tetrahedron(task.cells, group));
+                  const Matrix3<Number> F = deformation_gradient(
+                      task, group, load_tetrahedron<n_nodes>(task.cells, group));
                   Lanes<Number>::store(trace(Cell::strain_of(load_rotation(task.cells, group), F)),
                                        task.dilatation.traces + group.at(1, 0));
                 });
@@ -33,7 +33,7 @@ namespace Exemplar::Loops
 
   /// The derivative of tr(e) by F is R for every strain that has patches, so that a pressure p makes
   /// the forces V p R g_a.
-  template <typename Number>
+  template <typename Number, int n_nodes>
   inline void
   add_pressure_forces(const CellTask   &task,
                       const std::size_t begin,
@@ -44,9 +44,9 @@ namespace Exemplar::Loops
         begin, end,
         [&](const LaneGroup<Number> &group)
         {
-          const Tetrahedron<Number> tet = load_tetrahedron(task.cells, group);
-          const Number              Vp  = tet.volume * load(task.dilatation.pressures, group, 1, 0);
-          Matrix3<Number>           R   = load_rotation(task.cells, group);
+          const auto      tet = load_tetrahedron<n_nodes>(task.cells, group);
+          const Number    Vp  = tet.volume * load(task.dilatation.pressures, group, 1, 0);
+          Matrix3<Number> R   = load_rotation(task.cells, group);
           for (int i = 0; i < 3; ++i)
             for (int j = 0; j < 3; ++j)
               R[i][j] *= Vp;

@@ -10,14 +10,58 @@
 
 namespace Exemplar::Loops
 {
+  /// How many cells are in some state, at any of their points.
+  template <typename Number, int n_nodes>
+  class CellCount
+  {
+  public:
+    template <typename Mask>
+    void
+    add(const LaneGroup<Number> &group, const Mask &mask)
+    {
+      const auto one = [&] { return select(mask, Number(1.), Number(0.)); };
+      if constexpr (points_of_cell(n_nodes) == 1)
+        lanes += one();
+      else if (any(mask)) // hardly ever
+      {
+        alignas(64) double lane[LaneGroup<Number>::width];
+        Lanes<Number>::store(one(), lane);
+        for (std::size_t l = 0; l < LaneGroup<Number>::width; ++l)
+          if (const std::size_t next = group.cell(l) / points_of_cell(n_nodes) + 1;
+              lane[l] > 0. && next != end)
+          {
+            end = next;
+            n += 1.;
+          }
+      }
+    }
+
+    double
+    total() const
+    {
+      alignas(64) double lane[LaneGroup<Number>::width];
+      Lanes<Number>::store(lanes, lane);
+      double sum = n;
+      for (const double value : lane)
+        sum += value;
+      return sum;
+    }
+
+  private:
+    Number      lanes = Number(0.);
+    double      n     = 0.;
+    std::size_t end   = 0; ///< behind the last cell that was counted
+  };
+
   /// CellSums, of the cells of each lane apart.
-  template <typename Number>
+  template <typename Number, int n_nodes>
   struct LaneSums
   {
     Number energy = Number(0.), elastic = Number(0.), damping = Number(0.);
     Number stress_square = Number(0.);
     Number min_det       = Number(std::numeric_limits<double>::max());
-    Number inverted = Number(0.), guarded = Number(0.);
+
+    CellCount<Number, n_nodes> inverted, guarded;
 
     void
     add_to(CellSums &sums) const
@@ -26,8 +70,8 @@ namespace Exemplar::Loops
       sums.energy_elastic += total(elastic);
       sums.energy_damping += total(damping);
       sums.stress_square += total(stress_square);
-      sums.inverted_cells += static_cast<unsigned int>(total(inverted));
-      sums.guarded_cells += static_cast<unsigned int>(total(guarded));
+      sums.inverted_cells += static_cast<unsigned int>(inverted.total());
+      sums.guarded_cells += static_cast<unsigned int>(guarded.total());
       alignas(64) double lane[LaneGroup<Number>::width];
       Lanes<Number>::store(min_det, lane);
       for (const double det : lane)
@@ -47,31 +91,31 @@ namespace Exemplar::Loops
   };
 
   /// Add the forces of the cells' nodes and their scales to the sums of the nodes.
-  template <typename Number>
+  template <typename Number, int n_nodes>
   inline void
-  add_forces(const CellTask            &task,
-             const LaneGroup<Number>   &group,
-             const Tetrahedron<Number> &tet,
-             const Matrix3<Number>     &VP, ///< V P
-             const Number              &scale,
-             double                    *nodal_sums)
+  add_forces(const CellTask                     &task,
+             const LaneGroup<Number>            &group,
+             const Tetrahedron<Number, n_nodes> &tet,
+             const Matrix3<Number>              &VP, ///< V P
+             const Number                       &scale,
+             double                             *nodal_sums)
   {
-    alignas(64) double lanes[4][4][LaneGroup<Number>::width];
-    Vector3<Number>    last; // the force at node 0 is minus the sum of the others
-    for (int a = 3; a >= 0; --a)
+    alignas(64) double lanes[n_nodes][4][LaneGroup<Number>::width];
+    Vector3<Number>    last{}; // the force at node 0 is minus the sum of the others
+    for (int a = n_nodes - 1; a >= 0; --a)
     {
       const Vector3<Number> force = a > 0 ? VP * tet.shape_gradient[a] : last;
       for (int i = 0; i < 3; ++i)
       {
-        last[i] = a == 3 ? -force[i] : last[i] - force[i];
+        last[i] = a == n_nodes - 1 ? -force[i] : last[i] - force[i];
         Lanes<Number>::store(force[i], lanes[a][i]);
       }
       const Vector3<Number> &g = tet.shape_gradient[a];
       Lanes<Number>::store(scale * sqrt(dot(g, g)), lanes[a][3]);
     }
-    for (int a = 0; a < 4; ++a)
+    for (int a = 0; a < n_nodes; ++a)
     {
-      const int *nodes = task.cells.nodes + group.at(4, a);
+      const int *nodes = task.cells.nodes + group.at(n_nodes, a);
       if constexpr (LaneGroup<Number>::width >= 4)
         for (std::size_t lane = 0; lane < LaneGroup<Number>::width; lane += 4)
         {
@@ -101,17 +145,17 @@ namespace Exemplar::Loops
   /// Adds the guard of the stretch, where it acts. It begins anew from the positions and is kept out
   /// of evaluate_group(), whose numbers would otherwise have to outlive their registers for what
   /// hardly any cell needs.
-  template <typename Cell, typename Number>
+  template <typename Cell, int n_nodes, typename Number>
   [[gnu::noinline, gnu::cold]] void
-  add_stretch_guard(const CellTask          &task,
-                    const LaneGroup<Number> &group,
-                    double                  *nodal_sums,
-                    LaneSums<Number>        &sums)
+  add_stretch_guard(const CellTask            &task,
+                    const LaneGroup<Number>   &group,
+                    double                    *nodal_sums,
+                    LaneSums<Number, n_nodes> &sums)
   {
-    const Tetrahedron<Number> tet = load_tetrahedron(task.cells, group);
-    const Matrix3<Number>     F   = deformation_gradient(task, group, tet);
-    const Matrix3<Number>     R   = rotation<Cell>(task, group, F);
-    const Cell cell(load_material(task.cells.guard_material, group), R, F, task.cells.guard_bound);
+    const auto            tet = load_tetrahedron<n_nodes>(task.cells, group);
+    const Matrix3<Number> F   = deformation_gradient(task, group, tet);
+    const Matrix3<Number> R   = rotation<Cell>(task, group, F);
+    const Cell            cell(load_material(task.cells, group), R, F, task.cells.guard_bound);
     if (!cell.is_stretched())
       return;
     const StretchGuard<Number> guard  = cell.stretch();
@@ -125,22 +169,21 @@ namespace Exemplar::Loops
     add_forces(task, group, tet, RP, Number(0.), nodal_sums);
   }
 
-  template <typename Cell, typename Number>
+  template <typename Cell, int n_nodes, typename Number>
   inline void
-  evaluate_group(const CellTask          &task,
-                 const LaneGroup<Number> &group,
-                 double                  *nodal_sums,
-                 double                  *weight_sums,
-                 LaneSums<Number>        &sums)
+  evaluate_group(const CellTask            &task,
+                 const LaneGroup<Number>   &group,
+                 double                    *nodal_sums,
+                 double                    *weight_sums,
+                 LaneSums<Number, n_nodes> &sums)
   {
     const bool                 frozen       = task.cells.guard_bound == no_guard;
     const bool                 has_examples = task.examples.n_weights > 0;
-    const Tetrahedron<Number>  tet          = load_tetrahedron(task.cells, group);
-    const CellMaterial<Number> material     = load_material(task.cells.material, group);
+    const auto                 tet          = load_tetrahedron<n_nodes>(task.cells, group);
+    const CellMaterial<Number> material     = load_material(task.cells, group);
     const Matrix3<Number>      F            = deformation_gradient(task, group, tet);
     const Matrix3<Number>      R            = rotation<Cell>(task, group, F);
     const auto                 is_real      = tet.volume > Number(0.);
-    const auto one = [](const auto &mask) { return select(mask, Number(1.), Number(0.)); };
 
     const Number          det = determinant(F);
     Cell                  cell(material, R, F, task.cells.guard_bound);
@@ -149,7 +192,7 @@ namespace Exemplar::Loops
     const Number          elastic        = tet.volume * density;
     Number                scale          = norm(elastic_stress);
     sums.min_det                         = select(det >= sums.min_det, sums.min_det, det);
-    sums.inverted += one(is_real & (det <= Number(0.)));
+    sums.inverted.add(group, is_real & (det <= Number(0.)));
     sums.elastic += elastic;
     if (task.dilatation.traces != nullptr)
       Lanes<Number>::store(trace(cell.strain()), task.dilatation.traces + group.at(1, 0));
@@ -165,7 +208,7 @@ namespace Exemplar::Loops
       scale += norm(stress(material, D));
       sums.stress_square += tet.volume * scale * scale;
       sums.energy += tet.volume * cell.energy(D);
-      sums.guarded += one(is_real & cell.is_guarded());
+      sums.guarded.add(group, is_real & cell.is_guarded());
       if (frozen || task.with_weight_sums)
       {
         P = cell.weight_stress(D);
@@ -201,10 +244,10 @@ namespace Exemplar::Loops
         RP[i][j] *= tet.volume;
     add_forces(task, group, tet, RP, tet.volume * cell.force_factor() * scale, nodal_sums);
     if (!frozen && cell.may_be_stretched(density))
-      add_stretch_guard<Cell>(task, group, nodal_sums, sums);
+      add_stretch_guard<Cell, n_nodes>(task, group, nodal_sums, sums);
   }
 
-  template <typename Number>
+  template <typename Number, int n_nodes>
   inline void
   evaluate(const CellTask   &task,
            const std::size_t begin,
@@ -213,21 +256,21 @@ namespace Exemplar::Loops
            double           *weight_sums,
            CellSums         &result)
   {
-    LaneSums<Number> sums;
-    with_cell_model<Number>(task.cells.strain,
-                            [&](auto model)
-                            {
-                              using Cell = typename decltype(model)::type;
-                              for_each_group<Number>(begin, end,
-                                                     [&](const LaneGroup<Number> &group) {
-                                                       evaluate_group<Cell>(task, group, nodal_sums,
-                                                                            weight_sums, sums);
-                                                     });
-                            });
+    LaneSums<Number, n_nodes> sums;
+    with_cell_model<Number>(
+        task.cells.strain,
+        [&](auto model)
+        {
+          using Cell = typename decltype(model)::type;
+          for_each_group<Number>(
+              begin, end,
+              [&](const LaneGroup<Number> &group)
+              { evaluate_group<Cell, n_nodes>(task, group, nodal_sums, weight_sums, sums); });
+        });
     sums.add_to(result);
   }
 
-  template <typename Number>
+  template <typename Number, int n_nodes>
   inline void
   weight_linear_term(const CellTask   &task,
                      const std::size_t begin,
@@ -243,10 +286,10 @@ namespace Exemplar::Loops
               begin, end,
               [&](const LaneGroup<Number> &group)
               {
-                const Tetrahedron<Number> tet = load_tetrahedron(task.cells, group);
-                const Matrix3<Number>     F   = deformation_gradient(task, group, tet);
-                const Cell                cell(load_material(task.cells.material, group),
-                                               rotation<Cell>(task, group, F), F, task.cells.guard_bound);
+                const auto            tet = load_tetrahedron<n_nodes>(task.cells, group);
+                const Matrix3<Number> F   = deformation_gradient(task, group, tet);
+                const Cell cell(load_material(task.cells, group), rotation<Cell>(task, group, F), F,
+                                task.cells.guard_bound);
                 if (task.dilatation.traces != nullptr)
                   Lanes<Number>::store(trace(cell.strain()),
                                        task.dilatation.traces + group.at(1, 0));

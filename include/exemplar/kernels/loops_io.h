@@ -5,6 +5,8 @@
 #include <exemplar/kernels/cell_kernels.h>
 #include <exemplar/kernels/symmetric.h>
 
+#include <utility>
+
 // How the loops over the cells read the cells and nodes of a group, and how four numbers of each
 // cell are turned into registers of one number of four cells.
 //
@@ -38,6 +40,13 @@ namespace Exemplar::Loops
     }
   };
 
+  /// Quadrature points of a cell with so many nodes.
+  constexpr std::size_t
+  points_of_cell(const int n_nodes)
+  {
+    return points_per_cell(n_nodes == nodes_per_cell(Element::P1) ? Element::P1 : Element::P2);
+  }
+
   /// Call function(group) for all groups of the batches begin to end - 1.
   template <typename Number, typename Function>
   inline void
@@ -55,14 +64,13 @@ namespace Exemplar::Loops
     return Lanes<Number>::load(from + group.at(n, e));
   }
 
-  /// From CellArrays::material or guard_material.
   template <typename Number>
   inline CellMaterial<Number>
-  load_material(const double *material, const LaneGroup<Number> &group)
+  load_material(const CellArrays &cells, const LaneGroup<Number> &group)
   {
     constexpr std::size_t n = CellMaterial<Number>::n_numbers;
     return CellMaterial<Number>::from_numbers([&](const std::size_t k)
-                                              { return load(material, group, n, k); });
+                                              { return load(cells.material, group, n, k); });
   }
 
   template <typename Number>
@@ -89,17 +97,35 @@ namespace Exemplar::Loops
     return unpack(E);
   }
 
-  template <typename Number>
-  inline Tetrahedron<Number>
+  template <typename Function, int... a>
+  [[gnu::always_inline]] inline auto
+  sum_of(const Function &function, std::integer_sequence<int, a...>)
+  {
+    return (... + function(a));
+  }
+
+  /// function(0) + ... + function(n - 1), written out: compilers unroll loops too late to keep the
+  /// numbers of an array in registers.
+  template <int n, typename Function>
+  [[gnu::always_inline]] inline auto
+  sum_of(const Function &function)
+  {
+    return sum_of(function, std::make_integer_sequence<int, n>());
+  }
+
+  template <int n_nodes, typename Number>
+  inline Tetrahedron<Number, n_nodes>
   load_tetrahedron(const CellArrays &cells, const LaneGroup<Number> &group)
   {
-    Tetrahedron<Number> tet;
+    constexpr std::size_t        n = 3 * (n_nodes - 1);
+    Tetrahedron<Number, n_nodes> tet;
     for (int i = 0; i < 3; ++i)
     {
-      for (int a = 1; a < 4; ++a)
-        tet.shape_gradient[a][i] = load(cells.gradients, group, 9, 3 * (a - 1) + i);
-      tet.shape_gradient[0][i] = -tet.shape_gradient[1][i] - tet.shape_gradient[2][i]
-                                 - tet.shape_gradient[3][i]; // shape functions sum to one
+      for (int a = 1; a < n_nodes; ++a)
+        tet.shape_gradient[a][i] = load(cells.gradients, group, n, 3 * (a - 1) + i);
+      // shape functions sum to one
+      tet.shape_gradient[0][i]
+          = -sum_of<n_nodes - 1>([&](const int a) { return tet.shape_gradient[a + 1][i]; });
     }
     tet.volume = load(cells.volumes, group, 1, 0);
     return tet;
@@ -183,24 +209,24 @@ namespace Exemplar::Loops
     }
   }
 
-  template <typename Number>
+  template <typename Number, int n_nodes>
   inline Matrix3<Number>
-  deformation_gradient(const CellTask            &task,
-                       const LaneGroup<Number>   &group,
-                       const Tetrahedron<Number> &tet)
+  deformation_gradient(const CellTask                     &task,
+                       const LaneGroup<Number>            &group,
+                       const Tetrahedron<Number, n_nodes> &tet)
   {
-    Vector3<Number> x[4];
-    for (int a = 0; a < 4; ++a)
-      load_nodes(task.positions, task.cells.nodes + group.at(4, a), x[a]);
-    Vector3<Number> edge[4]; // from node 0
-    for (int a = 1; a < 4; ++a)
+    Vector3<Number> x[n_nodes];
+    for (int a = 0; a < n_nodes; ++a)
+      load_nodes(task.positions, task.cells.nodes + group.at(n_nodes, a), x[a]);
+    Vector3<Number> edge[n_nodes]; // from node 0
+    for (int a = 1; a < n_nodes; ++a)
       for (int i = 0; i < 3; ++i)
         edge[a][i] = x[a][i] - x[0][i];
     Matrix3<Number> F; // Eq. (1)
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
-        F[i][j] = edge[1][i] * tet.shape_gradient[1][j] + edge[2][i] * tet.shape_gradient[2][j]
-                  + edge[3][i] * tet.shape_gradient[3][j];
+        F[i][j] = sum_of<n_nodes - 1>([&](const int a)
+                                      { return edge[a + 1][i] * tet.shape_gradient[a + 1][j]; });
     return F;
   }
 } // namespace Exemplar::Loops

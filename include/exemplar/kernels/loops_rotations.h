@@ -22,7 +22,7 @@ namespace Exemplar::Loops
     return R;
   }
 
-  template <typename Number>
+  template <typename Number, int n_nodes>
   inline void
   update_rotations(const CellTask &task, const std::size_t begin, const std::size_t end)
   {
@@ -38,9 +38,9 @@ namespace Exemplar::Loops
                 begin, end,
                 [&](const LaneGroup<Number> &group)
                 {
-                  rotation<Cell>(
-                      updating, group,
-                      deformation_gradient(task, group, load_tetrahedron(task.cells, group)));
+                  rotation<Cell>(updating, group,
+                                 deformation_gradient(
+                                     task, group, load_tetrahedron<n_nodes>(task.cells, group)));
                 });
         });
   }
@@ -71,7 +71,7 @@ namespace Exemplar::Loops
       *reinterpret_cast<FourFloatsInMemory *>(sums + 4 * part) += R[part];
   }
 
-  template <typename Number>
+  template <typename Number, int n_nodes>
   inline void
   add_rotations(const CellTask   &task,
                 const std::size_t begin,
@@ -82,19 +82,19 @@ namespace Exemplar::Loops
         begin, end,
         [&](const LaneGroup<Number> &group)
         {
-          const int *nodes = task.cells.nodes + group.at(4, 0);
+          const int *nodes = task.cells.nodes + group.at(n_nodes, 0);
           if constexpr (LaneGroup<Number>::width >= 4)
             for (std::size_t lane = 0; lane < LaneGroup<Number>::width; lane += 4)
             {
               FourFloats R[4][3];
               load_rotations<Number>(task.cells, { group.batch, group.lane + lane }, R);
               for (std::size_t l = 0; l < 4; ++l)
-                for (int a = 0; a < 4; ++a)
+                for (int a = 0; a < n_nodes; ++a)
                   add_to(nodal_sums + 12 * nodes[a * batch_size + lane + l], R[l]);
             }
           else
             for (std::size_t lane = 0; lane < LaneGroup<Number>::width; ++lane)
-              for (int a = 0; a < 4; ++a)
+              for (int a = 0; a < n_nodes; ++a)
                 for (int k = 0; k < 9; ++k)
                   nodal_sums[12 * nodes[a * batch_size + lane] + k]
                       += static_cast<float>(task.cells.rotations[group.at(9, k) + lane]);

@@ -5,36 +5,46 @@
 #include <exemplar/kernels/loops_io.h>
 
 // The loop that adds R K R^T, Eq. (8). The stiffness of an isotropic material is turned by turning
-// the four gradients of a cell.
+// the gradients of a cell.
 
 namespace Exemplar::Loops
 {
+  /// Where the columns of the matrix of a cell (with all its points) go, if batch `begin` is the
+  /// first.
+  template <int n_nodes>
+  inline const int *
+  matrix_positions(const TangentTask &tangent, const std::size_t begin, const std::size_t cell)
+  {
+    return tangent.positions
+           + n_block_columns(n_nodes) * ((cell - begin * batch_size) / points_of_cell(n_nodes));
+  }
+
   /// What makes R K R^T of the cells of a group, Eq. (8), for an isotropic material. Lanes are
   /// stored apart, because each cell is then added by itself.
-  template <typename Number>
+  template <typename Number, int n>
   struct RotatedStiffness
   {
-    alignas(64) double g[4][3][LaneGroup<Number>::width];        ///< R g_a
-    alignas(64) double lambda_g[4][3][LaneGroup<Number>::width]; ///< times V lambda
-    alignas(64) double mu_g[4][3][LaneGroup<Number>::width];     ///< times V mu
-    alignas(64) double diagonal[4][4][LaneGroup<Number>::width]; ///< V mu g_a.g_b, a >= b
+    alignas(64) double g[n][3][LaneGroup<Number>::width];        ///< R g_a
+    alignas(64) double lambda_g[n][3][LaneGroup<Number>::width]; ///< times V lambda
+    alignas(64) double mu_g[n][3][LaneGroup<Number>::width];     ///< times V mu
+    alignas(64) double diagonal[n][n][LaneGroup<Number>::width]; ///< V mu g_a.g_b, a >= b
   };
 
-  template <typename Number>
+  template <typename Number, int n>
   inline void
-  find_rotated_stiffness(const CellTask           &task,
-                         const LaneGroup<Number>  &group,
-                         RotatedStiffness<Number> &K)
+  find_rotated_stiffness(const CellTask              &task,
+                         const LaneGroup<Number>     &group,
+                         RotatedStiffness<Number, n> &K)
   {
-    const Tetrahedron<Number> tet    = load_tetrahedron(task.cells, group);
-    const Matrix3<Number>     R      = load_rotation(task.cells, group);
-    Number                    factor = tet.volume;
+    const auto            tet    = load_tetrahedron<n>(task.cells, group);
+    const Matrix3<Number> R      = load_rotation(task.cells, group);
+    Number                factor = tet.volume;
     if (task.damping.factors != nullptr)
       factor *= Number(1.) + load(task.damping.factors, group, 1, 0);
-    const auto [lambda, mu] = load_material(task.cells.material, group).scaled(factor);
-    Vector3<Number> g[4];
+    const auto [lambda, mu] = load_material(task.cells, group).scaled(factor);
+    Vector3<Number> g[n];
     rotate_gradients(tet, R, g);
-    for (int a = 0; a < 4; ++a)
+    for (int a = 0; a < n; ++a)
     {
       for (int i = 0; i < 3; ++i)
       {
@@ -47,20 +57,20 @@ namespace Exemplar::Loops
     }
   }
 
-  /// Add V (lambda g_a g_b^T + mu (g_b g_a^T + (g_a.g_b) I)) of one cell, with g its rotated
-  /// gradients, of which the fourth entry is 0.
-  template <typename Number>
+  /// Add V (lambda g_a g_b^T + mu (g_b g_a^T + (g_a.g_b) I)) of some points of one cell, from that
+  /// in `lane` on, with g their rotated gradients, of which the fourth entry is 0.
+  template <typename Number, int n, std::size_t n_points>
   [[gnu::always_inline]] inline void
-  add_stiffness(const RotatedStiffness<Number> &K,
-                const std::size_t               lane,
-                const Four (&g)[4],
+  add_stiffness(const RotatedStiffness<Number, n> &K,
+                const std::size_t                  lane,
+                const Four (&g)[n][n_points],
                 const int *position,
                 double    *values)
   {
     const Four unit[3] = { { 1., 0., 0., 0. }, { 0., 1., 0., 0. }, { 0., 0., 1., 0. } };
     const Four rows[3] = { { 1., 1., 1., 0. }, { 0., 1., 1., 0. }, { 0., 0., 1., 0. } };
 #pragma GCC unroll 4
-    for (int a = 0; a < 4; ++a)
+    for (int a = 0; a < n; ++a)
 #pragma GCC unroll 4
       for (int b = 0; b <= a; ++b)
       {
@@ -70,8 +80,11 @@ namespace Exemplar::Loops
 #pragma GCC unroll 3
         for (int j = 0; j < 3; ++j)
         {
-          Four entries = g[a] * K.lambda_g[b][j][lane] + g[b] * K.mu_g[a][j][lane]
+          Four entries = g[a][0] * K.lambda_g[b][j][lane] + g[b][0] * K.mu_g[a][j][lane]
                          + unit[j] * K.diagonal[a][b][lane];
+          for (std::size_t p = 1; p < n_points; ++p)
+            entries += g[a][p] * K.lambda_g[b][j][lane + p] + g[b][p] * K.mu_g[a][j][lane + p]
+                       + unit[j] * K.diagonal[a][b][lane + p];
           if (a == b)
             entries *= rows[j]; // of diagonal blocks, the lower triangle alone
           add_four(entries, values + column[j]);
@@ -80,11 +93,11 @@ namespace Exemplar::Loops
   }
 
   /// The rotated gradients a of some cells, each filled up to four numbers by a zero.
-  template <typename Number>
+  template <typename Number, int n>
   [[gnu::always_inline]] inline void
-  gradients_by_cell(const RotatedStiffness<Number> &K,
-                    const std::size_t               first,
-                    const int                       a,
+  gradients_by_cell(const RotatedStiffness<Number, n> &K,
+                    const std::size_t                  first,
+                    const int                          a,
                     Four (&g)[4])
   {
     if constexpr (LaneGroup<Number>::width >= 4)
@@ -99,33 +112,38 @@ namespace Exemplar::Loops
         g[l] = Four{ K.g[a][0][l], K.g[a][1][l], K.g[a][2][l], 0. };
   }
 
-  template <typename Number>
+  template <typename Number, int n>
   inline void
   add_rotated_stiffness(const CellTask    &task,
                         const TangentTask &tangent,
                         const std::size_t  begin,
                         const std::size_t  end)
   {
-    RotatedStiffness<Number> K;
+    // points of one cell that are computed at once are added at once
+    constexpr std::size_t at_once  = std::min<std::size_t>(4, LaneGroup<Number>::width);
+    constexpr std::size_t n_points = std::min(at_once, points_of_cell(n));
+
+    RotatedStiffness<Number, n> K;
     for_each_group<Number>(
         begin, end,
         [&](const LaneGroup<Number> &group)
         {
           find_rotated_stiffness(task, group, K);
-          constexpr std::size_t at_once = std::min<std::size_t>(4, LaneGroup<Number>::width);
           for (std::size_t first = 0; first < LaneGroup<Number>::width; first += at_once)
           {
-            Four g[4][4]; // of node a, by cell
-            for (int a = 0; a < 4; ++a)
+            Four g[n][4]; // of node a, by cell
+            for (int a = 0; a < n; ++a)
               gradients_by_cell(K, first, a, g[a]);
-            for (std::size_t l = 0; l < at_once; ++l)
+            for (std::size_t l = 0; l < at_once; l += n_points)
             {
               const std::size_t cell = group.cell(first + l);
               if (cell >= task.cells.n_cells)
                 return;
-              const Four g_of_cell[4] = { g[0][l], g[1][l], g[2][l], g[3][l] };
-              add_stiffness(K, first + l, g_of_cell,
-                            tangent.positions + n_block_columns * (cell - begin * batch_size),
+              Four g_of_cell[n][n_points];
+              for (int a = 0; a < n; ++a)
+                for (std::size_t p = 0; p < n_points; ++p)
+                  g_of_cell[a][p] = g[a][l + p];
+              add_stiffness(K, first + l, g_of_cell, matrix_positions<n>(tangent, begin, cell),
                             tangent.values);
             }
           }

@@ -3,21 +3,22 @@
 #define exemplar_loops_tangent_h
 
 #include <exemplar/kernels/loops_examples.h>
+#include <exemplar/kernels/loops_stiffness.h>
 
 // The tangents of the models that are not R K R^T, Eqs. (18) and (19).
 
 namespace Exemplar::Loops
 {
   /// A cell of each lane with its material, positions and target strain, damping included.
-  template <typename Cell, typename Number>
+  template <typename Cell, typename Number, int n_nodes>
   inline Cell
-  driven_cell(const CellTask            &task,
-              const TangentTask         &tangent,
-              const LaneGroup<Number>   &group,
-              const Tetrahedron<Number> &tet,
-              const Matrix3<Number>     &R)
+  driven_cell(const CellTask                     &task,
+              const TangentTask                  &tangent,
+              const LaneGroup<Number>            &group,
+              const Tetrahedron<Number, n_nodes> &tet,
+              const Matrix3<Number>              &R)
   {
-    Cell cell(load_material(task.cells.material, group), R, deformation_gradient(task, group, tet),
+    Cell cell(load_material(task.cells, group), R, deformation_gradient(task, group, tet),
               task.cells.guard_bound);
     Matrix3<Number> D = target(task, group);
     if (task.damping.factors != nullptr)
@@ -30,7 +31,8 @@ namespace Exemplar::Loops
     if constexpr (Cell::traits.has_patches)
       if (task.dilatation.pressures != nullptr)
       {
-        cell.set_guard_material(load_material(task.cells.guard_material, group));
+        cell.set_kink(patch_kink_slope(load_material(task.cells, group),
+                                       load(task.dilatation.elastic_pressures, group, 1, 0)));
         cell.add_pressure(load(task.dilatation.pressures, group, 1, 0));
       }
     if constexpr (!Cell::traits.convex_is_rotated)
@@ -39,17 +41,34 @@ namespace Exemplar::Loops
     return cell;
   }
 
-  /// Three columns of each of 10 blocks, with space for four rows, of the cells of a group.
-  template <typename Number>
-  using BlockColumns = double[n_block_columns][4][LaneGroup<Number>::width];
+  /// Three columns of each block, with space for four rows, of the cells of a group.
+  template <typename Number, int n_nodes>
+  using BlockColumns = double[n_block_columns(n_nodes)][4][LaneGroup<Number>::width];
 
-  /// d f_a / d x_b for the cells of a group.
+  /// V R times the responses of a cell to changes e_k (x) g of R^T F, for three k.
   template <typename Cell, typename Number>
   inline void
-  cell_blocks(const Cell                &cell,
-              const Matrix3<Number>     &R,
-              const Tetrahedron<Number> &tet,
-              BlockColumns<Number>      &columns)
+  node_responses(const Cell            &cell,
+                 const Matrix3<Number> &VR,
+                 const Vector3<Number> &g,
+                 Matrix3<Number> (&response)[3])
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      Matrix3<Number> M{};
+      for (int l = 0; l < 3; ++l)
+        M[k][l] = g[l];
+      response[k] = VR * cell.response(M);
+    }
+  }
+
+  /// d f_a / d x_b for the cells of a group.
+  template <typename Cell, typename Number, int n_nodes>
+  inline void
+  cell_blocks(const Cell                         &cell,
+              const Matrix3<Number>              &R,
+              const Tetrahedron<Number, n_nodes> &tet,
+              BlockColumns<Number, n_nodes>      &columns)
   {
     Matrix3<Number> VR = R;
     for (int i = 0; i < 3; ++i)
@@ -57,17 +76,11 @@ namespace Exemplar::Loops
         VR[i][j] *= tet.volume;
     // node b moves by the unit vector k of the rotated frame; of these three responses that to a
     // unit vector j of space is a combination
-    for (int b = 0; b < 4; ++b)
+    for (int b = 0; b < n_nodes; ++b)
     {
       Matrix3<Number> response[3];
-      for (int k = 0; k < 3; ++k)
-      {
-        Matrix3<Number> M{};
-        for (int l = 0; l < 3; ++l)
-          M[k][l] = tet.shape_gradient[b][l];
-        response[k] = VR * cell.response(M);
-      }
-      for (int a = b; a < 4; ++a)
+      node_responses(cell, VR, tet.shape_gradient[b], response);
+      for (int a = b; a < n_nodes; ++a)
       {
         Vector3<Number> force[3];
         for (int k = 0; k < 3; ++k)
@@ -83,26 +96,33 @@ namespace Exemplar::Loops
     }
   }
 
-  template <typename Number>
+  template <typename Number, int n_nodes>
   inline void
   add_tangent(const CellTask    &task,
               const TangentTask &tangent,
               const std::size_t  begin,
               const std::size_t  end)
   {
-    alignas(64) BlockColumns<Number> columns = {};
-    const auto                       add     = [&](const LaneGroup<Number> &group)
+    constexpr std::size_t n_points = std::min(LaneGroup<Number>::width, points_of_cell(n_nodes));
+
+    alignas(64) BlockColumns<Number, n_nodes> columns = {};
+    const auto                                add     = [&](const LaneGroup<Number> &group)
     {
-      for (std::size_t lane = 0; lane < LaneGroup<Number>::width; ++lane)
+      for (std::size_t lane = 0; lane < LaneGroup<Number>::width; lane += n_points)
       {
         const std::size_t cell = group.cell(lane);
         if (cell >= task.cells.n_cells)
           return;
-        const int *position = tangent.positions + n_block_columns * (cell - begin * batch_size);
-        for (std::size_t column = 0; column < n_block_columns; ++column)
+        const int *position = matrix_positions<n_nodes>(tangent, begin, cell);
+        for (std::size_t column = 0; column < n_block_columns(n_nodes); ++column)
           if (position[column] >= 0)
             for (int i = 0; i < 3; ++i)
-              tangent.values[position[column] + i] += columns[column][i][lane];
+            {
+              double sum = columns[column][i][lane];
+              for (std::size_t p = 1; p < n_points; ++p)
+                sum += columns[column][i][lane + p];
+              tangent.values[position[column] + i] += sum;
+            }
       }
     };
     with_cell_model<Number>(task.cells.strain,
@@ -114,7 +134,7 @@ namespace Exemplar::Loops
                                     begin, end,
                                     [&](const LaneGroup<Number> &group)
                                     {
-                                      const auto tet = load_tetrahedron(task.cells, group);
+                                      const auto tet = load_tetrahedron<n_nodes>(task.cells, group);
                                       const auto R   = load_rotation(task.cells, group);
                                       cell_blocks(driven_cell<Cell>(task, tangent, group, tet, R),
                                                   R, tet, columns);

@@ -21,11 +21,8 @@ namespace Exemplar
 
   /// Whether a cell is stretched as far as the guard of stretch_guard.h begins.
   inline bool
-  is_strongly_stretched(const CellMaterial<double> &material,
-                        const Matrix3<double>      &deformation_gradient)
+  is_strongly_stretched(const KinkSlope<double> &kink)
   {
-    const double            norm = sqrt(contract(deformation_gradient, deformation_gradient));
-    const KinkSlope<double> kink = kink_slope(material, norm);
     return kink.slope > -kink.margin;
   }
 

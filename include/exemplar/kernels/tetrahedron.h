@@ -4,31 +4,51 @@
 
 #include <exemplar/kernels/matrix3.h>
 
-// The geometry of one linear tetrahedron and the forces at its nodes, as pure functions. Equation
+// The geometry of a tetrahedron at a point and the forces at its nodes, as pure functions. Equation
 // numbers are those of doc/method.md. No deal.II header here: see matrix3.h.
 
 namespace Exemplar
 {
-  /// A cell at rest.
-  template <typename Number>
+  enum class Element
+  {
+    P1, ///< linear: 4 nodes, one quadrature point
+    P2  ///< quadratic: 10 nodes, four quadrature points
+  };
+
+  constexpr int
+  nodes_per_cell(const Element element)
+  {
+    return element == Element::P1 ? 4 : 10;
+  }
+
+  constexpr int
+  points_per_cell(const Element element)
+  {
+    return element == Element::P1 ? 1 : 4;
+  }
+
+  /// A quadrature point of a cell at rest.
+  template <typename Number, int n_nodes = 4>
   struct Tetrahedron
   {
-    Vector3<Number> shape_gradient[4]; ///< g_a, gradient of shape function a [1/m]
-    Number          volume;            ///< V [m^3]
+    Vector3<Number> shape_gradient[n_nodes]; ///< g_a, gradient of shape function a [1/m]
+    Number          volume;                  ///< V, that the point stands for [m^3]
   };
 
   /// F = sum_a x_a (x) g_a, Eq. (1).
-  template <typename Number>
+  template <typename Number, int n_nodes>
   Matrix3<Number>
-  deformation_gradient(const Tetrahedron<Number> &cell, const Vector3<Number> (&position)[4])
+  deformation_gradient(const Tetrahedron<Number, n_nodes> &cell,
+                       const Vector3<Number> (&position)[n_nodes])
   {
     Matrix3<Number> F;
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
-        F[i][j] = position[0][i] * cell.shape_gradient[0][j]
-                  + position[1][i] * cell.shape_gradient[1][j]
-                  + position[2][i] * cell.shape_gradient[2][j]
-                  + position[3][i] * cell.shape_gradient[3][j];
+      {
+        F[i][j] = position[0][i] * cell.shape_gradient[0][j];
+        for (int a = 1; a < n_nodes; ++a)
+          F[i][j] += position[a][i] * cell.shape_gradient[a][j];
+      }
     return F;
   }
 
@@ -46,15 +66,15 @@ namespace Exemplar
   }
 
   /// Nodal forces V R T g_a of a cell whose rotation is frozen, Eq. (6) [N].
-  template <typename Number>
+  template <typename Number, int n_nodes>
   void
-  frozen_forces(const Tetrahedron<Number> &cell,
-                const Matrix3<Number>     &rotation,
-                const Matrix3<Number>     &corotated_stress,
-                Vector3<Number> (&force)[4])
+  frozen_forces(const Tetrahedron<Number, n_nodes> &cell,
+                const Matrix3<Number>              &rotation,
+                const Matrix3<Number>              &corotated_stress,
+                Vector3<Number> (&force)[n_nodes])
   {
     const Matrix3<Number> P = rotation * corotated_stress;
-    for (int a = 0; a < 4; ++a)
+    for (int a = 0; a < n_nodes; ++a)
     {
       force[a] = P * cell.shape_gradient[a];
       for (int i = 0; i < 3; ++i)
@@ -63,13 +83,13 @@ namespace Exemplar
   }
 
   /// The gradients R g_a.
-  template <typename Number>
+  template <typename Number, int n_nodes>
   void
-  rotate_gradients(const Tetrahedron<Number> &cell,
-                   const Matrix3<Number>     &rotation,
-                   Vector3<Number> (&rotated)[4])
+  rotate_gradients(const Tetrahedron<Number, n_nodes> &cell,
+                   const Matrix3<Number>              &rotation,
+                   Vector3<Number> (&rotated)[n_nodes])
   {
-    for (int a = 0; a < 4; ++a)
+    for (int a = 0; a < n_nodes; ++a)
       rotated[a] = rotation * cell.shape_gradient[a];
   }
 } // namespace Exemplar

@@ -111,7 +111,8 @@ namespace Exemplar
     diameter() const;
 
     /// Places of the nodes [m] in the pose of a file, which is checked as by the function of
-    /// the same name, times the mesh's scale.
+    /// the same name, times the mesh's scale. In files of 10-node tetrahedra, here and below, also of
+    /// the middles of edges_of().
     std::vector<dealii::Point<3>>
     read_pose(const std::filesystem::path &file) const;
 
@@ -121,7 +122,8 @@ namespace Exemplar
     find_pose(const NamedPoses &poses, const std::string &pose, const std::string &key) const;
 
     /// The inverse: the mesh with its nodes at `positions`, divided by the mesh's
-    /// scale, with the file's numbers, order and tags.
+    /// scale, with the file's numbers, order and tags. With places of the middles of edges_of()
+    /// behind those of the nodes, the file gets 10-node tetrahedra.
     void
     write_pose(const std::vector<dealii::Point<3>> &positions,
                const std::filesystem::path         &file) const;

@@ -46,7 +46,7 @@ namespace Exemplar
   orient_tetrahedra(const MshFile &contents, const std::string &name, Tetrahedra &tetrahedra);
 
   /// Refuse coordinates [m] that are not finite, or so large that energies could not be: `nodes`
-  /// are places of the nodes of `contents`.
+  /// are places of the nodes of `contents`, and maybe of the middles of edges after them.
   void
   check_places(const std::vector<dealii::Point<3>> &nodes,
                const MshFile                       &contents,

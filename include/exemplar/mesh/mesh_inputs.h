@@ -16,7 +16,8 @@
 namespace Exemplar
 {
   /// Places of all nodes of a mesh in a pose, in the mesh's order and unit (Mesh/Scale comes
-  /// later), by the name that parameters call the pose by.
+  /// later), by the name that parameters call the pose by. Places of the middles of edges_of() may
+  /// follow.
   using NamedPoses = std::map<std::string, std::vector<dealii::Point<3>>>;
 
   /// Indices of nodes, counted from 0, by the FILE of "nodes FILE".
@@ -46,7 +47,8 @@ namespace Exemplar
            const std::vector<BoundaryFace>                &boundary_faces = {});
 
   /// Places of the nodes in a pose of `mesh`, not scaled: the file must have the same node
-  /// numbers and tetrahedra in the same order. Throws UserError naming the first difference;
+  /// numbers and tetrahedra in the same order. If these have 10 nodes, places of the middles of
+  /// edges_of() follow. Throws UserError naming the first difference;
   /// `mesh_name` stands for the mesh there.
   std::vector<dealii::Point<3>>
   read_pose(const std::filesystem::path &file, const MshFile &mesh, const std::string &mesh_name);

@@ -30,15 +30,19 @@ namespace Exemplar
     std::vector<MshElement>       elements;     ///< in file order
     /// (dimension, physical tag) -> name
     std::map<std::pair<int, int>, std::string> physical_names;
+    std::string note = {}; ///< for the user, on what was made of the file; empty: nothing
   };
 
   /// gmsh's numbers for the element types that the program uses.
   namespace MshElementType
   {
-    constexpr unsigned int line        = 1;
-    constexpr unsigned int triangle    = 2;
-    constexpr unsigned int tetrahedron = 4;
-    constexpr unsigned int point       = 15;
+    constexpr unsigned int line                  = 1;
+    constexpr unsigned int triangle              = 2;
+    constexpr unsigned int tetrahedron           = 4;
+    constexpr unsigned int quadratic_line        = 8;
+    constexpr unsigned int quadratic_triangle    = 9;
+    constexpr unsigned int quadratic_tetrahedron = 11;
+    constexpr unsigned int point                 = 15;
   } // namespace MshElementType
 
   /// What gmsh's documentation says of an element type.

@@ -14,8 +14,8 @@
 
 namespace Exemplar
 {
-  /// The cells as the loops of kernels/ see them, with the rotation of each, and the positions of
-  /// the last loop. Rotations stay as they are ("frozen") until a loop updates them.
+  /// The quadrature points of the cells as the loops of kernels/ see them, with the rotation at
+  /// each, and the positions of the last loop. Rotations stay as they are ("frozen") until a loop updates them.
   class CellField
   {
   public:
@@ -31,7 +31,7 @@ namespace Exemplar
     CellTask
     task(const Vector &positions, RotationUse rotations);
 
-    /// R of every cell from the polar decomposition at these positions. Models without rotations
+    /// R at every point from the polar decomposition at these positions. Models without rotations
     /// keep I.
     void
     update_rotations(const Vector &positions);
@@ -46,16 +46,16 @@ namespace Exemplar
 
     /// Requires refresh_rotations().
     Matrix3<double>
-    rotation(const unsigned int cell) const
+    rotation(const unsigned int point) const
     {
-      return batches.rotation(cell);
+      return batches.rotation(point);
     }
 
-    /// Node a of a cell in the order of the loops.
+    /// Node a at a point in the order of the loops.
     unsigned int
-    node(const unsigned int cell, const unsigned int a) const
+    node(const unsigned int point, const unsigned int a) const
     {
-      return batches.node(cell, a);
+      return batches.node(point, a);
     }
 
     unsigned int

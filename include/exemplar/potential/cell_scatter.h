@@ -23,13 +23,12 @@ namespace Exemplar
   class CellScatter
   {
   public:
-    /// `pattern` and `free_dofs` must outlive it.
-    CellScatter(const CellField        &cells,
-                unsigned int            n_cells,
+    /// All must outlive it.
+    CellScatter(const FESpace          &fe_space,
                 const SymmetricPattern &pattern,
                 const FreeDofs         &free_dofs);
 
-    /// Of TangentTask, for all cells; those of mixed cells are left out.
+    /// Of TangentTask, from a batch of points on; those of mixed cells are left out.
     const int *
     positions() const
     {
@@ -51,12 +50,13 @@ namespace Exemplar
       return beside_held;
     }
 
-    /// Add the 10 blocks of a cell, each by columns of three, to the values on the pattern.
+    /// Add the blocks of a cell, each by columns of three, to the values on the pattern.
     void
-    add_blocks(const CellField     &cells,
-               unsigned int         cell,
-               const double        *blocks,
-               std::vector<double> &values) const;
+    add_blocks(unsigned int cell, const double *blocks, std::vector<double> &values) const;
+
+    /// Nodes of a cell in the order of the loops, which is ascending.
+    std::vector<unsigned int>
+    nodes(unsigned int cell) const;
 
     /// In bytes.
     std::size_t
@@ -64,8 +64,9 @@ namespace Exemplar
 
   private:
     void
-    find_positions(const CellField &cells, unsigned int cell, const int (&n_held)[4]);
+    find_positions(unsigned int cell, const std::vector<int> &n_held);
 
+    const FESpace            &fe_space;
     const SymmetricPattern   &pattern;
     const FreeDofs           &free_dofs;
     std::vector<int>          block_positions;

@@ -15,7 +15,7 @@
 
 namespace Exemplar
 {
-  /// What frames show of a cell.
+  /// What frames show of a cell: means over its quadrature points, and the least det F.
   struct CellResults
   {
     std::vector<double> strain_energy_density; ///< 1/2 e:C:e [J/m^3]
@@ -54,7 +54,7 @@ namespace Exemplar
     /// `pattern` must outlive it.
     ElasticPotential(const ElasticParts &parts, const SymmetricPattern &pattern);
 
-    /// R of every cell from the polar decomposition at these positions. Models other
+    /// R at every point from the polar decomposition at these positions. Models other
     /// than the corotational have none: theirs stay I.
     void
     update_rotations(const Vector &positions)
@@ -142,14 +142,6 @@ namespace Exemplar
     CellTask
     task(const Vector &positions, const std::vector<double> &weights, RotationUse rotations);
 
-    /// C of a cell's own energy.
-    CellMaterial<double>
-    own_material(unsigned int cell) const
-    {
-      const CellMaterial<double> &C = parts.material.elasticity(cell);
-      return dilatation == nullptr ? C : C.without_dilatation();
-    }
-
     /// Patches: the pressures at these positions and weights, by the rotations as they are.
     void
     update_pressures(const Vector &positions, const std::vector<double> &weights);
@@ -159,9 +151,9 @@ namespace Exemplar
     void
     for_each_stripe(const Function &function) const;
 
-    /// eta E(w) in a cell; 0 without examples.
+    /// eta E(w) at a point; 0 without examples.
     Matrix3<double>
-    example_strain(unsigned int cell, const std::vector<double> &weights) const;
+    example_strain(unsigned int point, const std::vector<double> &weights) const;
 
     /// Sums of the cells' forces at the nodes.
     void
@@ -171,6 +163,7 @@ namespace Exemplar
     /// PatchDilatation::stress_square().
     double
     add_dilatation(const CellTask            &task,
+                   const Vector              &positions,
                    const std::vector<double> &weights,
                    ElasticEvaluation         &result);
 
@@ -185,13 +178,32 @@ namespace Exemplar
                         const std::vector<double> &linear_term,
                         ElasticEvaluation         &result) const;
 
-    /// The state of a cell at these positions and weights, with the damping.
+    /// The state of a cell's point at these positions and weights, with the damping.
     template <typename Cell>
     Cell
     cell_state(Tangent                    tangent,
-               unsigned int               cell,
+               unsigned int               point,
                const Vector              &positions,
                const std::vector<double> &weights) const;
+
+    /// Call function(point) for the quadrature points of the cells beside held nodes.
+    template <typename Function>
+    void
+    for_points_beside_held_nodes(const Function &function) const
+    {
+      const unsigned int n = points_per_cell(parts.fe_space.element());
+      for (const unsigned int cell : scatter.cells_beside_held_nodes())
+        for (unsigned int point = n * cell; point < n * (cell + 1); ++point)
+          function(point);
+    }
+
+    /// C of a point's own energy, without what patches know.
+    CellMaterial<double>
+    elasticity(const unsigned int point) const
+    {
+      const CellMaterial<double> &C = parts.material.elasticity(parts.fe_space.cell_of(point));
+      return dilatation == nullptr ? C : C.without_dilatation();
+    }
 
     void
     add_mixed_cells(const CellTask      &task,
@@ -199,6 +211,7 @@ namespace Exemplar
                     bool                 rotated,
                     std::vector<double> &values);
 
+    template <Element element>
     void
     assemble_coupling(const CellTask      &task,
                       const TangentTask   &tangent,
@@ -218,7 +231,7 @@ namespace Exemplar
 
     /// Into the gradient: nodal forces of a change of R^T P.
     void
-    add_force(unsigned int cell, const Matrix3<double> &dP, Vector &gradient) const;
+    add_force(unsigned int point, const Matrix3<double> &dP, Vector &gradient) const;
 
     const ElasticParts                     parts;
     const SymmetricPattern                &pattern;

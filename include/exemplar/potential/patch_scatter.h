@@ -44,11 +44,11 @@ namespace Exemplar
       return layouts[patch].free_dofs.size() < 3 * layouts[patch].nodes.size();
     }
 
-    /// Add factor b b^T to the values on the pattern.
+    /// Add u v^T + v u^T to the values on the pattern.
     void
     add_product(unsigned int               patch,
-                double                     factor,
-                const std::vector<double> &b,
+                const std::vector<double> &u,
+                const std::vector<double> &v,
                 std::vector<double>       &values) const;
 
     /// Add factor b to a column by free degree of freedom.

@@ -14,7 +14,7 @@ namespace Exemplar
   class StrainDamping
   {
   public:
-    /// From now on with this s, 0 for none. Cells that the guard of Eq. (16) had to hold at one of
+    /// From now on with this s, 0 for none. Points that the guard of Eq. (16) had to hold at one of
     /// the positions x_m are left out: their rotation is ambiguous.
     void
     set(double                                s,
@@ -30,30 +30,30 @@ namespace Exemplar
       return s;
     }
 
-    /// s in a cell: 0 where it is left out.
+    /// s at a point: 0 where it is left out.
     double
-    factor(const unsigned int cell) const
+    factor(const unsigned int point) const
     {
-      return factors.empty() ? 0. : factors[cell];
+      return factors.empty() ? 0. : factors[point];
     }
 
-    /// sum_m c_m e(x_m) in a cell; with damping alone.
+    /// sum_m c_m e(x_m) at a point; with damping alone.
     Matrix3<double>
-    past_strain(const unsigned int cell) const
+    past_strain(const unsigned int point) const
     {
-      return load_stored(strains.data(), cell, 1, 0);
+      return load_stored(strains.data(), point, 1, 0);
     }
 
-    /// C with the damping in a cell.
+    /// C with the damping at a point.
     CellMaterial<double>
-    damped(const unsigned int cell, const CellMaterial<double> &material) const
+    damped(const unsigned int point, const CellMaterial<double> &material) const
     {
-      return material.scaled(1. + factor(cell));
+      return material.scaled(1. + factor(point));
     }
 
     /// The strain around which the sum of both quadratics stands if the energy's does around D.
     Matrix3<double>
-    damped(const unsigned int cell, const Matrix3<double> &D) const;
+    damped(const unsigned int point, const Matrix3<double> &D) const;
 
     /// For the loops; without damping there is nothing in them.
     DampingArrays

@@ -10,6 +10,7 @@
 
 namespace Exemplar
 {
+  class FESpace;
   class FrameWriter;
   class Mesh;
   struct SurfaceMesh;
@@ -26,6 +27,7 @@ namespace Exemplar
   struct FrameSubject
   {
     const Mesh        &mesh;
+    const FESpace     &fe_space;
     const SurfaceMesh *surface; ///< in the file's unit; null unless a format shows it
     Playback           playback = {};
   };

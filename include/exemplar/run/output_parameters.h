@@ -9,6 +9,13 @@ namespace Exemplar
 {
   class KeyTable;
 
+  /// The tetrahedra of final.msh.
+  enum class FinalTetrahedra
+  {
+    linear,   ///< those of the mesh file
+    quadratic ///< the same with 10 nodes
+  };
+
   /// Subsection Output.
   struct OutputParameters
   {
@@ -17,6 +24,7 @@ namespace Exemplar
     std::vector<std::string> formats            = { "vtu" }; ///< names in frame_formats()
     double                   checkpoint_minutes = 5.;
     bool                     keep_states        = false; ///< one for each frame
+    FinalTetrahedra          final_pose         = FinalTetrahedra::linear;
 
     void
     declare(KeyTable &keys);

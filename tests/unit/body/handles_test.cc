@@ -65,7 +65,7 @@ namespace Exemplar::Testing
       positions(const HandleParameters &parameters, const double time) const
       {
         dealii::Vector<double> result(3 * mesh.n_nodes());
-        Handles({ parameters }, mesh, increments(4), poses).move(time, result);
+        Handles({ parameters }, mesh, FESpace(mesh), increments(4), poses).move(time, result);
         return result;
       }
 
@@ -80,7 +80,7 @@ namespace Exemplar::Testing
       {
         try
         {
-          Handles({ parameters }, mesh, increments(4), poses);
+          Handles({ parameters }, mesh, FESpace(mesh), increments(4), poses);
         }
         catch (const UserError &error)
         {
@@ -142,7 +142,7 @@ namespace Exemplar::Testing
         EXPECT_EQ(of_two[3 * i + 1], 0.);
         EXPECT_EQ(of_two[3 * i + 2], of_all[3 * i + 2]);
       }
-      EXPECT_EQ(Handles({ two }, mesh, increments(1), poses).held_dofs().size(),
+      EXPECT_EQ(Handles({ two }, mesh, FESpace(mesh), increments(1), poses).held_dofs().size(),
                 2 * end_nodes().size());
     }
 
@@ -153,7 +153,7 @@ namespace Exemplar::Testing
       scaled.scale          = 0.5;
       const Mesh             small(scaled);
       dealii::Vector<double> end(3 * small.n_nodes());
-      Handles({ pose }, small, increments(1), poses).move(1., end);
+      Handles({ pose }, small, FESpace(small), increments(1), poses).move(1., end);
       for (const unsigned int i : end_nodes())
       {
         const auto expected = turned(mesh.get_nodes()[i]);
@@ -191,10 +191,10 @@ namespace Exemplar::Testing
     {
       HandleParameters other = tip("0; 0; 0", "box 3.9 -1 -1 5 1 1");
       other.name             = "other";
-      EXPECT_THROW(Handles({ follow(mesh), other }, mesh, increments(2), poses), UserError);
+      EXPECT_THROW(Handles({ follow(mesh), other }, mesh, FESpace(mesh), increments(2), poses), UserError);
       HandleParameters same = follow(mesh);
       same.name             = "other";
-      EXPECT_NO_THROW(Handles({ follow(mesh), same }, mesh, increments(2), poses));
+      EXPECT_NO_THROW(Handles({ follow(mesh), same }, mesh, FESpace(mesh), increments(2), poses));
     }
 
     TEST_F(FollowPose, SolvesAScene)
@@ -220,7 +220,7 @@ namespace Exemplar::Testing
       static const Mesh mesh(box_mesh(4., 4, 2));
       HandleParameters  parameters = tip(motion, select);
       parameters.components        = components;
-      return Handles({ parameters }, mesh, increments(n)).get_warnings();
+      return Handles({ parameters }, mesh, FESpace(mesh), increments(n)).get_warnings();
     }
 
     /// A rotation of the tip about y by an angle, times a function.

@@ -34,10 +34,10 @@ namespace Exemplar::Testing
       for (unsigned int patch = 0; patch < body.patches.size(); ++patch)
       {
         volume += body.patches.volume(patch);
-        for (const unsigned int cell : body.patches.cells(patch))
+        for (const unsigned int cell : body.patches.points(patch))
         {
           ++times[cell];
-          EXPECT_EQ(body.patches.of_cell(cell), patch);
+          EXPECT_EQ(body.patches.of_point(cell), patch);
         }
       }
       EXPECT_EQ(times, std::vector<int>(body.mesh.n_cells(), 1));
@@ -49,9 +49,9 @@ namespace Exemplar::Testing
     {
       const PatchedBody body(bar_of_two_regions(2.5, box_mesh(4., 8, 2)));
       for (unsigned int patch = 0; patch < body.patches.size(); ++patch)
-        for (const unsigned int cell : body.patches.cells(patch))
+        for (const unsigned int cell : body.patches.points(patch))
           EXPECT_EQ(body.mesh.get_material_ids()[cell],
-                    body.mesh.get_material_ids()[body.patches.cells(patch).front()]);
+                    body.mesh.get_material_ids()[body.patches.points(patch).front()]);
     }
 
     TEST(Patches, OfACellThatIsARegionIsThatCell)
@@ -64,7 +64,7 @@ namespace Exemplar::Testing
                                       { return element.type == MshElementType::tetrahedron; });
       first->physical  = 2;
       const PatchedBody body(contents);
-      EXPECT_EQ(body.patches.cells(body.patches.of_cell(0)), std::vector<unsigned int>{ 0 });
+      EXPECT_EQ(body.patches.points(body.patches.of_point(0)), std::vector<unsigned int>{ 0 });
     }
 
     TEST(Patches, LambdaIsTheMeanOverTheVolume)
@@ -82,10 +82,10 @@ namespace Exemplar::Testing
       for (unsigned int patch = 0; patch < patches.size(); ++patch)
       {
         double sum = 0., volume = 0.;
-        for (const unsigned int cell : patches.cells(patch))
+        for (const unsigned int cell : patches.points(patch))
         {
-          sum += fe_space.tetrahedron(cell).volume * material.elasticity(cell).lambda;
-          volume += fe_space.tetrahedron(cell).volume;
+          sum += fe_space.volume(cell) * material.elasticity(cell).lambda;
+          volume += fe_space.volume(cell);
         }
         EXPECT_NEAR(patches.lambda(patch) / (sum / volume), 1., 1e-14);
       }
@@ -105,7 +105,7 @@ namespace Exemplar::Testing
       for (unsigned int cell = 0; cell < body.mesh.n_cells(); ++cell)
         for (const unsigned int node : body.mesh.get_cells()[cell])
           if (node == middle)
-            patches.insert(body.patches.of_cell(cell));
+            patches.insert(body.patches.of_point(cell));
       EXPECT_EQ(patches.size(), 1u);
     }
   } // namespace

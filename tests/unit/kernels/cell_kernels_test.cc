@@ -25,13 +25,14 @@ namespace Exemplar::Testing
     struct Loops
     {
       Loops(const CellKernels  &kernels,
+            const Element       element,
             const StrainMeasure strain,
             const double        guard_bound,
             const bool          per_region,
             const bool          is_pulled)
       {
         // 18 cells are no whole number of batches
-        const Body        body(bar_of_two_regions(2., box_mesh(4., 3, 1)));
+        const Body        body(bar_of_two_regions(2., box_mesh(4., 3, 1)), element);
         ExampleParameters parameters;
         parameters.pose_functions     = twist(60.) + " | 1.1*x; 0.9*y; z";
         parameters.importance         = 0.7;
@@ -42,7 +43,7 @@ namespace Exemplar::Testing
         auto         x = body.random_positions(generator, 0.8); // some cells invert
         if (is_pulled)
           pull(x, body.fe_space);
-        const std::size_t             n       = body.fe_space.n_cells();
+        const std::size_t             n       = body.fe_space.n_points();
         const std::size_t             n_nodes = body.fe_space.n_nodes();
         dealii::AlignedVector<double> positions(4 * n_nodes);
         for (unsigned int dof = 0; dof < x.size(); ++dof)
@@ -68,7 +69,8 @@ namespace Exemplar::Testing
         kernels.weight_linear_term(task, 0, n_batches, weight_linear_term.data());
         rotations.assign(task.cells.rotations, task.cells.rotations + 9 * n);
 
-        std::vector<int> matrix_positions(n_block_columns * n);
+        std::vector<int> matrix_positions(n_block_columns(nodes_per_cell(element))
+                                          * body.fe_space.n_cells());
         for (std::size_t i = 0; i < matrix_positions.size(); ++i)
           matrix_positions[i] = static_cast<int>(3 * i); // each cell's matrix by itself
         for (std::vector<double> *matrix : { &rotated, &exact })
@@ -77,7 +79,7 @@ namespace Exemplar::Testing
                                       n_batches);
         if (guard_bound != no_guard) // frozen forces have no other tangent
           kernels.add_tangent(task, { true, matrix_positions.data(), exact.data() }, 0, n_batches);
-        coupling.resize(12 * batch_size * task.examples.n);
+        coupling.resize(3 * nodes_per_cell(element) * batch_size * task.examples.n);
         kernels.coupling(task, {}, guard_bound == no_guard, 1, coupling.data());
 
         dealii::AlignedVector<float> rotation_sums(12 * n_nodes);
@@ -106,20 +108,21 @@ namespace Exemplar::Testing
       return greatest / scale;
     }
 
-    class CellKernelsTest : public testing::TestWithParam<std::tuple<StrainMeasure, double, bool>>
+    class CellKernelsTest
+        : public testing::TestWithParam<std::tuple<Element, StrainMeasure, double, bool>>
     {
     };
 
     TEST_P(CellKernelsTest, AllInstructionSetsAgreeWithTheScalarCode)
     {
-      const auto [strain, guard_bound, per_region] = GetParam();
-      const auto  all                              = all_kernels();
-      const Loops scalar(*all[0], strain, guard_bound, per_region, false);
+      const auto [element, strain, guard_bound, per_region] = GetParam();
+      const auto  all                                       = all_kernels(element);
+      const Loops scalar(*all[0], element, strain, guard_bound, per_region, false);
       EXPECT_GT(scalar.sums.inverted_cells, 0u); // so that guards act, too
       for (const CellKernels *kernels : all)
       {
         SCOPED_TRACE(kernels->name);
-        const Loops  loops(*kernels, strain, guard_bound, per_region, false);
+        const Loops  loops(*kernels, element, strain, guard_bound, per_region, false);
         const double tolerance = 1e-10; // near ambiguous rotations rounding grows
         EXPECT_NEAR(loops.sums.energy / scalar.sums.energy, 1., 1e-12);
         EXPECT_NEAR(loops.sums.energy_elastic / scalar.sums.energy_elastic, 1., 1e-12);
@@ -143,13 +146,13 @@ namespace Exemplar::Testing
     // so that forces may differ.
     TEST_P(CellKernelsTest, ACollapsedCellDoesNotSpoilTheStretchGuardBesideIt)
     {
-      const auto [strain, guard_bound, per_region] = GetParam();
-      const auto  all                              = all_kernels();
-      const Loops scalar(*all[0], strain, guard_bound, per_region, true);
+      const auto [element, strain, guard_bound, per_region] = GetParam();
+      const auto  all                                       = all_kernels(element);
+      const Loops scalar(*all[0], element, strain, guard_bound, per_region, true);
       for (const CellKernels *kernels : all)
       {
         SCOPED_TRACE(kernels->name);
-        const Loops loops(*kernels, strain, guard_bound, per_region, true);
+        const Loops loops(*kernels, element, strain, guard_bound, per_region, true);
         EXPECT_NEAR(loops.sums.energy / scalar.sums.energy, 1., 1e-12);
         for (const double force : loops.nodal_sums)
           ASSERT_TRUE(std::isfinite(force));
@@ -159,10 +162,15 @@ namespace Exemplar::Testing
     INSTANTIATE_TEST_SUITE_P(
         ,
         CellKernelsTest,
-        testing::Values(std::make_tuple(StrainMeasure::corotational, default_guard_bound, false),
-                        std::make_tuple(StrainMeasure::corotational, default_guard_bound, true),
-                        std::make_tuple(StrainMeasure::corotational, no_guard, false),
-                        std::make_tuple(StrainMeasure::linear, default_guard_bound, false),
-                        std::make_tuple(StrainMeasure::green, default_guard_bound, true)));
+        testing::Values(
+            std::make_tuple(Element::P1, StrainMeasure::corotational, default_guard_bound, false),
+            std::make_tuple(Element::P1, StrainMeasure::corotational, default_guard_bound, true),
+            std::make_tuple(Element::P1, StrainMeasure::corotational, no_guard, false),
+            std::make_tuple(Element::P1, StrainMeasure::linear, default_guard_bound, false),
+            std::make_tuple(Element::P1, StrainMeasure::green, default_guard_bound, true),
+            std::make_tuple(Element::P2, StrainMeasure::corotational, default_guard_bound, true),
+            std::make_tuple(Element::P2, StrainMeasure::corotational, no_guard, false),
+            std::make_tuple(Element::P2, StrainMeasure::linear, default_guard_bound, false),
+            std::make_tuple(Element::P2, StrainMeasure::green, default_guard_bound, false)));
   } // namespace
 } // namespace Exemplar::Testing
