@@ -205,8 +205,8 @@ def draw_space(names):
     """doc/figures/space.svg: error against seconds, a row a body, a column a ratio of Poisson, with the Pareto fronts."""
     nus = ("0.3", "0.45", "0.49", "0.499")
     script = [f"set terminal svg noenhanced size 1240,{300 * len(names)} font 'sans-serif,12' background 'white'",
-              "set output 'space.svg'", f"set multiplot layout {len(names)},{len(nus)}", "set logscale xy", "set format '%g'",
-              "set grid", "set yrange [2e-4:1]"]
+              "set output 'space.svg'", f"set multiplot layout {len(names)},{len(nus)}", "set logscale xy", "set format '1e%L'",
+              "set grid", "unset mxtics", "unset mytics", "set yrange [2e-4:1]"]
     for name in names:
         runs = list(space_runs(name))
         for nu in nus:
@@ -223,7 +223,7 @@ def draw_space(names):
                     front.append((x, y))
             script += ["$front << EOD", *(f"{x:g} {y:g}" for x, y in front), "EOD"]
             plots.append("$front with points pt 6 ps 1.5 lw 2 lc 'black' title 'Pareto front'")
-            key = "set key bottom left" if (name, nu) == (names[0], nus[0]) else "set nokey"
+            key = "set key bottom left Left reverse samplen 1" if (name, nu) == (names[0], nus[-1]) else "set nokey"
             script += [key, f"set title '{name.split('_')[1]}, nu = {nu}'", "set xlabel 'seconds'",
                        "set ylabel 'error of the deflection'", "plot " + ", ".join(plots)]
     subprocess.run(["gnuplot"], input="\n".join(script) + "\n", text=True, check=True, cwd=FIGURES)

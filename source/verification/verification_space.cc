@@ -21,7 +21,8 @@ namespace Exemplar::Verification
     };
 
     const Element linear{ "P1", {} }, patches{ "patches", { "Model/Dilatation=patches" } },
-        quadratic{ "P2", { "Model/Element=P2" } };
+        quadratic{ "P2", { "Model/Element=P2" } },
+        mean{ "P2-patches", { "Model/Element=P2", "Model/Dilatation=patches" } };
 
     /// Cells across a body in its coarsest mesh: two patches, where one would be the whole of it.
     unsigned int
@@ -251,7 +252,7 @@ namespace Exemplar::Verification
     add("cook-0.333", membrane + "nu = 1/3", [] { return cook(linear, 1. / 3., 21.524, 16); });
     add("cook-0.3", membrane + "nu = 0.3", [] { return cook(linear, 0.3, 21.945, 16); });
     const double limit = 18.512;
-    for (const Element &element : { patches, quadratic })
+    for (const Element &element : { patches, quadratic, mean })
       add("cook-0.4999-" + element.name,
           membrane + "nu = 0.4999: doc/scripts/measure_space_limits.py",
           [=] { return cook(element, 0.4999, limit, 8); });
@@ -261,7 +262,7 @@ namespace Exemplar::Verification
         = [&](const std::string &name, const std::string &description, const auto &measure)
     {
       add(name + "-0.3-P1", description + ", nu = 0.3", [=] { return measure(linear, 0.3, 0.01); });
-      for (const Element &element : { patches, quadratic })
+      for (const Element &element : { patches, quadratic, mean })
         add(name + "-0.4999-" + element.name, description + ", nu = 0.4999",
             [=] { return measure(element, 0.4999, 0.01); });
     };
