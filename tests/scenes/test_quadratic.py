@@ -175,6 +175,9 @@ class QuadraticElements(SceneTest):
         whole = results(self.solve(scene, "--threads", "1", output="whole"))
         self.assertEqual(results(self.solve(scene, "--threads", "2", output="two")), whole)
         self.solve({**scene, "Time/End": "0.05"}, output="part")
+        other = self.attempt({**scene, "Model/Element": "P1", "Output/Final pose": "linear"}, "--resume-from", "5", output="part")
+        self.assertEqual(other.status, 1)
+        self.assertIn("Model/Element", other.stderr)
         self.assertEqual(results(self.solve(scene, "--resume", output="part")), whole)
 
 
