@@ -126,8 +126,8 @@ namespace Exemplar
         nodes[to].insert(mesh.get_cells()[cell].begin(), mesh.get_cells()[cell].end());
       }
 
-      /// Cells without a patch join one with which they share a face, as long as it gains no more than so many
-      /// nodes; the cell with the best choice is always the next.
+      /// Cells without a patch join one with which they share a face, as long as it gains no more
+      /// than so many nodes; the cell with the best choice is always the next.
       void
       join_neighbours(const int most_gain)
       {
@@ -157,8 +157,8 @@ namespace Exemplar
         }
       }
 
-      /// The number of nodes that a patch would gain by a cell, minus the number of their common faces, the
-      /// number of its cells, the cell, the patch: less is better.
+      /// The number of nodes that a patch would gain by a cell, minus the number of their common
+      /// faces, the number of its cells, the cell, the patch: less is better.
       using Choice = std::array<int, 5>;
 
       Choice

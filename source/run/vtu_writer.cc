@@ -111,9 +111,9 @@ namespace Exemplar
       write_array(out, "Float64", name, 1, values.data(), values.size());
     }
 
-    /// Writes VTU files: each node once and in the order of FESpace, and true cell data (deal.II's DataOut
-    /// repeats nodes cell by cell and has no cell data). Arrays are binary, compressed by zlib.
-    /// The animation is a ParaView collection.
+    /// Writes VTU files: each node once and in the order of FESpace, and true cell data (deal.II's
+    /// DataOut repeats nodes cell by cell and has no cell data). Arrays are binary, compressed by
+    /// zlib. The animation is a ParaView collection.
     class VtuWriter : public FrameWriter
     {
     public:

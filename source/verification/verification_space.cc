@@ -5,9 +5,10 @@
 
 #include <cmath>
 
-// Errors of space up to nearly incompressible bodies, in plane strain: bodies of one layer of cells whose sides do not
-// move across. Each case looks at three meshes, each with cells of half the size, and at the limit to which they lead.
-// Loads are small, so that the answers are those of linear elasticity.
+// Errors of space up to nearly incompressible bodies, in plane strain: bodies of one layer of cells
+// whose sides do not move across. Each case looks at three meshes, each with cells of half the
+// size, and at the limit to which they lead. Loads are small, so that the answers are those of
+// linear elasticity.
 
 namespace Exemplar::Verification
 {
@@ -36,8 +37,8 @@ namespace Exemplar::Verification
 
     constexpr int first_strip = 100;
 
-    /// The unit box, mapped. The boundary `loaded` is cut into strips of a cell's width along `axis`, with ids from
-    /// first_strip: so a load may differ from strip to strip.
+    /// The unit box, mapped. The boundary `loaded` is cut into strips of a cell's width along
+    /// `axis`, with ids from first_strip: so a load may differ from strip to strip.
     Inputs
     striped_box(const Cells &n_cells, const int loaded, const unsigned int axis, const Map &map)
     {
@@ -91,8 +92,8 @@ namespace Exemplar::Verification
       return { name, set("Select", "boundary " + std::to_string(boundary)) + more };
     }
 
-    /// Cook's membrane (0,0), (48,44), (48,60), (0,44) in plane strain: the mean displacement of the nodes near a
-    /// place of the loaded edge along it, for a unit load.
+    /// Cook's membrane (0,0), (48,44), (48,60), (0,44) in plane strain: the mean displacement of
+    /// the nodes near a place of the loaded edge along it, for a unit load.
     double
     cook_deflection(const Element     &element,
                     const double       poisson,
@@ -145,8 +146,9 @@ namespace Exemplar::Verification
                { "P2, 16 x 16, of the limit", 0.95, part(quadratic), Comparison::at_least } };
     }
 
-    /// A thick cylinder, 1 <= r <= 2, in plane strain under a unit pressure inside: the mean displacement of the inner
-    /// wall away from the axis. A quarter, between its planes of symmetry; the wall is a polygon.
+    /// A thick cylinder, 1 <= r <= 2, in plane strain under a unit pressure inside: the mean
+    /// displacement of the inner wall away from the axis. A quarter, between its planes of
+    /// symmetry; the wall is a polygon.
     double
     cylinder_expansion(const Element &element, const double poisson, const unsigned int cells)
     {
@@ -180,7 +182,8 @@ namespace Exemplar::Verification
       return sum / count / pressure;
     }
 
-    /// Lame's solution at r = a = 1, b = 2: u = (1 + nu) a^2 / (E (b^2 - a^2)) ((1 - 2 nu) r + b^2 / r) p.
+    /// Lame's solution at r = a = 1, b = 2: u = (1 + nu) a^2 / (E (b^2 - a^2)) ((1 - 2 nu) r + b^2
+    /// / r) p.
     double
     lame_expansion(const double poisson)
     {
@@ -198,9 +201,10 @@ namespace Exemplar::Verification
                { "order", 1., expansion.order(), Comparison::at_least } };
     }
 
-    /// Timoshenko's cantilever of length 4 and height 1 in plane strain: at x = 0 the displacements of the closed form,
-    /// at the end a load P = 1 that is spread as a parabola over the height (S. Timoshenko, J. N. Goodier, Theory of
-    /// Elasticity, section 21). The mean displacement of the end along the load.
+    /// Timoshenko's cantilever of length 4 and height 1 in plane strain: at x = 0 the displacements
+    /// of the closed form, at the end a load P = 1 that is spread as a parabola over the height (S.
+    /// Timoshenko, J. N. Goodier, Theory of Elasticity, section 21). The mean displacement of the
+    /// end along the load.
     double
     timoshenko_deflection(const Element &element, const double poisson, const unsigned int cells)
     {

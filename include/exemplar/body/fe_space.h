@@ -63,12 +63,12 @@ namespace Exemplar
 
   /// The finite element space FE_SimplexP(1)^3 or FE_SimplexP(2)^3 on a mesh of straight edges.
   /// Nodes are those of the mesh file and then, of quadratic elements, one in the middle of each
-  /// edge, in ascending order of its ends, the lesser one first. Degree of freedom 3 i + c is component c of node i. Linear
-  /// elements have one quadrature point a cell, quadratic ones four; those of cell c are the points
-  /// c points_per_cell() and following. Shape gradients at the points and the volumes that they
-  /// stand for are taken from deal.II's FEValues once and kept, because
-  /// they never change and the hot loops need nothing else. Nor does anything need deal.II's
-  /// numbering by cells, so there is no DoFHandler, which would take 100 bytes a cell.
+  /// edge, in ascending order of its ends, the lesser one first. Degree of freedom 3 i + c is
+  /// component c of node i. Linear elements have one quadrature point a cell, quadratic ones four;
+  /// those of cell c are the points c points_per_cell() and following. Shape gradients at the
+  /// points and the volumes that they stand for are taken from deal.II's FEValues once and kept,
+  /// because they never change and the hot loops need nothing else. Nor does anything need
+  /// deal.II's numbering by cells, so there is no DoFHandler, which would take 100 bytes a cell.
   class FESpace
   {
   public:
@@ -121,7 +121,8 @@ namespace Exemplar
       return { &quadratic_cells[10 * cell], 10 };
     }
 
-    /// The node in the middle of the edge between two nodes of the mesh file, of quadratic elements.
+    /// The node in the middle of the edge between two nodes of the mesh file, of quadratic
+    /// elements.
     unsigned int
     node_between(const unsigned int a, const unsigned int b) const
     {
@@ -158,8 +159,8 @@ namespace Exemplar
               std::vector<double> &values) const;
 
     /// The places of all nodes, from those of the mesh file's nodes, with the others in the middle
-    /// of their edges, or from those of both. Throws UserError, calling the places `key`, for curved
-    /// edges, which linear elements have not.
+    /// of their edges, or from those of both. Throws UserError, calling the places `key`, for
+    /// curved edges, which linear elements have not.
     std::vector<dealii::Point<3>>
     complete(std::vector<dealii::Point<3>> places, const std::string &key) const;
 

@@ -47,9 +47,10 @@ namespace Exemplar
   class Handles
   {
   public:
-    /// The poses that handles follow are among `poses`, the files of nodes among `nodes`;
-    /// those in `motions` move as these say of nodes of the mesh file, instead of by their formulas. Throws UserError for a selection without nodes, a formula that is not understood, a
-    /// pose that is not there, and for handles that overlap and disagree in any step.
+    /// The poses that handles follow are among `poses`, the files of nodes among `nodes`; those in
+    /// `motions` move as these say of nodes of the mesh file, instead of by their formulas. Throws
+    /// UserError for a selection without nodes, a formula that is not understood, a pose that is
+    /// not there, and for handles that overlap and disagree in any step.
     Handles(const std::vector<HandleParameters> &parameters,
             const Mesh                          &mesh,
             const FESpace                       &fe_space,

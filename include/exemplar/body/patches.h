@@ -9,16 +9,17 @@
 
 namespace Exemplar
 {
-  /// Disjoint patches that hold all quadrature points. In a patch the volume part of the energy knows one mean
-  /// dilatation, Eq. (25), and not that of each point, which tetrahedra cannot keep small one by one. Of quadratic
-  /// elements the points of a cell are a patch, of linear ones the cells of a star are.
+  /// Disjoint patches that hold all quadrature points. In a patch the volume part of the energy
+  /// knows one mean dilatation, Eq. (25), and not that of each point, which tetrahedra cannot keep
+  /// small one by one. Of quadratic elements the points of a cell are a patch, of linear ones the
+  /// cells of a star are.
   class Patches
   {
   public:
-    /// Stars of nodes: the node with the most cells that have no patch yet takes these, first as long as
-    /// they are 18 or more, then 9. In between and at the end cells that are left join a patch with
-    /// which they share a face, first if all their nodes are nodes of the patch. Nodes with
-    /// equally many cells are taken in the order of their numbers. A patch lies in one region,
+    /// Stars of nodes: the node with the most cells that have no patch yet takes these, first as
+    /// long as they are 18 or more, then 9. In between and at the end cells that are left join a
+    /// patch with which they share a face, first if all their nodes are nodes of the patch. Nodes
+    /// with equally many cells are taken in the order of their numbers. A patch lies in one region,
     /// and its Lamé constants lambda, where they are painted, within a factor of two.
     Patches(const Mesh &mesh, const FESpace &fe_space, const Material &material);
 

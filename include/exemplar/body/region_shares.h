@@ -9,8 +9,9 @@
 
 namespace Exemplar
 {
-  /// How much of each region's example weights acts in each cell: shares in [0, 1] that
-  /// sum to one, the same at all quadrature points of a cell. Regions are the cells of one material id, or what is painted.
+  /// How much of each region's example weights acts in each cell: shares in [0, 1] that sum to one,
+  /// the same at all quadrature points of a cell. Regions are the cells of one material id, or what
+  /// is painted.
   class RegionShares
   {
   public:

@@ -65,7 +65,8 @@ namespace Exemplar
     const double *strains = nullptr; ///< 6: e_past
   };
 
-  /// Mean dilatation by patches, Eq. (25): what the cells tell of their volume and what they are told.
+  /// Mean dilatation by patches, Eq. (25): what the cells tell of their volume and what they are
+  /// told.
   struct DilatationArrays
   {
     double       *traces = nullptr; ///< 1: tr(e), written by loops that evaluate; null: no patches

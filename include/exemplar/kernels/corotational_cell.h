@@ -140,8 +140,8 @@ namespace Exemplar
       has_kink = true;
     }
 
-    /// A pressure p I [Pa] of the cell's patch, Eq. (25), joins the stress, once the target is set. W does not
-    /// change: I commutes with S.
+    /// A pressure p I [Pa] of the cell's patch, Eq. (25), joins the stress, once the target is set.
+    /// W does not change: I commutes with S.
     void
     add_pressure(const Number &p)
     {
@@ -204,8 +204,8 @@ namespace Exemplar
       return StretchGuard<Number>::may_act(S, product) && stretch().acts();
     }
 
-    /// The guard of the stretch, Eq. (24). Its energy and force are not part of energy() and force().
-    /// It is made when it is asked for, as hardly any cell needs it.
+    /// The guard of the stretch, Eq. (24). Its energy and force are not part of energy() and
+    /// force(). It is made when it is asked for, as hardly any cell needs it.
     StretchGuard<Number>
     stretch() const
     {

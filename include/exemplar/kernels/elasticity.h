@@ -5,8 +5,8 @@
 #include <exemplar/kernels/matrix3.h>
 
 // The material of a cell as the kernels see it. Cells, loops and batches know it by what is here
-// alone, under the name CellMaterial; only the loop that adds R K R^T (loops_stiffness.h) also knows
-// what its numbers are. No deal.II header here: see matrix3.h.
+// alone, under the name CellMaterial; only the loop that adds R K R^T (loops_stiffness.h) also
+// knows what its numbers are. No deal.II header here: see matrix3.h.
 
 namespace Exemplar
 {
@@ -131,7 +131,8 @@ namespace Exemplar
   }
 
   /// The same of a cell that knows the dilatation of its patch, Eq. (25), which alone makes the
-  /// pressure without examples: of that the slope is a linear function, all over the cell's strains.
+  /// pressure without examples: of that the slope is a linear function, all over the cell's
+  /// strains.
   template <typename Number>
   KinkSlope<Number>
   patch_kink_slope(const Isotropic<Number> &material, const Number &elastic_pressure)

@@ -31,8 +31,8 @@ namespace Exemplar::Loops
         });
   }
 
-  /// The derivative of tr(e) by F is R for every strain that has patches, so that a pressure p makes
-  /// the forces V p R g_a.
+  /// The derivative of tr(e) by F is R for every strain that has patches, so that a pressure p
+  /// makes the forces V p R g_a.
   template <typename Number, int n_nodes>
   inline void
   add_pressure_forces(const CellTask   &task,

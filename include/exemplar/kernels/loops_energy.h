@@ -142,9 +142,9 @@ namespace Exemplar::Loops
     return sqrt(contract(A, A));
   }
 
-  /// Adds the guard of the stretch, where it acts. It begins anew from the positions and is kept out
-  /// of evaluate_group(), whose numbers would otherwise have to outlive their registers for what
-  /// hardly any cell needs.
+  /// Adds the guard of the stretch, where it acts. It begins anew from the positions and is kept
+  /// out of evaluate_group(), whose numbers would otherwise have to outlive their registers for
+  /// what hardly any cell needs.
   template <typename Cell, int n_nodes, typename Number>
   [[gnu::noinline, gnu::cold]] void
   add_stretch_guard(const CellTask            &task,

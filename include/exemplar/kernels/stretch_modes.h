@@ -26,10 +26,10 @@ namespace Exemplar
     return kink.slope > -kink.margin;
   }
 
-  /// The positive part of the exact tangent of a cell without examples, its target set, less R K R^T. Both have the same
-  /// principal modes (Smith et al. 2019): with the eigenvectors v_i of S these are the three
-  /// turns v_i v_j^T - v_j v_i^T, the three shears v_i v_j^T + v_j v_i^T, and combinations of the
-  /// three stretches v_i v_i^T.
+  /// The positive part of the exact tangent of a cell without examples, its target set, less R K
+  /// R^T. Both have the same principal modes (Smith et al. 2019): with the eigenvectors v_i of S
+  /// these are the three turns v_i v_j^T - v_j v_i^T, the three shears v_i v_j^T + v_j v_i^T, and
+  /// combinations of the three stretches v_i v_i^T.
   inline StretchModes
   stretch_modes(const CorotationalCell<double> &cell,
                 const Matrix3<double>          &rotation,

@@ -110,8 +110,8 @@ namespace Exemplar
     double
     diameter() const;
 
-    /// Places of the nodes [m] in the pose of a file, which is checked as by the function of
-    /// the same name, times the mesh's scale. In files of 10-node tetrahedra, here and below, also of
+    /// Places of the nodes [m] in the pose of a file, which is checked as by the function of the
+    /// same name, times the mesh's scale. In files of 10-node tetrahedra, here and below, also of
     /// the middles of edges_of().
     std::vector<dealii::Point<3>>
     read_pose(const std::filesystem::path &file) const;

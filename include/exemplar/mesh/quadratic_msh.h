@@ -23,8 +23,8 @@ namespace Exemplar
   take_corners(MshFile &msh, const std::string &name);
 
   /// Places of the nodes of `mesh`, which is linear, and then of the middles of its edges in the
-  /// order of edges_of(), in a file of 10-node tetrahedra: these must have the corners of the mesh's,
-  /// in the same order. Throws UserError, beginning with `prefix`, for others.
+  /// order of edges_of(), in a file of 10-node tetrahedra: these must have the corners of the
+  /// mesh's, in the same order. Throws UserError, beginning with `prefix`, for others.
   std::vector<dealii::Point<3>>
   quadratic_pose(const MshFile &pose, const MshFile &mesh, const std::string &prefix);
 

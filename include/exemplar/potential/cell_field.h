@@ -15,7 +15,8 @@
 namespace Exemplar
 {
   /// The quadrature points of the cells as the loops of kernels/ see them, with the rotation at
-  /// each, and the positions of the last loop. Rotations stay as they are ("frozen") until a loop updates them.
+  /// each, and the positions of the last loop. Rotations stay as they are ("frozen") until a loop
+  /// updates them.
   class CellField
   {
   public:

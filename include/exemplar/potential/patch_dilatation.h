@@ -16,9 +16,10 @@
 
 namespace Exemplar
 {
-  /// The volume part of Psi by patches, Eq. (25): sum lambda_p/2 V_p (theta_p - eta theta_p(E(w)))^2 with the
-  /// mean theta_p of tr(e) over a patch. The points' own energy is then that of a material without
-  /// lambda, and the patch adds to their stress the pressure lambda_p (theta_p - eta theta_p(E(w))) I.
+  /// The volume part of Psi by patches, Eq. (25): sum lambda_p/2 V_p (theta_p - eta
+  /// theta_p(E(w)))^2 with the mean theta_p of tr(e) over a patch. The points' own energy is then
+  /// that of a material without lambda, and the patch adds to their stress the pressure lambda_p
+  /// (theta_p - eta theta_p(E(w))) I.
   class PatchDilatation
   {
   public:
@@ -62,7 +63,8 @@ namespace Exemplar
     void
     add_linear_term(std::vector<double> &linear_term);
 
-    /// After update(): tell the state of a point, its target set, what its patch adds to its stress.
+    /// After update(): tell the state of a point, its target set, what its patch adds to its
+    /// stress.
     void
     complete(unsigned int point, CorotationalCell<double> &state) const;
 

@@ -11,9 +11,9 @@
 
 namespace Exemplar
 {
-  /// The guard G of strongly stretched cells, Eq. (24), where patches know the dilatation: q follows the slope
-  /// lambda_p theta_p - 2 mu across the kink, which is the patch's. So G depends on theta_p, too. Hardly any
-  /// step needs it; then there is nothing in it.
+  /// The guard G of strongly stretched cells, Eq. (24), where patches know the dilatation: q
+  /// follows the slope lambda_p theta_p - 2 mu across the kink, which is the patch's. So G depends
+  /// on theta_p, too. Hardly any step needs it; then there is nothing in it.
   class PatchGuard
   {
   public:

@@ -12,7 +12,8 @@
 
 namespace Exemplar
 {
-  /// The nodes of each patch, and where the products of their degrees of freedom are in the matrix of the body.
+  /// The nodes of each patch, and where the products of their degrees of freedom are in the matrix
+  /// of the body.
   class PatchScatter
   {
   public:
@@ -26,7 +27,8 @@ namespace Exemplar
     static std::vector<std::pair<unsigned int, unsigned int>>
     couplings(const Patches &patches, const FESpace &fe_space);
 
-    /// dtheta_p/dx of Eq. (25) with the rotations of `cells`: three numbers for each of nodes() [1/m].
+    /// dtheta_p/dx of Eq. (25) with the rotations of `cells`: three numbers for each of nodes()
+    /// [1/m].
     void
     gradient(unsigned int patch, const CellField &cells, std::vector<double> &b) const;
 

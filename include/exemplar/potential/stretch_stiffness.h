@@ -12,8 +12,8 @@
 namespace Exemplar
 {
   /// Add to the values of the convex tangent R K R^T what it lacks in strongly stretched cells, see
-  /// stretch_modes.h. `positions` are by degree of freedom [m]; `dilatation`, at these positions, is null
-  /// without patches.
+  /// stretch_modes.h. `positions` are by degree of freedom [m]; `dilatation`, at these positions,
+  /// is null without patches.
   void
   add_stretch_stiffness(const FESpace         &fe_space,
                         const Material        &material,

@@ -54,8 +54,8 @@ namespace Exemplar
     std::optional<unsigned int>
     step_of(const std::string &file) const;
 
-    /// What a file of this name (without the directory) begins with if a run has written it; nothing
-    /// if no run writes files of this name.
+    /// What a file of this name (without the directory) begins with if a run has written it;
+    /// nothing if no run writes files of this name.
     std::optional<std::string>
     beginning_of(const std::string &file) const;
   };

@@ -11,9 +11,9 @@
 
 namespace Exemplar
 {
-  /// What a frame shows. It holds copies, so it can be written while the problem goes on.
-  /// Vectors have three values a node, in the order of FESpace: that of the mesh file, then nodes on
-  /// edges. Cells are in the order of the mesh file.
+  /// What a frame shows. It holds copies, so it can be written while the problem goes on. Vectors
+  /// have three values a node, in the order of FESpace: that of the mesh file, then nodes on edges.
+  /// Cells are in the order of the mesh file.
   struct Frame
   {
     unsigned int step = 0;

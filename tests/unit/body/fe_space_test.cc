@@ -37,8 +37,9 @@ namespace Exemplar::Testing
           EXPECT_NEAR(mass.nodal().el(a, b), expected(a, b), 1e-12);
     }
 
-    // Nodes are the vertices and then the middles of the edges 01, 12, 20, 03, 13, 23; the integrals
-    // are a! b! c! d! 3! V / (a + b + c + d + 3)! of monomials of the barycentric coordinates.
+    // Nodes are the vertices and then the middles of the edges 01, 12, 20, 03, 13, 23; the
+    // integrals are a! b! c! d! 3! V / (a + b + c + d + 3)! of monomials of the barycentric
+    // coordinates.
     TEST(FESpace, QuadraticMassMatrixIsExact)
     {
       const double V = 1. / 6., rho = 1000.;

@@ -142,8 +142,8 @@ namespace Exemplar::Testing
       }
     }
 
-    // In a cell with F = 0 the ratios of the stretch guard would be 0 / 0. Its rotation is ambiguous,
-    // so that forces may differ.
+    // In a cell with F = 0 the ratios of the stretch guard would be 0 / 0. Its rotation is
+    // ambiguous, so that forces may differ.
     TEST_P(CellKernelsTest, ACollapsedCellDoesNotSpoilTheStretchGuardBesideIt)
     {
       const auto [element, strain, guard_bound, per_region] = GetParam();
