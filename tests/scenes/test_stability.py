@@ -17,7 +17,7 @@ STUDIES = sorted((REPOSITORY / "prm/studies").glob("stability_*.prm"))
 N_CASES = 580
 ELEMENTS = "P1 + cells", "P1 + patches", "P2 + cells", "P2 + patches"
 # studies of a few seconds, of all elements
-QUICK = {"stability_cells", "stability_contrast", "stability_node", "stability_poses", "stability_size", "stability_start", "stability_turns"}
+QUICK = {"stability_cells", "stability_contrast", "stability_node"}
 # By what the study varies: cases that may end with status 2. All others must be done.
 MAY_FAIL = {
     # they weigh more than their stiffness E carries, rho g L > E, and fall in steps of a second: which of them ends is
