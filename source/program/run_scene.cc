@@ -66,8 +66,10 @@ namespace Exemplar
       const BlasInfo blas = blas_info();
       std::cout << "Scene     " << printable(problem.parameters.name) << '\n'
                 << "Mesh      " << printable(problem.body.mesh.get_name()) << ": "
-                << problem.body.mesh.n_cells() << " cells, " << problem.body.mesh.n_nodes()
-                << " nodes, " << problem.constraints.free_dofs.size() << " of "
+                << problem.body.mesh.n_cells()
+                << (problem.parameters.model.element == Element::P1 ? " cells, "
+                                                                    : " quadratic cells, ")
+                << problem.body.fe_space.n_nodes() << " nodes, " << problem.constraints.free_dofs.size() << " of "
                 << problem.body.fe_space.n_dofs() << " dofs free\n"
                 << made_text(problem.body.made.get()) << "Examples  ";
       if (problem.examples.poses != nullptr)

@@ -91,7 +91,7 @@ namespace Exemplar
       const std::string &key = changed.key;
       if (key == "Mesh/Surface") // frames may show one from now on, but no other one
         return !changed.before.empty();
-      return key == "Scene" || key == "Time/Step" || key == "Time/Increments"
+      return key == "Scene" || key == "Time/Step" || key == "Time/Increments" || key == "Model/Element"
              || key.compare(0, 5, "Mesh/") == 0;
     }
 
@@ -103,7 +103,7 @@ namespace Exemplar
     {
       const std::string failure = "Cannot go on from " + file.string() + ": ";
       const std::string remedy
-          = " The kind of scene, its mesh and its steps of time must stay. Change "
+          = " The kind of scene, its mesh and element and its steps of time must stay. Change "
             "it back, or run the scene from its start, without --resume-from.";
       for (const ChangedKey &changed : changed_keys(checkpoint, scene))
         if (is_fixed(changed))

@@ -111,7 +111,8 @@ namespace Exemplar
     json["mesh"]         = printable(problem.body.mesh.get_name());
     json["mesh_sha256"]  = mesh_sha256;
     json["cells"]        = problem.body.mesh.n_cells();
-    json["nodes"]        = problem.body.mesh.n_nodes();
+    json["element"]      = problem.body.fe_space.element() == Element::P1 ? "P1" : "P2";
+    json["nodes"]        = problem.body.fe_space.n_nodes();
     json["dofs"]         = problem.body.fe_space.n_dofs();
     json["constrained_dofs"]
         = problem.body.fe_space.n_dofs() - problem.constraints.free_dofs.size();
