@@ -12,22 +12,23 @@ namespace Exemplar
 {
   namespace
   {
-    /// Integral of rho N_a [kg] at every node: for constant g the exact weights of gravity.
-    std::vector<double>
-    nodal_masses(const FESpace &fe_space, const Material &material)
+    ShareRule
+    rule(const bool consistent)
     {
-      const NodeShares    shares = shares_in_cell(fe_space.element(), ShareRule::consistent);
+      return consistent ? ShareRule::consistent : ShareRule::lumped;
+    }
+
+    /// The sums of the rows of a mass matrix [kg]: the weights of gravity for which a free body falls
+    /// without strain. Those of the consistent one are the integrals of rho N_a.
+    std::vector<double>
+    nodal_masses(const FESpace &fe_space, const Material &material, const ShareRule mass)
+    {
+      const NodeShares    shares = shares_in_cell(fe_space.element(), mass);
       std::vector<double> masses(fe_space.n_nodes(), 0.);
       for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
         fe_space.share_out(material.density(cell) * fe_space.cell_volume(cell), shares, cell,
                            masses);
       return masses;
-    }
-
-    ShareRule
-    rule(const bool is_whole)
-    {
-      return is_whole ? ShareRule::consistent : ShareRule::lumped;
     }
 
     /// A mass [kg] at each of the chosen nodes that is never negative in sum: the integral of rho
@@ -119,9 +120,11 @@ namespace Exemplar
                const Mesh                        &mesh,
                const FESpace                     &fe_space,
                const Material                    &material,
-               const NamedNodes                  &named_nodes)
+               const NamedNodes                  &named_nodes,
+               const MassMatrix                   mass_matrix)
   {
-    const std::vector<double> masses = nodal_masses(fe_space, material);
+    const std::vector<double> masses
+        = nodal_masses(fe_space, material, rule(mass_matrix == MassMatrix::consistent));
     if (const double total = std::accumulate(masses.begin(), masses.end(), 0.);
         !std::isfinite(total * gravity.norm()))
       throw UserError("Loads/Gravity: the weight of the body is not a finite number. Look at "

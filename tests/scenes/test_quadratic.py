@@ -95,6 +95,8 @@ class QuadraticElements(SceneTest):
             first, *_, last = read_csv(self.solve({**free, "Material/Mass matrix": mass}))
             self.assertAlmostEqual(last["momentum_z"], -2000 * .05, delta=1e-5)
             self.assertAlmostEqual(last["angular_momentum_x"] / first["angular_momentum_x"], 1, delta=.01)
+            falling = read_csv(self.solve({**free, "Initial/Velocity": None, "Material/Mass matrix": mass}))[-1]
+            self.assertLess(falling["energy_elastic"], 1e-9)
             # 1/2 J omega^2, J = m (1 + 1) / 12 of the consistent mass
             if mass == "consistent":
                 self.assertAlmostEqual(first["energy_kinetic"], 2000 / 12, delta=1e-9)

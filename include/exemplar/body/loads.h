@@ -18,14 +18,15 @@ namespace Exemplar
   class Loads
   {
   public:
-    /// The files of nodes are among `nodes`. Throws UserError for a load that selects nothing or
+    /// The files of nodes are among `nodes`. Gravity acts on the masses of `mass_matrix`. Throws UserError for a load that selects nothing or
     /// that is not understood.
     Loads(const dealii::Tensor<1, 3>        &gravity,
           const std::vector<LoadParameters> &parameters,
           const Mesh                        &mesh,
           const FESpace                     &fe_space,
           const Material                    &material,
-          const NamedNodes                  &nodes = {});
+          const NamedNodes                  &nodes       = {},
+          MassMatrix                         mass_matrix = MassMatrix::consistent);
 
     bool
     has_gravity() const
