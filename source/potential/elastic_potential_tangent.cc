@@ -104,7 +104,7 @@ namespace Exemplar
     state.set_target(damping.damped(point, example_strain(point, weights)));
     if constexpr (Cell::traits.has_patches)
       if (dilatation != nullptr)
-        dilatation->complete(point, state);
+        state.add_pressure(dilatation->pressure(point));
     if constexpr (!Cell::traits.convex_is_rotated)
       if (tangent == Tangent::convex)
         state.make_convex();

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/long_vectors.h>
 #include <exemplar/potential/patch_dilatation.h>
 
 #include <deal.II/base/memory_consumption.h>
@@ -16,8 +17,8 @@ namespace Exemplar
       : patches(patches), examples(examples), free_dofs(free_dofs),
         scatter(patches, fe_space, pattern, free_dofs), guard(patches, fe_space, material),
         fractions(fe_space.n_points()), means(patches.size(), 0.),
-        traces(batched_size(fractions.size(), 1)), pressures(traces.size()),
-        elastic_pressures(traces.size()), scales(traces.size())
+        traces(batched_size(fractions.size(), 1)), squares(traces.size()), pressures(traces.size()),
+        scales(traces.size())
   {
     for (unsigned int point = 0; point < fractions.size(); ++point)
       fractions[point] = fe_space.volume(point) / patches.volume(patches.of_point(point));
@@ -26,7 +27,7 @@ namespace Exemplar
   DilatationArrays
   PatchDilatation::arrays()
   {
-    return { traces.data(), pressures.data(), elastic_pressures.data(), scales.data() };
+    return { traces.data(), squares.data(), pressures.data(), scales.data() };
   }
 
   void
@@ -74,7 +75,7 @@ namespace Exemplar
                           const std::vector<double> &weights)
   {
     find_means();
-    guard.find(cells, positions, means);
+    guard.find(cells, positions, { traces.data(), squares.data() }, means);
     find_pressures(weights);
   }
 
@@ -86,7 +87,7 @@ namespace Exemplar
     for (unsigned int patch = 0; patch < patches.size(); ++patch)
     {
       const double lambda = patches.lambda(patch), D = target(patch, weights);
-      of_patch[patch] = lambda * (means[patch] - D) + guard.by_mean(patch) / patches.volume(patch);
+      of_patch[patch] = lambda * (means[patch] - D);
       scale[patch]    = root * std::abs(lambda) * (std::abs(means[patch]) + std::abs(D));
       if (const double s = damping_factor(patch); s > 0.)
       {
@@ -98,8 +99,7 @@ namespace Exemplar
     for (unsigned int point = 0; point < fractions.size(); ++point)
     {
       const unsigned int patch = patches.of_point(point);
-      pressures[point]         = of_patch[patch];
-      elastic_pressures[point] = patches.lambda(patch) * means[patch];
+      pressures[point]         = of_patch[patch] + guard.pressure(point);
       scales[point]            = scale[patch];
     }
   }
@@ -147,35 +147,18 @@ namespace Exemplar
   }
 
   void
-  PatchDilatation::complete(const unsigned int point, CorotationalCell<double> &state) const
+  PatchDilatation::for_each_product(const unsigned int              patch,
+                                    const CellField                &cells,
+                                    const Tangent                   tangent,
+                                    const PatchGuard::ProductAdder &add) const
   {
-    state.set_kink(kink(point));
-    state.add_pressure(pressures[point]);
-  }
-
-  void
-  PatchDilatation::complete_elasticity(const unsigned int        point,
-                                       CorotationalCell<double> &state) const
-  {
-    state.set_kink(kink(point));
-    state.add_pressure(elastic_pressures[point]);
-  }
-
-  void
-  PatchDilatation::tangent_vectors(const unsigned int   patch,
-                                   const CellField     &cells,
-                                   const Tangent        tangent,
-                                   std::vector<double> &b,
-                                   std::vector<double> &v) const
-  {
+    std::vector<double> b, half;
     scatter.gradient(patch, cells, b);
-    const double s      = tangent == Tangent::convex ? whole_damping : damping_factor(patch);
-    const double factor = (1. + s) * stiffness(patch) + guard.second_by_mean(patch);
-    v.resize(b.size());
-    for (std::size_t i = 0; i < b.size(); ++i)
-      v[i] = 0.5 * factor * b[i];
-    if (tangent == Tangent::exact)
-      guard.add_forces_by_mean(cells, patch, scatter.nodes(patch), v);
+    const double s = tangent == Tangent::convex ? whole_damping : damping_factor(patch);
+    for (const double entry : b)
+      half.push_back(0.5 * (1. + s) * stiffness(patch) * entry);
+    add(b, half);
+    guard.for_each_product(patch, cells, scatter, tangent, b, add);
   }
 
   void
@@ -183,12 +166,10 @@ namespace Exemplar
                                const Tangent        tangent,
                                std::vector<double> &values) const
   {
-    std::vector<double> b, v;
     for (unsigned int patch = 0; patch < patches.size(); ++patch)
-    {
-      tangent_vectors(patch, cells, tangent, b, v);
-      scatter.add_product(patch, b, v, values);
-    }
+      for_each_product(patch, cells, tangent,
+                       [&](const std::vector<double> &u, const std::vector<double> &v)
+                       { scatter.add_product(patch, u, v, values); });
   }
 
   void
@@ -213,23 +194,31 @@ namespace Exemplar
                                 const Vector      &displacement,
                                 ElasticEvaluation &result) const
   {
-    std::vector<double> b, v;
     for (unsigned int patch = 0; patch < patches.size(); ++patch)
     {
       if (!scatter.is_beside_held(patch))
         continue;
-      tangent_vectors(patch, cells, tangent, b, v);
-      const std::vector<unsigned int> &nodes    = scatter.nodes(patch);
-      double                           change_b = 0., change_v = 0.;
-      for (std::size_t i = 0; i < b.size(); ++i)
-      {
-        change_b += b[i] * displacement[3 * nodes[i / 3] + i % 3];
-        change_v += v[i] * displacement[3 * nodes[i / 3] + i % 3];
-      }
-      for (std::size_t i = 0; i < b.size(); ++i)
-        result.gradient[3 * nodes[i / 3] + i % 3] += change_b * v[i] + change_v * b[i];
+      const std::vector<unsigned int> &nodes = scatter.nodes(patch);
+      std::vector<double>              u_of_patch;
+      for (const unsigned int node : nodes)
+        for (unsigned int c = 0; c < 3; ++c)
+          u_of_patch.push_back(displacement[3 * node + c]);
+      for_each_product(patch, cells, tangent,
+                       [&](const std::vector<double> &u, const std::vector<double> &v)
+                       {
+                         const double along_u = dot(u, u_of_patch.data()),
+                                      along_v = dot(v, u_of_patch.data());
+                         for (std::size_t i = 0; i < u.size(); ++i)
+                           result.gradient[3 * nodes[i / 3] + i % 3]
+                               += along_u * v[i] + along_v * u[i];
+                       });
+      if (result.weight_gradient.empty())
+        continue;
+      std::vector<double> b;
+      scatter.gradient(patch, cells, b);
+      const double change = dot(b, u_of_patch.data());
       for (unsigned int weight = 0; weight < result.weight_gradient.size(); ++weight)
-        result.weight_gradient[weight] -= examples->importance() * stiffness(patch) * change_b
+        result.weight_gradient[weight] -= examples->importance() * stiffness(patch) * change
                                           * examples->patch_dilatation(patch, weight);
     }
   }
@@ -241,7 +230,7 @@ namespace Exemplar
     return patches.memory_consumption() + scatter.memory_consumption()
            + memory_consumption(fractions) + memory_consumption(means)
            + memory_consumption(past_means) + memory_consumption(damping_factors)
-           + traces.memory_consumption() + pressures.memory_consumption()
-           + elastic_pressures.memory_consumption() + scales.memory_consumption();
+           + traces.memory_consumption() + squares.memory_consumption()
+           + pressures.memory_consumption() + scales.memory_consumption();
   }
 } // namespace Exemplar

@@ -2,141 +2,246 @@
 #include <exemplar/potential/patch_guard.h>
 
 #include <algorithm>
-#include <limits>
+#include <array>
 
 namespace Exemplar
 {
-  PatchGuard::PatchGuard(const Patches &patches, const FESpace &fe_space, const Material &material)
-      : patches(patches), fe_space(fe_space), material(material),
-        least_pressures(patches.size(), std::numeric_limits<double>::max())
+  namespace
   {
-    for (unsigned int patch = 0; patch < patches.size(); ++patch)
-      for (const unsigned int point : patches.points(patch))
-      {
-        const KinkSlope<double> at_rest = kink(point, 0.);
-        least_pressures[patch] = std::min(least_pressures[patch], -at_rest.slope - at_rest.margin);
-      }
+    // |F|^2 = 3 at rest; for every Poisson's ratio the guard of a cell begins beyond 6.76
+    constexpr double first_square = 5., last_square = 6.5;
+
+    /// beta(m) = z^3 (10 - 15 z + 6 z^2) and its first two derivatives.
+    std::array<double, 3>
+    transition(const double m)
+    {
+      const double range = last_square - first_square;
+      const double z     = std::clamp((m - first_square) / range, 0., 1.);
+      return { { z * z * z * (10. - 15. * z + 6. * z * z),
+                 30. * z * z * (1. - z) * (1. - z) / range,
+                 60. * z * (1. - z) * (1. - 2. * z) / (range * range) } };
+    }
+
+    CorotationalCell<double>
+    with_guard(CorotationalCell<double> state, const CellMaterial<double> &C)
+    {
+      state.set_guard_elasticity(C);
+      return state;
+    }
+
+    std::vector<double>
+    scaled(const double factor, std::vector<double> values)
+    {
+      for (double &value : values)
+        value *= factor;
+      return values;
+    }
+  } // namespace
+
+  PatchGuard::PatchGuard(const Patches &patches, const FESpace &fe_space, const Material &material)
+      : patches(patches), fe_space(fe_space), material(material)
+  {
   }
 
-  KinkSlope<double>
-  PatchGuard::kink(const unsigned int point, const double elastic_pressure) const
+  PatchGuard::Point
+  PatchGuard::point_at(const CellField   &cells,
+                       const Vector      &positions,
+                       const unsigned int point,
+                       const double       lambda,
+                       const double       excess) const
   {
-    return patch_kink_slope(material.elasticity(fe_space.cell_of(point)), elastic_pressure);
+    const CellMaterial<double> &C = material.elasticity(fe_space.cell_of(point));
+    const Matrix3<double>       F = fe_space.deformation_gradient(point, positions);
+    CorotationalCell<double>    state
+        = { C.without_dilatation(), cells.rotation(point), F, cells.get_guard_bound() };
+    state.set_target(Matrix3<double>{});
+    const CorotationalCell guarded = with_guard(state, C);
+    const double           G       = guarded.is_stretched() ? guarded.stretch().energy() : 0.;
+    return { excess, F, &C, state, 0.5 * lambda * excess * excess + G };
   }
 
   void
   PatchGuard::find(const CellField           &cells,
                    const Vector              &positions,
+                   const DilatationArrays    &of_points,
                    const std::vector<double> &means)
   {
-    guards.clear();
-    sums.clear();
+    stretched.clear();
+    points.clear();
     if (!traits_of(cells.strain_measure()).has_guard || cells.get_guard_bound() == no_guard)
       return;
     for (unsigned int patch = 0; patch < patches.size(); ++patch)
-      if (patches.lambda(patch) * means[patch] > least_pressures[patch])
-        for (const unsigned int point : patches.points(patch))
-          find_at(cells, positions, patch, point, patches.lambda(patch) * means[patch]);
-  }
-
-  void
-  PatchGuard::find_at(const CellField   &cells,
-                      const Vector      &positions,
-                      const unsigned int patch,
-                      const unsigned int point,
-                      const double       elastic_pressure)
-  {
-    const Matrix3<double> F = fe_space.deformation_gradient(point, positions);
-    const Matrix3<double> S = symmetric_part(transpose_times(cells.rotation(point), F));
-    Matrix3<double>       B = combine(-1., S, 0., S);
-    for (int i = 0; i < 3; ++i)
-      B[i][i] += trace(S);
-    const StretchGuard<double> guard(kink(point, elastic_pressure), S, determinant(B));
-    if (!guard.acts())
-      return;
-    const double lambda = patches.lambda(patch), factor = fe_space.volume(point) * lambda;
-    sums[patch].by_mean += factor * guard.by_slope();
-    sums[patch].second_by_mean += factor * lambda * guard.second_by_slope();
-    guards.emplace(point, guard);
+    {
+      double m = 0.;
+      for (const unsigned int point : patches.points(patch))
+        m += fe_space.volume(point) / patches.volume(patch) * of_points.squares[point];
+      if (!(m > first_square))
+        continue;
+      const auto [beta, first, second] = transition(m);
+      Stretched of_patch               = { beta, first, second };
+      for (const unsigned int point : patches.points(patch))
+      {
+        const auto at
+            = points.emplace(point, point_at(cells, positions, point, patches.lambda(patch),
+                                             of_points.traces[point] - means[patch]));
+        of_patch.sum += fe_space.volume(point) * at.first->second.W;
+      }
+      stretched.emplace(patch, of_patch);
+    }
   }
 
   double
   PatchGuard::density(const unsigned int point) const
   {
-    const auto guard = guards.find(point);
-    return guard == guards.end() ? 0. : guard->second.energy();
+    const auto at = points.find(point);
+    return at == points.end() ? 0. : stretched.at(patches.of_point(point)).beta * at->second.W;
   }
 
   double
   PatchGuard::energy() const
   {
     double sum = 0.;
-    for (const auto &[point, guard] : guards)
-      sum += fe_space.volume(point) * guard.energy();
+    for (const auto &[patch, of_patch] : stretched)
+      sum += of_patch.beta * of_patch.sum;
     return sum;
   }
 
   double
-  PatchGuard::by_mean(const unsigned int patch) const
+  PatchGuard::pressure(const unsigned int point) const
   {
-    const auto sum = sums.find(patch);
-    return sum == sums.end() ? 0. : sum->second.by_mean;
+    const auto at = points.find(point);
+    if (at == points.end())
+      return 0.;
+    const unsigned int patch = patches.of_point(point);
+    return patches.lambda(patch) * stretched.at(patch).beta * at->second.excess;
+  }
+
+  bool
+  PatchGuard::may_act(const unsigned int point) const
+  {
+    return points.count(point) > 0;
   }
 
   double
-  PatchGuard::second_by_mean(const unsigned int patch) const
+  PatchGuard::by_gradient(const unsigned int patch, const Stretched &of_patch) const
   {
-    const auto sum = sums.find(patch);
-    return sum == sums.end() ? 0. : sum->second.second_by_mean;
-  }
-
-  template <typename Function>
-  void
-  PatchGuard::for_each_force(const CellField       &cells,
-                             const unsigned int     point,
-                             const Matrix3<double> &P,
-                             const Function        &function) const
-  {
-    const Matrix3<double> RP    = cells.rotation(point) * P;
-    const auto            nodes = fe_space.nodes(fe_space.cell_of(point));
-    for (unsigned int a = 0; a < nodes.size(); ++a)
-    {
-      Vector3<double> force = RP * fe_space.gradients(point)[a];
-      for (unsigned int c = 0; c < 3; ++c)
-        force[c] *= fe_space.volume(point);
-      function(nodes[a], force);
-    }
+    return 2. * of_patch.first * of_patch.sum / patches.volume(patch);
   }
 
   void
   PatchGuard::add_forces(const CellField &cells, Vector &gradient) const
   {
-    for (const auto &[point, guard] : guards)
-      for_each_force(cells, point, guard.force(),
-                     [&](const unsigned int node, const Vector3<double> &force)
-                     {
-                       for (unsigned int c = 0; c < 3; ++c)
-                         gradient[3 * node + c] += force[c];
-                     });
+    for (const auto &[point, at] : points)
+    {
+      const unsigned int     patch      = patches.of_point(point);
+      const Stretched       &of_patch   = stretched.at(patch);
+      const CorotationalCell guarded    = with_guard(at.state, *at.C);
+      const Matrix3<double>  P_of_guard = guarded.is_stretched()
+                                              ? cells.rotation(point) * guarded.stretch().force()
+                                              : Matrix3<double>{};
+      const Matrix3<double>  P
+          = combine(of_patch.beta, P_of_guard, by_gradient(patch, of_patch), at.F);
+      const auto nodes = fe_space.nodes(fe_space.cell_of(point));
+      for (unsigned int a = 0; a < nodes.size(); ++a)
+      {
+        const Vector3<double> force = P * fe_space.gradients(point)[a];
+        for (unsigned int c = 0; c < 3; ++c)
+          gradient[3 * nodes[a] + c] += fe_space.volume(point) * force[c];
+      }
+    }
   }
 
   void
-  PatchGuard::add_forces_by_mean(const CellField                 &cells,
-                                 const unsigned int               patch,
-                                 const std::vector<unsigned int> &nodes,
-                                 std::vector<double>             &forces) const
+  PatchGuard::add_forces(const PatchScatter    &scatter,
+                         const unsigned int     patch,
+                         const unsigned int     point,
+                         const Matrix3<double> &P,
+                         std::vector<double>   &forces) const
   {
-    if (sums.count(patch) == 0)
+    const std::vector<unsigned int> &all   = scatter.nodes(patch);
+    const auto                       nodes = fe_space.nodes(fe_space.cell_of(point));
+    for (unsigned int a = 0; a < nodes.size(); ++a)
+    {
+      const auto place = std::lower_bound(all.begin(), all.end(), nodes[a]) - all.begin();
+      const Vector3<double> force = P * fe_space.gradients(point)[a];
+      for (unsigned int c = 0; c < 3; ++c)
+        forces[3 * place + c] += fe_space.volume(point) * force[c];
+    }
+  }
+
+  void
+  PatchGuard::for_each_product(const unsigned int         patch,
+                               const CellField           &cells,
+                               const PatchScatter        &scatter,
+                               const Tangent              tangent,
+                               const std::vector<double> &b,
+                               const ProductAdder        &add) const
+  {
+    const auto found = stretched.find(patch);
+    if (found == stretched.end())
       return;
+    const Stretched    &of_patch = found->second;
+    const double        lambda = patches.lambda(patch), volume = patches.volume(patch);
+    const bool          is_exact = tangent == Tangent::exact;
+    std::vector<double> by_x_of_m(b.size(), 0.), by_x_of_sum(b.size(), 0.);
     for (const unsigned int point : patches.points(patch))
-      if (const auto guard = guards.find(point); guard != guards.end())
-        for_each_force(cells, point, guard->second.force_by_slope(),
-                       [&](const unsigned int node, const Vector3<double> &force)
-                       {
-                         const auto place
-                             = std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin();
-                         for (unsigned int c = 0; c < 3; ++c)
-                           forces[3 * place + c] += patches.lambda(patch) * force[c];
-                       });
+    {
+      const Point           &at = points.at(point);
+      const Matrix3<double> &R  = cells.rotation(point);
+      std::vector<double>    u(b.size(), 0.);
+      add_forces(scatter, patch, point, R, u);
+      add(u, scaled(0.5 * lambda * of_patch.beta / fe_space.volume(point), u));
+      add_forces(scatter, patch, point, combine(2. / volume, at.F, 0., at.F), by_x_of_m);
+      add_forces(scatter, patch, point, combine(lambda * at.excess, R, 0., R), by_x_of_sum);
+
+      const CorotationalCell guarded   = with_guard(at.state, *at.C);
+      const bool             has_guard = is_exact && guarded.is_stretched();
+      if (has_guard)
+        add_forces(scatter, patch, point, R * guarded.stretch().force(), by_x_of_sum);
+      if (has_guard || of_patch.first > 0.)
+        add_point_products(
+            scatter, patch, point,
+            [&](const Matrix3<double> &dF)
+            {
+              const Matrix3<double> M = transpose_times(R, dF);
+              Matrix3<double>       of_guard{};
+              if (has_guard)
+                of_guard = R * combine(1., guarded.response(M), -1., at.state.response(M));
+              return combine(of_patch.beta, of_guard, by_gradient(patch, of_patch), dF);
+            },
+            add);
+    }
+    add(b, scaled(-0.5 * lambda * of_patch.beta * volume, b));
+    std::vector<double> v
+        = scaled(0.5 * of_patch.sum * (is_exact ? of_patch.second : std::max(of_patch.second, 0.)),
+                 by_x_of_m);
+    if (is_exact)
+      for (std::size_t i = 0; i < v.size(); ++i)
+        v[i] += of_patch.first * by_x_of_sum[i];
+    add(by_x_of_m, v);
+  }
+
+  template <typename Response>
+  void
+  PatchGuard::add_point_products(const PatchScatter &scatter,
+                                 const unsigned int  patch,
+                                 const unsigned int  point,
+                                 const Response     &response,
+                                 const ProductAdder &add) const
+  {
+    const std::vector<unsigned int> &all   = scatter.nodes(patch);
+    const auto                       nodes = fe_space.nodes(fe_space.cell_of(point));
+    for (unsigned int a = 0; a < nodes.size(); ++a)
+      for (unsigned int c = 0; c < 3; ++c)
+      {
+        Matrix3<double> dF{};
+        for (int l = 0; l < 3; ++l)
+          dF[c][l] = fe_space.gradients(point)[a][l];
+        std::vector<double> unit(3 * all.size(), 0.), column(3 * all.size(), 0.);
+        const auto place    = std::lower_bound(all.begin(), all.end(), nodes[a]) - all.begin();
+        unit[3 * place + c] = 0.5;
+        add_forces(scatter, patch, point, response(dF), column);
+        add(unit, column);
+      }
   }
 } // namespace Exemplar

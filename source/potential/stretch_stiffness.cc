@@ -21,7 +21,11 @@ namespace Exemplar
                                      F, default_guard_bound);
       state.set_target(Matrix3<double>{});
       if (has_patches)
-        dilatation->complete_elasticity(point, state);
+      {
+        state.set_guard_elasticity(elasticity);
+        state.add_pressure(dilatation->elastic_pressure(point)
+                           + dilatation->stretch_guard().pressure(point));
+      }
       return state;
     }
 
@@ -65,10 +69,9 @@ namespace Exemplar
       const unsigned int          cell       = fe_space.cell_of(point);
       const CellMaterial<double> &elasticity = material.elasticity(cell);
       const Matrix3<double>       F          = fe_space.deformation_gradient(point, positions);
-      const KinkSlope<double>     kink       = dilatation == nullptr
-                                                   ? kink_slope(elasticity, sqrt(contract(F, F)))
-                                                   : dilatation->kink(point);
-      if (!is_strongly_stretched(kink))
+      const KinkSlope<double>     kink       = kink_slope(elasticity, sqrt(contract(F, F)));
+      const bool may_act = dilatation == nullptr || dilatation->stretch_guard().may_act(point);
+      if (!may_act || !is_strongly_stretched(kink))
         continue;
       const Matrix3<double>        R     = closest_rotation(F);
       const auto                   nodes = fe_space.nodes(cell);

@@ -69,10 +69,10 @@ namespace Exemplar
   /// told.
   struct DilatationArrays
   {
-    double       *traces = nullptr; ///< 1: tr(e), written by loops that evaluate; null: no patches
-    const double *pressures         = nullptr; ///< 1: of the cell's patch [Pa]
-    const double *elastic_pressures = nullptr; ///< 1: the same without examples and damping [Pa]
-    const double *scales = nullptr; ///< 1: |C:e| + eta |C:E(w)| of the volume part alone [Pa]
+    double       *traces  = nullptr; ///< 1: tr(e), written by loops that evaluate; null: no patches
+    double       *squares = nullptr; ///< 1: |F|^2, written with them
+    const double *pressures = nullptr; ///< 1: of the cell's patch [Pa]
+    const double *scales    = nullptr; ///< 1: |C:e| + eta |C:E(w)| of the volume part alone [Pa]
   };
 
   /// What a loop over the cells does with their rotations: it takes those that are stored, or it

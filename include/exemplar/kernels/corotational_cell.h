@@ -132,12 +132,11 @@ namespace Exemplar
       material = material.scaled(factor);
     }
 
-    /// The guard of the stretch follows this slope and not that of the cell's own stretch.
+    /// The guard of the stretch is that of this elasticity and not of the cell's own.
     void
-    set_kink(const KinkSlope<Number> &slope)
+    set_guard_elasticity(const CellMaterial<Number> &C)
     {
-      kink     = slope;
-      has_kink = true;
+      elasticity = C;
     }
 
     /// A pressure p I [Pa] of the cell's patch, Eq. (25), joins the stress, once the target is set.
@@ -209,8 +208,7 @@ namespace Exemplar
     StretchGuard<Number>
     stretch() const
     {
-      return StretchGuard<Number>(has_kink ? kink : kink_slope(elasticity, sqrt(contract(S, S))), S,
-                                  product);
+      return StretchGuard<Number>(elasticity, S, product);
     }
 
     /// -d psi / dD. The derivative of psi by a weight w_i is -eta times this, contracted with E_i.
@@ -314,10 +312,8 @@ namespace Exemplar
         B_inverse = select_matrix(is_guarded(), bounded_inverse(B, least), B_inverse);
     }
 
-    CellMaterial<Number> elasticity;
-    CellMaterial<Number> material; ///< with damping
-    KinkSlope<Number>    kink;     ///< where it is not that of the elasticity
-    bool                 has_kink = false;
+    CellMaterial<Number> elasticity; ///< of the guard of the stretch
+    CellMaterial<Number> material;   ///< with damping
     Matrix3<Number>      S;
     Matrix3<Number>      e; ///< S - I
     Matrix3<Number>      B; ///< tr(S) I - S

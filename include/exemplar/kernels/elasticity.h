@@ -130,16 +130,6 @@ namespace Exemplar
              Number(0.4) * (material.lambda + material.mu) };
   }
 
-  /// The same of a cell that knows the dilatation of its patch, Eq. (25), which alone makes the
-  /// pressure without examples: of that the slope is a linear function, all over the cell's
-  /// strains.
-  template <typename Number>
-  KinkSlope<Number>
-  patch_kink_slope(const Isotropic<Number> &material, const Number &elastic_pressure)
-  {
-    return { elastic_pressure - Number(2.) * material.mu, Number(0.), Number(0.4) * material.mu };
-  }
-
   /// An energy density of the elasticity [Pa] below which the guard does not act: from
   /// |F| > 1 + 0.8/nu > 2.6 follows |S - I|^2 > (2.6 - sqrt(3))^2 > 0.75. For nu <= 0, where the
   /// energy may be less than mu |S - I|^2, the guard never acts.

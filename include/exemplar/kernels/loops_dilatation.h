@@ -19,15 +19,15 @@ namespace Exemplar::Loops
         {
           using Cell = typename decltype(model)::type;
           if constexpr (Cell::traits.has_patches)
-            for_each_group<Number>(
-                begin, end,
-                [&](const LaneGroup<Number> &group)
-                {
-                  const Matrix3<Number> F = deformation_gradient(
-                      task, group, load_tetrahedron<n_nodes>(task.cells, group));
-                  Lanes<Number>::store(trace(Cell::strain_of(load_rotation(task.cells, group), F)),
-                                       task.dilatation.traces + group.at(1, 0));
-                });
+            for_each_group<Number>(begin, end,
+                                   [&](const LaneGroup<Number> &group)
+                                   {
+                                     const Matrix3<Number> F = deformation_gradient(
+                                         task, group, load_tetrahedron<n_nodes>(task.cells, group));
+                                     store_dilatation(
+                                         task, group,
+                                         Cell::strain_of(load_rotation(task.cells, group), F), F);
+                                   });
         });
   }
 

@@ -142,6 +142,18 @@ namespace Exemplar::Loops
     return sqrt(contract(A, A));
   }
 
+  /// What a cell with patches tells its patch.
+  template <typename Number>
+  inline void
+  store_dilatation(const CellTask          &task,
+                   const LaneGroup<Number> &group,
+                   const Matrix3<Number>   &strain,
+                   const Matrix3<Number>   &F)
+  {
+    Lanes<Number>::store(trace(strain), task.dilatation.traces + group.at(1, 0));
+    Lanes<Number>::store(contract(F, F), task.dilatation.squares + group.at(1, 0));
+  }
+
   /// Adds the guard of the stretch, where it acts. It begins anew from the positions and is kept
   /// out of evaluate_group(), whose numbers would otherwise have to outlive their registers for
   /// what hardly any cell needs.
@@ -195,7 +207,7 @@ namespace Exemplar::Loops
     sums.inverted.add(group, is_real & (det <= Number(0.)));
     sums.elastic += elastic;
     if (task.dilatation.traces != nullptr)
-      Lanes<Number>::store(trace(cell.strain()), task.dilatation.traces + group.at(1, 0));
+      store_dilatation(task, group, cell.strain(), F);
 
     // R^T P; without examples and damping this is all of it
     Matrix3<Number> P = elastic_stress;
@@ -291,8 +303,7 @@ namespace Exemplar::Loops
                 const Cell cell(load_material(task.cells, group), rotation<Cell>(task, group, F), F,
                                 task.cells.guard_bound);
                 if (task.dilatation.traces != nullptr)
-                  Lanes<Number>::store(trace(cell.strain()),
-                                       task.dilatation.traces + group.at(1, 0));
+                  store_dilatation(task, group, cell.strain(), F);
                 add_weight_sums(task, group, Number(task.examples.importance) * tet.volume,
                                 cell.weight_stress(Matrix3<Number>{}), weight_sums);
               });

@@ -30,11 +30,7 @@ namespace Exemplar::Loops
     cell.set_target(D);
     if constexpr (Cell::traits.has_patches)
       if (task.dilatation.pressures != nullptr)
-      {
-        cell.set_kink(patch_kink_slope(load_material(task.cells, group),
-                                       load(task.dilatation.elastic_pressures, group, 1, 0)));
         cell.add_pressure(load(task.dilatation.pressures, group, 1, 0));
-      }
     if constexpr (!Cell::traits.convex_is_rotated)
       if (tangent.convex)
         cell.make_convex();

@@ -58,11 +58,13 @@ namespace Exemplar
     StretchGuard() = default;
 
     /// `p` is the product of the sums of two eigenvalues of S.
-    StretchGuard(const KinkSlope<Number> &kink, const Matrix3<Number> &S, const Number &p) : S(S)
+    StretchGuard(const CellMaterial<Number> &material, const Matrix3<Number> &S, const Number &p)
+        : S(S)
     {
-      const Number square = contract(S, S);
-      const Number rise   = kink.slope + kink.margin;
-      is_acting           = (p < Number(y_0) * square) & (rise > Number(0.));
+      const Number            square = contract(S, S);
+      const KinkSlope<Number> kink   = kink_slope(material, sqrt(square));
+      const Number            rise   = kink.slope + kink.margin;
+      is_acting                      = (p < Number(y_0) * square) & (rise > Number(0.));
       if (!any(is_acting))
         return;
       // beside it may be a cell that has collapsed to F = 0, where the ratios would be 0 / 0
@@ -73,15 +75,14 @@ namespace Exemplar
       const auto is_beyond = kink.slope >= kink.margin;
       const auto keep = [&](const Number &number) { return select(is_acting, number, Number(0.)); };
       q[0]            = keep(select(is_beyond, Number(4.) * kink.slope, rise * rise / kink.margin));
-      q_slope[0]      = keep(select(is_beyond, Number(4.), Number(2.) * rise / kink.margin));
-      q_slope[1]      = keep(select(is_beyond, Number(0.), Number(2.) / kink.margin));
-      q[1]            = q_slope[0] * kink.by_norm;
-      q[2]            = q_slope[1] * kink.by_norm * kink.by_norm;
-      const Number z  = Number(1.) - y / Number(y_0);
-      r[0]            = Number(y_0 / 3.) * z * z * z;
-      r[1]            = -z * z;
-      r[2]            = Number(2. / y_0) * z;
-      y_derivative    = combine(Number(1.) / u, p_derivative(S), Number(-2.) * y / u, S);
+      q[1] = keep(select(is_beyond, Number(4.), Number(2.) * rise / kink.margin)) * kink.by_norm;
+      q[2] = keep(select(is_beyond, Number(0.), Number(2.) / kink.margin)) * kink.by_norm
+             * kink.by_norm;
+      const Number z = Number(1.) - y / Number(y_0);
+      r[0]           = Number(y_0 / 3.) * z * z * z;
+      r[1]           = -z * z;
+      r[2]           = Number(2. / y_0) * z;
+      y_derivative   = combine(Number(1.) / u, p_derivative(S), Number(-2.) * y / u, S);
     }
 
     /// Whether y is below its bound in some lane.
@@ -105,26 +106,6 @@ namespace Exemplar
     energy() const
     {
       return q[0] * r[0];
-    }
-
-    /// First and second derivative of G by the slope c, where it acts.
-    Number
-    by_slope() const
-    {
-      return q_slope[0] * r[0];
-    }
-
-    Number
-    second_by_slope() const
-    {
-      return q_slope[1] * r[0];
-    }
-
-    /// R^T d/dF of by_slope() for a slope that does not change with F, where it acts.
-    Matrix3<Number>
-    force_by_slope() const
-    {
-      return combine(q_slope[0] * r[1], y_derivative, Number(0.), y_derivative);
     }
 
     /// R^T dG/dF, where it acts.
@@ -166,7 +147,6 @@ namespace Exemplar
     Matrix3<Number> S;
     Number          norm; ///< |F|
     Number          y;
-    Number          q_slope[2];   ///< first and second derivative of 4 q by c
     Number          q[3], r[3];   ///< 4 q and its derivatives by |F|; r and its derivatives by y
     Matrix3<Number> y_derivative; ///< by S
   };

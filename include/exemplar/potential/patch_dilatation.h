@@ -63,27 +63,25 @@ namespace Exemplar
     void
     add_linear_term(std::vector<double> &linear_term);
 
-    /// After update(): tell the state of a point, its target set, what its patch adds to its
-    /// stress.
-    void
-    complete(unsigned int point, CorotationalCell<double> &state) const;
-
-    /// The same without examples and damping.
-    void
-    complete_elasticity(unsigned int point, CorotationalCell<double> &state) const;
-
-    /// After update(): the slope across the kink of Eq. (24) at a point.
-    KinkSlope<double>
-    kink(const unsigned int point) const
+    /// After update(), in a point [Pa]: with examples and damping.
+    double
+    pressure(const unsigned int point) const
     {
-      return guard.kink(point, elastic_pressures[point]);
+      return pressures[point];
     }
 
-    /// After update(): lambda_p theta_p^2 / 2 + G at a point [J/m^3].
+    /// lambda_p theta_p of the patch of a point [Pa].
+    double
+    elastic_pressure(const unsigned int point) const
+    {
+      return patches.lambda(patches.of_point(point)) * means[patches.of_point(point)];
+    }
+
+    /// After update(): lambda_p theta_p^2 / 2 and what the guard adds at a point [J/m^3].
     double
     elastic_density(const unsigned int point) const
     {
-      return 0.5 * elastic_pressures[point] * means[patches.of_point(point)] + guard.density(point);
+      return 0.5 * elastic_pressure(point) * means[patches.of_point(point)] + guard.density(point);
     }
 
     /// After update(): add its part of A with the rotations of `cells`, lambda_p V_p b b^T for
@@ -113,13 +111,12 @@ namespace Exemplar
     void
     find_pressures(const std::vector<double> &weights);
 
-    /// A is the sum of b v^T + v b^T over the patches. Gives b and v at present rotations.
+    /// Call add(u, v) so that the sum of u v^T + v u^T is its part of A for a patch.
     void
-    tangent_vectors(unsigned int         patch,
-                    const CellField     &cells,
-                    Tangent              tangent,
-                    std::vector<double> &b,
-                    std::vector<double> &v) const;
+    for_each_product(unsigned int                    patch,
+                     const CellField                &cells,
+                     Tangent                         tangent,
+                     const PatchGuard::ProductAdder &add) const;
 
     /// lambda_p V_p.
     double
@@ -151,7 +148,7 @@ namespace Exemplar
     double              whole_damping = 0.; ///< s where no patch is left out
 
     /// Of points, in batches.
-    dealii::AlignedVector<double> traces, pressures, elastic_pressures, scales;
+    dealii::AlignedVector<double> traces, squares, pressures, scales;
   };
 } // namespace Exemplar
 

@@ -2,92 +2,121 @@
 #ifndef exemplar_patch_guard_h
 #define exemplar_patch_guard_h
 
-#include <exemplar/body/patches.h>
-#include <exemplar/kernels/stretch_guard.h>
-#include <exemplar/potential/cell_field.h>
+#include <exemplar/kernels/corotational_cell.h>
+#include <exemplar/potential/evaluation.h>
+#include <exemplar/potential/patch_scatter.h>
 
+#include <functional>
 #include <map>
 #include <vector>
 
 namespace Exemplar
 {
-  /// The guard G of strongly stretched cells, Eq. (24), where patches know the dilatation: q
-  /// follows the slope lambda_p theta_p - 2 mu across the kink, which is the patch's. So G depends
-  /// on theta_p, too. Hardly any step needs it; then there is nothing in it.
+  /// What strongly stretched patches need beside Eq. (25). Where a patch pulls at its cells with
+  /// more than 2 mu, each of them could lower the energy by collapsing while the others keep the
+  /// mean. So the points get their own dilatation back, and its guard (24), Eq. (26):
+  ///
+  ///   beta(m_p) sum V W,   W = lambda_p/2 (tr(e) - theta_p)^2 + G,
+  ///
+  /// with the mean m_p of |F|^2 over the patch. Hardly any step needs it; then there is nothing in
+  /// it.
   class PatchGuard
   {
   public:
-    /// `material` and all else must outlive it.
+    /// All must outlive it.
     PatchGuard(const Patches &patches, const FESpace &fe_space, const Material &material);
 
-    /// Anew for these positions, their rotations and mean dilatations.
+    /// Anew for these positions, what their points told the patches, and the mean dilatations.
     void
-    find(const CellField &cells, const Vector &positions, const std::vector<double> &means);
+    find(const CellField           &cells,
+         const Vector              &positions,
+         const DilatationArrays    &of_points,
+         const std::vector<double> &means);
 
-    /// The slope across the kink at a point for a pressure of its patch, without examples [Pa].
-    KinkSlope<double>
-    kink(unsigned int point, double elastic_pressure) const;
-
-    bool
-    acts() const
-    {
-      return !guards.empty();
-    }
-
-    /// G at a point [J/m^3].
+    /// beta W at a point [J/m^3].
     double
     density(unsigned int point) const;
 
-    /// sum V G over the points [J].
+    /// sum over the patches [J].
     double
     energy() const;
 
-    /// First and second derivative of sum V G by theta_p [J].
+    /// beta lambda_p (tr(e) - theta_p), what it adds to the pressure of a point [Pa].
     double
-    by_mean(unsigned int patch) const;
+    pressure(unsigned int point) const;
 
-    double
-    second_by_mean(unsigned int patch) const;
-
-    /// Add the forces of G with theta_p held fixed, by degree of freedom [N].
+    /// Add the forces that are those of no pressure, by degree of freedom [N].
     void
     add_forces(const CellField &cells, Vector &gradient) const;
 
-    /// Add the derivative by theta_p of these forces in a patch, for the three components of each
-    /// of its nodes, which ascend.
+    using ProductAdder
+        = std::function<void(const std::vector<double> &, const std::vector<double> &)>;
+
+    /// Call add(u, v) for vectors over the nodes of a patch, three numbers each, so that the sum of
+    /// u v^T + v u^T is what it adds to the tangent beside that which turning R does with the
+    /// pressures. `b` is dtheta_p/dx. A convex tangent lacks what may make it indefinite.
     void
-    add_forces_by_mean(const CellField                 &cells,
-                       unsigned int                     patch,
-                       const std::vector<unsigned int> &nodes,
-                       std::vector<double>             &forces) const;
+    for_each_product(unsigned int               patch,
+                     const CellField           &cells,
+                     const PatchScatter        &scatter,
+                     Tangent                    tangent,
+                     const std::vector<double> &b,
+                     const ProductAdder        &add) const;
+
+    /// Whether G may act at a point.
+    bool
+    may_act(unsigned int point) const;
 
   private:
-    struct Sums
+    /// beta of a patch with its derivatives by m_p, and sum V W [J].
+    struct Stretched
     {
-      double by_mean = 0., second_by_mean = 0.;
+      double beta, first, second;
+      double sum = 0.;
     };
 
-    void
-    find_at(const CellField &cells,
-            const Vector    &positions,
-            unsigned int     patch,
-            unsigned int     point,
-            double           elastic_pressure);
+    struct Point
+    {
+      double                      excess; ///< tr(e) - theta_p
+      Matrix3<double>             F;
+      const CellMaterial<double> *C;     ///< whose guard G is
+      CorotationalCell<double>    state; ///< without examples, its target set
+      double                      W;     ///< [J/m^3]
+    };
 
-    /// Call function(node, force) for the nodal forces of R^T P at a point.
-    template <typename Function>
-    void
-    for_each_force(const CellField       &cells,
-                   unsigned int           point,
-                   const Matrix3<double> &P,
-                   const Function        &function) const;
+    /// The factor of F in the derivative of beta by the F of a point, times sum V W / V_c [Pa].
+    double
+    by_gradient(unsigned int patch, const Stretched &of_patch) const;
 
-    const Patches                               &patches;
-    const FESpace                               &fe_space;
-    const Material                              &material;
-    std::vector<double>                          least_pressures; ///< of a patch that needs it
-    std::map<unsigned int, StretchGuard<double>> guards;          ///< by point, where they act
-    std::map<unsigned int, Sums>                 sums;            ///< by patch
+    Point
+    point_at(const CellField &cells,
+             const Vector    &positions,
+             unsigned int     point,
+             double           lambda,
+             double           excess) const;
+
+    /// The nodal forces of P at a point over the nodes of its patch.
+    void
+    add_forces(const PatchScatter    &scatter,
+               unsigned int           patch,
+               unsigned int           point,
+               const Matrix3<double> &P,
+               std::vector<double>   &forces) const;
+
+    /// The part of a point's own tangent, P as a function of dF.
+    template <typename Response>
+    void
+    add_point_products(const PatchScatter &scatter,
+                       unsigned int        patch,
+                       unsigned int        point,
+                       const Response     &response,
+                       const ProductAdder &add) const;
+
+    const Patches                    &patches;
+    const FESpace                    &fe_space;
+    const Material                   &material;
+    std::map<unsigned int, Stretched> stretched; ///< by patch, where beta > 0
+    std::map<unsigned int, Point>     points;    ///< of these
   };
 } // namespace Exemplar
 

@@ -272,48 +272,80 @@ namespace Exemplar::Testing
       expect_derivatives({ GetParam(), strains_of(GetParam()).back(), true, 0.7 });
     }
 
-    // Where the guard of Eq. (24) acts, of cells as of patches.
+    /// A body drawn along x and thinned across.
+    Vector
+    drawn(const Body &body, const double length, const double thickness)
+    {
+      std::mt19937 generator(8);
+      Vector       positions = body.random_positions(generator, 0.02);
+      for (unsigned int dof = 0; dof < positions.size(); ++dof)
+        positions[dof] *= dof % 3 == 0 ? length : thickness;
+      return positions;
+    }
+
+    // Where Eq. (26) passes from patches to cells, and where the guard of Eq. (24) acts.
     TEST_P(ElasticPotentialTest, TangentsAreDerivativesInStretchedCells)
     {
       const ParametricBody body;
       const Examples       none;
       const FreeDofs       free_dofs(body.fe_space.n_dofs(), { 0, 4, 8, 30 });
       BodyPotential        elastic(body, ModelParameters(), none, free_dofs);
-      std::mt19937         generator(8);
-      auto                 positions = body.random_positions(generator, 0.02);
-      for (unsigned int dof = 0; dof < positions.size(); ++dof)
-        positions[dof] *= dof % 3 == 0 ? 5. : 0.15;
-      const auto evaluate = [&]
+      for (Vector positions : { drawn(body, 2.2, 0.6), drawn(body, 5., 0.15) })
       {
-        ElasticEvaluation evaluation;
-        elastic.update_rotations(positions);
-        elastic.evaluate(positions, {}, evaluation);
-        return evaluation;
-      };
-      const ElasticEvaluation at = evaluate();
-      std::vector<double>     matrix(elastic.matrix_pattern.n_values()), columns;
-      elastic.assemble_tangent(Tangent::exact, positions, {}, matrix, columns);
-      double scale = 0.;
-      for (const double value : matrix)
-        scale = std::max(scale, std::abs(value));
-      const double h = 1e-6;
-      for (unsigned int j = 0; j < free_dofs.size(); ++j)
-      {
-        double      &x                = positions[free_dofs.list()[j]];
-        const double value            = x;
-        x                             = value + h;
-        const ElasticEvaluation above = evaluate();
-        x                             = value - h;
-        const ElasticEvaluation below = evaluate();
-        x                             = value;
-        EXPECT_NEAR(at.gradient[free_dofs.list()[j]], (above.energy - below.energy) / (2. * h),
-                    1e-6 * at.gradient.linfty_norm());
-        for (unsigned int i = 0; i < free_dofs.size(); ++i)
-          EXPECT_NEAR(entry(elastic.matrix_pattern, matrix, i, j),
-                      (above.gradient[free_dofs.list()[i]] - below.gradient[free_dofs.list()[i]])
-                          / (2. * h),
-                      1e-6 * scale);
+        const auto evaluate = [&]
+        {
+          ElasticEvaluation evaluation;
+          elastic.update_rotations(positions);
+          elastic.evaluate(positions, {}, evaluation);
+          return evaluation;
+        };
+        const ElasticEvaluation at = evaluate();
+        std::vector<double>     matrix(elastic.matrix_pattern.n_values()), columns;
+        elastic.assemble_tangent(Tangent::exact, positions, {}, matrix, columns);
+        double scale = 0.;
+        for (const double value : matrix)
+          scale = std::max(scale, std::abs(value));
+        const double h = 1e-6;
+        for (unsigned int j = 0; j < free_dofs.size(); ++j)
+        {
+          double      &x                = positions[free_dofs.list()[j]];
+          const double value            = x;
+          x                             = value + h;
+          const ElasticEvaluation above = evaluate();
+          x                             = value - h;
+          const ElasticEvaluation below = evaluate();
+          x                             = value;
+          EXPECT_NEAR(at.gradient[free_dofs.list()[j]], (above.energy - below.energy) / (2. * h),
+                      1e-6 * at.gradient.linfty_norm());
+          for (unsigned int i = 0; i < free_dofs.size(); ++i)
+            EXPECT_NEAR(entry(elastic.matrix_pattern, matrix, i, j),
+                        (above.gradient[free_dofs.list()[i]] - below.gradient[free_dofs.list()[i]])
+                            / (2. * h),
+                        1e-6 * scale);
+        }
       }
+    }
+
+    // Eq. (26) with beta = 1.
+    TEST_P(ElasticPotentialTest, StronglyStretchedPatchesHaveTheEnergyOfCells)
+    {
+      const Discretisation discretisation = GetParam();
+      const ParametricBody body;
+      const Body     of_cells(box_mesh(4., 4, 1), MaterialParameters(), discretisation.element);
+      const Examples none;
+      const FreeDofs free_dofs(body.fe_space.n_dofs(), {});
+      BodyPotential  elastic(body, ModelParameters(), none, free_dofs),
+          cellwise(of_cells, ModelParameters(), none, free_dofs);
+      const Vector      positions = drawn(body, 5., 0.15);
+      ElasticEvaluation evaluation, expected;
+      elastic.update_rotations(positions);
+      elastic.evaluate(positions, {}, evaluation);
+      cellwise.update_rotations(positions);
+      cellwise.evaluate(positions, {}, expected);
+      EXPECT_NEAR(evaluation.energy, expected.energy, 1e-12 * expected.energy);
+      EXPECT_NEAR(evaluation.energy_elastic, expected.energy_elastic, 1e-12 * expected.energy);
+      evaluation.gradient -= expected.gradient;
+      EXPECT_LT(evaluation.gradient.linfty_norm(), 1e-11 * expected.gradient.linfty_norm());
     }
 
     TEST_P(ElasticPotentialTest, ResponseBesideHeldNodesIsTheDerivativeByThem)
