@@ -16,7 +16,7 @@ namespace Exemplar
                                    const FreeDofs         &free_dofs)
       : patches(patches), examples(examples), free_dofs(free_dofs),
         scatter(patches, fe_space, pattern, free_dofs), guard(patches, fe_space, material),
-        fractions(fe_space.n_points()), means(patches.size(), 0.),
+        fractions(fe_space.n_points()), means(patches.size(), 0.), mean_squares(patches.size(), 0.),
         traces(batched_size(fractions.size(), 1)), squares(traces.size()), pressures(traces.size()),
         scales(traces.size())
   {
@@ -54,8 +54,13 @@ namespace Exemplar
   PatchDilatation::find_means()
   {
     std::fill(means.begin(), means.end(), 0.);
+    std::fill(mean_squares.begin(), mean_squares.end(), 0.);
     for (unsigned int point = 0; point < fractions.size(); ++point)
-      means[patches.of_point(point)] += fractions[point] * traces[point];
+    {
+      const unsigned int patch = patches.of_point(point);
+      means[patch] += fractions[point] * traces[point];
+      mean_squares[patch] += fractions[point] * squares[point];
+    }
   }
 
   double
@@ -75,7 +80,7 @@ namespace Exemplar
                           const std::vector<double> &weights)
   {
     find_means();
-    guard.find(cells, positions, { traces.data(), squares.data() }, means);
+    guard.find(cells, positions, traces.data(), means, mean_squares);
     find_pressures(weights);
   }
 
@@ -99,9 +104,10 @@ namespace Exemplar
     for (unsigned int point = 0; point < fractions.size(); ++point)
     {
       const unsigned int patch = patches.of_point(point);
-      pressures[point]         = of_patch[patch] + guard.pressure(point);
+      pressures[point]         = of_patch[patch];
       scales[point]            = scale[patch];
     }
+    guard.add_pressures(pressures.data());
   }
 
   void
@@ -146,19 +152,11 @@ namespace Exemplar
                                * examples->patch_dilatation(patch, weight);
   }
 
-  void
-  PatchDilatation::for_each_product(const unsigned int              patch,
-                                    const CellField                &cells,
-                                    const Tangent                   tangent,
-                                    const PatchGuard::ProductAdder &add) const
+  double
+  PatchDilatation::tangent_factor(const unsigned int patch, const Tangent tangent) const
   {
-    std::vector<double> b, half;
-    scatter.gradient(patch, cells, b);
     const double s = tangent == Tangent::convex ? whole_damping : damping_factor(patch);
-    for (const double entry : b)
-      half.push_back(0.5 * (1. + s) * stiffness(patch) * entry);
-    add(b, half);
-    guard.for_each_product(patch, cells, scatter, tangent, b, add);
+    return (1. + s) * stiffness(patch);
   }
 
   void
@@ -166,10 +164,15 @@ namespace Exemplar
                                const Tangent        tangent,
                                std::vector<double> &values) const
   {
+    std::vector<double> b;
     for (unsigned int patch = 0; patch < patches.size(); ++patch)
-      for_each_product(patch, cells, tangent,
-                       [&](const std::vector<double> &u, const std::vector<double> &v)
-                       { scatter.add_product(patch, u, v, values); });
+    {
+      scatter.gradient(patch, cells, b);
+      scatter.add_square(patch, tangent_factor(patch, tangent), b, values);
+      guard.for_each_product(patch, cells, scatter, tangent, b,
+                             [&](const std::vector<double> &u, const std::vector<double> &v)
+                             { scatter.add_product(patch, u, v, values); });
+    }
   }
 
   void
@@ -199,24 +202,24 @@ namespace Exemplar
       if (!scatter.is_beside_held(patch))
         continue;
       const std::vector<unsigned int> &nodes = scatter.nodes(patch);
-      std::vector<double>              u_of_patch;
+      std::vector<double>              u_of_patch, b;
       for (const unsigned int node : nodes)
         for (unsigned int c = 0; c < 3; ++c)
           u_of_patch.push_back(displacement[3 * node + c]);
-      for_each_product(patch, cells, tangent,
-                       [&](const std::vector<double> &u, const std::vector<double> &v)
-                       {
-                         const double along_u = dot(u, u_of_patch.data()),
-                                      along_v = dot(v, u_of_patch.data());
-                         for (std::size_t i = 0; i < u.size(); ++i)
-                           result.gradient[3 * nodes[i / 3] + i % 3]
-                               += along_u * v[i] + along_v * u[i];
-                       });
-      if (result.weight_gradient.empty())
-        continue;
-      std::vector<double> b;
+      const auto add = [&](const double factor, const std::vector<double> &forces)
+      {
+        for (std::size_t i = 0; i < forces.size(); ++i)
+          result.gradient[3 * nodes[i / 3] + i % 3] += factor * forces[i];
+      };
       scatter.gradient(patch, cells, b);
       const double change = dot(b, u_of_patch.data());
+      add(tangent_factor(patch, tangent) * change, b);
+      guard.for_each_product(patch, cells, scatter, tangent, b,
+                             [&](const std::vector<double> &u, const std::vector<double> &v)
+                             {
+                               add(dot(u, u_of_patch.data()), v);
+                               add(dot(v, u_of_patch.data()), u);
+                             });
       for (unsigned int weight = 0; weight < result.weight_gradient.size(); ++weight)
         result.weight_gradient[weight] -= examples->importance() * stiffness(patch) * change
                                           * examples->patch_dilatation(patch, weight);
@@ -229,8 +232,9 @@ namespace Exemplar
     using dealii::MemoryConsumption::memory_consumption;
     return patches.memory_consumption() + scatter.memory_consumption()
            + memory_consumption(fractions) + memory_consumption(means)
-           + memory_consumption(past_means) + memory_consumption(damping_factors)
-           + traces.memory_consumption() + squares.memory_consumption()
-           + pressures.memory_consumption() + scales.memory_consumption();
+           + memory_consumption(mean_squares) + memory_consumption(past_means)
+           + memory_consumption(damping_factors) + traces.memory_consumption()
+           + squares.memory_consumption() + pressures.memory_consumption()
+           + scales.memory_consumption();
   }
 } // namespace Exemplar

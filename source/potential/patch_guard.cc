@@ -63,8 +63,9 @@ namespace Exemplar
   void
   PatchGuard::find(const CellField           &cells,
                    const Vector              &positions,
-                   const DilatationArrays    &of_points,
-                   const std::vector<double> &means)
+                   const double              *traces,
+                   const std::vector<double> &means,
+                   const std::vector<double> &mean_squares)
   {
     stretched.clear();
     points.clear();
@@ -72,18 +73,15 @@ namespace Exemplar
       return;
     for (unsigned int patch = 0; patch < patches.size(); ++patch)
     {
-      double m = 0.;
-      for (const unsigned int point : patches.points(patch))
-        m += fe_space.volume(point) / patches.volume(patch) * of_points.squares[point];
-      if (!(m > first_square))
+      if (!(mean_squares[patch] > first_square))
         continue;
-      const auto [beta, first, second] = transition(m);
+      const auto [beta, first, second] = transition(mean_squares[patch]);
       Stretched of_patch               = { beta, first, second };
       for (const unsigned int point : patches.points(patch))
       {
         const auto at
             = points.emplace(point, point_at(cells, positions, point, patches.lambda(patch),
-                                             of_points.traces[point] - means[patch]));
+                                             traces[point] - means[patch]));
         of_patch.sum += fe_space.volume(point) * at.first->second.W;
       }
       stretched.emplace(patch, of_patch);
@@ -104,6 +102,13 @@ namespace Exemplar
     for (const auto &[patch, of_patch] : stretched)
       sum += of_patch.beta * of_patch.sum;
     return sum;
+  }
+
+  void
+  PatchGuard::add_pressures(double *pressures) const
+  {
+    for (const auto &[point, at] : points)
+      pressures[point] += pressure(point);
   }
 
   double

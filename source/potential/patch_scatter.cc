@@ -98,30 +98,69 @@ namespace Exemplar
     }
   }
 
+  template <typename Function>
+  void
+  PatchScatter::for_each_value(const Layout        &layout,
+                               std::vector<double> &values,
+                               const Function      &add) const
+  {
+    auto entry = layout.entries.begin();
+    for (unsigned int j = 0; j < layout.free_dofs.size(); ++j)
+      for (unsigned int place = layout.free_dofs[j] / 3, i = j; place < layout.nodes.size();
+           ++place)
+      {
+        const unsigned int end = layout.node_ends[place];
+        if (i == end)
+          continue;
+        double *value = &values[*entry++];
+        if (end == i + 3) // nearly always; this is the inner loop of the assembly
+        {
+          add(i, j, value[0]);
+          add(i + 1, j, value[1]);
+          add(i + 2, j, value[2]);
+          i = end;
+        }
+        else
+          for (; i < end; ++i)
+            add(i, j, *value++);
+      }
+  }
+
+  std::vector<double>
+  PatchScatter::free_part(const Layout &layout, const std::vector<double> &u) const
+  {
+    std::vector<double> result(layout.free_dofs.size());
+    for (std::size_t i = 0; i < result.size(); ++i)
+      result[i] = u[layout.free_dofs[i]];
+    return result;
+  }
+
+  void
+  PatchScatter::add_square(const unsigned int         patch,
+                           const double               factor,
+                           const std::vector<double> &u,
+                           std::vector<double>       &values) const
+  {
+    const std::vector<double> free_u = free_part(layouts[patch], u);
+    std::vector<double>       v      = free_u;
+    for (double &entry : v)
+      entry *= factor;
+    for_each_value(layouts[patch], values,
+                   [u = free_u.data(), v = v.data()](const unsigned int i, const unsigned int j,
+                                                     double &value) { value += v[j] * u[i]; });
+  }
+
   void
   PatchScatter::add_product(const unsigned int         patch,
                             const std::vector<double> &u,
                             const std::vector<double> &v,
                             std::vector<double>       &values) const
   {
-    const Layout       &layout = layouts[patch];
-    const auto          n      = static_cast<unsigned int>(layout.free_dofs.size());
-    std::vector<double> free_u(n), free_v(n);
-    for (unsigned int i = 0; i < n; ++i)
-    {
-      free_u[i] = u[layout.free_dofs[i]];
-      free_v[i] = v[layout.free_dofs[i]];
-    }
-    auto entry = layout.entries.begin();
-    for (unsigned int j = 0; j < n; ++j)
-      for (unsigned int place = layout.free_dofs[j] / 3, i = j; place < layout.nodes.size();
-           ++place)
-      {
-        if (i == layout.node_ends[place])
-          continue;
-        for (double *value = &values[*entry++]; i < layout.node_ends[place]; ++i)
-          *value++ += free_u[j] * free_v[i] + free_v[j] * free_u[i];
-      }
+    const std::vector<double> free_u = free_part(layouts[patch], u),
+                              free_v = free_part(layouts[patch], v);
+    for_each_value(layouts[patch], values,
+                   [&](const unsigned int i, const unsigned int j, double &value)
+                   { value += free_u[j] * free_v[i] + free_v[j] * free_u[i]; });
   }
 
   void

@@ -111,12 +111,9 @@ namespace Exemplar
     void
     find_pressures(const std::vector<double> &weights);
 
-    /// Call add(u, v) so that the sum of u v^T + v u^T is its part of A for a patch.
-    void
-    for_each_product(unsigned int                    patch,
-                     const CellField                &cells,
-                     Tangent                         tangent,
-                     const PatchGuard::ProductAdder &add) const;
+    /// lambda_p V_p (1 + s), the factor of b b^T in A.
+    double
+    tangent_factor(unsigned int patch, Tangent tangent) const;
 
     /// lambda_p V_p.
     double
@@ -143,6 +140,7 @@ namespace Exemplar
     PatchGuard          guard;
     std::vector<double> fractions;          ///< of each point in the volume of its patch
     std::vector<double> means;              ///< theta_p
+    std::vector<double> mean_squares;       ///< m_p of Eq. (26)
     std::vector<double> past_means;         ///< that damping remembers; empty without it
     std::vector<double> damping_factors;    ///< s, or 0
     double              whole_damping = 0.; ///< s where no patch is left out

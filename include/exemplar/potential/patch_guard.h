@@ -26,12 +26,13 @@ namespace Exemplar
     /// All must outlive it.
     PatchGuard(const Patches &patches, const FESpace &fe_space, const Material &material);
 
-    /// Anew for these positions, what their points told the patches, and the mean dilatations.
+    /// Anew for these positions, the points' tr(e), and theta_p and m_p of the patches.
     void
     find(const CellField           &cells,
          const Vector              &positions,
-         const DilatationArrays    &of_points,
-         const std::vector<double> &means);
+         const double              *traces,
+         const std::vector<double> &means,
+         const std::vector<double> &mean_squares);
 
     /// beta W at a point [J/m^3].
     double
@@ -41,7 +42,11 @@ namespace Exemplar
     double
     energy() const;
 
-    /// beta lambda_p (tr(e) - theta_p), what it adds to the pressure of a point [Pa].
+    /// Add beta lambda_p (tr(e) - theta_p) to the pressures of the points [Pa].
+    void
+    add_pressures(double *pressures) const;
+
+    /// What it adds to the pressure of a point [Pa].
     double
     pressure(unsigned int point) const;
 

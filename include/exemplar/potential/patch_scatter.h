@@ -46,6 +46,13 @@ namespace Exemplar
       return layouts[patch].free_dofs.size() < 3 * layouts[patch].nodes.size();
     }
 
+    /// Add factor u u^T to the values on the pattern.
+    void
+    add_square(unsigned int               patch,
+               double                     factor,
+               const std::vector<double> &u,
+               std::vector<double>       &values) const;
+
     /// Add u v^T + v u^T to the values on the pattern.
     void
     add_product(unsigned int               patch,
@@ -78,6 +85,15 @@ namespace Exemplar
 
     void
     find_entries(const SymmetricPattern &pattern, Layout &layout) const;
+
+    std::vector<double>
+    free_part(const Layout &layout, const std::vector<double> &u) const;
+
+    /// Call add(i, j, value) for each value of a patch that is stored, with the indices i >= j of
+    /// its free degrees of freedom.
+    template <typename Function>
+    void
+    for_each_value(const Layout &layout, std::vector<double> &values, const Function &add) const;
 
     const Patches      &patches;
     const FESpace      &fe_space;
