@@ -17,7 +17,8 @@ A page says itself which table it wants, in a comment before it; a table ends wi
 <!-- extrapolation: NAME: AXIS; COLUMN; EXACT -->   a quantity as a mesh is refined, and its limit; EXACT: from elsewhere
 <!-- space: NAME: NU -->             deflection over the limit and seconds of a study of errors in space, a line a mesh, a
                                     column an element; <!-- reach: NAME: ERROR --> seconds to that error, a column a ratio of Poisson
-<!-- stability: all -->, <!-- failures: all -->     the stability studies
+<!-- stability: all -->, <!-- elements: all -->, <!-- failures: all -->     the stability studies: a line a study, an
+                                    element, a case that failed
 """
 import csv
 import math
@@ -229,38 +230,56 @@ def draw_space(names):
     subprocess.run(["gnuplot"], input="\n".join(script) + "\n", text=True, check=True, cwd=FIGURES)
 
 
+def element_of(row):
+    return ELEMENTS[row["Model/Element"], row["Model/Dilatation"]]
+
+
+def stability_runs():
+    """The rows of each stability study."""
+    return {file.stem[10:]: read(file.stem) for file in sorted(FILES.glob("stability_*.csv"))}
+
+
+STABILITY = ["cases", "done", "failure reported", "wrong or crashed", "worst residual", "energy from nowhere",
+             "above the bound of implicit Euler", "least det F", "condition of A", "of the Schur complement", "worst KKT residual"]
+
+
+def summary(rows):
+    """The columns STABILITY of some runs."""
+    schur = span(numbers(rows, "condition_schur"))
+    if any(row["condition_schur"] == "not definite" for row in rows):
+        schur += ", not definite"
+    return [str(len(rows)), *(str(sum(row["exit_status"] == status for row in rows)) for status in "02"),
+            str(sum(row["exit_status"] not in "02" for row in rows)),
+            short(max(numbers(rows, "residual"))), most(rows, "energy_growth"), most(rows, "bound_excess"),
+            short(min(numbers(rows, "min_det_F"))), span(numbers(rows, "condition_matrix")), schur, most(rows, "kkt_residual")]
+
+
 def stability(*_):
+    runs = stability_runs()
+    body = [[f"[{study}](../prm/studies/stability_{study}.prm)", *summary(rows)] for study, rows in runs.items()]
+    return markdown(["study", *STABILITY], body + [["all", *summary(sum(runs.values(), []))[:4], *[""] * 7]])
+
+
+def elements(*_):
+    runs = stability_runs()
     body = []
-    for file in sorted(FILES.glob("stability_*.csv")):
-        rows = read(file.stem)
-        converged = [row for row in rows if row["exit_status"] == "0"]
-        schur = span(numbers(rows, "condition_schur"))
-        if any(row["condition_schur"] == "not definite" for row in rows):
-            schur += ", not definite"
-        body.append([f"[{file.stem[10:]}](../prm/studies/{file.stem}.prm)", str(len(rows)), str(len(converged)),
-                     str(sum(row["exit_status"] == "2" for row in rows)),
-                     str(sum(row["exit_status"] not in "02" for row in rows)),
-                     short(max(numbers(rows, "residual"))), most(rows, "energy_growth"),
-                     most(rows, "bound_excess"), short(min(numbers(rows, "min_det_F"))),
-                     span(numbers(rows, "condition_matrix")), schur, most(rows, "kkt_residual")])
-    total = ["all", *(str(sum(int(row[i]) for row in body)) for i in range(1, 5)), *[""] * 7]
-    return markdown(["study", "cases", "done", "failure reported", "wrong or crashed", "worst residual",
-                     "energy from nowhere", "above the bound of implicit Euler", "least det F", "condition of A",
-                     "of the Schur complement", "worst KKT residual"], body + [total])
+    for element in ELEMENTS.values():
+        rows = [row for study in runs.values() for row in study if element_of(row) == element]
+        body.append([element, *summary(rows)])
+    return markdown(["element", *STABILITY], body)
 
 
 def failures(*_):
     body = []
-    for file in sorted(FILES.glob("stability_*.csv")):
-        rows = read(file.stem)
+    for study, rows in stability_runs().items():
         for row in rows:
             if row["exit_status"] != "0":
-                values = ", ".join(f"{key.split('/')[-1]} = `{row[key]}`" for key in axes(rows))
-                body.append([file.stem[10:], values.replace("|", "\\|"), row["status"], row["steps"] or "0"])
-    return markdown(["study", "case", "how it ended", "steps before"], body)
+                values = ", ".join(f"{key.split('/')[-1]} = `{row[key]}`" for key in axes(rows) if not key.startswith("Model/"))
+                body.append([study, element_of(row), values.replace("|", "\\|"), row["status"], row["steps"] or "0"])
+    return markdown(["study", "element", "case", "how it ended", "steps before"], body)
 
 
-KINDS = {make.__name__: make for make in (table, orders, cost, extrapolation, space, reach, stability, failures)}
+KINDS = {make.__name__: make for make in (table, orders, cost, extrapolation, space, reach, stability, elements, failures)}
 
 
 def page_with_tables(page):
