@@ -17,6 +17,8 @@ A page says itself which table it wants, in a comment before it; a table ends wi
 <!-- extrapolation: NAME: AXIS; COLUMN; EXACT -->   a quantity as a mesh is refined, and its limit; EXACT: from elsewhere
 <!-- space: NAME: NU -->             deflection over the limit and seconds of a study of errors in space, a line a mesh, a
                                     column an element; <!-- reach: NAME: ERROR --> seconds to that error, a column a ratio of Poisson
+<!-- effectivity: NAME -->        estimated over true errors of doc/scripts/measure_space_error.py: of displacements, then of energies
+                                    or, in scenes with weights to find, of these
 <!-- stability: all -->, <!-- elements: all -->, <!-- failures: all -->     the stability studies: a line a study, an
                                     element, a case that failed
 """
@@ -202,6 +204,18 @@ def reach(name, where, bound):
     return markdown(["element", *(f"ν = {nu}" for nu in nus)], body)
 
 
+def effectivity(name, where, _):
+    rows, lines = read(name), {}
+    for row in rows:
+        second = "energy" if row["energy"] else "weights"
+        ratios = [float(row[what]) / float(row[what + "_true"]) for what in ("displacement", second)]
+        line = lines.setdefault((row["body"], row["mesh"], row["dilatation"], "weights" if second == "weights" else "energy"), {})
+        line[row["nu"]] = " / ".join(f"{ratio:.2f}" for ratio in ratios)
+    nus = list(dict.fromkeys(row["nu"] for row in rows))
+    return markdown(["body", "mesh", "dilatation", "second number", *(f"ν = {nu}" for nu in nus)],
+                    [[*key, *(line[nu] for nu in nus)] for key, line in lines.items()])
+
+
 def draw_space(names):
     """doc/figures/space.svg: error against seconds, a row a body, a column a ratio of Poisson, with the Pareto fronts."""
     nus = ("0.3", "0.45", "0.49", "0.499")
@@ -279,7 +293,7 @@ def failures(*_):
     return markdown(["study", "element", "case", "how it ended", "steps before"], body)
 
 
-KINDS = {make.__name__: make for make in (table, orders, cost, extrapolation, space, reach, stability, elements, failures)}
+KINDS = {make.__name__: make for make in (table, orders, cost, extrapolation, space, reach, effectivity, stability, elements, failures)}
 
 
 def page_with_tables(page):

@@ -69,8 +69,9 @@ namespace Exemplar
                 << problem.body.mesh.n_cells()
                 << (problem.parameters.model.element == Element::P1 ? " cells, "
                                                                     : " quadratic cells, ")
-                << problem.body.fe_space.n_nodes() << " nodes, " << problem.constraints.free_dofs.size() << " of "
-                << problem.body.fe_space.n_dofs() << " dofs free\n"
+                << problem.body.fe_space.n_nodes() << " nodes, "
+                << problem.constraints.free_dofs.size() << " of " << problem.body.fe_space.n_dofs()
+                << " dofs free\n"
                 << made_text(problem.body.made.get()) << "Examples  ";
       if (problem.examples.poses != nullptr)
         std::cout << problem.examples.poses->size() << ", importance "
@@ -99,6 +100,32 @@ namespace Exemplar
                 << std::setprecision(3) << total << " s\n"
                 << totals.iterations << " iterations, " << totals.factorizations
                 << " factorisations" << std::endl;
+    }
+
+    /// What is known of the errors of the steps and, if it was asked for, of the mesh.
+    void
+    print_errors(const Problem &problem, const RunWriter &writer)
+    {
+      if (!writer.get_space_error())
+        return;
+      const SpaceError       &space  = *writer.get_space_error();
+      const SolverParameters &solver = problem.parameters.solver;
+      std::ostringstream      text;
+      text << std::setprecision(2) << "Errors\n  steps       residual up to "
+           << writer.get_totals().worst_residual;
+      if (solver.method == Method::quasi_newton)
+        text << ", positions to " << solver.step_tolerance << " of a step";
+      text << "\n  space       ";
+      if (!space.failure.empty())
+        text << "no estimate: " << space.failure;
+      else
+      {
+        text << "displacement " << 100. * space.displacement << " %, energy " << 100. * space.energy
+             << " %";
+        if (space.weights)
+          text << ", weights " << *space.weights;
+      }
+      std::cout << text.str() << std::endl;
     }
 
     std::string
@@ -205,7 +232,10 @@ namespace Exemplar
     for (const std::string &warning : review.warnings())
       warn(warning);
     if (!options.quiet)
+    {
       print_times(writer.get_totals());
+      print_errors(*problem, writer);
+    }
   }
 
   void

@@ -114,7 +114,7 @@ namespace Exemplar
   }
 
   void
-  FrameOutput::write()
+  FrameOutput::write(std::optional<SpaceError> space_error)
   {
     const State &state = problem.state;
     Frame        frame = {
@@ -123,6 +123,7 @@ namespace Exemplar
              state.velocities, problem.potential.get_cells().cell_results(state.positions, state.weights)
     };
     frame.displacement -= problem.body.fe_space.rest_positions();
+    frame.space_error = std::move(space_error);
     if (const std::string what = what_is_not_finite(frame.cells); !what.empty())
       throw SolverFailure("The frame of step " + std::to_string(state.step) + " would hold " + what
                           + " that are not finite numbers. Take smaller steps, and look at what "
@@ -137,12 +138,14 @@ namespace Exemplar
         });
   }
 
-  void
-  FrameOutput::write_if_missing()
+  bool
+  FrameOutput::is_missing() const
   {
-    for (const auto &[format, writer] : writers)
-      if (!std::filesystem::exists(directory / format->frame_name(problem.state.step)))
-        return write();
+    return std::any_of(writers.begin(), writers.end(),
+                       [&](const Writer &writer) {
+                         return !std::filesystem::exists(
+                             directory / writer.first->frame_name(problem.state.step));
+                       });
   }
 
   void

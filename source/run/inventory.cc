@@ -63,6 +63,7 @@ namespace Exemplar
       { "algebraic multigrid", solver_is("iterative"), {} },
       { "UMFPACK", solver_is("umfpack"), {} },
       { "quasi-Newton method", quasi_newton > 0, quasi_newton },
+      { "estimate of the error in space", problem.inputs != nullptr, {} },
       { "frame writer", problem.parameters.output.every > 0, {} }
     };
     if (solver.bytes > 0)

@@ -11,6 +11,9 @@ namespace Exemplar
   {
     const EnumTable<FinalTetrahedra> final_poses
         = { { FinalTetrahedra::linear, "linear" }, { FinalTetrahedra::quadratic, "quadratic" } };
+    const EnumTable<SpaceErrorUse> space_error_uses = { { SpaceErrorUse::never, "false" },
+                                                        { SpaceErrorUse::at_end, "true" },
+                                                        { SpaceErrorUse::in_frames, "frames" } };
   } // namespace
 
   void
@@ -41,6 +44,10 @@ namespace Exemplar
         "linear: final.msh has the nodes and elements of the mesh; quadratic, with Model/Element "
         "= P2: also the nodes in the middles of edges, as 10-node tetrahedra and 6-node "
         "triangles. Both can be poses and initial states of other scenes.");
+    keys.add("Space error", space_error, space_error_uses,
+             "true: how far the mesh is from ever finer ones is estimated at the end, by a step of "
+             "quadratic elements, for summary.json and the last frame; frames: in each frame, too. "
+             "With Model/Element = P1. It takes about ten times the memory of the run.");
     keys.leave_subsection();
   }
 

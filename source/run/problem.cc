@@ -30,6 +30,9 @@ namespace Exemplar
 
   Problem::Problem(SceneParameters scene, Inputs inputs, StepClock running_clock)
       : parameters(completed(std::move(scene))), clock(std::move(running_clock)),
+        inputs(parameters.output.space_error == SpaceErrorUse::never
+                   ? nullptr
+                   : std::make_shared<const Inputs>(inputs)),
         time_axis(make_time_axis(parameters)), body(parameters, inputs), surface(inputs.surface),
         constraints(parameters, body, time_axis, inputs),
         examples(parameters, body, time_axis, inputs), actions(parameters, body, inputs),

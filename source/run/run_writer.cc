@@ -67,7 +67,7 @@ namespace Exemplar
       : problem(problem), scene(scene), diagnostics(problem),
         directory(problem.parameters.output.directory, formats), input_digests(digests_of(scene)),
         last_checkpoint(std::chrono::steady_clock::now()),
-        frames(problem, directory.get_path(), formats)
+        frames(problem, directory.get_path(), formats), estimator(problem)
   {
   }
 
@@ -85,7 +85,7 @@ namespace Exemplar
       statistics.emplace(directory.statistics());
       frames.write_shapes();
       if (frames.is_due(0))
-        frames.write();
+        write_frame();
       StatisticsRow row = diagnostics.row(problem.state, SolveReport());
       Diagnostics::append_seconds(row, {});
       statistics->write(row);
@@ -181,8 +181,8 @@ namespace Exemplar
     directory.remove_frames_after(checkpoint.state.step);
     if (is_only_last_frame(checkpoint) && !frames.is_due(checkpoint.state.step))
       frames.remove(checkpoint.state.step);
-    if (frames.is_due(checkpoint.state.step)) // an earlier resume may have removed it
-      frames.write_if_missing();
+    if (frames.is_due(checkpoint.state.step) && frames.is_missing()) // a resume has removed it
+      write_frame();
     totals                 = checkpoint.totals;
     earlier_factorizations = totals.factorizations;
     end_reading();
@@ -237,6 +237,7 @@ namespace Exemplar
     totals.worst_residual = std::max(totals.worst_residual, report.residual);
 
     directory.require_taken();
+    space_error.reset();
     if (accepted)
       diagnostics.add_step();
     State shown = problem.state;
@@ -251,7 +252,7 @@ namespace Exemplar
     else
       require_numbers(row);
     if (accepted && frames.is_due(problem.state.step))
-      frames.write();
+      write_frame();
     Diagnostics::append_seconds(row, lap());
     statistics->write(row);
     if (accepted)
@@ -266,10 +267,30 @@ namespace Exemplar
   }
 
   void
+  RunWriter::write_frame()
+  {
+    find_space_error();
+    frames.write(space_error);
+  }
+
+  void
+  RunWriter::find_space_error()
+  {
+    const SpaceErrorUse use          = problem.parameters.output.space_error;
+    const unsigned int  step         = problem.state.step;
+    const bool          is_asked_for = use != SpaceErrorUse::never
+                              && (step == problem.time_axis.n_steps()
+                                  || (use == SpaceErrorUse::in_frames && frames.is_due(step)));
+    if (is_asked_for && !space_error)
+      space_error = estimator.estimate();
+  }
+
+  void
   RunWriter::finish(const std::string &status)
   {
     {
       StepClock::Scope scope(problem.clock, Part::output);
+      find_space_error();
       frames.drain();
       directory.require_taken();
       write_final_pose();
@@ -278,7 +299,7 @@ namespace Exemplar
     }
     lap();
     const auto mesh_digest = input_digests.find(problem.parameters.mesh.file);
-    write_summary(problem, totals,
+    write_summary(problem, totals, space_error,
                   mesh_digest != input_digests.end() ? mesh_digest->second : "generated", status,
                   directory.summary());
   }

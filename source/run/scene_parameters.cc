@@ -39,6 +39,9 @@ namespace Exemplar
       throw UserError("Output/Final pose = quadratic writes the nodes in the middles of edges, but "
                       "Model/Element = P1 has none. Set Model/Element = P2, or Output/Final pose = "
                       "linear.");
+    if (output.space_error != SpaceErrorUse::never && model.element != Element::P1)
+      throw UserError("Output/Space error compares linear elements with quadratic ones, but "
+                      "Model/Element = P2. Set Model/Element = P1, or Output/Space error = false.");
     if (output.keep_states && output.every == 0)
       throw UserError(
           "Output/Keep states = true keeps the state of each frame, but Output/Every = 0 "

@@ -49,6 +49,22 @@ namespace Exemplar
     }
 
     Json
+    errors_of(const SpaceError &error)
+    {
+      Json json;
+      if (!error.failure.empty())
+      {
+        json["failure"] = error.failure;
+        return json;
+      }
+      json["displacement"] = error.displacement;
+      json["energy"]       = error.energy;
+      if (error.weights)
+        json["weights"] = *error.weights;
+      return json;
+    }
+
+    Json
     mesh_made(const MeshingReport &report)
     {
       Json json;
@@ -88,11 +104,12 @@ namespace Exemplar
   } // namespace
 
   void
-  write_summary(Problem                     &problem,
-                const RunTotals             &totals,
-                const std::string           &mesh_sha256,
-                const std::string           &status,
-                const std::filesystem::path &file)
+  write_summary(Problem                         &problem,
+                const RunTotals                 &totals,
+                const std::optional<SpaceError> &space_error,
+                const std::string               &mesh_sha256,
+                const std::string               &status,
+                const std::filesystem::path     &file)
   {
     const BlasInfo blas = blas_info();
 
@@ -132,6 +149,8 @@ namespace Exemplar
     json["factorizations"] = totals.factorizations;
     json["status"]         = status;
     json["worst_residual"] = totals.worst_residual;
+    if (space_error)
+      json["space_error"] = errors_of(*space_error);
     for (const SceneEdit &edit : totals.edits)
       json["edits"].push_back({ { "step", edit.step }, { "scene_before", edit.before } });
     const Conditioning conditioning = problem.conditioning();

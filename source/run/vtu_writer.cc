@@ -54,15 +54,21 @@ namespace Exemplar
     }
 
     std::string
-    head_of(const FESpace &fe_space)
+    head_of_grid()
     {
       std::ostringstream out;
       out << "<?xml version=\"1.0\"?>\n"
           << "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
              "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n"
-          << "<UnstructuredGrid>\n<Piece NumberOfPoints=\"" << fe_space.n_nodes()
-          << "\" NumberOfCells=\"" << fe_space.n_cells() << "\">\n";
+          << "<UnstructuredGrid>\n";
       return out.str();
+    }
+
+    std::string
+    piece_of(const FESpace &fe_space)
+    {
+      return "<Piece NumberOfPoints=\"" + std::to_string(fe_space.n_nodes()) + "\" NumberOfCells=\""
+             + std::to_string(fe_space.n_cells()) + "\">\n";
     }
 
     std::string
@@ -111,6 +117,24 @@ namespace Exemplar
       write_array(out, "Float64", name, 1, values.data(), values.size());
     }
 
+    /// Numbers of the whole frame.
+    void
+    write_errors(std::ostream &out, const SpaceError &error)
+    {
+      out << "<FieldData>\n";
+      const auto write = [&](const std::string &of_what, const double value)
+      {
+        out << "<DataArray type=\"Float64\" Name=\"space_error_" << of_what
+            << "\" NumberOfTuples=\"1\" format=\"binary\">" << encode(&value, sizeof(value))
+            << "</DataArray>\n";
+      };
+      write("displacement", error.displacement);
+      write("energy", error.energy);
+      if (error.weights)
+        write("weights", *error.weights);
+      out << "</FieldData>\n";
+    }
+
     /// Writes VTU files: each node once and in the order of FESpace, and true cell data (deal.II's
     /// DataOut repeats nodes cell by cell and has no cell data). Arrays are binary, compressed by
     /// zlib. The animation is a ParaView collection.
@@ -118,7 +142,8 @@ namespace Exemplar
     {
     public:
       VtuWriter(const Mesh &mesh, const FESpace &fe_space)
-          : head(head_of(fe_space)), cells(cells_of(fe_space)), regions(regions_of(mesh))
+          : head(head_of_grid()), piece(piece_of(fe_space)), cells(cells_of(fe_space)),
+            regions(regions_of(mesh))
       {
       }
 
@@ -127,7 +152,10 @@ namespace Exemplar
       {
         AtomicFile    atomic_file(file);
         std::ostream &out = atomic_file.stream();
-        out << head << "<Points>\n";
+        out << head;
+        if (frame.space_error && frame.space_error->failure.empty())
+          write_errors(out, *frame.space_error);
+        out << piece << "<Points>\n";
         write_vector(out, "Points", frame.positions);
         out << "</Points>\n" << cells << "<PointData>\n";
         write_vector(out, "displacement", frame.displacement);
@@ -137,6 +165,8 @@ namespace Exemplar
         write_scalars(out, "strain_energy_density", frame.cells.strain_energy_density);
         write_scalars(out, "det_F", frame.cells.det_F);
         write_scalars(out, "von_mises_stress", frame.cells.von_mises_stress);
+        if (frame.space_error && frame.space_error->failure.empty())
+          write_scalars(out, "space_error", frame.space_error->energy_density);
         out << regions << "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
         atomic_file.commit_without_sync();
       }
@@ -158,7 +188,7 @@ namespace Exemplar
       }
 
     private:
-      const std::string head;           ///< to the points
+      const std::string head, piece;    ///< to the points
       const std::string cells, regions; ///< encoded once, as no frame changes them
     };
   } // namespace

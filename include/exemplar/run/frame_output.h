@@ -39,11 +39,11 @@ namespace Exemplar
 
     /// Take what the next step changes from the problem's state and have it written.
     void
-    write();
+    write(std::optional<SpaceError> space_error = {});
 
-    /// The same where a format lacks the frame of the present step.
-    void
-    write_if_missing();
+    /// Whether a format lacks the frame of the present step.
+    bool
+    is_missing() const;
 
     /// Return when all frames are on disk.
     void

@@ -4,9 +4,11 @@
 
 #include <exemplar/algebra/vector.h>
 #include <exemplar/potential/elastic_potential.h>
+#include <exemplar/run/space_error.h>
 #include <exemplar/surface/surface_mesh.h>
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 namespace Exemplar
@@ -24,7 +26,8 @@ namespace Exemplar
     CellResults  cells;
     /// Places of the vertices of the body's surface in the unit of its file; empty unless a format
     /// shows it.
-    std::vector<SurfaceMesh::Vertex> surface = {};
+    std::vector<SurfaceMesh::Vertex> surface     = {};
+    std::optional<SpaceError>        space_error = {};
   };
 
   /// A frame that is on disk.

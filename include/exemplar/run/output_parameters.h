@@ -16,6 +16,14 @@ namespace Exemplar
     quadratic ///< the same with 10 nodes
   };
 
+  /// When the error in space is estimated.
+  enum class SpaceErrorUse
+  {
+    never,
+    at_end,
+    in_frames ///< and at the end
+  };
+
   /// Subsection Output.
   struct OutputParameters
   {
@@ -25,6 +33,7 @@ namespace Exemplar
     double                   checkpoint_minutes = 5.;
     bool                     keep_states        = false; ///< one for each frame
     FinalTetrahedra          final_pose         = FinalTetrahedra::linear;
+    SpaceErrorUse            space_error        = SpaceErrorUse::never;
 
     void
     declare(KeyTable &keys);

@@ -55,6 +55,7 @@ namespace Exemplar
 
     const SceneParameters                    parameters; ///< completed
     StepClock                                clock;
+    const std::shared_ptr<const Inputs>      inputs; ///< null unless Output/Space error needs them
     const TimeAxis                           time_axis;
     const Body                               body;
     const std::shared_ptr<const SurfaceMesh> surface; ///< of the body; null unless it is needed

@@ -7,6 +7,7 @@
 #include <exemplar/run/problem.h>
 #include <exemplar/run/run_directory.h>
 #include <exemplar/run/scene_file.h>
+#include <exemplar/run/space_error_estimator.h>
 #include <exemplar/run/statistics_file.h>
 
 #include <chrono>
@@ -63,6 +64,13 @@ namespace Exemplar
       return totals;
     }
 
+    /// Of the last step, if the scene asks for it and the step was made.
+    const std::optional<SpaceError> &
+    get_space_error() const
+    {
+      return space_error;
+    }
+
   private:
     void
     write_original() const;
@@ -79,6 +87,14 @@ namespace Exemplar
 
     void
     save();
+
+    /// Write the present step's frame, with the error in space if the scene asks for that.
+    void
+    write_frame();
+
+    /// If it is asked for at the present step, find the error in space, unless it is known.
+    void
+    find_space_error();
 
     /// If states are kept and the present step has a frame.
     void
@@ -113,6 +129,8 @@ namespace Exemplar
     PartSeconds    last_lap{};
     std::chrono::steady_clock::time_point last_checkpoint;
     FrameOutput                           frames;
+    SpaceErrorEstimator                   estimator;
+    std::optional<SpaceError>             space_error; ///< of the present step
   };
 } // namespace Exemplar
 

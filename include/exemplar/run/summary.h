@@ -4,20 +4,23 @@
 
 #include <exemplar/run/checkpoint.h>
 #include <exemplar/run/problem.h>
+#include <exemplar/run/space_error.h>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace Exemplar
 {
-  /// Write summary.json: the program, the scene's sizes, totals over all steps, what
-  /// was used and what was left out.
+  /// Write summary.json: the program, the scene's sizes, totals over all steps, the error in space
+  /// of the last if it is known, what was used and what was left out.
   void
-  write_summary(Problem                     &problem,
-                const RunTotals             &totals,
-                const std::string           &mesh_sha256,
-                const std::string           &status,
-                const std::filesystem::path &file);
+  write_summary(Problem                         &problem,
+                const RunTotals                 &totals,
+                const std::optional<SpaceError> &space_error,
+                const std::string               &mesh_sha256,
+                const std::string               &status,
+                const std::filesystem::path     &file);
 } // namespace Exemplar
 
 #endif

@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Output/Space error: how far a mesh is from ever finer ones."""
+
+import csv
+import json
+import unittest
+from pathlib import Path
+
+from exemplar_runner import SceneTest, read_pvd, read_vtu, results
+
+LIMITS = Path(__file__).resolve().parents[2] / "doc/studies/space_limits.csv"
+
+# the body of prm/studies/space_bar.prm
+WEIGHT = {
+    "Scene": "static",
+    "Mesh/Generator": "box",
+    "Mesh/Box size": "4, 1, 1",
+    "Mesh/Box cells": "8, 2, 2",
+    "Material/Young's modulus": "1e8",
+    "Material/Density": "1000",
+    "Handles/Names": "left",
+    "Handles/left/Select": "boundary 1",
+    "Loads/Gravity": "0, 0, -1",
+    "Time/Increments": "1",
+    "Output/Every": "0",
+}
+# moving, with an example of unknown weight
+SWING = {
+    "Scene": "dynamic",
+    "Mesh/Generator": "box",
+    "Mesh/Box size": "4, 1, 1",
+    "Mesh/Box cells": "4, 1, 1",
+    "Material/Young's modulus": "1e6",
+    "Material/Poisson's ratio": "0.45",
+    "Examples/Pose functions": "(8/pi-z)*sin(pi*x/8); y; 8/pi - (8/pi-z)*cos(pi*x/8)",
+    "Examples/Weights": "free",
+    "Examples/Importance": "0.8",
+    "Handles/Names": "left",
+    "Handles/left/Select": "boundary 1",
+    "Handles/left/Motion": "0; 0; 0.3*sin(4*t)",
+    "Loads/Gravity": "0, 0, -9.81",
+    "Time/Step": "0.02",
+    "Time/End": "0.2",
+    "Output/Every": "5",
+}
+
+
+def errors(output):
+    return json.loads((output / "summary.json").read_text()).get("space_error")
+
+
+def energy(output):
+    with open(output / "statistics.csv", newline="") as file:
+        return float(list(csv.DictReader(file))[-1]["energy_elastic"])
+
+
+class SpaceError(SceneTest):
+    def test_the_correction_is_the_quadratic_solution_where_all_is_linear(self):
+        for strain in ("linear", "green"):
+            with self.subTest(strain):
+                # so small a load that Green's strain is linear, too
+                scene = {**WEIGHT, "Model/Strain": strain, "Loads/Gravity": "0, 0, -0.1", "Model/Dilatation": "cells"}
+                dilatation = "patches" if strain == "linear" else "cells"
+                linear = self.solve({**scene, "Output/Space error": "true"}, output=strain)
+                quadratic = self.solve({**scene, "Model/Element": "P2", "Model/Dilatation": dilatation}, output=strain + " P2")
+                expected = 1 - energy(linear) / energy(quadratic)
+                self.assertAlmostEqual(errors(linear)["energy"] / expected, 1., delta=1e-3)
+
+    def test_effectivity(self):
+        """Against the limits of doc/studies/space_limits.csv, which come from outside the program."""
+        with open(LIMITS, newline="") as file:
+            limits = {row["nu"]: float(row["energy"]) for row in csv.DictReader(file) if row["body"] == "bar"}
+        for poisson in ("0.3", "0.45", "0.499"):
+            for dilatation in ("cells", "patches"):
+                with self.subTest(dilatation, poisson=poisson):
+                    output = self.solve({**WEIGHT, "Material/Poisson's ratio": poisson, "Model/Dilatation": dilatation,
+                                         "Output/Space error": "true"}, output=f"{dilatation} {poisson}")
+                    true = 1 - energy(output) / limits[poisson]
+                    found = errors(output)
+                    self.assertEqual(set(found), {"displacement", "energy"})
+                    self.assertAlmostEqual(found["energy"] / true, 1., delta=0.1)
+                    # in this load the shape of the deflection hardly depends on the mesh
+                    self.assertAlmostEqual(found["displacement"] / true, 1., delta=0.35)
+
+    def test_it_shows_where_to_refine(self):
+        output = self.solve({**WEIGHT, "Output/Space error": "true", "Output/Every": "1"})
+        frame, _, n_cells = read_vtu(output / "frame_0001.vtu")
+        density = frame["CellData", "space_error"]
+        self.assertEqual(len(density), n_cells)
+        rest = read_vtu(output / "frame_0000.vtu")[0]
+        self.assertNotIn(("CellData", "space_error"), rest)
+        points, cells = rest["Points", "Points"], rest["Cells", "connectivity"]
+        middles = [sum(points[3 * node] for node in cells[4 * i:4 * i + 4]) / 4 for i in range(n_cells)]
+        near = sum(d for d, x in zip(density, middles) if x < 1)
+        self.assertGreater(near, 0.5 * sum(density))  # beside the clamped end
+        self.assertGreater(min(density), 0.)
+
+    def test_frames_have_it_and_nothing_else_changes(self):
+        plain = self.solve(SWING, output="plain")
+        asked = self.solve({**SWING, "Output/Space error": "frames"}, output="asked")
+        self.assertIsNone(errors(plain))
+        self.assertEqual(set(errors(asked)), {"displacement", "energy", "weights"})
+        self.assertEqual(len(read_pvd(asked)), 3)
+        for _, name in read_pvd(asked):
+            shown, before = read_vtu(asked / name)[0], read_vtu(plain / name)[0]
+            self.assertEqual({key: shown[key] for key in before}, before)
+            self.assertEqual(set(shown) - set(before), {("CellData", "space_error")})
+            self.assertIn('Name="space_error_displacement"', (asked / name).read_text())
+        changed, unchanged = results(asked), results(plain)
+        for name in ("final.msh", "statistics.csv"):
+            self.assertEqual(changed[name], unchanged[name])
+
+    def test_it_is_the_same_after_a_resume(self):
+        scene = {**SWING, "Output/Space error": "true"}
+        whole = self.solve(scene, output="out")
+        expected = errors(whole)
+        (whole / "summary.json").unlink()
+        self.solve(scene, "--resume", output="out")
+        found = errors(whole)
+        for what, value in expected.items():
+            self.assertGreater(value, 1e-4)
+            self.assertAlmostEqual(found[what] / value, 1., delta=1e-9)
+
+    def test_the_closing_table_names_both_errors(self):
+        run = self.attempt({**WEIGHT, "Output/Space error": "true"})
+        self.assertRegex(run.stdout, r"Errors\n  steps +residual up to \S+\n  space +displacement \S+ %, energy \S+ %\n")
+
+    def test_quadratic_elements_are_refused(self):
+        run = self.attempt({**WEIGHT, "Model/Element": "P2", "Output/Space error": "true"})
+        self.assertEqual(run.status, 1)
+        self.assertIn("Output/Space error", run.stderr)
+        self.assertIn("Model/Element = P1", run.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
