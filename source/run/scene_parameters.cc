@@ -14,6 +14,7 @@ namespace Exemplar
       if (examples.prescribed_weights.empty() && examples.n_examples() == 2)
         examples.prescribed_weights = "1-t; t"; // from the first to the second
     }
+    model.complete();
     if (solver.method != Method::automatic)
       return;
     if (model.is_frozen())
