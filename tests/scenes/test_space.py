@@ -6,8 +6,8 @@ import unittest
 
 from exemplar_runner import SceneTest, bend, bent, greatest_distance, read_csv, read_msh, read_summary
 
-# by the settings of Model
 CELLS = {"Model/Dilatation": "cells"}
+# by the settings of Model
 ELEMENTS = {
     "patches": {"Model/Dilatation": "patches"},
     "P2": {"Model/Element": "P2", **CELLS},
