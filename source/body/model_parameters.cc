@@ -13,9 +13,10 @@ namespace Exemplar
             { StrainMeasure::green, "green" } };
     const EnumTable<GradientKind> gradient_kinds
         = { { GradientKind::consistent, "consistent" }, { GradientKind::frozen, "frozen" } };
-    const EnumTable<DilatationKind> dilatation_kinds
-        = { { DilatationKind::cells, "cells" }, { DilatationKind::patches, "patches" } };
-    const EnumTable<Element> elements = { { Element::P1, "P1" }, { Element::P2, "P2" } };
+    const EnumTable<DilatationKind> dilatation_kinds = { { DilatationKind::automatic, "auto" },
+                                                         { DilatationKind::cells, "cells" },
+                                                         { DilatationKind::patches, "patches" } };
+    const EnumTable<Element>        elements = { { Element::P1, "P1" }, { Element::P2, "P2" } };
   } // namespace
 
   void
@@ -34,11 +35,11 @@ namespace Exemplar
     keys.add(
         "Dilatation", dilatation, dilatation_kinds,
         "cells: each cell resists the change of its own volume; patches: patches of cells that "
-        "share a "
-        "node resist the mean of theirs, so that linear tetrahedra bend and squeeze as they should "
-        "also "
-        "near Poisson's ratio 0.5, at up to 1.6 times the cost of a factorisation (doc/space.md). "
-        "For the corotational and linear strains.");
+        "share a node resist the mean of theirs, so that linear tetrahedra bend and squeeze as "
+        "they should also near Poisson's ratio 0.5, at 1.6 times the operations of a "
+        "factorisation and 1.4 to 1.6 times the time of a step (doc/space.md), for the "
+        "corotational and linear strains; auto: patches with these in statics and dynamics, cells "
+        "with Green's strain and in interpolations.");
     keys.add(
         "Element", element, elements,
         "P1: linear tetrahedra, the cells of the mesh with their nodes; P2: quadratic "
@@ -50,11 +51,17 @@ namespace Exemplar
   }
 
   void
+  ModelParameters::complete()
+  {
+    if (dilatation == DilatationKind::automatic)
+      dilatation = traits_of(strain).has_patches ? DilatationKind::patches : DilatationKind::cells;
+  }
+
+  void
   ModelParameters::check() const
   {
     if (has_patches() && !traits_of(strain).has_patches)
       throw UserError("Model/Dilatation = patches: is for the corotational and linear strains, not "
-                      "for Model/Strain = green. "
-                      "Leave it at cells, or take another strain.");
+                      "for Model/Strain = green. Leave it at auto, or take another strain.");
   }
 } // namespace Exemplar

@@ -91,9 +91,9 @@ namespace Exemplar
                                               unit_energy(body.fe_space, body.material), axis);
     }
 
-    /// Operations of a factorisation, for each degree of freedom and solve with it,
-    /// from which conjugate gradients are faster: measured, doc/speed.md.
-    constexpr double operations_at_crossover = 4e5;
+    /// Operations of a factorisation, for each value of the matrix and solve with it, from which
+    /// conjugate gradients are faster: measured, doc/speed.md.
+    constexpr double operations_at_crossover = 1.75e4;
 
     /// Residual of a linear solve over its right side. Newton's method and the fixed point
     /// correct the rest in their next iteration; one pass has none, and Schur complements
@@ -122,7 +122,8 @@ namespace Exemplar
         return nullptr; // too large for its library
       }
       if (may_choose
-          && matrix->traits().n_operations > operations_at_crossover * n_columns * pattern.n())
+          && matrix->traits().n_operations
+                 > operations_at_crossover * n_columns * pattern.n_values())
         return nullptr;
       return matrix;
     }

@@ -182,7 +182,7 @@ namespace Exemplar
 
     make_selections_absolute();
     const ExampleParameters given = parameters.examples;
-    parameters.complete(); // in the text Method stays auto, so that it says what the scene said
+    parameters.complete(); // in the text auto stays, so that it says what the scene said
     if (parameters.scene == SceneKind::interpolation)
       set_interpolation(assignments, given);
     if (parameters.output.directory.empty())

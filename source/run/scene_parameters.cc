@@ -13,7 +13,11 @@ namespace Exemplar
       examples.weights    = WeightRule::prescribed;
       if (examples.prescribed_weights.empty() && examples.n_examples() == 2)
         examples.prescribed_weights = "1-t; t"; // from the first to the second
+      // no load squeezes the body, and cells arrive at poses turned by more than 540 degrees
+      if (model.dilatation == DilatationKind::automatic)
+        model.dilatation = DilatationKind::cells;
     }
+    model.complete();
     if (solver.method != Method::automatic)
       return;
     if (model.is_frozen())

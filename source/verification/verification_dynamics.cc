@@ -75,7 +75,9 @@ namespace Exemplar::Verification
       const std::string at_middle
           = "abs(x-1) + abs(y) + abs(z) < 0.1 ? " + shortest_text(v) + " : 0";
       return set("Scene", "dynamic") + box({ { 2., 2., 2. } }, { { 2, 2, 2 } })
-             + section("Material", set("Young's modulus", 1e4)) + named_sections("Handles", handles)
+             + section("Material", set("Young's modulus", 1e4))
+             + section("Model", set("Dilatation", "cells")) // as oscillator_frequency()
+             + named_sections("Handles", handles)
              + section("Initial", set("Velocity", at_middle + "; 0; 0")) + time(h, n * h);
     }
 

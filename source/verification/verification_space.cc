@@ -21,8 +21,9 @@ namespace Exemplar::Verification
       std::vector<std::string> settings;
     };
 
-    const Element linear{ "P1", {} }, patches{ "patches", { "Model/Dilatation=patches" } },
-        quadratic{ "P2", { "Model/Element=P2" } },
+    const Element linear{ "P1", { "Model/Dilatation=cells" } },
+        patches{ "patches", { "Model/Dilatation=patches" } },
+        quadratic{ "P2", { "Model/Element=P2", "Model/Dilatation=cells" } },
         mean{ "P2-patches", { "Model/Element=P2", "Model/Dilatation=patches" } };
 
     /// Cells across a body in its coarsest mesh: two patches, where one would be the whole of it.

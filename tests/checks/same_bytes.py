@@ -25,9 +25,10 @@ TOP = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(TOP / "tests/scenes"))
 from exemplar_runner import read_csv, results  # noqa: E402
 
-# What those scenes leave out: settings of small scenes that reach the other methods, models and solvers.
+# What those scenes, all with the dilatation of cells, leave out: settings of small ones that reach other methods, models and solvers.
 BAR, CAT = "prm/tutorial/step5_bar.prm", "prm/tutorial/step3_cat.prm"
 FREE = ["Examples/Weights=free", "Examples/Weight penalty=paper"]
+PATCHES = ["Model/Dilatation=patches"]
 VARIANTS = {
     "newton": (BAR, ["Solver/Method=newton"]),
     "one pass": (BAR, ["Solver/Method=one pass", "Model/Gradient=frozen", "Material/Mass matrix=lumped"]),
@@ -41,6 +42,14 @@ VARIANTS = {
     "taken over by newton": (BAR, ["Time/Step=0.3", "Time/End=3", "Material/Density=1e-3"]),
     "bdf2": (BAR, ["Time/Scheme=bdf2", "Time/Mass damping=0.5", "Time/Stiffness damping=0.002"]),
     "bdf2 newton": (BAR, ["Time/Scheme=bdf2", "Solver/Method=newton", "Time/Stiffness damping=0.002"]),
+    "patches": (BAR, PATCHES),
+    "patches newton": (BAR, [*PATCHES, "Time/Scheme=bdf2", "Solver/Method=newton", "Time/Stiffness damping=0.002"]),
+    "patches linear": (BAR, [*PATCHES, "Model/Strain=linear"]),
+    "patches frozen": (BAR, [*PATCHES, "Model/Gradient=frozen", *FREE]),
+    "patches iterative": (BAR, [*PATCHES, "Solver/Linear solver=iterative"]),
+    "quadratic": (BAR, ["Model/Element=P2"]),
+    "quadratic patches": (BAR, ["Model/Element=P2", *PATCHES]),
+    "static patches": (CAT, [*PATCHES, "Time/Increments=2"]),
     "static green": (CAT, ["Model/Strain=green", "Time/Increments=2"]),
     "static frozen": (CAT, ["Model/Gradient=frozen", "Solver/Method=fixed point", "Solver/Tolerance=1e-4", "Time/Increments=2"]),
     "static free": (CAT, ["Time/Increments=2", *FREE]),

@@ -79,6 +79,8 @@ SCENES = [
      ["Solver/Tolerance = 'nan'", "Allowed: a number in 1e-16 ... 1"]),
     ("unknown strain", {**BAR, "Model/Strain": "lineal"},
      ["Model/Strain = 'lineal'", "corotational, linear, green"]),
+    ("patches of Green's strain", {**BAR, "Model/Strain": "green", "Model/Dilatation": "patches"},
+     ["Model/Dilatation = patches", "not for Model/Strain = green", "Leave it at auto"]),
     ("unknown time scheme", {**BAR, "Time/Scheme": "bdf3"},
      ["Time/Scheme = 'bdf3'", "implicit euler, bdf2"]),
     ("negative damping", {**BAR, "Time/Stiffness damping": "-1"}, ["Time/Stiffness damping"]),

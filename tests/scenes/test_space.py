@@ -4,12 +4,13 @@
 import math
 import unittest
 
-from exemplar_runner import SceneTest, bend, bent, greatest_distance, read_csv, read_msh
+from exemplar_runner import SceneTest, bend, bent, greatest_distance, read_csv, read_msh, read_summary
 
+CELLS = {"Model/Dilatation": "cells"}
 # by the settings of Model
 ELEMENTS = {
     "patches": {"Model/Dilatation": "patches"},
-    "P2": {"Model/Element": "P2"},
+    "P2": {"Model/Element": "P2", **CELLS},
     "P2 patches": {"Model/Element": "P2", "Model/Dilatation": "patches"},
 }
 YOUNG, DENSITY, NEARLY = 1e6, 1000., 0.4999
@@ -40,6 +41,25 @@ def volume(msh, nodes):
 
 
 class Space(SceneTest):
+    def test_the_default_is_patches_where_a_strain_has_them(self):
+        """By the bytes of the result, and by what the summary says is used."""
+        scene = {**BAR, "Scene": "static", "Material/Poisson's ratio": "0.45", "Loads/Gravity": "0, 0, -1", "Time/Increments": "1"}
+        for strain, element, chosen in (("corotational", "P1", "patches"), ("linear", "P1", "patches"), ("green", "P1", "cells"),
+                                        ("corotational", "P2", "patches"), ("green", "P2", "cells")):
+            with self.subTest(strain, element=element):
+                model = {"Model/Strain": strain, "Model/Element": element}
+                found = {}
+                for dilatation in (None, "auto", "cells", "patches"):
+                    if (strain, dilatation) == ("green", "patches"):
+                        continue  # refused: test_bad_scenes.py
+                    output = self.solve({**scene, **model, "Model/Dilatation": dilatation}, output=f"{strain} {element} {dilatation}")
+                    found[dilatation] = (output / "final.msh").read_bytes()
+                    used = "mean dilatation by patches" in read_summary(output)["used"]
+                    self.assertEqual(used, (dilatation or "auto") in ("patches", "auto") and chosen == "patches", dilatation)
+                self.assertEqual(found[None], found[chosen])
+                self.assertEqual(found["auto"], found[chosen])
+                self.assertEqual(found["cells"] == found["auto"], chosen == "cells")
+
     def test_a_pose_is_reached_at_full_importance(self):
         scene = {**BAR, "Scene": "static", "Examples/Pose functions": bend("pi/2"), "Examples/Importance": "1",
                  "Examples/Weights": "prescribed", "Examples/Prescribed weights": "1-t; t", "Time/Increments": "4",
@@ -71,7 +91,7 @@ class Space(SceneTest):
                     self.assertAlmostEqual(frequency / FIRST_FREQUENCY[nu], 1., delta=0.2 if name == "patches" else 0.08)
                 self.assertAlmostEqual(found[0.4999] / found[0.499], 1., delta=0.01)
         with self.subTest("what this is held against"):
-            self.assertGreater(self.frequency({}, 0.4999, "P1") / FIRST_FREQUENCY[0.4999], 2.5)
+            self.assertGreater(self.frequency(CELLS, 0.4999, "P1") / FIRST_FREQUENCY[0.4999], 2.5)
 
     def test_volume(self):
         """A body under its weight loses the volume that the bulk modulus K says: sum of f.x / (3 K) over forces and reactions.
@@ -90,7 +110,7 @@ class Space(SceneTest):
         for poisson in (0.3, NEARLY):
             bulk = YOUNG / (3 * (1 - 2 * poisson))
             expected = -DENSITY * g * 0.5 / (3 * bulk)  # the centroid stands 0.5 above the floor
-            for name, model in {"P1": {}, "patches": ELEMENTS["patches"]}.items():
+            for name, model in {"P1": CELLS, "patches": ELEMENTS["patches"]}.items():
                 with self.subTest(name, poisson=poisson):
                     output = self.solve({**scene, **model, "Material/Poisson's ratio": str(poisson)}, output=f"{name} {poisson}")
                     lost = volume(rest, read_msh(output / "final.msh").nodes) - volume(rest, rest.nodes)

@@ -17,6 +17,7 @@ namespace Exemplar
   /// Of what the volume part of the energy knows the dilatation.
   enum class DilatationKind
   {
+    automatic, ///< patches for the strains that have them, cells for others and in interpolations
     cells,
     patches ///< its mean, Eq. (25)
   };
@@ -26,12 +27,17 @@ namespace Exemplar
   {
     StrainMeasure  strain     = StrainMeasure::corotational;
     GradientKind   gradient   = GradientKind::consistent;
-    DilatationKind dilatation = DilatationKind::cells;
+    DilatationKind dilatation = DilatationKind::automatic;
     Element        element    = Element::P1;
 
     void
     declare(KeyTable &keys);
 
+    /// Choose the dilatation that `automatic` stands for. To do so twice changes nothing.
+    void
+    complete();
+
+    /// To be called after complete(), as check().
     bool
     has_patches() const
     {

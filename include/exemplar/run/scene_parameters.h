@@ -44,7 +44,8 @@ namespace Exemplar
     OutputParameters              output;
 
     /// Set what the kind of scene decides: importance 1 and prescribed weights of an
-    /// interpolation, and the method that `automatic` stands for. To do so twice changes nothing.
+    /// interpolation, and the method and the dilatation that `automatic` stands for. To do so
+    /// twice changes nothing.
     void
     complete();
 

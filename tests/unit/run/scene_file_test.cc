@@ -68,6 +68,27 @@ namespace Exemplar::Testing
       EXPECT_EQ(method(SceneKind::dynamic, GradientKind::frozen), Method::fixed_point);
     }
 
+    TEST(SceneParameters, AutoIsTheDilatationThatSuitsTheStrain)
+    {
+      const auto has_patches = [](const StrainMeasure strain, const DilatationKind dilatation)
+      {
+        SceneParameters scene;
+        scene.model.strain     = strain;
+        scene.model.dilatation = dilatation;
+        scene.complete();
+        return scene.model.has_patches();
+      };
+      EXPECT_EQ(SceneParameters().model.dilatation, DilatationKind::automatic);
+      EXPECT_TRUE(has_patches(StrainMeasure::corotational, DilatationKind::automatic));
+      EXPECT_TRUE(has_patches(StrainMeasure::linear, DilatationKind::automatic));
+      EXPECT_FALSE(has_patches(StrainMeasure::green, DilatationKind::automatic));
+      EXPECT_FALSE(has_patches(StrainMeasure::linear, DilatationKind::cells));
+      SceneParameters interpolation;
+      interpolation.scene = SceneKind::interpolation;
+      interpolation.complete();
+      EXPECT_FALSE(interpolation.model.has_patches());
+    }
+
     TEST(SceneFile, FillsParametersThatOutliveIt)
     {
       const SceneParameters scene
@@ -89,6 +110,8 @@ namespace Exemplar::Testing
       const SceneFile scene("", "set Scene = static\n", std::vector<std::string>());
       EXPECT_EQ(text_of(scene, "Solver/Method"), "auto");
       EXPECT_EQ(scene.get_parameters().solver.method, Method::newton);
+      EXPECT_EQ(text_of(scene, "Model/Dilatation"), "auto");
+      EXPECT_TRUE(scene.get_parameters().model.has_patches());
     }
 
     TEST(SceneFile, AnInterpolationDecidesImportanceAndWeights)
