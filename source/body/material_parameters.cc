@@ -50,7 +50,8 @@ namespace Exemplar
     keys.enter_subsection("Material");
     declare_constants(keys, everywhere);
     keys.add("Mass matrix", mass_matrix, mass_matrices,
-             "consistent, or lumped at the nodes. Used by dynamics only.");
+             "consistent, or lumped at the nodes. Used by dynamics, and by gravity on quadratic "
+             "elements.");
     const std::string usage = ": MAP [from A to B] [absolute], where MAP is FILE.ply:ATTRIBUTE or "
                               "FILE.csv[:COLUMN] with "
                               "a value for each vertex of Mesh/Surface. The values are factors of "

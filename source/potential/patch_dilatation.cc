@@ -15,7 +15,7 @@ namespace Exemplar
                                    const SymmetricPattern &pattern,
                                    const FreeDofs         &free_dofs)
       : patches(patches), examples(examples), free_dofs(free_dofs),
-        scatter(patches, fe_space, pattern, free_dofs), guard(patches, fe_space, material),
+        scatter(patches, fe_space, pattern, free_dofs), guard(patches, fe_space, material, examples),
         fractions(fe_space.n_points()), means(patches.size(), 0.), mean_squares(patches.size(), 0.),
         traces(batched_size(fractions.size(), 1)), squares(traces.size()), pressures(traces.size()),
         scales(traces.size())

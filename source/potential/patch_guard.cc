@@ -8,18 +8,33 @@ namespace Exemplar
 {
   namespace
   {
-    // |F|^2 = 3 at rest; for every Poisson's ratio the guard of a cell begins beyond 6.76
-    constexpr double first_square = 5., last_square = 6.5;
+    // |F|^2 = 3 at rest; for every Poisson's ratio the guard of a cell begins beyond 6.76, which is
+    // where beta reaches 1 for the least bound
+    constexpr double least_bound = 5., relative_range = 0.3;
 
     /// beta(m) = z^3 (10 - 15 z + 6 z^2) and its first two derivatives.
     std::array<double, 3>
-    transition(const double m)
+    transition(const double m, const double bound)
     {
-      const double range = last_square - first_square;
-      const double z     = std::clamp((m - first_square) / range, 0., 1.);
+      const double range = relative_range * bound;
+      const double z     = std::clamp((m - bound) / range, 0., 1.);
       return { { z * z * z * (10. - 15. * z + 6. * z * z),
                  30. * z * z * (1. - z) * (1. - z) / range,
                  60. * z * (1. - z) * (1. - 2. * z) / (range * range) } };
+    }
+
+    /// m_p of each patch where the nodes are at `positions`.
+    std::vector<double>
+    mean_squares_of(const Patches &patches, const FESpace &fe_space, const Vector &positions)
+    {
+      std::vector<double> means(patches.size(), 0.);
+      for (unsigned int point = 0; point < fe_space.n_points(); ++point)
+      {
+        const unsigned int    patch = patches.of_point(point);
+        const Matrix3<double> F     = fe_space.deformation_gradient(point, positions);
+        means[patch] += fe_space.volume(point) / patches.volume(patch) * contract(F, F);
+      }
+      return means;
     }
 
     CorotationalCell<double>
@@ -38,9 +53,19 @@ namespace Exemplar
     }
   } // namespace
 
-  PatchGuard::PatchGuard(const Patches &patches, const FESpace &fe_space, const Material &material)
-      : patches(patches), fe_space(fe_space), material(material)
+  PatchGuard::PatchGuard(const Patches      &patches,
+                         const FESpace      &fe_space,
+                         const Material     &material,
+                         const ExamplePoses *examples)
+      : patches(patches), fe_space(fe_space), material(material),
+        bounds(patches.size(), least_bound)
   {
+    for (unsigned int pose = 0; examples != nullptr && pose < examples->size(); ++pose)
+    {
+      const std::vector<double> of_pose = mean_squares_of(patches, fe_space, examples->pose(pose));
+      for (unsigned int patch = 0; patch < patches.size(); ++patch)
+        bounds[patch] = std::max(bounds[patch], 1.2 * of_pose[patch]);
+    }
   }
 
   PatchGuard::Point
@@ -73,9 +98,9 @@ namespace Exemplar
       return;
     for (unsigned int patch = 0; patch < patches.size(); ++patch)
     {
-      if (!(mean_squares[patch] > first_square))
+      if (!(patches.lambda(patch) > 0. && mean_squares[patch] > bounds[patch]))
         continue;
-      const auto [beta, first, second] = transition(mean_squares[patch]);
+      const auto [beta, first, second] = transition(mean_squares[patch], bounds[patch]);
       Stretched of_patch               = { beta, first, second };
       for (const unsigned int point : patches.points(patch))
       {

@@ -111,11 +111,11 @@ namespace Exemplar
       const SpaceError       &space  = *writer.get_space_error();
       const SolverParameters &solver = problem.parameters.solver;
       std::ostringstream      text;
-      text << std::setprecision(2) << "Errors\n  steps       residual up to "
+      text << "Errors\n  steps       residual up to " << std::setprecision(2)
            << writer.get_totals().worst_residual;
       if (solver.method == Method::quasi_newton)
         text << ", positions to " << solver.step_tolerance << " of a step";
-      text << "\n  space       ";
+      text << "\n  space       " << std::fixed << std::setprecision(1);
       if (!space.failure.empty())
         text << "no estimate: " << space.failure;
       else
@@ -123,7 +123,7 @@ namespace Exemplar
         text << "displacement " << 100. * space.displacement << " %, energy " << 100. * space.energy
              << " %";
         if (space.weights)
-          text << ", weights " << *space.weights;
+          text << ", weights " << std::setprecision(3) << *space.weights;
       }
       std::cout << text.str() << std::endl;
     }

@@ -273,6 +273,12 @@ namespace Exemplar
     frames.write(space_error);
   }
 
+  bool
+  RunWriter::is_last_step() const
+  {
+    return problem.state.step == problem.time_axis.n_steps();
+  }
+
   void
   RunWriter::find_space_error()
   {
@@ -290,11 +296,14 @@ namespace Exemplar
   {
     {
       StepClock::Scope scope(problem.clock, Part::output);
-      find_space_error();
       frames.drain();
       directory.require_taken();
       write_final_pose();
-      save(); // whatever happens to animations
+      save(); // whatever happens to animations and estimates
+      if (is_last_step())
+        find_space_error();
+      else
+        space_error.reset();
       frames.write_animations();
     }
     lap();

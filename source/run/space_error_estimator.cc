@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
+#include <stdexcept>
 
 namespace Exemplar
 {
@@ -105,50 +107,59 @@ namespace Exemplar
 
     /// Of the strain that a small displacement from `positions` makes, by cell [J/m^3].
     std::vector<double>
-    energy_densities(const Problem &quadratic, const Vector &positions, const Vector &displacement)
+    energy_densities(const Problem &linear,
+                     const Problem &quadratic,
+                     const Vector  &positions,
+                     const Vector  &displacement)
     {
-      const FESpace      &fe_space    = quadratic.body.fe_space;
-      const bool          has_patches = quadratic.body.patches != nullptr;
-      std::vector<double> densities(fe_space.n_cells(), 0.), traces(fe_space.n_cells(), 0.);
+      const FESpace &fe_space = quadratic.body.fe_space;
+      // dilatations that patches leave free within them are no error
+      const Patches      *patches = linear.body.patches.get();
+      std::vector<double> densities(fe_space.n_cells(), 0.);
+      std::vector<double> traces(patches == nullptr ? fe_space.n_cells() : patches->size(), 0.);
+      const auto          part_of = [&](const unsigned int cell)
+      { return patches == nullptr ? cell : patches->of_point(cell); };
+      const auto volume_of = [&](const unsigned int cell)
+      {
+        return patches == nullptr ? fe_space.cell_volume(cell)
+                                  : patches->volume(patches->of_point(cell));
+      };
       for (unsigned int point = 0; point < fe_space.n_points(); ++point)
       {
         const unsigned int          cell = fe_space.cell_of(point);
         const CellMaterial<double> &C    = quadratic.body.material.elasticity(cell);
-        const double                part = fe_space.volume(point) / fe_space.cell_volume(cell);
         const Matrix3<double>       F    = fe_space.deformation_gradient(point, positions);
         // the change of R^T F, of Green's strain that of F^T F / 2
         const StrainMeasure   strain = quadratic.parameters.model.strain;
         const Matrix3<double> R = strain == StrainMeasure::green ? F : model_rotation(strain, F);
         const Matrix3<double> e = symmetric_part(
             transpose_times(R, fe_space.deformation_gradient(point, displacement)));
-        densities[cell]
-            += 0.5 * part * contract(stress(has_patches ? C.without_dilatation() : C, e), e);
-        traces[cell] += part * trace(e);
+        densities[cell] += 0.5 * fe_space.volume(point) / fe_space.cell_volume(cell)
+                           * contract(stress(C.without_dilatation(), e), e);
+        traces[part_of(cell)] += fe_space.volume(point) / volume_of(cell) * trace(e);
       }
-      for (unsigned int cell = 0; has_patches && cell < densities.size(); ++cell)
-        densities[cell]
-            += 0.5 * quadratic.body.material.elasticity(cell).lambda * traces[cell] * traces[cell];
+      for (unsigned int cell = 0; cell < densities.size(); ++cell)
+        densities[cell] += 0.5 * std::abs(quadratic.body.material.elasticity(cell).lambda)
+                           * traces[part_of(cell)] * traces[part_of(cell)];
       return densities;
     }
   } // namespace
 
   struct SpaceErrorEstimator::Correction
   {
-    State          from;  ///< of the linear elements
-    BorderedVector step;  ///< the system's solution
-    Vector         moves; ///< displacements by it [m]
-    State          to;
-    Evaluation     corrected;
-    double         work;            ///< of loads and inertia along it [J]
-    double         change;          ///< of the quadratic elements' potential [J]
-    double         expected_change; ///< by the tangent [J]
+    State      from;  ///< of the linear elements
+    Vector     moves; ///< displacements from there [m]
+    State      to;
+    Evaluation at;        ///< the present state, with the forces that stay
+    Vector     forces;    ///< what is added to all gradients [N]
+    double     work = 0.; ///< of loads and inertia along the moves [J]
   };
 
   SpaceErrorEstimator::SpaceErrorEstimator(Problem &problem) : problem(problem) {}
 
   SpaceErrorEstimator::~SpaceErrorEstimator() = default;
 
-  State
+  SpaceErrorEstimator::Correction
   SpaceErrorEstimator::take_over(const Evaluation &linear)
   {
     const FESpace &fe_space = quadratic->body.fe_space;
@@ -169,56 +180,91 @@ namespace Exemplar
       quadratic->potential.begin_step(start, time);
       inertia = quadratic->actions.mass->times(a);
     }
-    quadratic->potential.evaluate(at, RotationUse::update, quadratic->evaluation);
     // linear shape functions see the equilibrium that the linear elements have
     const Vector seen = on_linear_nodes(fe_space, inertia, linear.gradient.size());
+    Correction   result;
+    result.forces.reinit(fe_space.n_dofs());
     for (const unsigned int dof : problem.constraints.free_dofs.list())
-      quadratic->evaluation.gradient[dof] -= linear.gradient[dof] + seen[dof];
-    return at;
+      result.forces[dof] = -linear.gradient[dof] - seen[dof];
+    result.from = at;
+    result.to   = at;
+    result.moves.reinit(fe_space.n_dofs());
+    result.at = evaluate(result);
+    return result;
+  }
+
+  Evaluation
+  SpaceErrorEstimator::evaluate(const Correction &correction)
+  {
+    Evaluation evaluation;
+    quadratic->potential.evaluate(correction.to, RotationUse::update, evaluation);
+    evaluation.gradient += correction.forces;
+    evaluation.potential += correction.forces * correction.moves;
+    return evaluation;
+  }
+
+  BorderedVector
+  SpaceErrorEstimator::direction(const Correction &correction)
+  {
+    StepSystem &system = quadratic->system;
+    try
+    {
+      system.factorize(correction.to.positions, correction.to.weights, 0.);
+    }
+    catch (const SolverFailure &) // the exact tangent is not definite
+    {
+      system.factorize(correction.to.positions, correction.to.weights, 1.);
+    }
+    return system.solve(correction.to, correction.at);
+  }
+
+  bool
+  SpaceErrorEstimator::improve(Correction &correction)
+  {
+    const BorderedVector step  = direction(correction);
+    double               slope = quadratic->system.slope(correction.at, step);
+    for (std::size_t i = 0; i < step.weights.size(); ++i)
+      slope += correction.at.elastic.weight_gradient[i] * step.weights[i];
+    // frozen forces have no energy that could tell how long the step may be
+    const bool has_energy = !quadratic->parameters.model.is_frozen();
+    for (double length = 1.; length > 0.05; length *= 0.5)
+    {
+      Correction     trial  = correction;
+      BorderedVector scaled = step;
+      for (auto *part : { &scaled.positions, &scaled.weights })
+        for (double &entry : *part)
+          entry *= length;
+      Vector moves = quadratic->system.displacement(trial.to, scaled);
+      if (problem.constraints.handles == nullptr)
+        remove_rigid_motion(trial.to.positions, moves);
+      trial.moves += moves;
+      trial.to.positions += moves;
+      if (const ExampleWeights *weights = quadratic->potential.unknown_weights())
+        weights->add(scaled.weights, trial.to.weights);
+      trial.at              = evaluate(trial);
+      const double decrease = correction.at.potential - trial.at.potential;
+      if (has_energy && !(decrease >= -1e-4 * length * slope))
+        continue;
+      correction = std::move(trial);
+      // where the potential is not the parabola that the tangent knows, a further step tells more
+      const double expected = -length * (1. - 0.5 * length) * slope;
+      return has_energy
+             && std::abs(decrease - expected) > 1e-3 * correction.at.elastic.energy_elastic;
+    }
+    return false;
   }
 
   SpaceErrorEstimator::Correction
   SpaceErrorEstimator::correct(const Evaluation &linear)
   {
-    Correction result;
-    result.from = take_over(linear);
-    try
-    {
-      // the energy has to change as the tangent says, to half of that
-      solve(0., result);
-      if (std::abs(result.change - result.expected_change)
-          <= 0.5 * std::abs(result.expected_change))
-        return result;
-    }
-    catch (const SolverFailure &) // the exact tangent is not definite
+    Correction correction = take_over(linear);
+    Vector     forces     = correction.at.gradient; // loads and inertia, which stay as they are
+    forces -= correction.at.elastic.gradient;
+    for (unsigned int iteration = 0; iteration < 10 && improve(correction); ++iteration)
     {
     }
-    result.from = take_over(linear);
-    solve(1., result);
-    return result;
-  }
-
-  void
-  SpaceErrorEstimator::solve(const double convexity, Correction &result)
-  {
-    StepSystem       &system = quadratic->system;
-    const Evaluation &from   = quadratic->evaluation;
-    system.factorize(result.from.positions, result.from.weights, convexity);
-    result.step  = system.solve(result.from, from);
-    result.moves = system.displacement(result.from, result.step);
-    if (problem.constraints.handles == nullptr)
-      remove_rigid_motion(result.from.positions, result.moves);
-    result.to = result.from;
-    system.add(result.step, result.to);
-    result.expected_change = 0.5 * (from.gradient * result.moves);
-    for (std::size_t i = 0; i < result.step.weights.size(); ++i)
-      result.expected_change += 0.5 * from.elastic.weight_gradient[i] * result.step.weights[i];
-    // the work of loads and inertia, which are taken as constant
-    Vector forces = from.gradient;
-    forces -= from.elastic.gradient;
-    result.work = -(forces * result.moves);
-    quadratic->potential.evaluate(result.to, RotationUse::update, result.corrected);
-    result.change = result.corrected.elastic.energy - from.elastic.energy - result.work;
+    correction.work = -(forces * correction.moves);
+    return correction;
   }
 
   SpaceError
@@ -236,24 +282,35 @@ namespace Exemplar
       const Correction correction = correct(linear);
       Vector           u          = displacement(*quadratic, correction.from.positions);
       u += correction.moves;
-      const auto over
-          = [](const double part, const double whole) { return part > 0. ? part / whole : 0.; };
-      error.displacement = over(norm(fe_space, correction.moves), norm(fe_space, u));
-      const ElasticEvaluation &corrected = correction.corrected.elastic;
+      const ElasticEvaluation &corrected = correction.at.elastic;
+      // what rounding leaves of a body at rest is no error
+      const double length
+          = 1e-10 * problem.body.mesh.diameter() * std::sqrt(fe_space.total_volume());
+      const double energy = 1e-20 * unit_energy(fe_space, problem.body.material);
+      const auto   over   = [](const double part, const double whole, const double least)
+      { return part > least ? part / std::max(whole, part) : 0.; };
+      error.displacement = over(norm(fe_space, correction.moves), norm(fe_space, u), length);
       error.energy = over(std::abs(corrected.energy - linear.elastic.energy - correction.work),
-                          corrected.energy_elastic);
+                          std::max(corrected.energy_elastic, corrected.energy), energy);
       if (quadratic->potential.unknown_weights() != nullptr)
       {
         error.weights = 0.;
-        for (const double w : correction.step.weights)
-          error.weights = std::max(*error.weights, std::abs(w));
+        for (std::size_t i = 0; i < correction.to.weights.size(); ++i)
+          error.weights = std::max(*error.weights,
+                                   std::abs(correction.to.weights[i] - correction.from.weights[i]));
       }
       error.energy_density
-          = energy_densities(*quadratic, correction.from.positions, correction.moves);
+          = energy_densities(problem, *quadratic, correction.from.positions, correction.moves);
       if (!std::isfinite(error.displacement + error.energy + error.weights.value_or(0.)))
         throw SolverFailure("its numbers are not finite");
     }
-    catch (const SolverFailure &failure)
+    catch (const std::bad_alloc &)
+    {
+      quadratic.reset();
+      error         = SpaceError();
+      error.failure = "there is not enough memory for quadratic elements";
+    }
+    catch (const std::runtime_error &failure) // UserError or SolverFailure
     {
       error         = SpaceError();
       error.failure = failure.what();

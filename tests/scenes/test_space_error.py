@@ -6,7 +6,7 @@ import json
 import unittest
 from pathlib import Path
 
-from exemplar_runner import SceneTest, read_pvd, read_vtu, results
+from exemplar_runner import SceneTest, read_msh, read_pvd, read_vtu, results
 
 LIMITS = Path(__file__).resolve().parents[2] / "doc/studies/space_limits.csv"
 
@@ -79,8 +79,58 @@ class SpaceError(SceneTest):
                     found = errors(output)
                     self.assertEqual(set(found), {"displacement", "energy"})
                     self.assertAlmostEqual(found["energy"] / true, 1., delta=0.1)
-                    # in this load the shape of the deflection hardly depends on the mesh
-                    self.assertAlmostEqual(found["displacement"] / true, 1., delta=0.35)
+                    self.assertAlmostEqual(found["displacement"] / self.distance(output, poisson), 1., delta=0.15)
+
+    def distance(self, output, poisson):
+        """Of the nodes from where quadratic elements on the same mesh have them, over the length of their way."""
+        rest = self.solve({**WEIGHT, "Loads/Gravity": "0, 0, 0"}, output="rest")
+        quadratic = self.solve({**WEIGHT, "Material/Poisson's ratio": poisson, "Model/Element": "P2", "Model/Dilatation": "patches"},
+                               output="P2")
+        x, x_rest, x_true = (read_msh(folder / "final.msh").nodes for folder in (output, rest, quadratic))
+
+        def square(a, b):
+            return sum((p - q) ** 2 for number in a for p, q in zip(a[number], b[number]))
+        return (square(x, x_true) / square(x_rest, x_true)) ** 0.5
+
+    def test_large_deflections(self):
+        """Of half the length: there the energy is the difference from quadratic elements', which a second run has."""
+        scene = {**WEIGHT, "Material/Young's modulus": "1e6", "Loads/Gravity": "0, 0, -9.81", "Time/Increments": "4"}
+        for name, model in {"patches": {"Model/Dilatation": "patches"}, "green": {"Model/Strain": "green"}}.items():
+            with self.subTest(name):
+                found = errors(self.solve({**scene, **model, "Output/Space error": "true"}, output=name))
+                elements = {"Model/Element": "P2", **model}
+                potentials = [self.potential({**scene, **which}, f"{name} {i}") for i, which in enumerate((model, elements))]
+                expected = abs(potentials[0][0] - potentials[1][0]) / potentials[1][1]
+                self.assertAlmostEqual(found["energy"] / expected, 1., delta=0.02)
+
+    def potential(self, scene, output):
+        """Elastic energy less the work of the weight by nodal volumes, and the elastic energy [J]."""
+        run = self.solve({**scene, "Output/Final pose": "quadratic"} if scene.get("Model/Element") == "P2" else scene, output=output)
+        rest = self.solve({**scene, "Loads/Gravity": "0, 0, 0",
+                           **({"Output/Final pose": "quadratic"} if scene.get("Model/Element") == "P2" else {})}, output=output + " rest")
+        x, x_rest = read_msh(run / "final.msh"), read_msh(rest / "final.msh").nodes
+        work = 0.
+        for element in x.elements:
+            if element[1] not in (4, 11):
+                continue
+            nodes = element[-10:] if element[1] == 11 else element[-4:]
+            a, b, c, d = (x_rest[number] for number in nodes[:4])
+            u, v, w = ([q[i] - a[i] for i in range(3)] for q in (b, c, d))
+            volume = abs(u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2])
+                         + u[2] * (v[0] * w[1] - v[1] * w[0])) / 6
+            # integrals of quadratic shape functions: -V/20 at corners, V/5 in the middles
+            shares = [0.25] * 4 if len(nodes) == 4 else [-0.05] * 4 + [0.2] * 6
+            work -= 9.81 * 1000 * volume * sum(s * (x.nodes[n][2] - x_rest[n][2]) for s, n in zip(shares, nodes))
+        return energy(run) - work, energy(run)
+
+    def test_a_body_without_strain_has_no_error(self):
+        fall = {**SWING, "Examples/Pose functions": None, "Examples/Weights": None, "Examples/Importance": None,
+                "Handles/Names": None, "Handles/left/Select": None, "Handles/left/Motion": None}
+        for name, scene in {"rest": {**WEIGHT, "Loads/Gravity": "0, 0, 0"}, "fall": fall}.items():
+            with self.subTest(name):
+                found = errors(self.solve({**scene, "Output/Space error": "true"}, output=name))
+                self.assertLess(found["displacement"], 1e-8)
+                self.assertLess(found["energy"], 1e-8)
 
     def test_it_shows_where_to_refine(self):
         output = self.solve({**WEIGHT, "Output/Space error": "true", "Output/Every": "1"})

@@ -18,8 +18,8 @@ namespace Exemplar
   class Loads
   {
   public:
-    /// The files of nodes are among `nodes`. Gravity acts on the masses of `mass_matrix`. Throws UserError for a load that selects nothing or
-    /// that is not understood.
+    /// The files of nodes are among `nodes`. Gravity acts on the masses of `mass_matrix`. Throws
+    /// UserError for a load that selects nothing or that is not understood.
     Loads(const dealii::Tensor<1, 3>        &gravity,
           const std::vector<LoadParameters> &parameters,
           const Mesh                        &mesh,

@@ -2,6 +2,7 @@
 #ifndef exemplar_patch_guard_h
 #define exemplar_patch_guard_h
 
+#include <exemplar/body/example_poses.h>
 #include <exemplar/kernels/corotational_cell.h>
 #include <exemplar/potential/evaluation.h>
 #include <exemplar/potential/patch_scatter.h>
@@ -18,13 +19,17 @@ namespace Exemplar
   ///
   ///   beta(m_p) sum V W,   W = lambda_p/2 (tr(e) - theta_p)^2 + G,
   ///
-  /// with the mean m_p of |F|^2 over the patch. Hardly any step needs it; then there is nothing in
-  /// it.
+  /// with the mean m_p of |F|^2 over the patch. Beta is 0 up to a bound well above what m_p is in
+  /// the example poses, so that these stay free of force. Hardly any step needs it; then there is
+  /// nothing in it.
   class PatchGuard
   {
   public:
-    /// All must outlive it.
-    PatchGuard(const Patches &patches, const FESpace &fe_space, const Material &material);
+    /// All must outlive it. `examples` may be null.
+    PatchGuard(const Patches      &patches,
+               const FESpace      &fe_space,
+               const Material     &material,
+               const ExamplePoses *examples);
 
     /// Anew for these positions, the points' tr(e), and theta_p and m_p of the patches.
     void
@@ -120,6 +125,7 @@ namespace Exemplar
     const Patches                    &patches;
     const FESpace                    &fe_space;
     const Material                   &material;
+    std::vector<double>               bounds;    ///< of m_p, up to which beta = 0
     std::map<unsigned int, Stretched> stretched; ///< by patch, where beta > 0
     std::map<unsigned int, Point>     points;    ///< of these
   };

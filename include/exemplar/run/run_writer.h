@@ -92,6 +92,9 @@ namespace Exemplar
     void
     write_frame();
 
+    bool
+    is_last_step() const;
+
     /// If it is asked for at the present step, find the error in space, unless it is known.
     void
     find_space_error();

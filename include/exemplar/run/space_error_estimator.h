@@ -9,9 +9,10 @@
 
 namespace Exemplar
 {
-  /// Estimates errors in space by a quadratic correction, doc/space.md: one Newton step of the same
-  /// scene in quadratic elements, with the mean dilatation of each cell, from the state of the
-  /// linear ones. What the linear elements leave of their own equations is taken out before.
+  /// Estimates errors in space by a quadratic correction, doc/space.md: from the state of the linear
+  /// elements to that of quadratic ones under the same forces, in one Newton step where all is
+  /// linear. Where the strain allows they have the mean dilatation of each cell. What the linear
+  /// elements leave of their own equations is taken out before.
   class SpaceErrorEstimator
   {
   public:
@@ -28,20 +29,26 @@ namespace Exemplar
   private:
     struct Correction;
 
-    /// `linear` is the evaluation of the linear elements without inertia.
-
+    /// Newton's method from the linear state, with the forces that it has there. `linear` is the
+    /// evaluation of the linear elements without inertia.
     Correction
     correct(const Evaluation &linear);
 
-    /// By the tangent of this convexity, from where the quadratic problem is. Throws SolverFailure if
-    /// it is not definite.
-    void
-    solve(double convexity, Correction &correction);
-
     /// The quadratic problem at the linear state, under the loads and the inertia that hold that in
     /// equilibrium.
-    State
+    Correction
     take_over(const Evaluation &linear);
+
+    Evaluation
+    evaluate(const Correction &correction);
+
+    /// Throws SolverFailure if no tangent is definite.
+    BorderedVector
+    direction(const Correction &correction);
+
+    /// A step that lessens the potential. Returns whether a further one would tell more.
+    bool
+    improve(Correction &correction);
 
     Problem                 &problem;
     std::unique_ptr<Problem> quadratic;

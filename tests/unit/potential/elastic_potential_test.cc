@@ -348,6 +348,26 @@ namespace Exemplar::Testing
       EXPECT_LT(evaluation.gradient.linfty_norm(), 1e-11 * expected.gradient.linfty_norm());
     }
 
+    // The bound of Eq. (26) knows the poses.
+    TEST_P(ElasticPotentialTest, AStretchedExampleIsFreeOfForceAtFullImportance)
+    {
+      const ParametricBody body;
+      ExampleParameters    parameters;
+      parameters.pose_functions    = "x*(1.2+0.1*x); 1.6*y; 1.5*z";
+      parameters.importance        = 1.;
+      parameters.include_rest_pose = false;
+      parameters.weight_penalty    = "0";
+      const auto     examples      = body.examples(parameters);
+      const FreeDofs free_dofs(body.fe_space.n_dofs(), {});
+      BodyPotential  elastic(body, ModelParameters(), examples, free_dofs);
+      const Vector  &pose = examples.poses->pose(0);
+      elastic.update_rotations(pose);
+      ElasticEvaluation evaluation;
+      elastic.evaluate(pose, { 1. }, evaluation);
+      EXPECT_LT(evaluation.gradient.linfty_norm(), 1e-12 * evaluation.force_scale.linfty_norm());
+      EXPECT_LT(evaluation.energy, 1e-12 * evaluation.energy_elastic);
+    }
+
     TEST_P(ElasticPotentialTest, ResponseBesideHeldNodesIsTheDerivativeByThem)
     {
       for (const StrainMeasure strain : strains_of(GetParam()))
