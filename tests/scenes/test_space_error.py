@@ -175,6 +175,16 @@ class SpaceError(SceneTest):
         run = self.attempt({**WEIGHT, "Output/Space error": "true"})
         self.assertRegex(run.stdout, r"Errors\n  steps +residual up to \S+\n  space +displacement \S+ %, energy \S+ %\n")
 
+    def test_a_failing_estimate_leaves_the_results(self):
+        """The handle's motion is no number in the middles of edges, which only quadratic elements have."""
+        scene = {**WEIGHT, "Handles/left/Motion": "0; 0; abs(abs(y-0.5)-0.25) < 0.01 ? sqrt(-1) : 0", "Output/Every": "1"}
+        plain = self.solve(scene, output="plain")
+        run = self.attempt({**scene, "Output/Space error": "frames"})
+        self.assertEqual(run.status, 0)
+        self.assertIn("no estimate: ", run.stdout)
+        self.assertEqual(set(errors(run.output)), {"failure"})
+        self.assertEqual(results(run.output), results(plain))
+
     def test_quadratic_elements_are_refused(self):
         run = self.attempt({**WEIGHT, "Model/Element": "P2", "Output/Space error": "true"})
         self.assertEqual(run.status, 1)
