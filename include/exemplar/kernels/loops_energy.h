@@ -206,8 +206,9 @@ namespace Exemplar::Loops
     sums.min_det                         = select(det >= sums.min_det, sums.min_det, det);
     sums.inverted.add(group, is_real & (det <= Number(0.)));
     sums.elastic += elastic;
-    if (task.dilatation.traces != nullptr)
-      store_dilatation(task, group, cell.strain(), F);
+    if constexpr (Cell::traits.has_patches)
+      if (task.dilatation.traces != nullptr)
+        store_dilatation(task, group, cell.strain(), F);
 
     // R^T P; without examples and damping this is all of it
     Matrix3<Number> P = elastic_stress;
@@ -302,8 +303,9 @@ namespace Exemplar::Loops
                 const Matrix3<Number> F   = deformation_gradient(task, group, tet);
                 const Cell cell(load_material(task.cells, group), rotation<Cell>(task, group, F), F,
                                 task.cells.guard_bound);
-                if (task.dilatation.traces != nullptr)
-                  store_dilatation(task, group, cell.strain(), F);
+                if constexpr (Cell::traits.has_patches)
+                  if (task.dilatation.traces != nullptr)
+                    store_dilatation(task, group, cell.strain(), F);
                 add_weight_sums(task, group, Number(task.examples.importance) * tet.volume,
                                 cell.weight_stress(Matrix3<Number>{}), weight_sums);
               });
