@@ -2,21 +2,62 @@
 #ifndef exemplar_exchange_h
 #define exemplar_exchange_h
 
+#include <exemplar/algebra/vector.h>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
 namespace Exemplar
 {
-  /// What processes that share a body tell each other. Loops over cells and nodes see the part
-  /// of their own process; what concerns the whole body goes through here. This base is that of
-  /// one process, which has nobody to talk to.
+  /// What processes that share a body tell each other. Each cell belongs to one process, so what is
+  /// summed over cells is a sum over processes. A node belongs to all processes with a cell at it,
+  /// and one of them owns it. Vectors by degree of freedom hold the whole body's values at the nodes
+  /// of a process, the same in all; while they are summed cell by cell, they hold its own part
+  /// until assemble(). This base is the exchange of one process, which has nobody to talk to.
+  ///
+  /// Functions that talk must be called by all processes, in the same order.
   class Exchange
   {
   public:
     virtual ~Exchange() = default;
 
-    /// The sum of the numbers that the processes give; the same on all of them, bit for bit.
-    virtual double
-    sum(const double own) const
+    virtual unsigned int
+    process() const
     {
+      return 0;
+    }
+
+    virtual unsigned int
+    n_processes() const
+    {
+      return 1;
+    }
+
+    /// Whether this is the process that reads and writes files.
+    bool
+    is_root() const
+    {
+      return process() == 0;
+    }
+
+    /// Add up what the processes give; the same on all of them, bit for bit.
+    virtual void
+    sum(double * /*own*/, std::size_t /*n*/) const
+    {
+    }
+
+    double
+    sum(double own) const
+    {
+      sum(&own, 1);
       return own;
+    }
+
+    void
+    sum(std::vector<double> &own) const
+    {
+      sum(own.data(), own.size());
     }
 
     /// The greatest of the numbers that the processes give; a NaN is the greatest of all.
@@ -24,6 +65,89 @@ namespace Exemplar
     max(const double own) const
     {
       return own;
+    }
+
+    /// The least of the numbers; a NaN is the least of all.
+    double
+    min(const double own) const
+    {
+      return n_processes() == 1 ? own : -max(-own);
+    }
+
+    /// Whether it is so in any process.
+    bool
+    any(const bool own) const
+    {
+      return max(own ? 1. : 0.) > 0.;
+    }
+
+    /// The text of the root.
+    virtual std::string
+    from_root(std::string text) const
+    {
+      return text;
+    }
+
+    /// What all processes give, one after the other.
+    virtual std::vector<std::size_t>
+    collect(std::vector<std::size_t> own) const
+    {
+      return own;
+    }
+
+    /// Whether this process owns a node.
+    virtual bool
+    owns(unsigned int /*node*/) const
+    {
+      return true;
+    }
+
+    /// Of a field with n numbers a node that is a part of the sum over cells, make the sum.
+    virtual void
+    assemble(double * /*field*/, unsigned int /*n*/) const
+    {
+    }
+
+    virtual void
+    assemble(float * /*field*/, unsigned int /*n*/) const
+    {
+    }
+
+    /// The inverse of assemble(): zero at the nodes that this process does not own.
+    virtual void
+    keep_owned(Vector & /*field*/) const
+    {
+    }
+
+    /// The owners' values to all who share a node; three numbers a node.
+    virtual void
+    share(Vector & /*field*/) const
+    {
+    }
+
+    /// The product of two fields of assembled values, by degree of freedom.
+    virtual double
+    product(const Vector &a, const Vector &b) const
+    {
+      return a * b;
+    }
+
+    /// A field with n numbers a node, for all nodes of the body in the order of one process. With
+    /// `everywhere` all processes have it, else the root alone.
+    virtual std::vector<double>
+    whole(const double *field,
+          const unsigned int n,
+          const std::size_t  n_nodes,
+          bool /*everywhere*/) const
+    {
+      return { field, field + n * n_nodes };
+    }
+
+    /// What of a whole() this process has; talks to nobody.
+    virtual std::vector<double>
+    part(std::vector<double> whole, unsigned int /*n*/) const
+    {
+      return whole;
     }
 
     /// The exchange of one process.
@@ -34,6 +158,27 @@ namespace Exemplar
       return exchange;
     }
   };
+
+  /// Exchange::whole() of a field by degree of freedom.
+  inline Vector
+  whole(const Exchange &exchange, const Vector &field, const bool everywhere = false)
+  {
+    if (exchange.n_processes() == 1)
+      return field;
+    const std::vector<double> all
+        = exchange.whole(field.begin(), 3, field.size() / 3, everywhere);
+    return { all.begin(), all.end() };
+  }
+
+  /// Exchange::part() of a field by degree of freedom.
+  inline Vector
+  part(const Exchange &exchange, const Vector &field)
+  {
+    if (exchange.n_processes() == 1 || field.size() == 0)
+      return field;
+    const std::vector<double> own = exchange.part({ field.begin(), field.end() }, 3);
+    return { own.begin(), own.end() };
+  }
 } // namespace Exemplar
 
 #endif

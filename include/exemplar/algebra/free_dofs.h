@@ -9,8 +9,9 @@
 
 namespace Exemplar
 {
-  /// The degrees of freedom of this process that a solve determines. Degree of freedom 3 i + c is
-  /// component c of node i; held ones are no unknowns of the linear system.
+  /// The degrees of freedom that a solve determines. Degree of freedom 3 i + c is component c of
+  /// node i; held ones are no unknowns of the linear system. Processes that share a body assemble
+  /// for all free ones that they have, of which each is the unknown of one process.
   class FreeDofs
   {
   public:
@@ -30,12 +31,22 @@ namespace Exemplar
           index[dof] = static_cast<int>(dofs.size());
           dofs.push_back(dof);
         }
+      if (exchange.n_processes() == 1)
+        return;
+      own_index.assign(n_dofs, held);
+      for (const unsigned int dof : dofs)
+        if (exchange.owns(dof / 3))
+        {
+          own_index[dof] = static_cast<int>(own_dofs.size());
+          own_dofs.push_back(dof);
+        }
     }
 
+    /// Unknowns of this process.
     unsigned int
     size() const
     {
-      return dofs.size();
+      return list().size();
     }
 
     unsigned int
@@ -51,40 +62,78 @@ namespace Exemplar
       return with_others;
     }
 
-    /// Number among the free ones, or `held`.
+    /// The unknowns of this process in ascending order: all free degrees of freedom of its nodes,
+    /// unless others own some of these.
+    const std::vector<unsigned int> &
+    list() const
+    {
+      return own_index.empty() ? dofs : own_dofs;
+    }
+
+    /// Number in list(), or `held` for what is no unknown of this process.
+    int
+    unknown_index(const unsigned int dof) const
+    {
+      return own_index.empty() ? index[dof] : own_index[dof];
+    }
+
+    /// All free degrees of freedom of this process' nodes, which the matrices of its cells couple,
+    /// in ascending order.
+    const std::vector<unsigned int> &
+    local_list() const
+    {
+      return dofs;
+    }
+
+    /// Number in local_list(), or `held`.
     int
     free_index(const unsigned int dof) const
     {
       return index[dof];
     }
 
-    /// The free degrees of freedom in ascending order.
-    const std::vector<unsigned int> &
-    list() const
+    /// The unknowns among a field.
+    void
+    gather(const Vector &field, std::vector<double> &unknowns) const
     {
-      return dofs;
+      const std::vector<unsigned int> &own = list();
+      unknowns.resize(own.size());
+      for (std::size_t i = 0; i < own.size(); ++i)
+        unknowns[i] = field[own[i]];
     }
 
-    /// The free ones of a field.
+    /// Add a factor times numbers by unknown to a field.
     void
-    gather(const Vector &field, std::vector<double> &free) const
+    add(const double factor, const std::vector<double> &unknowns, Vector &field) const
     {
-      free.resize(dofs.size());
-      for (std::size_t i = 0; i < dofs.size(); ++i)
-        free[i] = field[dofs[i]];
+      const std::vector<unsigned int> &own = list();
+      for (std::size_t i = 0; i < own.size(); ++i)
+        field[own[i]] += factor * unknowns[i];
+      with_others.share(field);
     }
 
-    /// Add a factor times numbers by free degree of freedom to a field.
+    /// Columns that this process' cells have summed, by local_list(), become those of the body, by
+    /// list().
     void
-    add(const double factor, const std::vector<double> &free, Vector &field) const
-    {
-      for (std::size_t i = 0; i < dofs.size(); ++i)
-        field[dofs[i]] += factor * free[i];
-    }
+    assemble_columns(std::vector<double> &columns) const;
+
+    /// Numbers by unknown, for the whole body at the root, in the order of one process.
+    std::vector<double>
+    whole(const std::vector<double> &unknowns) const;
+
+    /// What of a whole() are unknowns of this process. All processes must call it.
+    std::vector<double>
+    part(const std::vector<double> &whole) const;
 
   private:
+    /// 1 where a degree of freedom is an unknown of some process, else 0; for the whole body.
+    std::vector<double>
+    whole_mask(bool everywhere) const;
+
     std::vector<int>          index;
     std::vector<unsigned int> dofs;
+    std::vector<int>          own_index; ///< empty in one process: as `index`
+    std::vector<unsigned int> own_dofs;  ///< empty in one process: as `dofs`
     const Exchange           &with_others;
   };
 } // namespace Exemplar

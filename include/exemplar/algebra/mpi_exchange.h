@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_mpi_exchange_h
+#define exemplar_mpi_exchange_h
+
+#include <exemplar/algebra/exchange.h>
+
+#include <deal.II/base/partitioner.h>
+
+#include <map>
+#include <memory>
+#include <mpi.h>
+
+namespace Exemplar
+{
+  /// Which nodes a process has. Beside their order in the files, which is the order on one process,
+  /// nodes have numbers that are consecutive for those of one owner.
+  struct SharedNodes
+  {
+    std::vector<unsigned int> in_files;      ///< index of each node of this process, ascending
+    std::vector<unsigned int> numbers;       ///< of each
+    std::vector<unsigned int> first_numbers; ///< of each owner, and the number of all nodes
+
+    template <typename Archive>
+    void
+    serialize(Archive &archive, unsigned int /*version*/)
+    {
+      archive &in_files &numbers &first_numbers;
+    }
+  };
+
+  /// The exchange of processes that run under MPI, by deal.II's Partitioner. Sums are made in the
+  /// order of the processes, so that they repeat bit for bit for the same number of them.
+  class MpiExchange : public Exchange
+  {
+  public:
+    /// To be made by all processes of `communicator`, which has as many as there are owners.
+    MpiExchange(MPI_Comm communicator, SharedNodes nodes);
+
+    unsigned int
+    process() const override
+    {
+      return own_process;
+    }
+
+    unsigned int
+    n_processes() const override
+    {
+      return nodes.first_numbers.size() - 1;
+    }
+
+    using Exchange::sum;
+
+    void
+    sum(double *own, std::size_t n) const override;
+
+    double
+    max(double own) const override;
+
+    std::string
+    from_root(std::string text) const override;
+
+    std::vector<std::size_t>
+    collect(std::vector<std::size_t> own) const override;
+
+    bool
+    owns(const unsigned int node) const override
+    {
+      return owner(node) == own_process;
+    }
+
+    void
+    assemble(double *field, unsigned int n) const override;
+
+    void
+    assemble(float *field, unsigned int n) const override;
+
+    void
+    keep_owned(Vector &field) const override;
+
+    void
+    share(Vector &field) const override;
+
+    double
+    product(const Vector &a, const Vector &b) const override;
+
+    std::vector<double>
+    whole(const double *field, unsigned int n, std::size_t n_nodes, bool everywhere) const override;
+
+    std::vector<double>
+    part(std::vector<double> whole, unsigned int n) const override;
+
+    MPI_Comm
+    get_communicator() const
+    {
+      return communicator;
+    }
+
+    const SharedNodes &
+    get_nodes() const
+    {
+      return nodes;
+    }
+
+  private:
+    using Partitioner = dealii::Utilities::MPI::Partitioner;
+
+    /// The process that owns a node.
+    unsigned int
+    owner(unsigned int node) const;
+
+    /// For fields with n numbers a node.
+    const Partitioner &
+    partitioner(unsigned int n) const;
+
+    template <typename Number>
+    void
+    exchange_field(Number *field, unsigned int n, bool add_first) const;
+
+    const MPI_Comm            communicator;
+    const SharedNodes         nodes;
+    const unsigned int        own_process;
+    std::vector<unsigned int> owned, others; ///< nodes, by ascending number
+    mutable std::map<unsigned int, std::unique_ptr<Partitioner>> partitioners;
+  };
+} // namespace Exemplar
+
+#endif

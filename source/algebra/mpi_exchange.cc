@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/long_vectors.h>
+#include <exemplar/algebra/mpi_exchange.h>
+
+#include <deal.II/base/index_set.h>
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+
+namespace Exemplar
+{
+  namespace
+  {
+    unsigned int
+    rank_in(const MPI_Comm communicator)
+    {
+      return dealii::Utilities::MPI::this_mpi_process(communicator);
+    }
+  } // namespace
+
+  MpiExchange::MpiExchange(const MPI_Comm communicator, SharedNodes shared_nodes)
+      : communicator(communicator), nodes(std::move(shared_nodes)),
+        own_process(rank_in(communicator))
+  {
+    for (unsigned int node = 0; node < nodes.numbers.size(); ++node)
+      (owns(node) ? owned : others).push_back(node);
+    for (auto *list : { &owned, &others })
+      std::sort(list->begin(), list->end(),
+                [this](const unsigned int a, const unsigned int b)
+                { return nodes.numbers[a] < nodes.numbers[b]; });
+  }
+
+  unsigned int
+  MpiExchange::owner(const unsigned int node) const
+  {
+    const auto after = std::upper_bound(nodes.first_numbers.begin(), nodes.first_numbers.end(),
+                                        nodes.numbers[node]);
+    return static_cast<unsigned int>(after - nodes.first_numbers.begin()) - 1;
+  }
+
+  void
+  MpiExchange::sum(double *own, const std::size_t n) const
+  {
+    std::vector<double> all(n * n_processes());
+    MPI_Allgather(own, static_cast<int>(n), MPI_DOUBLE, all.data(), static_cast<int>(n), MPI_DOUBLE,
+                  communicator);
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      own[i] = all[i];
+      for (unsigned int process = 1; process < n_processes(); ++process)
+        own[i] += all[process * n + i];
+    }
+  }
+
+  double
+  MpiExchange::max(const double own) const
+  {
+    std::vector<double> all(n_processes()); // MPI_MAX would lose a NaN
+    MPI_Allgather(&own, 1, MPI_DOUBLE, all.data(), 1, MPI_DOUBLE, communicator);
+    double greatest = all[0];
+    for (const double number : all)
+      greatest = max_or_nan(greatest, number);
+    return greatest;
+  }
+
+  std::string
+  MpiExchange::from_root(std::string text) const
+  {
+    return dealii::Utilities::MPI::broadcast(communicator, text, 0);
+  }
+
+  std::vector<std::size_t>
+  MpiExchange::collect(std::vector<std::size_t> own) const
+  {
+    std::vector<std::size_t> all;
+    for (const auto &part : dealii::Utilities::MPI::all_gather(communicator, own))
+      all.insert(all.end(), part.begin(), part.end());
+    return all;
+  }
+
+  const MpiExchange::Partitioner &
+  MpiExchange::partitioner(const unsigned int n) const
+  {
+    std::unique_ptr<Partitioner> &found = partitioners[n];
+    if (found == nullptr)
+    {
+      const unsigned int size = n * nodes.first_numbers.back();
+      dealii::IndexSet   own(size), ghosts(size);
+      own.add_range(n * nodes.first_numbers[own_process], n * nodes.first_numbers[own_process + 1]);
+      for (const unsigned int node : others)
+        ghosts.add_range(n * nodes.numbers[node], n * (nodes.numbers[node] + 1));
+      own.compress();
+      ghosts.compress();
+      found = std::make_unique<Partitioner>(own, ghosts, communicator);
+    }
+    return *found;
+  }
+
+  template <typename Number>
+  void
+  MpiExchange::exchange_field(Number *field, const unsigned int n, const bool add_first) const
+  {
+    const Partitioner        &with = partitioner(n);
+    std::vector<Number>       of_owned(n * owned.size()), of_others(n * others.size());
+    std::vector<Number>       buffer(with.n_import_indices());
+    std::vector<MPI_Request>  requests;
+    const auto pack = [&](const std::vector<unsigned int> &list, std::vector<Number> &values)
+    {
+      for (std::size_t i = 0; i < list.size(); ++i)
+        std::copy(field + n * list[i], field + n * (list[i] + 1), &values[n * i]);
+    };
+    const auto unpack = [&](const std::vector<unsigned int> &list, const std::vector<Number> &values)
+    {
+      for (std::size_t i = 0; i < list.size(); ++i)
+        std::copy(values.begin() + n * i, values.begin() + n * (i + 1), field + n * list[i]);
+    };
+    const auto view = [](std::vector<Number> &values)
+    { return dealii::ArrayView<Number>(values.data(), values.size()); };
+    const auto const_view = [](const std::vector<Number> &values)
+    { return dealii::ArrayView<const Number>(values.data(), values.size()); };
+
+    pack(owned, of_owned);
+    if (add_first)
+    {
+      pack(others, of_others);
+      with.import_from_ghosted_array_start(dealii::VectorOperation::add, 0, view(of_others),
+                                           view(buffer), requests);
+      with.import_from_ghosted_array_finish(dealii::VectorOperation::add, const_view(buffer),
+                                            view(of_owned), view(of_others), requests);
+      unpack(owned, of_owned);
+    }
+    with.export_to_ghosted_array_start(0, const_view(of_owned), view(buffer), view(of_others),
+                                       requests);
+    with.export_to_ghosted_array_finish(view(of_others), requests);
+    unpack(others, of_others);
+  }
+
+  void
+  MpiExchange::assemble(double *field, const unsigned int n) const
+  {
+    exchange_field(field, n, true);
+  }
+
+  void
+  MpiExchange::assemble(float *field, const unsigned int n) const
+  {
+    exchange_field(field, n, true);
+  }
+
+  void
+  MpiExchange::share(Vector &field) const
+  {
+    exchange_field(field.begin(), 3, false);
+  }
+
+  void
+  MpiExchange::keep_owned(Vector &field) const
+  {
+    const std::size_t n = field.size() / nodes.numbers.size();
+    for (const unsigned int node : others)
+      std::fill(field.begin() + n * node, field.begin() + n * (node + 1), 0.);
+  }
+
+  double
+  MpiExchange::product(const Vector &a, const Vector &b) const
+  {
+    double own = 0.;
+    for (const unsigned int node : owned)
+      for (unsigned int dof = 3 * node; dof < 3 * node + 3; ++dof)
+        own += a[dof] * b[dof];
+    return Exchange::sum(own);
+  }
+
+  std::vector<double>
+  MpiExchange::whole(const double      *field,
+                     const unsigned int n,
+                     std::size_t /*n_nodes*/,
+                     const bool everywhere) const
+  {
+    using namespace dealii::Utilities::MPI;
+    std::vector<double>       values;
+    std::vector<unsigned int> places;
+    for (const unsigned int node : owned)
+    {
+      values.insert(values.end(), field + n * node, field + n * (node + 1));
+      places.push_back(nodes.in_files[node]);
+    }
+    const auto all_values = everywhere ? all_gather(communicator, values)
+                                       : gather(communicator, values);
+    const auto all_places = everywhere ? all_gather(communicator, places)
+                                       : gather(communicator, places);
+    if (!everywhere && !is_root())
+      return {};
+    std::vector<double> all(n * static_cast<std::size_t>(nodes.first_numbers.back()));
+    for (std::size_t process = 0; process < all_places.size(); ++process)
+      for (std::size_t i = 0; i < all_places[process].size(); ++i)
+        std::copy(&all_values[process][n * i], &all_values[process][n * i] + n,
+                  &all[n * static_cast<std::size_t>(all_places[process][i])]);
+    return all;
+  }
+
+  std::vector<double>
+  MpiExchange::part(const std::vector<double> whole, const unsigned int n) const
+  {
+    std::vector<double> own;
+    own.reserve(n * nodes.in_files.size());
+    for (const std::size_t node : nodes.in_files)
+      own.insert(own.end(), whole.begin() + n * node, whole.begin() + n * (node + 1));
+    return own;
+  }
+} // namespace Exemplar
