@@ -22,6 +22,12 @@ namespace Exemplar
     operator=(const MpiSession &)
         = delete;
 
+    static unsigned int
+    n_processes();
+
+    static bool
+    is_root();
+
     /// For those who call MPI: it runs afterwards. Throws UserError if it does not run and there
     /// is no session to start it.
     static void
