@@ -173,11 +173,11 @@ namespace Exemplar
     }
   };
 
-  /// Exchange::whole() of a field by degree of freedom.
+  /// Exchange::whole() of a field by degree of freedom, which may be empty in all processes.
   inline Vector
   whole(const Exchange &exchange, const Vector &field, const bool everywhere = false)
   {
-    if (exchange.n_processes() == 1)
+    if (exchange.n_processes() == 1 || field.size() == 0)
       return field;
     const std::vector<double> all
         = exchange.whole(field.begin(), 3, field.size() / 3, everywhere);
