@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/mpi_session.h>
 #include <exemplar/base/environment.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/base/message_text.h>
@@ -166,6 +167,7 @@ namespace Exemplar
         {
           writer.finish(status_name(report.status));
           progress.finish();
+          MpiSession::wait_for_all(); // while the root writes
           throw SolverFailure(problem.failure_message(report));
         }
         StepClock::Scope scope(problem.clock, Part::output);
@@ -179,6 +181,8 @@ namespace Exemplar
   run_scene(const RunOptions &options)
   {
     const SceneFile scene(options.scene_file, options.overrides);
+    MpiSession::require_same(scene.get_text(), "reads another scene than",
+                             "Let all machines see the same files.");
     const auto problem = make_problem_and_warn(scene.get_parameters(), options, options.n_threads);
     RunWriter  writer(*problem, scene);
     is_interrupted(); // from now on a signal waits until the run has written what it has
@@ -222,6 +226,7 @@ namespace Exemplar
     {
       progress.finish();
       writer.finish("interrupted");
+      MpiSession::wait_for_all(); // while the root writes
       throw Interrupted("Interrupted after step " + std::to_string(problem->state.step)
                         + ". Go on with --resume.");
     }
