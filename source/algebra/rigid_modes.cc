@@ -7,20 +7,23 @@
 namespace Exemplar
 {
   void
-  center_and_scale(std::vector<double> &places)
+  center_and_scale(std::vector<double> &places, const Exchange &exchange)
   {
-    double greatest = 0.;
+    const double n_nodes  = exchange.sum(static_cast<double>(places.size() / 3));
+    double       greatest = 0.;
     for (unsigned int c = 0; c < 3; ++c)
     {
       double sum = 0.;
       for (std::size_t row = c; row < places.size(); row += 3)
         sum += places[row];
+      sum = exchange.sum(sum);
       for (std::size_t row = c; row < places.size(); row += 3)
       {
-        places[row] -= sum / static_cast<double>(places.size() / 3);
+        places[row] -= sum / n_nodes;
         greatest = std::max(greatest, std::abs(places[row]));
       }
     }
+    greatest = exchange.max(greatest);
     if (greatest > 0.)
       for (double &x : places)
         x /= greatest;
