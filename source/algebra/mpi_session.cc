@@ -155,12 +155,15 @@ namespace Exemplar
     }
 
     /// Refuse processes that cannot speak with one voice as they do not find each other: the others than the
-    /// first end here, silently.
+    /// first end here, silently, and after it, for one that ends may end all.
     [[noreturn]] void
     refuse_strangers(const Launch &launch, const std::string &reason)
     {
       if (launch.process != 0)
+      {
+        std::this_thread::sleep_for(std::chrono::seconds(2));
         _exit(1);
+      }
       throw UserError(launch.program + " has started " + std::to_string(launch.n_processes)
                       + " processes that do not find each other: " + reason);
     }
@@ -184,7 +187,7 @@ namespace Exemplar
       explicit TimeToJoin(const Launch &launch)
       {
         std::signal(SIGALRM, launch.process == 0 ? end_of_waiting<true> : end_of_waiting<false>);
-        alarm(time_to_join);
+        alarm(time_to_join + (launch.process == 0 ? 0 : 5)); // who ends may end all
       }
 
       TimeToJoin(const TimeToJoin &) = delete;

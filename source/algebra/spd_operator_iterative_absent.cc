@@ -26,7 +26,10 @@ namespace Exemplar
     if (launch.is_alone())
       return;
     if (launch.process != 0)
-      _exit(1); // one message is enough
+    {
+      sleep(2); // one message is enough, and who ends may end all
+      _exit(1);
+    }
     throw UserError(launch.program
                     + " has started several processes, but this exemplar was built without "
                       "Trilinos and MPI. Start one, or build it with a deal.II that has them.");
