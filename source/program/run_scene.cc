@@ -193,6 +193,7 @@ namespace Exemplar
         {
           writer.finish(status_name(report.status));
           progress.finish();
+          MpiSession::wait_for_all(); // while the root writes
           throw SolverFailure(problem.failure_message(report));
         }
         StepClock::Scope scope(problem.clock, Part::output);
@@ -206,6 +207,8 @@ namespace Exemplar
   run_scene(const RunOptions &options)
   {
     const SceneFile scene(options.scene_file, options.overrides);
+    MpiSession::require_same(scene.get_text(), "reads another scene than",
+                             "Let all machines see the same files.");
     const auto problem = make_problem_and_warn(scene.get_parameters(), options, options.n_threads);
     RunWriter  writer(*problem, scene);
     is_interrupted(); // from now on a signal waits until the run has written what it has
@@ -250,6 +253,7 @@ namespace Exemplar
     {
       progress.finish();
       writer.finish("interrupted");
+      MpiSession::wait_for_all(); // while the root writes
       throw Interrupted("Interrupted after step " + std::to_string(problem->state.step)
                         + ". Go on with --resume.");
     }
