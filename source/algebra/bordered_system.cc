@@ -12,14 +12,20 @@ namespace Exemplar
   make_schur_complement(const WeightForm          &form,
                         const std::vector<double> &G,
                         const double              *Z,
-                        const std::size_t          n)
+                        const std::size_t          n,
+                        const Exchange            &exchange)
   {
     dealii::FullMatrix<double> schur = form.H;
     const auto                &index = form.coupled;
+    std::vector<double>        products;
     for (std::size_t i = 0; i < index.size(); ++i)
       for (std::size_t j = 0; j < index.size(); ++j)
-        schur(index[i], index[j])
-            -= std::inner_product(G.begin() + i * n, G.begin() + (i + 1) * n, Z + j * n, 0.);
+        products.push_back(
+            std::inner_product(G.begin() + i * n, G.begin() + (i + 1) * n, Z + j * n, 0.));
+    exchange.sum(products);
+    for (std::size_t i = 0; i < index.size(); ++i)
+      for (std::size_t j = 0; j < index.size(); ++j)
+        schur(index[i], index[j]) -= products[i * index.size() + j];
     return schur;
   }
 
@@ -28,8 +34,10 @@ namespace Exemplar
     class BlockSystem : public BorderedSystem
     {
     public:
-      BlockSystem(std::unique_ptr<SpdOperator> matrix, const WeightForm *form)
-          : BorderedSystem(form), A(std::move(matrix))
+      BlockSystem(std::unique_ptr<SpdOperator> matrix,
+                  const WeightForm            *form,
+                  const Exchange              &exchange)
+          : BorderedSystem(form), A(std::move(matrix)), exchange(exchange)
       {
       }
 
@@ -110,9 +118,9 @@ namespace Exemplar
         const std::size_t   n          = vector.positions.size();
         std::vector<double> right_side = vector.weights;
         for (std::size_t i = 0; i < form->coupled.size(); ++i)
-          right_side[form->coupled[i]] += std::inner_product(
-              G.begin() + i * n, G.begin() + (i + 1) * n, inverse_columns.begin(), 0.);
-        schur = make_schur_complement(*form, G, inverse_columns.data() + n, n);
+          right_side[form->coupled[i]] += exchange.sum(std::inner_product(
+              G.begin() + i * n, G.begin() + (i + 1) * n, inverse_columns.begin(), 0.));
+        schur = make_schur_complement(*form, G, inverse_columns.data() + n, n, exchange);
         const WeightQpSolution solution
             = minimize_over_weights(schur, right_side, vector.multipliers, lower);
         if (!solution.found)
@@ -124,13 +132,16 @@ namespace Exemplar
       }
 
       const std::unique_ptr<SpdOperator> A;
+      const Exchange                    &exchange;
       std::vector<double> inverse_columns; ///< z and Z; empty: none since factorize()
     };
   } // namespace
 
   std::unique_ptr<BorderedSystem>
-  make_block_system(std::unique_ptr<SpdOperator> matrix, const WeightForm *form)
+  make_block_system(std::unique_ptr<SpdOperator> matrix,
+                    const WeightForm            *form,
+                    const Exchange              &exchange)
   {
-    return std::make_unique<BlockSystem>(std::move(matrix), form);
+    return std::make_unique<BlockSystem>(std::move(matrix), form, exchange);
   }
 } // namespace Exemplar

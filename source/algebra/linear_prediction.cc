@@ -20,6 +20,14 @@ namespace Exemplar
   }
 
   void
+  LinearPrediction::restore(std::deque<std::vector<double>> vectors)
+  {
+    history = std::move(vectors);
+    for (std::size_t i = history.size(); i-- > 0;)
+      multiply_out(i);
+  }
+
+  void
   LinearPrediction::add(std::vector<double> vector)
   {
     if (history.size() == max_vectors)

@@ -64,9 +64,13 @@ namespace Exemplar
   }
 
   std::string
-  MpiExchange::from_root(std::string text) const
+  MpiExchange::first_text(std::string own) const
   {
-    return dealii::Utilities::MPI::broadcast(communicator, text, 0);
+    const double none  = n_processes();
+    const double first = min(own.empty() ? none : own_process);
+    if (first == none)
+      return {};
+    return dealii::Utilities::MPI::broadcast(communicator, own, static_cast<unsigned int>(first));
   }
 
   std::vector<std::size_t>
@@ -76,6 +80,14 @@ namespace Exemplar
     for (const auto &part : dealii::Utilities::MPI::all_gather(communicator, own))
       all.insert(all.end(), part.begin(), part.end());
     return all;
+  }
+
+  int
+  MpiExchange::node_here(const unsigned int in_whole) const
+  {
+    const auto &all   = nodes.in_files;
+    const auto  found = std::lower_bound(all.begin(), all.end(), in_whole);
+    return found == all.end() || *found != in_whole ? -1 : static_cast<int>(found - all.begin());
   }
 
   const MpiExchange::Partitioner &

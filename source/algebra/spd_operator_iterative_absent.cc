@@ -2,6 +2,9 @@
 #include <exemplar/algebra/mpi_session.h>
 #include <exemplar/algebra/spd_operator.h>
 #include <exemplar/base/errors.h>
+#include <exemplar/base/launcher.h>
+
+#include <unistd.h>
 
 // What stands for spd_operator_iterative.cc and mpi_session.cc in a build without Trilinos.
 
@@ -14,6 +17,53 @@ namespace Exemplar
   void
   MpiSession::require()
   {
+  }
+
+  void
+  MpiSession::join(int /*argc*/, char * /*argv*/[])
+  {
+    const Launch launch = find_launch();
+    if (launch.is_alone())
+      return;
+    if (launch.process != 0)
+    {
+      sleep(2); // one message is enough, and who ends may end all
+      _exit(1);
+    }
+    throw UserError(launch.program
+                    + " has started several processes, but this exemplar was built without "
+                      "Trilinos and MPI. Start one, or build it with a deal.II that has them.");
+  }
+
+  unsigned int
+  MpiSession::n_processes()
+  {
+    return 1;
+  }
+
+  unsigned int
+  MpiSession::process()
+  {
+    return 0;
+  }
+
+  void
+  MpiSession::require_same(const std::string & /*text*/,
+                           const std::string & /*difference*/,
+                           const std::string & /*remedy*/)
+  {
+  }
+
+  void
+  MpiSession::wait_for_all()
+  {
+  }
+
+  int
+  MpiSession::end(const int status, const std::function<void(const std::string &where)> &report)
+  {
+    report("");
+    return status;
   }
 
   bool

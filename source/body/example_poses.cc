@@ -39,9 +39,10 @@ namespace Exemplar
         return {};
       // beyond the body's size all regions have the same share everywhere
       const double length = std::min(parameters.region_blend_length, 1e3 * mesh.diameter());
+      const std::set<unsigned int> &regions = mesh.whole().material_ids;
       if (fe_space.element() == Element::P1)
-        return RegionShares(fe_space, mesh.get_material_ids(), length);
-      return RegionShares(FESpace(mesh), mesh.get_material_ids(), length, n_points);
+        return RegionShares(fe_space, mesh.get_material_ids(), regions, length);
+      return RegionShares(FESpace(mesh), mesh.get_material_ids(), regions, length, n_points);
     }
   } // namespace
 
@@ -51,7 +52,7 @@ namespace Exemplar
     double sum = 0.;
     for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
       sum += material.youngs_modulus(cell) * fe_space.cell_volume(cell);
-    return sum;
+    return fe_space.exchange().sum(sum);
   }
 
   namespace
@@ -137,6 +138,8 @@ namespace Exemplar
                             += fe_space.volume(point) * share * share * contract(E, E);
                       });
     }
+    fe_space.exchange().sum(strain_norms);
+    p_0 = fe_space.exchange().min(p_0);
     for (double &norm : strain_norms)
       norm = std::sqrt(norm);
     if (!std::isfinite(max_entry(strain_norms)) || !std::isfinite(p_0))
@@ -181,6 +184,8 @@ namespace Exemplar
         for (unsigned int w = 0; w < n_weights(); ++w)
           gram(v, w) += patches->lambda(patch) * patches->volume(patch)
                         * patch_dilatations(patch, v) * patch_dilatations(patch, w);
+    if (gram.m() > 0)
+      fe_space.exchange().sum(&gram(0, 0), gram.m() * gram.n());
   }
 
   double
@@ -206,6 +211,7 @@ namespace Exemplar
       for (std::size_t s = regions->first(point); s < regions->last(point); ++s)
         fraction[regions->list()[s].region]
             += regions->list()[s].value * fe_space.volume(point) / total;
+    fe_space.exchange().sum(fraction);
     return fraction;
   }
 

@@ -19,26 +19,6 @@ namespace Exemplar
       return element == Element::P1 ? 1 : 2;
     }
 
-    /// Throws unless the places after those of the nodes are in the middle of the edges.
-    void
-    check_straight(const std::vector<dealii::Point<3>>            &places,
-                   const std::vector<std::array<unsigned int, 2>> &edges,
-                   const double                                    size,
-                   const std::string                              &key)
-    {
-      const std::size_t n_nodes = places.size() - edges.size();
-      for (std::size_t edge = 0; edge < edges.size(); ++edge)
-      {
-        const auto &[a, b] = edges[edge];
-        if (const auto straight = places[a] + 0.5 * (places[b] - places[a]);
-            !(places[n_nodes + edge].distance(straight) <= 1e-9 * size))
-          throw UserError(key
-                          + ": the pose has 10-node tetrahedra with curved edges, but "
-                            "Model/Element = P1 has straight ones. Set Model/Element = P2, or give "
-                            "a pose of 4-node tetrahedra.");
-      }
-    }
-
     /// Exact for products of two gradients, with points_per_cell() points.
     dealii::Quadrature<3>
     stiffness_quadrature(const Element element)
@@ -57,6 +37,25 @@ namespace Exemplar
       return dealii::QWitherdenVincentSimplex<3>(3);
     }
   } // namespace
+
+  void
+  check_straight(const std::vector<dealii::Point<3>>            &places,
+                 const std::vector<std::array<unsigned int, 2>> &edges,
+                 const double                                    size,
+                 const std::string                              &key)
+  {
+    const std::size_t n_nodes = places.size() - edges.size();
+    for (std::size_t edge = 0; edge < edges.size(); ++edge)
+    {
+      const auto &[a, b] = edges[edge];
+      if (const auto straight = places[a] + 0.5 * (places[b] - places[a]);
+          !(places[n_nodes + edge].distance(straight) <= 1e-9 * size))
+        throw UserError(key
+                        + ": the pose has 10-node tetrahedra with curved edges, but "
+                          "Model/Element = P1 has straight ones. Set Model/Element = P2, or give "
+                          "a pose of 4-node tetrahedra.");
+    }
+  }
 
   FESpace::FESpace(const Mesh &mesh, const Element element)
       : mesh(mesh), kind(element), fe(dealii::FE_SimplexP<3>(polynomial_degree(element)), 3),
@@ -165,7 +164,7 @@ namespace Exemplar
     double sum = 0.;
     for (const double volume : volumes)
       sum += volume;
-    return sum;
+    return exchange().sum(sum);
   }
 
   dealii::SparsityPattern

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <utility>
 
 namespace Exemplar
 {
@@ -95,11 +96,13 @@ namespace Exemplar
                    {},
                    {} };
     if (!p.follow_pose.empty())
-      handle.path.emplace(
-          rest_positions(handle),
-          choose(fe_space.complete(mesh.find_pose(poses, p.follow_pose, key + "/Follow pose"),
-                                   key + "/Follow pose"),
-                 handle.nodes));
+    {
+      const auto pose = fe_space.complete(
+          mesh.find_pose(poses, p.follow_pose, key + "/Follow pose"), key + "/Follow pose");
+      handle.path.emplace(whole_handle(handle.nodes, rest_positions(handle)),
+                          whole_handle(handle.nodes, choose(pose, handle.nodes)));
+      handle.places_in_path = places_in_whole(handle.nodes);
+    }
     return handle;
   }
 
@@ -127,6 +130,48 @@ namespace Exemplar
     };
   }
 
+  std::vector<double>
+  Handles::whole_mask(const std::vector<unsigned int> &nodes) const
+  {
+    std::vector<double> mask(fe_space.n_nodes(), 0.);
+    for (const unsigned int node : nodes)
+      mask[node] = 1.;
+    return fe_space.exchange().whole(mask.data(), 1, mask.size(), true);
+  }
+
+  std::vector<dealii::Point<3>>
+  Handles::whole_handle(const std::vector<unsigned int>     &nodes,
+                        const std::vector<dealii::Point<3>> &places) const
+  {
+    if (fe_space.exchange().n_processes() == 1)
+      return places;
+    Vector field(fe_space.n_dofs());
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      for (unsigned int c = 0; c < 3; ++c)
+        field[3 * nodes[i] + c] = places[i][c];
+    const Vector                  all  = whole(fe_space.exchange(), field, true);
+    const std::vector<double>     mask = whole_mask(nodes);
+    std::vector<dealii::Point<3>> chosen;
+    for (std::size_t node = 0; node < mask.size(); ++node)
+      if (mask[node] > 0.)
+        chosen.emplace_back(all[3 * node], all[3 * node + 1], all[3 * node + 2]);
+    return chosen;
+  }
+
+  std::vector<unsigned int>
+  Handles::places_in_whole(const std::vector<unsigned int> &nodes) const
+  {
+    std::vector<double> n_before = whole_mask(nodes);
+    double              n        = 0.;
+    for (double &entry : n_before)
+      n += std::exchange(entry, n);
+    const std::vector<double> own = fe_space.exchange().part(std::move(n_before), 1);
+    std::vector<unsigned int> places;
+    for (const unsigned int node : nodes)
+      places.push_back(static_cast<unsigned int>(own[node]));
+    return places;
+  }
+
   std::vector<dealii::Point<3>>
   Handles::rest_positions(const Handle &handle) const
   {
@@ -143,7 +188,7 @@ namespace Exemplar
       return checked(function(rest, time), rest.size(), "Handles/" + name, time);
     std::vector<dealii::Tensor<1, 3>> result;
     for (unsigned int point = 0; point < nodes.size(); ++point)
-      result.push_back(path ? path->displacement(point, progress.values(rest[point], time)[0])
+      result.push_back(path ? path->displacement(places_in_path[point], progress.values(rest[point], time)[0])
                             : motion.vector(rest[point], time));
     return result;
   }
@@ -260,16 +305,20 @@ namespace Exemplar
   {
     dealii::Vector<double> moved = positions;
     move(time, moved);
-    return moved != positions;
+    return fe_space.exchange().any(moved != positions);
   }
 
   dealii::Tensor<1, 3>
   Handles::sum_over(const unsigned int handle, const dealii::Vector<double> &field) const
   {
     dealii::Tensor<1, 3> sum;
+    const Exchange &exchange = fe_space.exchange();
+    const bool      is_alone = exchange.n_processes() == 1;
     for (const unsigned int node : handles[handle].nodes)
       for (const unsigned int c : handles[handle].components)
-        sum[c] += field[3 * node + c];
+        if (is_alone || exchange.owns(node))
+          sum[c] += field[3 * node + c];
+    exchange.sum(sum.begin_raw(), 3);
     return sum;
   }
 } // namespace Exemplar

@@ -28,6 +28,7 @@ namespace Exemplar
       for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
         fe_space.share_out(material.density(cell) * fe_space.cell_volume(cell), shares, cell,
                            masses);
+      fe_space.exchange().assemble(masses.data(), 1);
       return masses;
     }
 
@@ -50,6 +51,7 @@ namespace Exemplar
         fe_space.share_out(material.density(cell) * fe_space.cell_volume(cell),
                            shares_in_cell(fe_space.element(), rule(is_whole)), cell, masses);
       }
+      fe_space.exchange().assemble(masses.data(), 1);
       return masses;
     }
 
@@ -89,6 +91,7 @@ namespace Exemplar
                 += shares.of_edge(area(mesh, face));
         }
       }
+      fe_space.exchange().assemble(areas.data(), 1);
       return areas;
     }
   } // namespace
@@ -115,6 +118,22 @@ namespace Exemplar
     }
   } // namespace
 
+  namespace
+  {
+    /// Each node counts once.
+    double
+    sum_of_shares(const Exchange                  &exchange,
+                  const std::vector<unsigned int> &nodes,
+                  const std::vector<double>       &shares)
+    {
+      double sum = 0.;
+      for (std::size_t i = 0; i < nodes.size(); ++i)
+        if (exchange.owns(nodes[i]))
+          sum += shares[i];
+      return exchange.sum(sum);
+    }
+  } // namespace
+
   Loads::Loads(const dealii::Tensor<1, 3>        &gravity,
                const std::vector<LoadParameters> &parameters,
                const Mesh                        &mesh,
@@ -126,7 +145,7 @@ namespace Exemplar
     const std::vector<double> masses
         = nodal_masses(fe_space, material, rule(mass_matrix == MassMatrix::consistent));
     if (const double total = std::accumulate(masses.begin(), masses.end(), 0.);
-        !std::isfinite(total * gravity.norm()))
+        fe_space.exchange().any(!std::isfinite(total * gravity.norm())))
       throw UserError("Loads/Gravity: the weight of the body is not a finite number. Look at "
                       "Material/Density, and at the mesh's unit.");
     if (gravity.norm() > 0.)
@@ -150,7 +169,7 @@ namespace Exemplar
       std::vector<double> shares;
       for (const unsigned int node : nodes)
         shares.push_back(weights[node]);
-      const double sum = std::accumulate(shares.begin(), shares.end(), 0.);
+      const double sum = sum_of_shares(fe_space.exchange(), nodes, shares);
       if (!(sum > 0. && std::isfinite(sum)))
         throw UserError(
             key + ": the selected part has the " + (by_area ? "area " : "mass ")

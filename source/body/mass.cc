@@ -44,13 +44,13 @@ namespace Exemplar
   } // namespace
 
   Mass::Mass(const FESpace &fe_space, const Material &material, const MassMatrix kind)
-      : pattern(fe_space.nodal_pattern()), matrix(pattern)
+      : with_others(fe_space.exchange()), pattern(fe_space.nodal_pattern()), matrix(pattern)
   {
     std::vector<double> density(fe_space.n_cells());
     for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
       density[cell] = material.density(cell);
     fe_space.compute_mass_matrix(density, matrix);
-    max_row_sum = matrix.linfty_norm();
+    max_row_sum = with_others.max(matrix.linfty_norm());
     if (!std::isfinite(max_row_sum))
       throw UserError("Material/Density: the mass of the body is not a finite number. Look at the "
                       "density, and at the mesh's unit.");
@@ -93,6 +93,7 @@ namespace Exemplar
       for (unsigned int c = 0; c < 3; ++c)
         product[3 * row + c] = sum[c];
     }
+    with_others.assemble(product.begin(), 3);
     return product;
   }
 
@@ -104,12 +105,16 @@ namespace Exemplar
       return dealii::Tensor<1, 3>({ field[3 * node], field[3 * node + 1], field[3 * node + 2] });
     };
     MotionSums sums;
-    sums.kinetic_energy = 0.5 * (state.velocities * p);
+    sums.kinetic_energy = 0.5 * with_others.product(state.velocities, p);
+    const bool is_alone = with_others.n_processes() == 1;
     for (unsigned int node = 0; node < p.size() / 3; ++node)
-    {
-      sums.momentum += at(p, node);
-      sums.angular_momentum += dealii::cross_product_3d(at(state.positions, node), at(p, node));
-    }
+      if (is_alone || with_others.owns(node))
+      {
+        sums.momentum += at(p, node);
+        sums.angular_momentum += dealii::cross_product_3d(at(state.positions, node), at(p, node));
+      }
+    with_others.sum(sums.momentum.begin_raw(), 3);
+    with_others.sum(sums.angular_momentum.begin_raw(), 3);
     return sums;
   }
 

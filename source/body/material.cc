@@ -69,25 +69,25 @@ namespace Exemplar
   Material::Material(const MaterialParameters        &parameters,
                      const std::vector<unsigned int> &material_ids,
                      const MshFile                   &names,
-                     const PaintedMaterial           &painted)
+                     const PaintedMaterial           &painted,
+                     const std::set<unsigned int>    *all_regions)
       : constants_of_cell(material_ids.size(), 0)
   {
     std::vector<ElasticConstants> bases{ parameters.everywhere };
     add(parameters.everywhere);
+    const std::set<unsigned int> ids
+        = all_regions != nullptr
+              ? *all_regions
+              : std::set<unsigned int>(material_ids.begin(), material_ids.end());
     for (const auto &[id, region] : regions_by_id(parameters, names))
     {
-      bool found = false;
       for (unsigned int cell = 0; cell < material_ids.size(); ++cell)
         if (material_ids[cell] == id)
-        {
           constants_of_cell[cell] = constants.size();
-          found                   = true;
-        }
-      if (!found)
+      if (ids.count(id) == 0)
       {
         std::string present;
-        for (const unsigned int other :
-             std::set<unsigned int>(material_ids.begin(), material_ids.end()))
+        for (const unsigned int other : ids)
           present += (present.empty() ? "" : ", ") + std::to_string(other);
         throw UserError("Material/" + MaterialParameters::region_name(id)
                         + ": no cell of the mesh has material id " + std::to_string(id)

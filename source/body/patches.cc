@@ -21,36 +21,39 @@ namespace Exemplar
     using Kind = std::array<int, 3>;
 
     std::vector<Kind>
-    kinds_of_cells(const Mesh &mesh, const Material &material)
+    kinds_of_cells(const std::vector<unsigned int> &material_ids, const Material &material)
     {
-      std::vector<Kind> kinds(mesh.n_cells());
+      std::vector<Kind> kinds(material_ids.size());
       for (unsigned int cell = 0; cell < kinds.size(); ++cell)
       {
         const double lambda = material.elasticity(cell).lambda;
         int          octave = 0;
         std::frexp(lambda, &octave);
         kinds[cell]
-            = { { static_cast<int>(mesh.get_material_ids()[cell]), lambda < 0. ? -1 : 1, octave } };
+            = { { static_cast<int>(material_ids[cell]), lambda < 0. ? -1 : 1, octave } };
       }
       return kinds;
     }
 
     std::vector<std::vector<unsigned int>>
-    cells_by_node(const Mesh &mesh)
+    cells_by_node(const std::vector<std::array<unsigned int, 4>> &cells, const unsigned int n_nodes)
     {
-      std::vector<std::vector<unsigned int>> cells(mesh.n_nodes());
-      for (unsigned int cell = 0; cell < mesh.n_cells(); ++cell)
-        for (const unsigned int node : mesh.get_cells()[cell])
-          cells[node].push_back(cell);
-      return cells;
+      std::vector<std::vector<unsigned int>> around(n_nodes);
+      for (unsigned int cell = 0; cell < cells.size(); ++cell)
+        for (const unsigned int node : cells[cell])
+          around[node].push_back(cell);
+      return around;
     }
 
     /// The choice of the patches.
     class Stars
     {
     public:
-      Stars(const Mesh &mesh, const std::vector<Kind> &kinds)
-          : mesh(mesh), kinds(kinds), around(cells_by_node(mesh)), patch(mesh.n_cells(), no_patch)
+      Stars(const std::vector<std::array<unsigned int, 4>> &cells,
+            const unsigned int                              n_mesh_nodes,
+            const std::vector<Kind>                        &kinds)
+          : cells(cells), kinds(kinds), around(cells_by_node(cells, n_mesh_nodes)),
+            patch(cells.size(), no_patch)
       {
         for (const std::size_t least : { 18, 9 }) // at an inner node there are 24 on average
         {
@@ -77,9 +80,9 @@ namespace Exemplar
           if (patch[cell] == no_patch)
             free[kinds[cell]].push_back(cell);
         std::vector<unsigned int> most;
-        for (auto &[kind, cells] : free)
-          if (cells.size() > most.size())
-            most = std::move(cells);
+        for (auto &[kind, of_kind] : free)
+          if (of_kind.size() > most.size())
+            most = std::move(of_kind);
         return most;
       }
 
@@ -101,20 +104,20 @@ namespace Exemplar
         {
           const auto [n_cells, minus_node] = queue.top();
           queue.pop();
-          const auto                      node  = static_cast<unsigned int>(-minus_node);
-          const std::vector<unsigned int> cells = star(node);
-          if (cells.size() == n_cells)
-            add_patch(cells);
+          const auto                      node    = static_cast<unsigned int>(-minus_node);
+          const std::vector<unsigned int> of_star = star(node);
+          if (of_star.size() == n_cells)
+            add_patch(of_star);
           push(node);
         }
       }
 
       void
-      add_patch(const std::vector<unsigned int> &cells)
+      add_patch(const std::vector<unsigned int> &of_star)
       {
         n_cells.push_back(0);
         nodes.emplace_back();
-        for (const unsigned int cell : cells)
+        for (const unsigned int cell : of_star)
           assign(cell, n_cells.size() - 1);
       }
 
@@ -123,7 +126,7 @@ namespace Exemplar
       {
         patch[cell] = to;
         ++n_cells[to];
-        nodes[to].insert(mesh.get_cells()[cell].begin(), mesh.get_cells()[cell].end());
+        nodes[to].insert(cells[cell].begin(), cells[cell].end());
       }
 
       /// Cells without a patch join one with which they share a face, as long as it gains no more
@@ -151,7 +154,7 @@ namespace Exemplar
             continue;
           }
           assign(cell, choice[4]);
-          for (const unsigned int node : mesh.get_cells()[cell])
+          for (const unsigned int node : cells[cell])
             for (const unsigned int other : around[node])
               push(other);
         }
@@ -168,7 +171,7 @@ namespace Exemplar
         for (const auto &[candidate, n_faces] : patches_beside(cell))
         {
           int gain = 4;
-          for (const unsigned int node : mesh.get_cells()[cell])
+          for (const unsigned int node : cells[cell])
             gain -= static_cast<int>(nodes[candidate].count(node));
           best = std::min(best, Choice{ { gain, -n_faces, n_cells[candidate],
                                           static_cast<int>(cell), static_cast<int>(candidate) } });
@@ -181,7 +184,7 @@ namespace Exemplar
       patches_beside(const unsigned int cell) const
       {
         std::map<unsigned int, int> n_common; // nodes of each cell that shares a node
-        for (const unsigned int node : mesh.get_cells()[cell])
+        for (const unsigned int node : cells[cell])
           for (const unsigned int other : around[node])
             ++n_common[other];
         std::map<unsigned int, int> n_faces;
@@ -191,23 +194,41 @@ namespace Exemplar
         return n_faces;
       }
 
-      const Mesh                                  &mesh;
-      const std::vector<Kind>                     &kinds;
-      const std::vector<std::vector<unsigned int>> around;  ///< the cells at each node
-      std::vector<unsigned int>                    patch;   ///< of each cell
-      std::vector<int>                             n_cells; ///< of each patch
-      std::vector<std::set<unsigned int>>          nodes;   ///< of each patch
+      const std::vector<std::array<unsigned int, 4>> &cells;
+      const std::vector<Kind>                        &kinds;
+      const std::vector<std::vector<unsigned int>>    around;  ///< the cells at each node
+      std::vector<unsigned int>                       patch;   ///< of each cell
+      std::vector<int>                                n_cells; ///< of each patch
+      std::vector<std::set<unsigned int>>             nodes;   ///< of each patch
     };
   } // namespace
 
-  Patches::Patches(const Mesh &mesh, const FESpace &fe_space, const Material &material)
-      : patch_of_point(fe_space.n_points())
+  std::vector<unsigned int>
+  Patches::stars(const std::vector<std::array<unsigned int, 4>> &cells,
+                 const unsigned int                              n_nodes,
+                 const std::vector<unsigned int>                &material_ids,
+                 const Material                                 &material)
   {
-    if (fe_space.element() == Element::P1)
-      patch_of_point = Stars(mesh, kinds_of_cells(mesh, material)).take();
-    else
-      for (unsigned int point = 0; point < patch_of_point.size(); ++point)
-        patch_of_point[point] = fe_space.cell_of(point);
+    return Stars(cells, n_nodes, kinds_of_cells(material_ids, material)).take();
+  }
+
+  Patches::Patches(const Mesh &mesh, const FESpace &fe_space, const Material &material)
+      : Patches(fe_space.element() == Element::P1
+                    ? stars(mesh.get_cells(), mesh.n_nodes(), mesh.get_material_ids(), material)
+                    : std::vector<unsigned int>(),
+                fe_space,
+                material)
+  {
+  }
+
+  Patches::Patches(const std::vector<unsigned int> &stars_of_cells,
+                   const FESpace                   &fe_space,
+                   const Material                  &material)
+      : patch_of_point(stars_of_cells)
+  {
+    if (fe_space.element() == Element::P2)
+      for (unsigned int point = 0; point < fe_space.n_points(); ++point)
+        patch_of_point.push_back(fe_space.cell_of(point));
     collect(fe_space, material);
   }
 

@@ -49,7 +49,11 @@ namespace Exemplar
             pose.max_strain
                 = std::max(pose.max_strain, std::abs(C[i][j] - (i == j ? 1. : 0.)) / 2.);
       }
-      pose.size_ratio = std::sqrt(square / volume);
+      const Exchange &exchange = fe_space.exchange();
+      pose.max_abs_volume      = exchange.max(pose.max_abs_volume);
+      pose.max_strain          = exchange.max(pose.max_strain);
+      pose.inverted            = exchange.collect(std::move(pose.inverted));
+      pose.size_ratio          = std::sqrt(exchange.sum(square) / exchange.sum(volume));
       pose.max_abs_volume /= std::pow(std::max(pose.size_ratio, 1e-100), 3);
       return pose;
     }
@@ -80,7 +84,7 @@ namespace Exemplar
       return "is " + ratio
              + " times as large as the rest pose. If its unit of length is another one, scale it.";
     if (!pose.inverted.empty())
-      return describe_inverted(pose, fe_space.n_cells());
+      return describe_inverted(pose, mesh.whole().n_cells);
     if (pose.max_strain < rigid_tolerance)
       return "is the rest pose, moved rigidly at most: it has no strain, and pulls the body "
              "nowhere.";

@@ -57,11 +57,11 @@ namespace Exemplar
 
   RegionShares::RegionShares(const FESpace                   &linear,
                              const std::vector<unsigned int> &material_ids,
+                             const std::set<unsigned int>    &regions,
                              const double                     blend_length,
                              const unsigned int               points_per_cell)
   {
-    const std::set<unsigned int> sorted(material_ids.begin(), material_ids.end());
-    ids.assign(sorted.begin(), sorted.end());
+    ids.assign(regions.begin(), regions.end());
     for (const unsigned int id : material_ids)
     {
       const auto own = std::lower_bound(ids.begin(), ids.end(), id);

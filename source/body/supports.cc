@@ -32,6 +32,25 @@ namespace Exemplar
       }
     }
 
+    /// The degrees of freedom that processes give, as those of the whole body.
+    std::vector<unsigned int>
+    in_whole(const Exchange                  &exchange,
+             const std::size_t                n_dofs,
+             const std::vector<unsigned int> &dofs)
+    {
+      if (exchange.n_processes() == 1)
+        return dofs;
+      std::vector<double> mask(n_dofs, 0.);
+      for (const unsigned int dof : dofs)
+        mask[dof] = 1.;
+      mask = exchange.whole(mask.data(), 3, n_dofs / 3, true);
+      std::vector<unsigned int> all;
+      for (unsigned int dof = 0; dof < mask.size(); ++dof)
+        if (mask[dof] > 0.)
+          all.push_back(dof);
+      return all;
+    }
+
     unsigned int
     greatest_component(const dealii::Tensor<1, 3> &v)
     {
@@ -43,15 +62,17 @@ namespace Exemplar
     }
 
     unsigned int
-    cell_nearest_to(const dealii::Point<3> &center, const Mesh &mesh)
+    cell_nearest_to(const dealii::Point<3>                         &center,
+                    const std::vector<dealii::Point<3>>            &nodes,
+                    const std::vector<std::array<unsigned int, 4>> &cells)
     {
       unsigned int nearest          = 0;
       double       nearest_distance = std::numeric_limits<double>::max();
-      for (unsigned int cell = 0; cell < mesh.n_cells(); ++cell)
+      for (unsigned int cell = 0; cell < cells.size(); ++cell)
       {
         dealii::Point<3> middle;
-        for (const unsigned int node : mesh.get_cells()[cell])
-          middle += mesh.get_nodes()[node] / 4.;
+        for (const unsigned int node : cells[cell])
+          middle += nodes[node] / 4.;
         if (const double distance = middle.distance(center); distance < nearest_distance)
         {
           nearest          = cell;
@@ -68,13 +89,15 @@ namespace Exemplar
                        const std::vector<unsigned int> &held_dofs)
   {
     // rows: the six rigid motions at a held degree of freedom, lengths in diameters
-    const std::vector<dealii::Point<3>> nodes    = nodes_of(rest_positions);
-    const dealii::Point<3>              center   = centroid(mesh.get_nodes());
-    const double                        diameter = mesh.diameter();
-    dealii::FullMatrix<double>          motions(held_dofs.size(), 6);
-    for (unsigned int row = 0; row < held_dofs.size(); ++row)
+    const Exchange                     &exchange = mesh.exchange();
+    const std::vector<dealii::Point<3>> nodes    = nodes_of(whole(exchange, rest_positions, true));
+    const std::vector<unsigned int> held = in_whole(exchange, rest_positions.size(), held_dofs);
+    const dealii::Point<3>     center = centroid({ nodes.begin(), nodes.begin() + mesh.whole().n_nodes });
+    const double               diameter  = mesh.diameter();
+    dealii::FullMatrix<double>          motions(held.size(), 6);
+    for (unsigned int row = 0; row < held.size(); ++row)
     {
-      const unsigned int         node = held_dofs[row] / 3, c = held_dofs[row] % 3;
+      const unsigned int         node = held[row] / 3, c = held[row] % 3;
       const unsigned int         d = (c + 1) % 3, e = (c + 2) % 3;
       const dealii::Tensor<1, 3> r = (nodes[node] - center) / diameter;
       motions(row, c)              = 1.;
@@ -85,12 +108,11 @@ namespace Exemplar
   }
 
   StaticallyDeterminateSupport
-  support_near_centroid(const Mesh &mesh)
+  support_near_centroid(const std::vector<dealii::Point<3>>            &x,
+                        const std::vector<std::array<unsigned int, 4>> &cells)
   {
-    const auto        &x       = mesh.get_nodes();
-    const unsigned int nearest = cell_nearest_to(centroid(x), mesh);
-    const auto        &cell    = mesh.get_cells()[nearest];
-    const auto         a = cell[0], b = cell[1], c = cell[2];
+    const auto &cell = cells[cell_nearest_to(centroid(x), x, cells)];
+    const auto  a = cell[0], b = cell[1], c = cell[2];
 
     // b may move along the dominant direction of ab only, c within the plane abc
     const unsigned int along = greatest_component(x[b] - x[a]);
@@ -101,22 +123,19 @@ namespace Exemplar
       if (d != along)
         held.push_back(3 * b + d);
     std::sort(held.begin(), held.end());
-    return { nearest, { { a, b, c } }, held };
+    return { cell, { { x[a], x[b], x[c], x[cell[3]] } }, { { a, b, c } }, held };
   }
 
   bool
-  turn_to_support(const Mesh                         &mesh,
-                  const StaticallyDeterminateSupport &support,
+  turn_to_support(const StaticallyDeterminateSupport &support,
                   const double                        angle,
-                  dealii::Vector<double>             &positions)
+                  dealii::Vector<double>             &positions,
+                  const Exchange                     &exchange)
   {
-    const std::vector<dealii::Point<3>> nodes = nodes_of(positions);
-    std::vector<dealii::Point<3>>       rest, current;
-    for (const unsigned int node : mesh.get_cells()[support.cell])
-    {
-      rest.push_back(mesh.get_nodes()[node]);
-      current.push_back(nodes[node]);
-    }
+    const Vector                  all = whole(exchange, positions, true);
+    std::vector<dealii::Point<3>> rest(support.rest.begin(), support.rest.end()), current;
+    for (const unsigned int node : support.corners)
+      current.emplace_back(all[3 * node], all[3 * node + 1], all[3 * node + 2]);
     const RigidMotion motion = best_rigid_motion(current, rest);
     if (axis_and_angle(motion.rotation).angle < angle)
       return false;
@@ -125,9 +144,12 @@ namespace Exemplar
   }
 
   void
-  remove_rigid_motion(const dealii::Vector<double> &positions, dealii::Vector<double> &displacement)
+  remove_rigid_motion(const dealii::Vector<double> &positions,
+                      dealii::Vector<double>       &displacement,
+                      const Exchange               &exchange)
   {
-    const std::vector<dealii::Point<3>> x = nodes_of(positions), u = nodes_of(displacement);
+    const std::vector<dealii::Point<3>> x = nodes_of(whole(exchange, positions, true)),
+                                        u = nodes_of(whole(exchange, displacement, true));
     const dealii::Point<3>              center = centroid(x), shift = centroid(u);
     dealii::Tensor<2, 3>                inertia;
     dealii::Tensor<1, 3>                moment;
@@ -141,18 +163,23 @@ namespace Exemplar
     const bool has_volume = determinant(inertia) > 1e-12 * std::pow(trace(inertia), 3);
     const dealii::Tensor<1, 3> rotation
         = has_volume ? invert(inertia) * moment : dealii::Tensor<1, 3>();
-    for (unsigned int node = 0; node < x.size(); ++node)
+    const std::vector<dealii::Point<3>> own = nodes_of(positions);
+    for (unsigned int node = 0; node < own.size(); ++node)
     {
       const dealii::Tensor<1, 3> rigid
-          = shift + dealii::cross_product_3d(rotation, x[node] - center);
+          = shift + dealii::cross_product_3d(rotation, own[node] - center);
       for (unsigned int c = 0; c < 3; ++c)
         displacement[3 * node + c] -= rigid[c];
     }
   }
 
   void
-  align(const dealii::Vector<double> &reference, dealii::Vector<double> &positions)
+  align(const dealii::Vector<double> &reference,
+        dealii::Vector<double>       &positions,
+        const Exchange               &exchange)
   {
-    move_rigidly(best_rigid_motion(nodes_of(positions), nodes_of(reference)), positions);
+    move_rigidly(best_rigid_motion(nodes_of(whole(exchange, positions, true)),
+                                   nodes_of(whole(exchange, reference, true))),
+                 positions);
   }
 } // namespace Exemplar

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
+#include <exemplar/mesh/distributed_triangulation.h>
 #include <exemplar/mesh/mesh.h>
 #include <exemplar/mesh/mesh_checks.h>
 
@@ -150,24 +151,25 @@ namespace Exemplar
   {
   }
 
-  Mesh::Mesh(MshFile file_contents, const std::string &file_name, const double scale)
-      : contents(std::move(file_contents)), name(file_name), scale(scale)
+  MeshArrays
+  check_mesh(MshFile contents, const std::string &name, const double scale)
   {
     if (!(scale > 0.))
       throw UserError("Mesh/Scale: must be positive, found " + std::to_string(scale)
                       + ". Leave it at 1 if the mesh is in metres.");
+    MeshArrays mesh;
     for (auto &node : contents.nodes)
       node *= scale;
     check_places(contents.nodes, contents, name);
     if (!contents.note.empty())
-      warnings.push_back(contents.note);
+      mesh.warnings.push_back(contents.note);
 
     Tetrahedra tetrahedra = extract_tetrahedra(contents, name);
     const auto swapped    = orient_tetrahedra(contents, name, tetrahedra);
     if (!swapped.empty())
-      warnings.push_back(name + ": " + std::to_string(swapped.size())
-                         + " tetrahedra of negative volume were re-oriented: element "
-                         + list_numbers(swapped) + ".");
+      mesh.warnings.push_back(name + ": " + std::to_string(swapped.size())
+                              + " tetrahedra of negative volume were re-oriented: element "
+                              + list_numbers(swapped) + ".");
     check_orphan_nodes(contents, name, tetrahedra);
     const std::vector<CellFace> faces = sorted_faces(tetrahedra);
     check_faces(contents, name, tetrahedra, faces);
@@ -178,42 +180,22 @@ namespace Exemplar
     for (const MshElement &element : contents.elements)
       if (element.type == MshElementType::triangle && element.physical != 0)
         boundary_ids.add(element);
-    boundary_ids.report(name, warnings);
+    boundary_ids.report(name, mesh.warnings);
 
-    cells           = std::move(tetrahedra.nodes);
-    material_ids    = std::move(tetrahedra.material_ids);
-    element_numbers = std::move(tetrahedra.element_numbers);
-    boundary_faces  = boundary_ids.boundary_faces(cells);
-    build_triangulation();
-  }
-
-  void
-  Mesh::build_triangulation()
-  {
-    std::vector<dealii::CellData<3>> cell_data(cells.size(), dealii::CellData<3>(4));
-    for (std::size_t c = 0; c < cells.size(); ++c)
-    {
-      std::copy(cells[c].begin(), cells[c].end(), cell_data[c].vertices.begin());
-      cell_data[c].material_id = material_ids[c];
-    }
-    triangulation.create_triangulation(contents.nodes, cell_data, boundary_data(boundary_faces));
-
-    // Everything else relies on deal.II's numbers being the file's: 9.5 has begun
-    // to remove unused vertices when reading, so do not take it for granted.
-    bool same = triangulation.n_active_cells() == cells.size()
-                && triangulation.get_vertices() == contents.nodes;
-    for (const auto &cell : triangulation.active_cell_iterators())
-      for (const unsigned int v : cell->vertex_indices())
-        same = same && cell->vertex_index(v) == cells[cell->active_cell_index()][v];
-    AssertThrow(same, dealii::ExcMessage("deal.II numbers nodes or cells in another order."));
+    mesh.contents        = std::move(contents);
+    mesh.cells           = std::move(tetrahedra.nodes);
+    mesh.material_ids    = std::move(tetrahedra.material_ids);
+    mesh.element_numbers = std::move(tetrahedra.element_numbers);
+    mesh.boundary_faces  = boundary_ids.boundary_faces(mesh.cells);
+    return mesh;
   }
 
   double
-  Mesh::diameter() const
+  box_diagonal(const std::vector<dealii::Point<3>> &nodes)
   {
-    dealii::Point<3> lower = contents.nodes.front();
+    dealii::Point<3> lower = nodes.front();
     dealii::Point<3> upper = lower;
-    for (const auto &node : contents.nodes)
+    for (const auto &node : nodes)
       for (unsigned int d = 0; d < 3; ++d)
       {
         lower[d] = std::min(lower[d], node[d]);
@@ -222,15 +204,82 @@ namespace Exemplar
     return lower.distance(upper);
   }
 
+  Mesh::Mesh(MshFile contents, const std::string &file_name, const double scale)
+      : Mesh(check_mesh(std::move(contents), file_name, scale), file_name, scale)
+  {
+  }
+
+  Mesh::Mesh(MeshArrays checked, const std::string &file_name, const double scale)
+      : arrays(std::move(checked)), name(file_name), scale(scale),
+        of_whole{ n_nodes(),
+                  n_cells(),
+                  box_diagonal(arrays.contents.nodes),
+                  { arrays.material_ids.begin(), arrays.material_ids.end() } },
+        with_others(&Exchange::serial())
+  {
+  }
+
+  Mesh::Mesh(MeshPart part, const std::string &file_name, const double scale)
+      : arrays(std::move(part.arrays)), name(file_name), scale(scale),
+        of_whole(std::move(part.whole)), cells_in_file(std::move(part.cells_in_file)),
+        shared(std::move(part.exchange)), with_others(shared.get()),
+        file(std::move(part.contents_of_whole))
+  {
+  }
+
+  const dealii::Triangulation<3> &
+  Mesh::get_triangulation() const
+  {
+    if (triangulation == nullptr)
+    {
+      triangulation = make_triangulation();
+      check_numbering();
+    }
+    return *triangulation;
+  }
+
+  std::unique_ptr<dealii::Triangulation<3>>
+  Mesh::make_triangulation() const
+  {
+    if (shared != nullptr)
+      return make_distributed_triangulation(arrays, cells_in_file, *shared);
+    const auto                      &cells = arrays.cells;
+    std::vector<dealii::CellData<3>> cell_data(cells.size(), dealii::CellData<3>(4));
+    for (std::size_t c = 0; c < cells.size(); ++c)
+    {
+      std::copy(cells[c].begin(), cells[c].end(), cell_data[c].vertices.begin());
+      cell_data[c].material_id = arrays.material_ids[c];
+    }
+    auto result = std::make_unique<dealii::Triangulation<3>>();
+    result->create_triangulation(arrays.contents.nodes, cell_data,
+                                 boundary_data(arrays.boundary_faces));
+    return result;
+  }
+
+  void
+  Mesh::check_numbering() const
+  {
+    const auto &cells = arrays.cells;
+    bool        same  = triangulation->n_active_cells() == cells.size()
+                && triangulation->get_vertices() == arrays.contents.nodes;
+    for (const auto &cell : triangulation->active_cell_iterators())
+      for (const unsigned int v : cell->vertex_indices())
+        same = same && cell->vertex_index(v) == cells[cell->active_cell_index()][v];
+    AssertThrow(same, dealii::ExcMessage("deal.II numbers nodes or cells in another order."));
+  }
+
   std::size_t
   Mesh::memory_consumption() const
   {
-    std::size_t bytes
-        = triangulation.memory_consumption() + contents.nodes.capacity() * sizeof(contents.nodes[0])
+    const MshFile &contents = arrays.contents;
+    std::size_t    bytes
+        = (triangulation == nullptr ? 0 : triangulation->memory_consumption())
+          + contents.nodes.capacity() * sizeof(contents.nodes[0])
           + contents.node_numbers.capacity() * sizeof(contents.node_numbers[0])
-          + cells.capacity() * sizeof(cells[0]) + material_ids.capacity() * sizeof(material_ids[0])
-          + element_numbers.capacity() * sizeof(element_numbers[0])
-          + boundary_faces.capacity() * sizeof(boundary_faces[0]);
+          + arrays.cells.capacity() * sizeof(arrays.cells[0])
+          + arrays.material_ids.capacity() * sizeof(arrays.material_ids[0])
+          + arrays.element_numbers.capacity() * sizeof(arrays.element_numbers[0])
+          + arrays.boundary_faces.capacity() * sizeof(arrays.boundary_faces[0]);
     for (const MshElement &element : contents.elements)
       bytes += sizeof(element) + element.nodes.capacity() * sizeof(element.nodes[0]);
     return bytes;

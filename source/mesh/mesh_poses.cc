@@ -82,14 +82,14 @@ namespace Exemplar
   {
     for (auto &node : nodes)
       node *= scale;
-    check_places(nodes, contents, name);
+    check_places(nodes, arrays.contents, name);
     return nodes;
   }
 
   std::vector<dealii::Point<3>>
   Mesh::read_pose(const std::filesystem::path &file) const
   {
-    return scaled(Exemplar::read_pose(file, contents, name));
+    return scaled(Exemplar::read_pose(file, arrays.contents, name));
   }
 
   std::vector<dealii::Point<3>>
@@ -100,7 +100,7 @@ namespace Exemplar
       throw UserError(key + ": there is no pose '" + pose
                       + "' among the inputs. Hand it in by this name, or read it from a file.");
     const std::size_t n = found->second.size();
-    if (n != n_nodes() && n != n_nodes() + edges_of(cells).size())
+    if (n != n_nodes() && n != n_nodes() + edges_of(arrays.cells).size())
       throw UserError(key + ": the pose '" + pose + "' has " + std::to_string(n)
                       + " nodes, the mesh " + std::to_string(n_nodes())
                       + ". Hand in a place for each node.");
@@ -109,19 +109,22 @@ namespace Exemplar
 
   void
   Mesh::write_pose(const std::vector<dealii::Point<3>> &positions,
-                   const std::filesystem::path         &file) const
+                   const std::filesystem::path         &file_path) const
   {
-    std::vector<dealii::Point<3>> places = positions;
+    const MshFile                &contents = contents_of_whole();
+    std::vector<dealii::Point<3>> places   = positions;
     for (dealii::Point<3> &place : places)
       place /= scale;
     if (places.size() > contents.nodes.size())
     {
-      write_msh(with_middles(contents, edges_of(cells), places), file);
+      const auto edges
+          = edges_of(file == nullptr ? arrays.cells : extract_tetrahedra(contents, name).nodes);
+      write_msh(with_middles(contents, edges, places), file_path);
       return;
     }
     AssertDimension(places.size(), contents.nodes.size());
     MshFile pose = contents;
     pose.nodes   = std::move(places);
-    write_msh(pose, file);
+    write_msh(pose, file_path);
   }
 } // namespace Exemplar

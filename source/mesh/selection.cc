@@ -132,6 +132,14 @@ namespace Exemplar
       return { nodes.begin(), nodes.end() };
     }
 
+    /// What a process has of the nodes that the root has selected in the whole mesh: maybe none.
+    std::vector<unsigned int>
+    nodes_of_part(const NamedNodes &named, const std::string &text)
+    {
+      const auto found = named.find(text);
+      return found == named.end() ? std::vector<unsigned int>() : found->second;
+    }
+
     [[noreturn]] void
     fail_empty(const Mesh &mesh, const std::string &key, const std::string &text)
     {
@@ -212,7 +220,7 @@ namespace Exemplar
       if (face.boundary_id == id)
         selected.push_back(face);
     }
-    if (selected.empty())
+    if (selected.empty() && mesh.exchange().n_processes() == 1)
       throw UserError(key + ": boundary id " + std::to_string(id) + " has no faces in "
                       + mesh.get_name() + " (present: " + list(present)
                       + "). Give a Physical Surface the tag " + std::to_string(id) + ", or change "
@@ -223,6 +231,8 @@ namespace Exemplar
   std::vector<unsigned int>
   Selection::nodes(const Mesh &mesh, const std::string &key, const NamedNodes &named) const
   {
+    if (mesh.exchange().n_processes() > 1)
+      return nodes_of_part(named, text);
     const Words               words = split(text);
     std::vector<unsigned int> nodes;
     if (words.kind == "box")

@@ -9,6 +9,7 @@ namespace Exemplar
                        const Material     &material,
                        const bool          has_patches)
       : strain(strain), guard_bound(guard_bound), kernels(best_kernels(fe_space.element())),
+        with_others(fe_space.exchange()),
         batches(fe_space, material, has_patches), node_positions(4 * fe_space.n_nodes())
   {
   }
@@ -60,6 +61,7 @@ namespace Exemplar
     rotation_sums.fill(0.);
     rotations.resize(9 * n_nodes());
     kernels.add_rotations(task, 0, task.cells.n_batches(), rotation_sums.data());
+    with_others.assemble(rotation_sums.data(), 12);
     kernels.closest_rotations(n_nodes(), rotation_sums.data(), rotations.data());
   }
 

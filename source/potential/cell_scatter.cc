@@ -44,7 +44,7 @@ namespace Exemplar
     const Neighbours              extra = neighbours_of(couplings);
     SymmetricPattern              pattern;
     pattern.column_start.push_back(0);
-    for (const unsigned int dof : free_dofs.list())
+    for (const unsigned int dof : free_dofs.local_list())
     {
       const auto begin    = pattern.row.size();
       const auto add_node = [&](const unsigned int node)

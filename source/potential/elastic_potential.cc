@@ -57,13 +57,39 @@ namespace Exemplar
       return sums;
     }
 
+    /// What processes have summed over their own cells becomes that of the body.
+    void
+    sum_over_processes(const Exchange &exchange, ElasticEvaluation &result, double &stress_square)
+    {
+      if (exchange.n_processes() == 1)
+        return;
+      std::vector<double> sums
+          = { result.energy_elastic, result.energy, result.energy_damping, stress_square,
+              static_cast<double>(result.inverted_cells),
+              static_cast<double>(result.guarded_cells) };
+      sums.insert(sums.end(), result.weight_gradient.begin(), result.weight_gradient.end());
+      exchange.sum(sums);
+      result.energy_elastic = sums[0];
+      result.energy         = sums[1];
+      result.energy_damping = sums[2];
+      stress_square         = sums[3];
+      result.inverted_cells = static_cast<unsigned int>(sums[4]);
+      result.guarded_cells  = static_cast<unsigned int>(sums[5]);
+      std::copy(sums.begin() + 6, sums.end(), result.weight_gradient.begin());
+      result.min_det_F = exchange.min(result.min_det_F);
+      exchange.assemble(result.gradient.begin(), 3);
+      exchange.assemble(result.force_scale.begin(), 1);
+    }
+
     CellRounding
     estimate_rounding(const ElasticParts &parts)
     {
       // F of Eq. (1) carries the rounding of the positions, divided by the cell's size
-      const FESpace &fe_space = parts.fe_space;
-      const double   of_positions
-          = 2. * std::numeric_limits<double>::epsilon() * fe_space.rest_positions().linfty_norm();
+      const FESpace  &fe_space = parts.fe_space;
+      const Exchange &exchange = fe_space.exchange();
+      const double    of_positions
+          = 2. * std::numeric_limits<double>::epsilon()
+            * exchange.max(fe_space.rest_positions().linfty_norm());
       CellRounding rounding;
       Vector       force(fe_space.n_nodes());
       for (unsigned int point = 0; point < fe_space.n_points(); ++point)
@@ -79,9 +105,10 @@ namespace Exemplar
         for (unsigned int a = 0; a < nodes.size(); ++a)
           force[nodes[a]] += std::pow(fe_space.volume(point) * stress * norms[a], 2);
       }
-      rounding.force
-          = std::sqrt(max_entry(force.begin(), force.end())); // cells round independently
-      rounding.stress_norm = std::sqrt(rounding.stress_norm);
+      exchange.assemble(force.begin(), 1);
+      rounding.force = std::sqrt(
+          exchange.max(max_entry(force.begin(), force.end()))); // cells round independently
+      rounding.stress_norm = std::sqrt(exchange.sum(rounding.stress_norm));
       return rounding;
     }
   } // namespace
@@ -257,6 +284,7 @@ namespace Exemplar
     gather_forces(result);
     if (dilatation != nullptr)
       dilatation->stretch_guard().add_forces(cells, result.gradient);
+    sum_over_processes(parts.fe_space.exchange(), result, sums.stress_square);
     if (!has_unknown_weights())
       return;
     add_penalty(weights, std::sqrt(sums.stress_square), result);
@@ -290,6 +318,7 @@ namespace Exemplar
     std::vector<double> linear_term = sum_of_lanes(weight_sums);
     if (dilatation != nullptr)
       dilatation->add_linear_term(linear_term);
+    parts.fe_space.exchange().sum(linear_term);
     return linear_term;
   }
 

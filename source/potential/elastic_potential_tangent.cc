@@ -43,7 +43,7 @@ namespace Exemplar
   {
     constexpr std::size_t n_rows   = 3 * nodes_per_cell(element);
     const ExamplePoses   &examples = *parts.examples;
-    const std::size_t     n = parts.free_dofs.size(), n_strained = task.examples.n;
+    const std::size_t     n = parts.free_dofs.local_list().size(), n_strained = task.examples.n;
     columns.assign(n * examples.n_strained_weights(), 0.);
     dealii::AlignedVector<double> forces(n_rows * batch_size * n_strained);
     int                           dof[n_rows];
@@ -181,6 +181,22 @@ namespace Exemplar
                                  const Vector              &positions,
                                  const std::vector<double> &weights,
                                  ElasticEvaluation         &result)
+  {
+    const Exchange &exchange = parts.fe_space.exchange();
+    if (!exchange.is_root()) // the root's sum goes on
+      std::fill(result.weight_gradient.begin(), result.weight_gradient.end(), 0.);
+    exchange.keep_owned(result.gradient);
+    add_own_response(tangent, displacement, positions, weights, result);
+    exchange.assemble(result.gradient.begin(), 3);
+    exchange.sum(result.weight_gradient);
+  }
+
+  void
+  ElasticPotential::add_own_response(const Tangent              tangent,
+                                     const Vector              &displacement,
+                                     const Vector              &positions,
+                                     const std::vector<double> &weights,
+                                     ElasticEvaluation         &result)
   {
     cells.refresh_rotations();
     if (dilatation != nullptr)

@@ -25,28 +25,32 @@ namespace Exemplar
     difference -= integrator.predicted_positions();
     const Vector product = mass.times(difference);
     const double factor  = integrator.mass_factor();
+    const bool   is_alone = exchange->n_processes() == 1;
     double       energy  = 0.;
     for (unsigned int node = 0; node < force_scale.size(); ++node)
     {
-      double square = 0.;
+      const bool counts = is_alone || exchange->owns(node);
+      double     square = 0.;
       for (unsigned int dof = 3 * node; dof < 3 * node + 3; ++dof)
       {
         const double force = factor * product[dof];
         gradient[dof] += force;
         square += force * force;
-        energy += 0.5 * force * difference[dof];
+        if (counts)
+          energy += 0.5 * force * difference[dof];
       }
       force_scale[node] += std::sqrt(square);
     }
-    return energy;
+    return exchange->sum(energy);
   }
 
   void
   InertiaTerm::attach(const SymmetricPattern &pattern, const FreeDofs &free_dofs)
   {
+    exchange = &free_dofs.exchange();
     mass_values.assign(pattern.n_values(), 0.);
     const dealii::SparseMatrix<double> &nodal = mass.nodal();
-    for (const unsigned int dof : free_dofs.list())
+    for (const unsigned int dof : free_dofs.local_list())
       for (auto entry = nodal.begin(dof / 3); entry != nodal.end(dof / 3); ++entry)
       {
         const unsigned int other = 3 * entry->column() + dof % 3;
@@ -68,8 +72,8 @@ namespace Exemplar
   InertiaTerm::rounding_force() const
   {
     return in_step ? 4. * std::numeric_limits<double>::epsilon()
-                         * max_entry(integrator.predicted_positions().begin(),
-                                     integrator.predicted_positions().end())
+                         * exchange->max(max_entry(integrator.predicted_positions().begin(),
+                                                   integrator.predicted_positions().end()))
                          * mass.max_nodal_mass() * integrator.mass_factor()
                    : 0.;
   }

@@ -29,7 +29,13 @@ namespace Exemplar
     Vector here(rest_positions.size()), there(rest_positions.size());
     loads.named_loads(time, here);
     loads.named_loads(other_time, there);
-    return here != there;
+    return exchange->any(here != there);
+  }
+
+  void
+  LoadTerm::attach(const SymmetricPattern & /*pattern*/, const FreeDofs &free_dofs)
+  {
+    exchange = &free_dofs.exchange();
   }
 
   double
@@ -39,7 +45,7 @@ namespace Exemplar
     force_scale += force_norms;
     Vector displacement = positions;
     displacement -= rest_positions;
-    return -(force * displacement);
+    return -exchange->product(force, displacement);
   }
 
   std::size_t

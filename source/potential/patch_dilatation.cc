@@ -187,7 +187,9 @@ namespace Exemplar
           scatter.add_column(patch,
                              examples->importance() * stiffness(patch)
                                  * examples->patch_dilatation(patch, weight),
-                             b, &columns[free_dofs.size() * examples->strained_index(weight)]);
+                             b,
+                             &columns[free_dofs.local_list().size()
+                                      * examples->strained_index(weight)]);
     }
   }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/mpi_session.h>
 #include <exemplar/algebra/spd_operator.h>
 #include <exemplar/base/environment.h>
 #include <exemplar/base/errors.h>
@@ -50,7 +51,8 @@ namespace Exemplar
       app.add_option("--resume-from", arguments.run.resume_from,
                      "go on from the state of this step, also with an edited scene");
       app.add_option("--threads", arguments.run.n_threads,
-                     "threads instead of one a core; results do not depend on it")
+                     "threads instead of one a core (one in each of several processes); results do "
+                     "not depend on it")
           ->check(CLI::Range(1, 1024));
       app.add_flag("--allow-commands", arguments.run.allow_commands,
                    "let a .geo run programs and write files: only for one that you trust");
@@ -159,6 +161,14 @@ namespace Exemplar
       require_printed();
     }
 
+    /// What is not a run of a scene is done by one process.
+    void
+    refuse_processes(const std::string &command)
+    {
+      if (MpiSession::n_processes() > 1)
+        throw UserError(command + " cannot be done by several processes. Call it without mpirun.");
+    }
+
     void
     do_scene(const Arguments &arguments)
     {
@@ -186,7 +196,8 @@ namespace Exemplar
   run_command_line(const int argc, char *argv[])
   {
     Arguments arguments;
-    arguments.run.n_threads = n_available_cores();
+    // each of several processes has one core
+    arguments.run.n_threads = MpiSession::n_processes() > 1 ? 1 : n_available_cores();
     arguments.study.stop    = is_interrupted;
     CLI::App app("exemplar: elastic solids that deform the way their examples say");
     app.set_version_flag("--version",
@@ -208,12 +219,16 @@ namespace Exemplar
     }
     catch (const CLI::Success &request) // --help or --version
     {
-      return app.exit(request);
+      return MpiSession::is_root() ? app.exit(request) : 0;
     }
     catch (const CLI::ParseError &error)
     {
       throw UserError(std::string(error.what()) + ". exemplar --help lists what is allowed.");
     }
+    for (const CLI::App *command : app.get_subcommands())
+      refuse_processes("exemplar " + command->get_name());
+    if (arguments.validate || arguments.print)
+      refuse_processes(arguments.validate ? "--validate" : "--print-parameters");
     if (!arguments.output.empty())
       arguments.run.overrides.push_back("Output/Directory=" + arguments.output);
 

@@ -12,7 +12,7 @@ namespace Exemplar
   namespace
   {
     // a signal may come to any thread
-    std::atomic<bool> noting{ false }, interrupted{ false };
+    std::atomic<bool> noting{ false }, interrupted{ false }, speaking{ true };
     static_assert(std::atomic<bool>::is_always_lock_free, "as signal handlers need it");
 
     constexpr int signals[] = { SIGINT, SIGTERM, SIGXCPU, SIGHUP };
@@ -21,7 +21,7 @@ namespace Exemplar
     [[noreturn]] void
     end_with(const char *message)
     {
-      if (write(STDERR_FILENO, message, std::strlen(message)) < 0)
+      if (speaking && write(STDERR_FILENO, message, std::strlen(message)) < 0)
         _exit(130); // nobody listens, which changes nothing
       _exit(130);
     }
@@ -59,5 +59,13 @@ namespace Exemplar
   {
     noting = true;
     return interrupted;
+  }
+
+  void
+  note_interrupts_together(const bool that_speaks)
+  {
+    noting   = true;
+    speaking = that_speaks;
+    std::signal(SIGUSR1, take_interrupt);
   }
 } // namespace Exemplar

@@ -2,6 +2,7 @@
 #include <exemplar/algebra/mpi_session.h>
 #include <exemplar/base/environment.h>
 #include <exemplar/base/errors.h>
+#include <exemplar/base/launcher.h>
 #include <exemplar/base/message_text.h>
 #include <exemplar/base/standard_streams.h>
 #include <exemplar/program/command_line.h>
@@ -25,15 +26,20 @@ main(int argc, char *argv[])
   std::signal(SIGXFSZ, SIG_IGN); // a write beyond ulimit -f then fails like any other
   std::signal(SIGCHLD, SIG_DFL); // if our parent ignored it, no child would tell how it ended
   dealii::deal_II_exceptions::disable_abort_on_exception();
-  const Exemplar::MpiSession mpi; // scenes without multigrid never start it
+  const Exemplar::MpiSession mpi; // scenes without multigrid on one process never start it
   const auto                 report = [](const std::string &message, const int status)
   {
-    std::cerr << "exemplar: " << Exemplar::message_text(message) << std::endl;
-    return status;
+    return Exemplar::MpiSession::end(
+        status, [&](const std::string &where)
+        { std::cerr << "exemplar: " << Exemplar::message_text(message) << where << std::endl; });
   };
   try
   {
-    return Exemplar::run_command_line(argc, argv);
+    if (const Exemplar::Launch launch = Exemplar::find_launch(); !launch.is_alone())
+      Exemplar::note_interrupts_together(launch.process == 0);
+    Exemplar::MpiSession::join(argc, argv);
+    const int status = Exemplar::run_command_line(argc, argv);
+    return Exemplar::MpiSession::end(status, [](const std::string &) {});
   }
   catch (const Exemplar::UserError &error)
   {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/mpi_session.h>
 #include <exemplar/base/environment.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/base/message_text.h>
@@ -7,6 +8,7 @@
 #include <exemplar/program/run_scene.h>
 #include <exemplar/run/problem.h>
 #include <exemplar/run/run_writer.h>
+#include <exemplar/run/shared_inputs.h>
 #include <exemplar/run/state_review.h>
 
 #include <iomanip>
@@ -26,6 +28,15 @@ namespace Exemplar
       std::cerr << "Warning: " << message_text(warning) << std::endl;
     }
 
+    /// What all processes say, or the root for all.
+    void
+    warn_at_root(const std::vector<std::string> &warnings)
+    {
+      for (const std::string &warning : warnings)
+        if (MpiSession::is_root())
+          warn(warning);
+    }
+
     /// Tells what takes a while before a run begins.
     Announce
     announcer(const bool quiet)
@@ -43,9 +54,15 @@ namespace Exemplar
     {
       parameters.solver.n_threads    = n_threads;
       parameters.mesh.allow_commands = options.allow_commands;
-      auto problem                   = make_problem(parameters, announcer(options.quiet));
-      for (const std::string &warning : problem->warnings())
-        warn(warning);
+      const Announce announce        = announcer(options.quiet || !MpiSession::is_root());
+      auto           problem
+          = MpiSession::n_processes() == 1
+                ? make_problem(parameters, announce)
+                : make_problem(parameters,
+                               ReadInputs([&](const SceneParameters &scene) {
+                                 return read_shared_inputs(scene, MPI_COMM_WORLD, announce);
+                               }));
+      warn_at_root(problem->warnings());
       return problem;
     }
 
@@ -60,18 +77,28 @@ namespace Exemplar
       return text;
     }
 
+    std::string
+    processes_text(const unsigned int n)
+    {
+      return n == 1 ? "" : std::to_string(n) + " processes of ";
+    }
+
     void
     print_header(const Problem &problem)
     {
-      const BlasInfo blas = blas_info();
+      const BlasInfo  blas     = blas_info();
+      const Exchange &exchange = problem.body.exchange();
+      const auto      n_nodes  = exchange.n_nodes(problem.body.fe_space.n_nodes());
+      const auto      n_free   = exchange.sum(problem.constraints.free_dofs.size());
+      if (!exchange.is_root())
+        return;
       std::cout << "Scene     " << printable(problem.parameters.name) << '\n'
                 << "Mesh      " << printable(problem.body.mesh.get_name()) << ": "
-                << problem.body.mesh.n_cells()
+                << problem.body.mesh.whole().n_cells
                 << (problem.parameters.model.element == Element::P1 ? " cells, "
                                                                     : " quadratic cells, ")
-                << problem.body.fe_space.n_nodes() << " nodes, "
-                << problem.constraints.free_dofs.size() << " of " << problem.body.fe_space.n_dofs()
-                << " dofs free\n"
+                << n_nodes << " nodes, " << static_cast<unsigned int>(n_free) << " of "
+                << 3 * n_nodes << " dofs free\n"
                 << made_text(problem.body.made.get()) << "Examples  ";
       if (problem.examples.poses != nullptr)
         std::cout << problem.examples.poses->size() << ", importance "
@@ -80,8 +107,8 @@ namespace Exemplar
         std::cout << "none\n";
       std::cout << "Solver    " << method_name(problem.parameters.solver.method) << ", "
                 << problem.system.bordered().traits().name << ", " << problem.time_axis.n_steps()
-                << " steps; " << problem.parameters.solver.n_threads
-                << (problem.parameters.solver.n_threads == 1 ? " thread" : " threads") << "; BLAS "
+                << " steps; " << processes_text(exchange.n_processes())
+                << problem.parameters.solver.n_threads << (problem.parameters.solver.n_threads == 1 ? " thread" : " threads") << "; BLAS "
                 << blas.library << ' ' << blas.core << '\n';
       std::cout << "Output    " << problem.parameters.output.directory << std::endl;
     }
@@ -158,7 +185,7 @@ namespace Exemplar
     {
       while (problem.state.step < problem.time_axis.n_steps())
       {
-        if (is_interrupted())
+        if (problem.body.exchange().any(is_interrupted()))
           throw Interrupted("Interrupted.");
         const SolveReport report = problem.advance();
         writer.add_step(report);
@@ -166,6 +193,7 @@ namespace Exemplar
         {
           writer.finish(status_name(report.status));
           progress.finish();
+          MpiSession::wait_for_all(); // while the root writes
           throw SolverFailure(problem.failure_message(report));
         }
         StepClock::Scope scope(problem.clock, Part::output);
@@ -179,14 +207,15 @@ namespace Exemplar
   run_scene(const RunOptions &options)
   {
     const SceneFile scene(options.scene_file, options.overrides);
+    MpiSession::require_same(scene.get_text(), "reads another scene than",
+                             "Let all machines see the same files.");
     const auto problem = make_problem_and_warn(scene.get_parameters(), options, options.n_threads);
     RunWriter  writer(*problem, scene);
     is_interrupted(); // from now on a signal waits until the run has written what it has
     try
     {
       if (options.resume_from)
-        for (const std::string &note : writer.resume_from(*options.resume_from))
-          warn(note);
+        warn_at_root(writer.resume_from(*options.resume_from));
       else if (options.resume)
         writer.resume();
       else
@@ -198,7 +227,9 @@ namespace Exemplar
                       + ". Give another one by --output or Output/Directory.");
     }
     if (const std::string warning = blas_warning(); !warning.empty())
-      warn(warning);
+      warn_at_root({ warning });
+    const Exchange &exchange = problem->body.exchange();
+    const bool      is_quiet = options.quiet || !exchange.is_root();
     if (!options.quiet)
     {
       StepClock::Scope scope(problem->clock, Part::output);
@@ -207,11 +238,11 @@ namespace Exemplar
 
     problem->solver->observe = [&](const SolveReport &report)
     {
-      if (options.verbose)
+      if (options.verbose && exchange.is_root())
         print_iteration(*problem, report);
-      return !is_interrupted();
+      return !exchange.any(is_interrupted());
     };
-    Progress    progress(std::cout, isatty(STDOUT_FILENO) != 0, options.quiet || options.verbose,
+    Progress    progress(std::cout, isatty(STDOUT_FILENO) != 0, is_quiet || options.verbose,
                          problem->state.step, problem->time_axis.n_steps());
     StateReview review(*problem);
     try
@@ -222,6 +253,7 @@ namespace Exemplar
     {
       progress.finish();
       writer.finish("interrupted");
+      MpiSession::wait_for_all(); // while the root writes
       throw Interrupted("Interrupted after step " + std::to_string(problem->state.step)
                         + ". Go on with --resume.");
     }
@@ -229,9 +261,8 @@ namespace Exemplar
     writer.finish(status_name(problem->parameters.solver.method == Method::one_pass
                                   ? SolveStatus::one_pass
                                   : SolveStatus::converged));
-    for (const std::string &warning : review.warnings())
-      warn(warning);
-    if (!options.quiet)
+    warn_at_root(review.warnings());
+    if (!is_quiet)
     {
       print_times(writer.get_totals());
       print_errors(*problem, writer);

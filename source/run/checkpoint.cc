@@ -11,8 +11,10 @@
 #include <boost/serialization/string.hpp>
 #include <boost/serialization/vector.hpp>
 
+#include <array>
 #include <fstream>
 #include <new>
+#include <sstream>
 #include <stdexcept>
 
 namespace Exemplar
@@ -49,6 +51,13 @@ namespace Exemplar
         archive &seconds;
       archive &totals.edits;
       archive &checkpoint.solver_memory &checkpoint.statistics_bytes &checkpoint.statistics_digest;
+    }
+
+    std::array<Vector *, 4>
+    vectors_of(State &state)
+    {
+      return { { &state.positions, &state.velocities, &state.previous_positions,
+                 &state.previous_velocities } };
     }
 
     /// What `load` returns. Throws UserError if it does not understand the bytes, which are as
@@ -127,13 +136,43 @@ namespace Exemplar
                         });
   }
 
+  State
+  whole_state(const Problem &problem)
+  {
+    State state = problem.state;
+    for (Vector *vector : vectors_of(state))
+      if (vector->size() > 0)
+        *vector = whole(problem.body.exchange(), *vector);
+    return state;
+  }
+
+  void
+  share(const Exchange &exchange, Checkpoint &checkpoint)
+  {
+    if (exchange.n_processes() == 1)
+      return;
+    std::ostringstream out;
+    if (exchange.is_root())
+    {
+      boost::archive::binary_oarchive archive(out);
+      transfer(archive, checkpoint);
+    }
+    std::istringstream              in(exchange.first_text(out.str()));
+    boost::archive::binary_iarchive archive(in);
+    transfer(archive, checkpoint);
+  }
+
   void
   restore(const Checkpoint &checkpoint, const std::filesystem::path &file, Problem &problem)
   {
     guarded_load(file,
                  [&]
                  {
-                   problem.resume_from(checkpoint.state, checkpoint.solver_memory);
+                   const Exchange &exchange = problem.body.exchange();
+                   State           state    = checkpoint.state;
+                   for (Vector *vector : vectors_of(state))
+                     *vector = part(exchange, *vector);
+                   problem.resume_from(state, checkpoint.solver_memory);
                    return true;
                  });
   }

@@ -42,16 +42,23 @@ namespace Exemplar
     const Loads   *loads        = problem.actions.loads.get();
     Vector         displacement = state.positions;
     displacement -= last_positions;
+    const Exchange &exchange = problem.body.exchange();
     if (handles != nullptr)
+    {
+      double     own      = exchange.is_root() ? work.handles : 0.;
+      const bool is_alone = exchange.n_processes() == 1;
       for (const unsigned int dof : handles->held_dofs())
-        work.handles += problem.evaluation.gradient[dof] * displacement[dof];
+        if (is_alone || exchange.owns(dof / 3))
+          own += problem.evaluation.gradient[dof] * displacement[dof];
+      work.handles = exchange.sum(own);
+    }
     if (loads != nullptr && loads->has_gravity())
-      work.gravity += loads->gravity() * displacement;
+      work.gravity += exchange.product(loads->gravity(), displacement);
     if (loads != nullptr && loads->has_named_loads())
     {
       Vector force(displacement.size());
       loads->named_loads(state.time, force);
-      work.loads += force * displacement;
+      work.loads += exchange.product(force, displacement);
     }
     last_positions = state.positions;
   }

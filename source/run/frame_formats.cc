@@ -28,7 +28,8 @@ namespace Exemplar
     static const std::vector<FrameFormat> formats = {
       { "vtu", "animation.pvd", make_vtu_writer,
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\"",
-        "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">" },
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">", false, "pvtu",
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"PUnstructuredGrid\" version=\"1.0\"" },
       { "obj", "", make_obj_writer, "# a frame by exemplar\n", "", true },
       { "ply", "", make_ply_writer,
         "ply\nformat binary_little_endian 1.0\ncomment a frame by exemplar\n", "", true },
@@ -51,20 +52,45 @@ namespace Exemplar
     return names;
   }
 
+  namespace
+  {
+    std::string
+    padded(const unsigned int number)
+    {
+      const std::string digits = std::to_string(number);
+      return std::string(digits.size() < 4 ? 4 - digits.size() : 0, '0') + digits;
+    }
+  } // namespace
+
   std::string
   FrameFormat::frame_name(const unsigned int step) const
   {
-    const std::string digits = std::to_string(step);
-    return "frame_" + std::string(digits.size() < 4 ? 4 - digits.size() : 0, '0') + digits + "."
-           + name;
+    return "frame_" + padded(step) + "." + name;
+  }
+
+  std::string
+  FrameFormat::piece_name(const unsigned int step, const unsigned int process) const
+  {
+    return "frame_" + padded(step) + "_process_" + padded(process) + "." + name;
+  }
+
+  std::string
+  FrameFormat::joint_name(const unsigned int step) const
+  {
+    return "frame_" + padded(step) + "." + joint_ending;
   }
 
   std::optional<unsigned int>
   FrameFormat::step_of(const std::string &file) const
   {
-    static const std::regex pattern("frame_([0-9]{4}|[1-9][0-9]{4,8})\\.(.+)");
-    std::smatch             parts;
-    if (std::regex_match(file, parts, pattern) && parts[2] == name)
+    const std::string       number = "([0-9]{4}|[1-9][0-9]{4,8})";
+    static const std::regex frame("frame_" + number + "\\.(.+)"),
+        piece("frame_" + number + "_process_" + number + "\\.(.+)");
+    std::smatch parts;
+    const bool  is_whole = std::regex_match(file, parts, frame)
+                          && (parts[2] == name || (!joint_ending.empty() && parts[2] == joint_ending));
+    if (is_whole
+        || (!joint_ending.empty() && std::regex_match(file, parts, piece) && parts[3] == name))
       return static_cast<unsigned int>(std::stoul(parts[1]));
     return std::nullopt;
   }
@@ -74,6 +100,10 @@ namespace Exemplar
   {
     if (!animation.empty() && file == animation)
       return animation_beginning;
-    return step_of(file) ? std::make_optional(frame_beginning) : std::nullopt;
+    if (const auto step = step_of(file); !step)
+      return std::nullopt;
+    else if (!joint_ending.empty() && file == joint_name(*step))
+      return joint_beginning;
+    return frame_beginning;
   }
 } // namespace Exemplar

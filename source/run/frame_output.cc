@@ -2,8 +2,10 @@
 #include <exemplar/base/atomic_file.h>
 #include <exemplar/base/environment.h>
 #include <exemplar/base/errors.h>
+#include <exemplar/run/agreement.h>
 #include <exemplar/run/finiteness.h>
 #include <exemplar/run/frame_output.h>
+#include <exemplar/run/vtu_pieces.h>
 #include <exemplar/surface/write_obj.h>
 
 #include <algorithm>
@@ -11,6 +13,8 @@
 
 namespace Exemplar
 {
+  namespace fs = std::filesystem;
+
   namespace
   {
     const FrameFormat &
@@ -124,34 +128,67 @@ namespace Exemplar
     };
     frame.displacement -= problem.body.fe_space.rest_positions();
     frame.space_error = std::move(space_error);
+    const Exchange &exchange = problem.body.exchange();
+    do_in_agreement(exchange,
+                    [&]
+                    {
+                      refuse_what_is_not_finite(frame);
+                      background.submit([this, frame = std::move(frame)]() mutable
+                                        { write_files(frame); });
+                    });
+  }
+
+  void
+  FrameOutput::refuse_what_is_not_finite(const Frame &frame)
+  {
     if (const std::string what = what_is_not_finite(frame.cells); !what.empty())
-      throw SolverFailure("The frame of step " + std::to_string(state.step) + " would hold " + what
+      throw SolverFailure("The frame of step " + std::to_string(frame.step) + " would hold " + what
                           + " that are not finite numbers. Take smaller steps, and look at what "
                             "handles, loads and Initial do.");
-    background.submit(
-        [this, frame = std::move(frame)]() mutable
-        {
-          if (skin != nullptr)
-            frame.surface = skin->carry(frame.displacement);
-          for (const auto &[format, writer] : writers)
-            writer->write(frame, directory / format->frame_name(frame.step));
-        });
+  }
+
+  void
+  FrameOutput::write_files(Frame &frame) const
+  {
+    const Exchange &exchange = problem.body.exchange();
+    const bool      is_alone = exchange.n_processes() == 1;
+    if (skin != nullptr)
+      frame.surface = skin->carry(frame.displacement);
+    for (const auto &[format, writer] : writers)
+    {
+      writer->write(frame, directory
+                               / (is_alone ? format->frame_name(frame.step)
+                                           : format->piece_name(frame.step, exchange.process())));
+      if (is_alone || !exchange.is_root())
+        continue;
+      std::vector<std::string> pieces;
+      for (unsigned int process = 0; process < exchange.n_processes(); ++process)
+        pieces.push_back(format->piece_name(frame.step, process));
+      write_joint_vtu(frame, pieces, directory / format->joint_name(frame.step));
+    }
+  }
+
+  fs::path
+  FrameOutput::file_of(const FrameFormat &format, const unsigned int step) const
+  {
+    if (const fs::path joint = directory / format.joint_name(step);
+        !format.joint_ending.empty() && fs::exists(joint))
+      return joint;
+    return directory / format.frame_name(step);
   }
 
   bool
   FrameOutput::is_missing() const
   {
-    return std::any_of(writers.begin(), writers.end(),
-                       [&](const Writer &writer) {
-                         return !std::filesystem::exists(
-                             directory / writer.first->frame_name(problem.state.step));
-                       });
+    return problem.body.exchange().any(
+        std::any_of(writers.begin(), writers.end(), [&](const Writer &writer)
+                    { return !fs::exists(file_of(*writer.first, problem.state.step)); }));
   }
 
   void
   FrameOutput::drain()
   {
-    background.drain();
+    do_in_agreement(problem.body.exchange(), [&] { background.drain(); });
   }
 
   void
@@ -169,7 +206,7 @@ namespace Exemplar
     std::vector<WrittenFrame> frames;
     // every step, as Output/Every may have changed at a resume
     for (unsigned int step = 0; step <= problem.state.step; ++step)
-      if (const auto file = directory / format.frame_name(step); std::filesystem::exists(file))
+      if (const fs::path file = file_of(format, step); fs::exists(file))
         frames.push_back({ problem.time_axis.time(step), file });
     return frames;
   }
@@ -177,10 +214,13 @@ namespace Exemplar
   void
   FrameOutput::remove(const unsigned int step) const
   {
-    namespace fs = std::filesystem;
-    for (const FrameFormat &format : formats)
-      if (const fs::path file = directory / format.frame_name(step);
-          fs::is_regular_file(fs::symlink_status(file)))
-        fs::remove(file);
+    std::vector<fs::path> files;
+    for (const fs::directory_entry &entry : fs::directory_iterator(directory))
+      for (const FrameFormat &format : formats)
+        if (format.step_of(entry.path().filename().string()) == step
+            && fs::is_regular_file(entry.symlink_status()))
+          files.push_back(entry.path());
+    for (const fs::path &file : files)
+      fs::remove(file);
   }
 } // namespace Exemplar

@@ -65,9 +65,9 @@ namespace Exemplar
   Problem::check_start()
   {
     const CellResults cells = potential.get_cells().cell_results(state.positions, state.weights);
-    std::string       what  = what_is_not_finite(state, evaluation);
+    std::string       what  = agreed(what_is_not_finite(state, evaluation));
     if (what.empty())
-      what = what_is_not_finite(cells);
+      what = agreed(what_is_not_finite(cells));
     if (what.empty() && actions.mass != nullptr
         && !std::isfinite(actions.mass->motion_sums(state).kinetic_energy))
       what = "kinetic energies";
@@ -85,6 +85,13 @@ namespace Exemplar
           + " of the initial state are not finite numbers, or too large to compute with. "
             "Mesh/Scale, Material, Loads or Initial are too large or too small by many powers of "
             "ten: look at their units.");
+  }
+
+  std::string
+  Problem::agreed(const std::string &what) const
+  {
+    const bool is_any = body.exchange().any(!what.empty());
+    return is_any && what.empty() ? "numbers" : what;
   }
 
   void
@@ -121,8 +128,8 @@ namespace Exemplar
     const unsigned int step = state.step + 1;
     next.step               = step;
     if (turns_freely()
-        && turn_to_support(body.mesh, *constraints.support,
-                           parameters.model.is_frozen() ? 0. : max_turn, next.positions))
+        && turn_to_support(*constraints.support, parameters.model.is_frozen() ? 0. : max_turn,
+                           next.positions, body.exchange()))
     {
       solver->forget(); // what it remembers has not turned with the body
       start(next);
@@ -135,7 +142,7 @@ namespace Exemplar
         actions.integrator->end_step(state, next);
       if (turns_freely())
       {
-        align(state.positions, next.positions);
+        align(state.positions, next.positions, body.exchange());
         start(next);
       }
       refuse_what_is_not_finite(next, report);
@@ -153,10 +160,13 @@ namespace Exemplar
     std::string what
         = std::isfinite(report.residual) ? what_is_not_finite(next, evaluation) : "residuals";
     // cubes of such ratios of lengths may be none, where the energies, their squares, are numbers
-    const auto greatest = [](const Vector &x) { return max_entry(x.begin(), x.end()); };
+    const auto greatest
+        = [&](const Vector &x) { return body.exchange().max(max_entry(x.begin(), x.end())); };
+    what = agreed(what);
     if (what.empty()
         && !(greatest(next.positions) < 1e60 * greatest(body.fe_space.rest_positions())))
-      what = what_is_not_finite(potential.get_cells().cell_results(next.positions, next.weights));
+      what = agreed(
+          what_is_not_finite(potential.get_cells().cell_results(next.positions, next.weights)));
     if (what.empty())
       return;
     report.status  = SolveStatus::failed;
@@ -261,16 +271,24 @@ namespace Exemplar
   }
 
   std::unique_ptr<Problem>
-  make_problem(const SceneParameters &parameters, const Announce &announce)
+  make_problem(const SceneParameters &parameters, const ReadInputs &read)
   {
     try
     {
       const StepClock clock(Part::read);
-      return std::make_unique<Problem>(parameters, read_inputs(parameters, {}, announce), clock);
+      return std::make_unique<Problem>(parameters, read(parameters), clock);
     }
     catch (const SolverFailure &failure)
     {
       throw UserError(failure.what());
     }
+  }
+
+  std::unique_ptr<Problem>
+  make_problem(const SceneParameters &parameters, const Announce &announce)
+  {
+    return make_problem(parameters,
+                        ReadInputs([&announce](const SceneParameters &scene)
+                                   { return read_inputs(scene, {}, announce); }));
   }
 } // namespace Exemplar

@@ -3,6 +3,7 @@
 #include <exemplar/potential/inertia_term.h>
 #include <exemplar/potential/load_term.h>
 #include <exemplar/run/problem_parts.h>
+#include <exemplar/run/shared_inputs.h>
 
 namespace Exemplar
 {
@@ -27,22 +28,35 @@ namespace Exemplar
     }
 
     std::optional<StaticallyDeterminateSupport>
-    make_support(const SceneParameters &parameters, const Mesh &mesh)
+    make_support(const SceneParameters &parameters, const Body &body)
     {
       if (parameters.scene != SceneKind::interpolation)
         return {};
-      return support_near_centroid(mesh);
+      if (body.shared != nullptr)
+        return body.shared->support;
+      return support_near_centroid(body.mesh.get_nodes(), body.mesh.get_cells());
+    }
+
+    /// What this process has of degrees of freedom of the whole body.
+    std::vector<unsigned int>
+    dofs_here(const Exchange &exchange, const std::vector<unsigned int> &in_whole)
+    {
+      std::vector<unsigned int> here;
+      for (const unsigned int dof : in_whole)
+        if (const int node = exchange.node_here(dof / 3); node >= 0)
+          here.push_back(3 * static_cast<unsigned int>(node) + dof % 3);
+      return here;
     }
 
     std::vector<unsigned int>
     held_dofs(const SceneParameters &parameters, const Body &body, const Constraints &constraints)
     {
       if (constraints.support)
-        return constraints.support->held_dofs;
+        return dofs_here(body.exchange(), constraints.support->held_dofs);
       if (constraints.handles == nullptr)
         return {};
       const std::vector<unsigned int> held = constraints.handles->held_dofs();
-      if (held.size() == body.fe_space.n_dofs())
+      if (!body.exchange().any(held.size() < body.fe_space.n_dofs()))
         throw UserError(parameters.name
                         + ": the handles hold every node, so there is nothing to solve. Make "
                           "Handles/NAME/Select smaller.");
@@ -103,10 +117,11 @@ namespace Exemplar
     /// A Cholesky factorisation for a pattern, unless it is to be chosen and is not worth it.
     std::unique_ptr<SpdOperator>
     find_cholesky_operator(const SolverParameters &solver,
+                           const unsigned int      n_processes,
                            const unsigned int      n_columns,
                            const SymmetricPattern &pattern)
     {
-      if (solver.linear_solver == LinearSolver::iterative)
+      if (solver.linear_solver == LinearSolver::iterative || n_processes > 1)
         return nullptr;
       const bool may_choose = solver.linear_solver == LinearSolver::automatic
                               && solver.method != Method::quasi_newton && has_iterative_operator();
@@ -136,16 +151,51 @@ namespace Exemplar
                                   : TimeAxis::of_increments(parameters.time);
   }
 
+  namespace
+  {
+    Mesh
+    make_mesh(const MeshParameters &parameters, Inputs &inputs)
+    {
+      if (inputs.shared != nullptr)
+        return Mesh(std::move(inputs.shared->mesh), parameters.name(), parameters.scale);
+      return Mesh(std::move(inputs.mesh), parameters.name(), parameters.scale);
+    }
+
+    /// The root has read what processes share.
+    SurfaceReadings
+    make_readings(const SceneParameters &parameters, const Mesh &mesh, const Inputs &inputs)
+    {
+      if (inputs.shared == nullptr)
+        return read_off_surface(parameters, mesh, inputs);
+      return { {}, inputs.shared->material, inputs.shared->shares, {}, {} };
+    }
+
+    std::unique_ptr<const Patches>
+    make_patches(const SceneParameters &parameters,
+                 const Mesh            &mesh,
+                 const FESpace         &fe_space,
+                 const Material        &material,
+                 const SharedBody      *shared)
+    {
+      if (!parameters.model.has_patches())
+        return nullptr;
+      if (shared != nullptr)
+        return std::make_unique<const Patches>(shared->patches, fe_space, material);
+      return std::make_unique<const Patches>(mesh, fe_space, material);
+    }
+  } // namespace
+
   Body::Body(const SceneParameters &parameters, Inputs &inputs)
-      : mesh(std::move(inputs.mesh), parameters.mesh.name(), parameters.mesh.scale),
-        readings(read_off_surface(parameters, mesh, inputs)),
-        material(
-            parameters.material, mesh.get_material_ids(), mesh.get_contents(), readings.material),
+      : mesh(make_mesh(parameters.mesh, inputs)),
+        readings(make_readings(parameters, mesh, inputs)),
+        material(parameters.material,
+                 mesh.get_material_ids(),
+                 mesh.get_contents(),
+                 readings.material,
+                 &mesh.whole().material_ids),
         fe_space(mesh, parameters.model.element),
-        patches(parameters.model.has_patches()
-                    ? std::make_unique<const Patches>(mesh, fe_space, material)
-                    : nullptr),
-        made(inputs.made)
+        patches(make_patches(parameters, mesh, fe_space, material, inputs.shared.get())),
+        made(inputs.made), shared(inputs.shared)
   {
     inputs.nodes.insert(readings.nodes.begin(), readings.nodes.end());
   }
@@ -155,9 +205,12 @@ namespace Exemplar
                            const TimeAxis        &axis,
                            const Inputs          &inputs)
       : handles(make_handles(parameters, body, axis, inputs)),
-        support(make_support(parameters, body.mesh)),
-        free_dofs(body.fe_space.n_dofs(), held_dofs(parameters, body, *this))
+        support(make_support(parameters, body)),
+        free_dofs(body.fe_space.n_dofs(), held_dofs(parameters, body, *this), body.exchange())
   {
+    if (body.exchange().any(free_dofs.size() == 0))
+      throw UserError(parameters.name + ": of " + std::to_string(body.exchange().n_processes())
+                      + " processes some would have no node to move. Start fewer with mpirun -n.");
   }
 
   void
@@ -216,7 +269,8 @@ namespace Exemplar
     if (solver.linear_solver == LinearSolver::umfpack)
       return make_umfpack_system(pattern, form);
     const unsigned int n_examples = form != nullptr ? form->coupled.size() : 0;
-    auto               matrix     = find_cholesky_operator(solver, 1 + n_examples, pattern);
+    const Exchange    &exchange   = potential.get_free_dofs().exchange();
+    auto matrix = find_cholesky_operator(solver, exchange.n_processes(), 1 + n_examples, pattern);
     if (matrix == nullptr)
     {
       const bool is_last_word = solver.method == Method::one_pass || n_examples > 0;
@@ -225,6 +279,6 @@ namespace Exemplar
                                                                                        : tolerance_of_iterations);
       matrix->reinit(pattern);
     }
-    return make_block_system(std::move(matrix), form);
+    return make_block_system(std::move(matrix), form, exchange);
   }
 } // namespace Exemplar

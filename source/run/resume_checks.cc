@@ -139,7 +139,7 @@ namespace Exemplar
     };
 
     std::vector<NamedNumbers>
-    numbers_of(const State &found, const State &initial)
+    numbers_of(const State &found, const State &initial, const std::size_t n_dofs)
     {
       const auto entry
           = [](const std::string &name, const auto &numbers, const std::size_t expected) {
@@ -147,10 +147,10 @@ namespace Exemplar
             };
       // a scheme of two steps has no step before at the start, others never have one
       const auto previous = [&](const Vector &numbers)
-      { return numbers.size() == 0 ? 0 : initial.velocities.size(); };
+      { return numbers.size() == 0 || initial.velocities.size() == 0 ? 0 : n_dofs; };
       return {
-        entry("positions", found.positions, initial.positions.size()),
-        entry("velocities", found.velocities, initial.velocities.size()),
+        entry("positions", found.positions, n_dofs),
+        entry("velocities", found.velocities, initial.velocities.size() == 0 ? 0 : n_dofs),
         entry("positions before", found.previous_positions, previous(found.previous_positions)),
         entry("velocities before", found.previous_velocities, previous(found.previous_velocities)),
         entry("weights", found.weights, initial.weights.size()),
@@ -159,11 +159,13 @@ namespace Exemplar
     }
 
     void
-    check_state(const State &found, const State &initial, const std::filesystem::path &file)
+    check_state(const State &found, const Problem &problem, const std::filesystem::path &file)
     {
+      const std::size_t n_dofs
+          = 3 * problem.body.exchange().n_nodes(problem.body.fe_space.n_nodes());
       const std::string failure = "Cannot resume from " + file.string() + ": ";
       const std::string remedy  = ". Run the scene without --resume.";
-      for (const NamedNumbers &numbers : numbers_of(found, initial))
+      for (const NamedNumbers &numbers : numbers_of(found, problem.state, n_dofs))
       {
         if (numbers.size != numbers.expected)
           throw UserError(failure + "it holds " + std::to_string(numbers.size) + " numbers as "
@@ -203,7 +205,7 @@ namespace Exemplar
   {
     check_same_scene(checkpoint, scene, input_digests, file);
     check_step(checkpoint.state, scene, problem.time_axis, file);
-    check_state(checkpoint.state, problem.state, file);
+    check_state(checkpoint.state, problem, file);
   }
 
   EditCheck
@@ -242,7 +244,7 @@ namespace Exemplar
       state.weights     = problem.state.weights;
       state.multipliers = problem.state.multipliers;
     }
-    check_state(state, problem.state, file);
+    check_state(state, problem, file);
     return result;
   }
 

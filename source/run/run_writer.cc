@@ -2,6 +2,7 @@
 #include <exemplar/base/atomic_file.h>
 #include <exemplar/base/digest.h>
 #include <exemplar/base/errors.h>
+#include <exemplar/run/agreement.h>
 #include <exemplar/run/resume_checks.h>
 #include <exemplar/run/run_writer.h>
 #include <exemplar/run/summary.h>
@@ -64,32 +65,44 @@ namespace Exemplar
   RunWriter::RunWriter(Problem                        &problem,
                        const SceneFile                &scene,
                        const std::vector<FrameFormat> &formats)
-      : problem(problem), scene(scene), diagnostics(problem),
-        directory(problem.parameters.output.directory, formats), input_digests(digests_of(scene)),
+      : problem(problem), exchange(problem.body.exchange()), scene(scene), diagnostics(problem),
+        directory(problem.parameters.output.directory, formats),
+        input_digests(exchange.is_root() ? digests_of(scene) : std::map<std::string, std::string>()),
         last_checkpoint(std::chrono::steady_clock::now()),
         frames(problem, directory.get_path(), formats), estimator(problem)
   {
   }
 
   void
+  RunWriter::at_root(const std::function<void()> &action) const
+  {
+    do_at_root(exchange, action);
+  }
+
+  void
   RunWriter::begin()
   {
-    auto inputs = scene.named_files();
-    inputs.push_back(scene.get_path());
+    const auto inputs = [&]
+    {
+      auto files = scene.named_files();
+      files.push_back(scene.get_path());
+      return files;
+    };
     {
       StepClock::Scope scope(problem.clock, Part::output);
-      directory.take_for_new_run(inputs);
-      write_parameters(scene, totals.edits, directory.parameters_prm());
-      write_original();
-      write_rest_mesh();
-      statistics.emplace(directory.statistics());
-      frames.write_shapes();
+      at_root(
+          [&]
+          {
+            directory.take_for_new_run(inputs());
+            write_parameters(scene, totals.edits, directory.parameters_prm());
+            write_original();
+            write_rest_mesh();
+            statistics.emplace(directory.statistics());
+            frames.write_shapes();
+          });
       if (frames.is_due(0))
         write_frame();
-      StatisticsRow row = diagnostics.row(problem.state, SolveReport());
-      Diagnostics::append_seconds(row, {});
-      statistics->write(row);
-      accepted_bytes = statistics->n_bytes();
+      write_row(diagnostics.row(problem.state, SolveReport()), {}, true);
       save(); // so that a crash before the first interval can be resumed, too
       keep_state();
     }
@@ -98,21 +111,46 @@ namespace Exemplar
   }
 
   void
+  RunWriter::write_row(StatisticsRow                     row,
+                       const std::optional<PartSeconds> &seconds,
+                       const bool                        is_of_state)
+  {
+    at_root(
+        [&]
+        {
+          Diagnostics::append_seconds(row, seconds);
+          statistics->write(row);
+          if (is_of_state)
+            accepted_bytes = statistics->n_bytes();
+        });
+  }
+
+  void
   RunWriter::resume()
   {
-    directory.take_for_resume(scene.named_files());
-    const Checkpoint checkpoint = load_checkpoint(directory.checkpoint());
-    check_resumable(checkpoint, scene, input_digests, problem, directory.checkpoint());
-    check_statistics(directory.statistics(), checkpoint);
+    Checkpoint checkpoint;
+    at_root(
+        [&]
+        {
+          directory.take_for_resume(scene.named_files());
+          checkpoint = load_checkpoint(directory.checkpoint());
+          check_resumable(checkpoint, scene, input_digests, problem, directory.checkpoint());
+          check_statistics(directory.statistics(), checkpoint);
+        });
+    share(exchange, checkpoint);
     restore(checkpoint, directory.checkpoint(), problem); // the last thing that may refuse
     {
       StepClock::Scope scope(problem.clock, Part::output);
-      statistics.emplace(directory.statistics(), checkpoint.statistics_bytes);
-      write_original();
-      write_rest_mesh();
-      write_parameters(scene, checkpoint.totals.edits, directory.parameters_prm());
-      directory.remove_shapes(); // Output/Formats may have changed
-      frames.write_shapes();
+      at_root(
+          [&]
+          {
+            statistics.emplace(directory.statistics(), checkpoint.statistics_bytes);
+            write_original();
+            write_rest_mesh();
+            write_parameters(scene, checkpoint.totals.edits, directory.parameters_prm());
+            directory.remove_shapes(); // Output/Formats may have changed
+            frames.write_shapes();
+          });
     }
     accepted_bytes = checkpoint.statistics_bytes;
     diagnostics.resume(checkpoint.work);
@@ -144,32 +182,49 @@ namespace Exemplar
   std::vector<std::string>
   RunWriter::resume_from(const unsigned int step)
   {
-    directory.take_for_resume(scene.named_files());
-    const fs::path  file       = find_state(step);
-    Checkpoint      checkpoint = load_checkpoint(file);
-    const EditCheck check      = check_editable(checkpoint, scene, input_digests, problem, file);
+    Checkpoint checkpoint;
+    EditCheck  check;
+    fs::path   file;
+    at_root(
+        [&]
+        {
+          directory.take_for_resume(scene.named_files());
+          file       = find_state(step);
+          checkpoint = load_checkpoint(file);
+          check      = check_editable(checkpoint, scene, input_digests, problem, file);
+        });
+    share(exchange, checkpoint);
     restore(checkpoint, file, problem);
     {
       StepClock::Scope scope(problem.clock, Part::output);
       diagnostics.resume(checkpoint.work);
       StatisticsRow row = diagnostics.row(problem.state, SolveReport());
       Diagnostics::append_seconds(row, {});
-      StatisticsFile::require_step(directory.statistics(), step); // the last thing that may refuse
       totals = checkpoint.totals;
-      if (check.is_edited)
-        totals.edits.push_back({ step, directory.keep_earlier_scene() });
+      at_root(
+          [&]
+          {
+            // the last thing that may refuse
+            StatisticsFile::require_step(directory.statistics(), step);
+            if (check.is_edited)
+              totals.edits.push_back({ step, directory.keep_earlier_scene() });
+            statistics.emplace(StatisticsFile::behind_step(directory.statistics(), step, row));
+            accepted_bytes = statistics->n_bytes();
+            write_original();
+            write_rest_mesh();
+            write_parameters(scene, totals.edits, directory.parameters_prm());
+            directory.remove_shapes();
+            directory.remove_animations();
+            frames.write_shapes();
+          });
       checkpoint.totals = totals;
-      statistics.emplace(StatisticsFile::behind_step(directory.statistics(), step, row));
-      accepted_bytes = statistics->n_bytes();
-      write_original();
-      write_rest_mesh();
-      write_parameters(scene, totals.edits, directory.parameters_prm());
-      directory.remove_shapes();
-      directory.remove_animations();
-      frames.write_shapes();
       save(); // a crash from now on can be resumed
-      fs::remove(directory.final_pose());
-      fs::remove(directory.summary());
+      at_root(
+          [&]
+          {
+            fs::remove(directory.final_pose());
+            fs::remove(directory.summary());
+          });
     }
     go_on_from(checkpoint);
     return check.notes;
@@ -178,9 +233,13 @@ namespace Exemplar
   void
   RunWriter::go_on_from(const Checkpoint &checkpoint)
   {
-    directory.remove_frames_after(checkpoint.state.step);
-    if (is_only_last_frame(checkpoint) && !frames.is_due(checkpoint.state.step))
-      frames.remove(checkpoint.state.step);
+    at_root(
+        [&]
+        {
+          directory.remove_frames_after(checkpoint.state.step);
+          if (is_only_last_frame(checkpoint) && !frames.is_due(checkpoint.state.step))
+            frames.remove(checkpoint.state.step);
+        });
     if (frames.is_due(checkpoint.state.step) && frames.is_missing()) // a resume has removed it
       write_frame();
     totals                 = checkpoint.totals;
@@ -236,7 +295,7 @@ namespace Exemplar
     totals.factorizations = earlier_factorizations + problem.system.n_factorizations();
     totals.worst_residual = std::max(totals.worst_residual, report.residual);
 
-    directory.require_taken();
+    at_root([&] { directory.require_taken(); });
     space_error.reset();
     if (accepted)
       diagnostics.add_step();
@@ -253,16 +312,13 @@ namespace Exemplar
       require_numbers(row);
     if (accepted && frames.is_due(problem.state.step))
       write_frame();
-    Diagnostics::append_seconds(row, lap());
-    statistics->write(row);
+    write_row(std::move(row), lap(), accepted);
     if (accepted)
-    {
-      accepted_bytes = statistics->n_bytes();
       keep_state();
-    }
 
     const std::chrono::duration<double> since = std::chrono::steady_clock::now() - last_checkpoint;
-    if (accepted && since.count() > 60. * problem.parameters.output.checkpoint_minutes)
+    const bool is_time = since.count() > 60. * problem.parameters.output.checkpoint_minutes;
+    if (accepted && exchange.any(exchange.is_root() && is_time))
       save();
   }
 
@@ -297,14 +353,14 @@ namespace Exemplar
     {
       StepClock::Scope scope(problem.clock, Part::output);
       frames.drain();
-      directory.require_taken();
+      at_root([&] { directory.require_taken(); });
       write_final_pose();
       save(); // whatever happens to animations and estimates
       if (is_last_step())
         find_space_error();
       else
         space_error.reset();
-      frames.write_animations();
+      at_root([&] { frames.write_animations(); });
     }
     lap();
     const auto mesh_digest = input_digests.find(problem.parameters.mesh.file);
@@ -316,12 +372,18 @@ namespace Exemplar
   void
   RunWriter::write_final_pose() const
   {
-    const bool is_linear = problem.parameters.output.final_pose == FinalTetrahedra::linear;
-    std::vector<dealii::Point<3>> nodes(is_linear ? problem.body.mesh.n_nodes()
-                                                  : problem.body.fe_space.n_nodes());
-    for (unsigned int dof = 0; dof < 3 * nodes.size(); ++dof)
-      nodes[dof / 3][dof % 3] = problem.state.positions[dof];
-    problem.body.mesh.write_pose(nodes, directory.final_pose());
+    const bool   is_linear = problem.parameters.output.final_pose == FinalTetrahedra::linear;
+    const Vector positions = whole(exchange, problem.state.positions);
+    const Mesh  &mesh      = problem.body.mesh;
+    at_root(
+        [&]
+        {
+          std::vector<dealii::Point<3>> nodes(is_linear ? mesh.whole().n_nodes
+                                                        : positions.size() / 3);
+          for (unsigned int dof = 0; dof < 3 * nodes.size(); ++dof)
+            nodes[dof / 3][dof % 3] = positions[dof];
+          mesh.write_pose(nodes, directory.final_pose());
+        });
   }
 
   void
@@ -329,21 +391,25 @@ namespace Exemplar
   {
     frames.drain(); // because a resumed run does not write them again
     last_checkpoint = std::chrono::steady_clock::now();
-    save_checkpoint(present(sha256_of_begin(directory.statistics(), accepted_bytes)),
-                    directory.checkpoint());
+    std::string digest;
+    at_root([&] { digest = sha256_of_begin(directory.statistics(), accepted_bytes); });
+    const Checkpoint checkpoint = present(digest);
+    at_root([&] { save_checkpoint(checkpoint, directory.checkpoint()); });
   }
 
   void
   RunWriter::keep_state() const
   {
-    if (problem.parameters.output.keep_states && frames.is_due(problem.state.step))
-      save_checkpoint(present(""), directory.state(problem.state.step));
+    if (!problem.parameters.output.keep_states || !frames.is_due(problem.state.step))
+      return;
+    const Checkpoint checkpoint = present("");
+    at_root([&] { save_checkpoint(checkpoint, directory.state(problem.state.step)); });
   }
 
   Checkpoint
   RunWriter::present(const std::string &statistics_digest) const
   {
-    return { values_of(scene),       input_digests, problem.state,  problem.solver_memory(),
+    return { values_of(scene),       input_digests, whole_state(problem), problem.solver_memory(),
              diagnostics.get_work(), totals,        accepted_bytes, statistics_digest };
   }
 } // namespace Exemplar

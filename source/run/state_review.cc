@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <optional>
 
 namespace Exemplar
@@ -30,7 +31,7 @@ namespace Exemplar
             && (elements.empty() || elements.back() != element))
           elements.push_back(element);
       }
-      return elements;
+      return problem.body.exchange().collect(std::move(elements));
     }
 
     std::vector<std::size_t>
@@ -71,7 +72,7 @@ namespace Exemplar
     {
       if (!traits_of(problem.parameters.model.strain).has_guard)
         return {};
-      double     limit    = 0.;
+      double     limit    = std::numeric_limits<double>::max();
       const auto elements = elements_with(
           problem,
           [&](const unsigned int cell, const Matrix3<double> &F)
@@ -79,9 +80,10 @@ namespace Exemplar
             const double of_cell = stretch_limit(problem.body.material.elasticity(cell));
             if (!(contract(F, F) > of_cell * of_cell && greatest_stretch(F) > of_cell))
               return false;
-            limit = limit > 0. ? std::min(limit, of_cell) : of_cell;
+            limit = std::min(limit, of_cell);
             return true;
           });
+      limit = problem.body.exchange().min(limit);
       if (elements.empty())
         return {};
       return std::to_string(elements.size())
@@ -128,8 +130,9 @@ namespace Exemplar
       const auto example = only_example(problem);
       if (problem.parameters.scene != SceneKind::interpolation || !example)
         return {};
-      const auto        reached = points_of(problem.state.positions);
-      const auto        pose    = points_of(problem.examples.poses->pose(*example));
+      const Exchange   &exchange = problem.body.exchange();
+      const auto        reached  = points_of(whole(exchange, problem.state.positions, true));
+      const auto        pose = points_of(whole(exchange, problem.examples.poses->pose(*example), true));
       const RigidMotion motion  = best_rigid_motion(pose, reached);
       double            miss    = 0.;
       for (std::size_t node = 0; node < pose.size(); ++node)
@@ -156,7 +159,7 @@ namespace Exemplar
       Vector        held = rest;
       problem.constraints.handles->move(problem.state.time, held);
       held -= rest;
-      return max_entry(held.begin(), held.end()) < 1e-10 * problem.body.mesh.diameter();
+      return problem.body.exchange().max(max_entry(held.begin(), held.end())) < 1e-10 * problem.body.mesh.diameter();
     }
   } // namespace
 

@@ -24,7 +24,7 @@ namespace Exemplar
     {
       Json numbers = Json::array();
       for (const unsigned int node : problem.constraints.support->nodes)
-        numbers.push_back(problem.body.mesh.get_contents().node_numbers[node]);
+        numbers.push_back(problem.body.mesh.contents_of_whole().node_numbers[node]);
       return numbers;
     }
 
@@ -111,7 +111,13 @@ namespace Exemplar
                 const std::string               &status,
                 const std::filesystem::path     &file)
   {
-    const BlasInfo blas = blas_info();
+    const BlasInfo  blas     = blas_info();
+    const Exchange &exchange = problem.body.exchange();
+    const double    peak     = peak_memory_mib();
+    const auto      n_nodes  = exchange.n_nodes(problem.body.fe_space.n_nodes());
+    const double    n_free   = exchange.sum(problem.constraints.free_dofs.size());
+    const std::vector<std::size_t> peaks = exchange.collect({ static_cast<std::size_t>(peak) });
+    const Conditioning             conditioning = problem.conditioning();
 
     const std::vector<PartOfProblem> parts = inventory(problem);
 
@@ -123,17 +129,18 @@ namespace Exemplar
     json["blas"]         = blas.library;
     json["blas_core"]    = blas.core;
     json["blas_threads"] = blas.threads;
+    if (exchange.n_processes() > 1)
+      json["processes"] = exchange.n_processes();
     json["threads"]      = problem.parameters.solver.n_threads;
     json["scene"]        = printable(problem.parameters.name);
     json["mesh"]         = printable(problem.body.mesh.get_name());
     json["mesh_sha256"]  = mesh_sha256;
-    json["cells"]        = problem.body.mesh.n_cells();
+    json["cells"]        = problem.body.mesh.whole().n_cells;
     json["element"]      = problem.body.fe_space.element() == Element::P1 ? "P1" : "P2";
-    json["nodes"]        = problem.body.fe_space.n_nodes();
-    json["dofs"]         = problem.body.fe_space.n_dofs();
-    json["constrained_dofs"]
-        = problem.body.fe_space.n_dofs() - problem.constraints.free_dofs.size();
-    if (problem.constraints.support)
+    json["nodes"]        = n_nodes;
+    json["dofs"]         = 3 * n_nodes;
+    json["constrained_dofs"] = 3 * n_nodes - static_cast<unsigned int>(n_free);
+    if (problem.constraints.support && exchange.is_root())
       json["support_nodes"] = support_nodes(problem);
     if (const auto &made = problem.body.made; made != nullptr)
     {
@@ -153,18 +160,26 @@ namespace Exemplar
       json["space_error"] = errors_of(*space_error);
     for (const SceneEdit &edit : totals.edits)
       json["edits"].push_back({ { "step", edit.step }, { "scene_before", edit.before } });
-    const Conditioning conditioning = problem.conditioning();
     if (conditioning.matrix > 0.)
       json["condition_matrix"] = conditioning.matrix; // null: not definite
     if (conditioning.schur > 0.)
       json["condition_schur"] = conditioning.schur;
     json["seconds"]         = seconds_of(totals.seconds);
-    json["peak_memory_mib"] = peak_memory_mib();
-    json["bytes_per_cell"] = std::round(1048576. * peak_memory_mib() / problem.body.mesh.n_cells());
+    json["peak_memory_mib"] = peak;
+    if (exchange.n_processes() > 1)
+      json["peak_memory_mib_of_processes"] = peaks;
+    json["bytes_per_cell"]
+        = std::round(1048576.
+                     * (exchange.n_processes() == 1
+                            ? peak
+                            : static_cast<double>(std::accumulate(peaks.begin(), peaks.end(), 0ul)))
+                     / problem.body.mesh.whole().n_cells);
     json["memory_mib"]     = memory_of(parts);
     json["used"]           = names_of(parts, true);
     json["left_out"]       = names_of(parts, false);
 
+    if (!exchange.is_root())
+      return;
     AtomicFile atomic_file(file);
     atomic_file.stream() << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
     atomic_file.commit();

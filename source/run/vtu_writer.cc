@@ -2,7 +2,7 @@
 #include <exemplar/base/atomic_file.h>
 #include <exemplar/mesh/mesh.h>
 #include <exemplar/run/frame_formats.h>
-#include <exemplar/run/frame_writer.h>
+#include <exemplar/run/vtu_pieces.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -192,6 +192,37 @@ namespace Exemplar
       const std::string cells, regions; ///< encoded once, as no frame changes them
     };
   } // namespace
+
+  void
+  write_joint_vtu(const Frame                    &frame,
+                  const std::vector<std::string> &pieces,
+                  const std::filesystem::path    &file)
+  {
+    AtomicFile    atomic_file(file);
+    std::ostream &out     = atomic_file.stream();
+    const auto    declare = [&](const std::string &type, const std::string &name, const int n)
+    {
+      out << "<PDataArray type=\"" << type << "\" Name=\"" << name << "\" NumberOfComponents=\"" << n
+          << "\"/>\n";
+    };
+    out << "<?xml version=\"1.0\"?>\n"
+        << "<VTKFile type=\"PUnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
+           "header_type=\"UInt64\">\n<PUnstructuredGrid GhostLevel=\"0\">\n<PPoints>\n";
+    declare("Float64", "Points", 3);
+    out << "</PPoints>\n<PPointData>\n";
+    declare("Float64", "displacement", 3);
+    if (frame.velocities.size() > 0)
+      declare("Float64", "velocity", 3);
+    out << "</PPointData>\n<PCellData>\n";
+    for (const std::string name : { "strain_energy_density", "det_F", "von_mises_stress" })
+      declare("Float64", name, 1);
+    declare("Int32", "region", 1);
+    out << "</PCellData>\n";
+    for (const std::string &piece : pieces)
+      out << "<Piece Source=\"" << piece << "\"/>\n";
+    out << "</PUnstructuredGrid>\n</VTKFile>\n";
+    atomic_file.commit_without_sync();
+  }
 
   std::unique_ptr<const FrameWriter>
   make_vtu_writer(const FrameSubject &subject)

@@ -116,12 +116,12 @@ namespace Exemplar
   void
   FrozenPasses::save(boost::archive::binary_oarchive &archive) const
   {
-    archive &prediction;
+    prediction.save(archive);
   }
 
   void
   FrozenPasses::load(boost::archive::binary_iarchive &archive)
   {
-    archive &prediction;
+    prediction.load(archive);
   }
 } // namespace Exemplar

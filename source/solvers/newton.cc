@@ -114,7 +114,7 @@ namespace Exemplar
       return;
     }
     // inertia predicts better than any tangent: x + h v
-    for (const unsigned int dof : potential.get_free_dofs().list())
+    for (const unsigned int dof : potential.get_free_dofs().local_list())
       trial.state.positions[dof] = (*inertial)[dof];
     if (handles != nullptr)
       handles->move(time, trial.state.positions);
@@ -225,8 +225,10 @@ namespace Exemplar
       return true;
     try
     {
-      const Vector error = system.displacement(state, system.solve(state, evaluation));
-      return max_entry(error.begin(), error.end()) <= parameters.tolerance * extent(state.positions);
+      const Vector    error    = system.displacement(state, system.solve(state, evaluation));
+      const Exchange &exchange = potential.get_free_dofs().exchange();
+      return exchange.max(max_entry(error.begin(), error.end()))
+             <= parameters.tolerance * extent(state.positions, exchange);
     }
     catch (const SolverFailure &)
     {
@@ -253,7 +255,8 @@ namespace Exemplar
   void
   Newton::save(boost::archive::binary_oarchive &archive) const
   {
-    archive &accepted.positions &accepted.weights;
+    const Vector positions = whole(potential.get_free_dofs().exchange(), accepted.positions);
+    archive     &positions &accepted.weights;
   }
 
   void
@@ -261,6 +264,7 @@ namespace Exemplar
   {
     accepted = {};
     archive &accepted.positions &accepted.weights;
+    accepted.positions = part(potential.get_free_dofs().exchange(), accepted.positions);
   }
 
   std::size_t

@@ -94,7 +94,7 @@ namespace Exemplar
     const State  start = state;
     const Merit  before(potential, evaluation);
     const Vector down = downward_curvature(system, potential, start, evaluation);
-    const double size = extent(start.positions);
+    const double size = extent(start.positions, potential.get_free_dofs().exchange());
     for (const double length : { 1e-4 * size, -1e-4 * size, 1e-2 * size, -1e-2 * size })
     {
       if (down.size() == 0)

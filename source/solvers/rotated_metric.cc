@@ -17,9 +17,9 @@ namespace Exemplar
   {
     rotated_nodes.clear();
     for (unsigned int node = 0; 3 * node < free_dofs.n_dofs(); ++node)
-      if (free_dofs.free_index(3 * node) != FreeDofs::held
-          && free_dofs.free_index(3 * node + 1) != FreeDofs::held
-          && free_dofs.free_index(3 * node + 2) != FreeDofs::held)
+      if (free_dofs.unknown_index(3 * node) != FreeDofs::held
+          && free_dofs.unknown_index(3 * node + 1) != FreeDofs::held
+          && free_dofs.unknown_index(3 * node + 2) != FreeDofs::held)
         rotated_nodes.push_back(node);
     rotations_since.resize(9 * rotated_nodes.size());
   }
@@ -37,7 +37,8 @@ namespace Exemplar
     std::vector<double> columns = system.columns();
     if (!form->coupled.empty())
       system.apply_inverse(columns);
-    schur = make_schur_complement(*form, system.columns(), columns.data(), free_dofs.size());
+    schur = make_schur_complement(*form, system.columns(), columns.data(),
+                                  free_dofs.size(), free_dofs.exchange());
     G.assign(system.columns().begin(), system.columns().end());
     Z.assign(columns.begin(), columns.end());
   }
@@ -65,7 +66,7 @@ namespace Exemplar
     for (std::size_t k = 0; k < rotated_nodes.size(); ++k)
     {
       const float *W = &rotations_since[9 * k];
-      double      *v = &vector[free_dofs.free_index(3 * rotated_nodes[k])];
+      double      *v = &vector[free_dofs.unknown_index(3 * rotated_nodes[k])];
       const double x = v[0], y = v[1], z = v[2];
       for (int i = 0; i < 3; ++i)
         v[i] = W[row * i] * x + W[row * i + column] * y + W[row * i + 2 * column] * z;

@@ -22,6 +22,7 @@ namespace Exemplar
       std::mt19937 generator(1); // gives the same numbers everywhere
       for (const unsigned int dof : potential.get_free_dofs().list())
         displacement[dof] = static_cast<double>(generator()) / 4294967296. - 0.5;
+      potential.get_free_dofs().exchange().share(displacement);
       return displacement;
     }
 
@@ -32,7 +33,7 @@ namespace Exemplar
                   const Vector         &displacement,
                   Evaluation           &evaluation)
     {
-      const double length = 1e-6 * extent(at.positions);
+      const double length = 1e-6 * extent(at.positions, potential.get_free_dofs().exchange());
       Vector       change;
       for (const double side : { length, -length })
       {
@@ -82,7 +83,7 @@ namespace Exemplar
   }
 
   double
-  extent(const Vector &positions)
+  extent(const Vector &positions, const Exchange &exchange)
   {
     double greatest = 0.;
     for (unsigned int c = 0; c < 3; ++c)
@@ -93,7 +94,7 @@ namespace Exemplar
         least = std::min(least, positions[dof]);
         most  = std::max(most, positions[dof]);
       }
-      greatest = std::max(greatest, most - least);
+      greatest = std::max(greatest, exchange.max(most) - exchange.min(least));
     }
     return greatest;
   }

@@ -22,6 +22,7 @@ namespace Exemplar
     {
       StepClock::Scope scope(clock, Part::assemble);
       potential.assemble(positions, weights, convexity, system->matrix_values(), system->columns());
+      potential.get_free_dofs().assemble_columns(system->columns());
     }
     StepClock::Scope scope(clock, Part::factorize);
     ++factorizations;
@@ -63,9 +64,11 @@ namespace Exemplar
     Vector      displacement(at.positions.size());
     for (unsigned int i = 0; i < free.size(); ++i)
       displacement[free[i]] = step.positions[i];
+    const Exchange &exchange = potential.get_free_dofs().exchange();
+    exchange.share(displacement);
     // the far ends of a body held at one cell would turn about it, along straight lines
     if (turns_freely)
-      remove_rigid_motion(at.positions, displacement);
+      remove_rigid_motion(at.positions, displacement, exchange);
     return displacement;
   }
 

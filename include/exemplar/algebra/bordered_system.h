@@ -108,17 +108,20 @@ namespace Exemplar
     dealii::FullMatrix<double> schur;
   };
 
-  /// H - G^T Z, Eq. (11), with n entries in each column.
+  /// H - G^T Z, Eq. (11), with n entries of this process in each column.
   dealii::FullMatrix<double>
   make_schur_complement(const WeightForm          &form,
                         const std::vector<double> &G,
                         const double              *Z,
-                        std::size_t                n);
+                        std::size_t                n,
+                        const Exchange            &exchange);
 
   /// Block elimination: one call for A^-1 [r_x, G], then the dense Schur complement bordered by N.
-  /// `matrix` has its pattern; `form` must outlive the system, or be null.
+  /// `matrix` has its pattern; `form`, which may be null, and `exchange` must outlive the system.
   std::unique_ptr<BorderedSystem>
-  make_block_system(std::unique_ptr<SpdOperator> matrix, const WeightForm *form);
+  make_block_system(std::unique_ptr<SpdOperator> matrix,
+                    const WeightForm            *form,
+                    const Exchange              &exchange = Exchange::serial());
 
   /// The whole bordered matrix at once by UMFPACK; for checking.
   std::unique_ptr<BorderedSystem>

@@ -81,11 +81,18 @@ namespace Exemplar
       return max(own ? 1. : 0.) > 0.;
     }
 
-    /// The text of the root.
+    /// The text of the first process that has one.
     virtual std::string
-    from_root(std::string text) const
+    first_text(std::string own) const
     {
-      return text;
+      return own;
+    }
+
+    /// Nodes of the whole body, of which this process has `own`.
+    virtual unsigned int
+    n_nodes(const unsigned int own) const
+    {
+      return own;
     }
 
     /// What all processes give, one after the other.
@@ -93,6 +100,13 @@ namespace Exemplar
     collect(std::vector<std::size_t> own) const
     {
       return own;
+    }
+
+    /// The number in this process of a node of the whole body, or -1 if it is not there.
+    virtual int
+    node_here(const unsigned int in_whole) const
+    {
+      return static_cast<int>(in_whole);
     }
 
     /// Whether this process owns a node.
@@ -159,11 +173,11 @@ namespace Exemplar
     }
   };
 
-  /// Exchange::whole() of a field by degree of freedom.
+  /// Exchange::whole() of a field by degree of freedom, which may be empty in all processes.
   inline Vector
   whole(const Exchange &exchange, const Vector &field, const bool everywhere = false)
   {
-    if (exchange.n_processes() == 1)
+    if (exchange.n_processes() == 1 || field.size() == 0)
       return field;
     const std::vector<double> all
         = exchange.whole(field.begin(), 3, field.size() / 3, everywhere);

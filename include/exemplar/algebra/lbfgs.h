@@ -41,6 +41,19 @@ namespace Exemplar
       return bytes;
     }
 
+    /// Replace each vector v that it remembers by function(v), as for a checkpoint, which holds those
+    /// of the whole body.
+    template <typename Function>
+    void
+    map(const Function &function)
+    {
+      for (Pair &pair : pairs)
+      {
+        pair.s = function(pair.s);
+        pair.y = function(pair.y);
+      }
+    }
+
     /// For checkpoints: all that it knows.
     template <typename Archive>
     void

@@ -41,16 +41,16 @@ namespace Exemplar
       return bytes;
     }
 
-    /// For checkpoints.
-    template <typename Archive>
-    void
-    serialize(Archive &archive, unsigned int /*version*/)
+    /// The vectors that it remembers, as for a checkpoint; the last first.
+    const std::deque<std::vector<double>> &
+    vectors() const
     {
-      archive &history;
-      if (Archive::is_loading::value)
-        for (std::size_t i = history.size(); i-- > 0;)
-          multiply_out(i);
+      return history;
     }
+
+    /// Remember these instead.
+    void
+    restore(std::deque<std::vector<double>> vectors);
 
   private:
     /// Products of vector i with those that are older.

@@ -57,10 +57,19 @@ namespace Exemplar
     max(double own) const override;
 
     std::string
-    from_root(std::string text) const override;
+    first_text(std::string own) const override;
+
+    unsigned int
+    n_nodes(unsigned int /*own*/) const override
+    {
+      return nodes.first_numbers.back();
+    }
 
     std::vector<std::size_t>
     collect(std::vector<std::size_t> own) const override;
+
+    int
+    node_here(unsigned int in_whole) const override;
 
     bool
     owns(const unsigned int node) const override

@@ -61,6 +61,14 @@ namespace Exemplar
     return rule == ShareRule::consistent ? NodeShares{ 0., 1., 3. } : NodeShares{ 3., 16., 57. };
   }
 
+  /// Throws UserError, calling the places `key`, unless those behind the nodes' are in the middles of
+  /// the edges, to 1e-9 of `size`.
+  void
+  check_straight(const std::vector<dealii::Point<3>>            &places,
+                 const std::vector<std::array<unsigned int, 2>> &edges,
+                 double                                          size,
+                 const std::string                              &key);
+
   /// The finite element space FE_SimplexP(1)^3 or FE_SimplexP(2)^3 on a mesh of straight edges.
   /// Nodes are those of the mesh file and then, of quadratic elements, one in the middle of each
   /// edge, in ascending order of its ends, the lesser one first. Degree of freedom 3 i + c is
@@ -78,6 +86,13 @@ namespace Exemplar
     element() const
     {
       return kind;
+    }
+
+    /// With the processes that have the other cells of the body.
+    const Exchange &
+    exchange() const
+    {
+      return mesh.exchange();
     }
 
     unsigned int
@@ -185,6 +200,7 @@ namespace Exemplar
     double
     cell_volume(unsigned int cell) const;
 
+    /// Of the body.
     double
     total_volume() const;
 

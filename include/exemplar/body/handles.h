@@ -109,8 +109,9 @@ namespace Exemplar
       std::vector<unsigned int> components;
       Expression                motion;
       Expression                progress; ///< on the path, if there is one
-      std::optional<RigidPath>  path;     ///< to the pose that is followed
+      std::optional<RigidPath>  path;     ///< of all of the handle to the pose that is followed
       Motion                    function; ///< a program's, instead of all these
+      std::vector<unsigned int> places_in_path = {}; ///< of each node, among those of all processes
 
       /// Of `nodes`, which are at `rest` at rest, at time t [s].
       std::vector<dealii::Tensor<1, 3>>
@@ -131,6 +132,19 @@ namespace Exemplar
 
     std::vector<dealii::Point<3>>
     rest_positions(const Handle &handle) const;
+
+    /// 1 for the nodes of a handle, else 0, for the whole body.
+    std::vector<double>
+    whole_mask(const std::vector<unsigned int> &nodes) const;
+
+    /// The places of all of a handle's nodes, of which this process has those given.
+    std::vector<dealii::Point<3>>
+    whole_handle(const std::vector<unsigned int>     &nodes,
+                 const std::vector<dealii::Point<3>> &places) const;
+
+    /// The number of each of these nodes among all of the handle.
+    std::vector<unsigned int>
+    places_in_whole(const std::vector<unsigned int> &nodes) const;
 
     /// Nodes that more than one handle holds.
     std::set<unsigned int>

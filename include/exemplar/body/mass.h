@@ -28,6 +28,7 @@ namespace Exemplar
   public:
     Mass(const FESpace &fe_space, const Material &material, MassMatrix kind);
 
+    /// Of the cells of this process.
     const dealii::SparseMatrix<double> &
     nodal() const
     {
@@ -56,6 +57,7 @@ namespace Exemplar
     void
     copy_rows();
 
+    const Exchange              &with_others;
     dealii::SparsityPattern      pattern;
     dealii::SparseMatrix<double> matrix;
     std::vector<std::size_t>     row_start; ///< the matrix once more: its entries are visited in

@@ -6,6 +6,7 @@
 #include <exemplar/kernels/elasticity.h>
 #include <exemplar/mesh/msh_file.h>
 
+#include <set>
 #include <vector>
 
 namespace Exemplar
@@ -27,12 +28,14 @@ namespace Exemplar
   {
   public:
     /// `names` is a mesh whose physical groups may give regions their names. Throws UserError if
-    /// a region is named by a material id that no cell has, by no name of the mesh, or twice, and
-    /// for painted constants that are out of range.
+    /// a region is named by a material id that no cell has (or, where `regions` is not null, that
+    /// is not there), by no name of the mesh, or twice, and for painted constants that are out of
+    /// range.
     Material(const MaterialParameters        &parameters,
              const std::vector<unsigned int> &material_ids,
              const MshFile                   &names   = {},
-             const PaintedMaterial           &painted = {});
+             const PaintedMaterial           &painted = {},
+             const std::set<unsigned int>    *regions = nullptr);
 
     const CellMaterial<double> &
     elasticity(const unsigned int cell) const

@@ -5,6 +5,7 @@
 #include <exemplar/body/fe_space.h>
 #include <exemplar/body/material.h>
 
+#include <array>
 #include <vector>
 
 namespace Exemplar
@@ -22,6 +23,19 @@ namespace Exemplar
     /// with equally many cells are taken in the order of their numbers. A patch lies in one region,
     /// and its Lamé constants lambda, where they are painted, within a factor of two.
     Patches(const Mesh &mesh, const FESpace &fe_space, const Material &material);
+
+    /// Those that stars() has chosen in the whole body: the one of each cell of this process, numbered
+    /// from 0 on without gaps; of quadratic elements there are none.
+    Patches(const std::vector<unsigned int> &stars_of_cells,
+            const FESpace                   &fe_space,
+            const Material                  &material);
+
+    /// The patch of each cell, of linear elements on the cells of a mesh with as many nodes.
+    static std::vector<unsigned int>
+    stars(const std::vector<std::array<unsigned int, 4>> &cells,
+          unsigned int                                    n_nodes,
+          const std::vector<unsigned int>                &material_ids,
+          const Material                                 &material);
 
     unsigned int
     size() const

@@ -5,6 +5,7 @@
 #include <exemplar/body/fe_space.h>
 #include <exemplar/kernels/cell_kernels.h>
 
+#include <set>
 #include <vector>
 
 namespace Exemplar
@@ -18,9 +19,11 @@ namespace Exemplar
     /// Without a blend length [m] a cell belongs to its own region alone. With one, the
     /// shares change smoothly over about this distance, measured inside the body: they
     /// solve s - l^2 Laplace s = indicator of the region, with natural boundary and
-    /// l = blend_length / (2 sqrt 3), the filter of Lazarov and Sigmund 2011, on linear elements.
+    /// l = blend_length / (2 sqrt 3), the filter of Lazarov and Sigmund 2011, on linear elements; this
+    /// one process must do. `regions` are the material ids of the whole body.
     RegionShares(const FESpace                   &linear,
                  const std::vector<unsigned int> &material_ids,
+                 const std::set<unsigned int>    &regions,
                  double                           blend_length,
                  unsigned int                     points_per_cell = 1);
 

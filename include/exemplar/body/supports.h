@@ -11,6 +11,8 @@
 
 namespace Exemplar
 {
+  // All processes that share a body must call functions that take a mesh or an exchange.
+
   /// Number of the six rigid motions that the held degrees of freedom (3 i + c)
   /// leave free, of nodes that are at `rest_positions` at rest.
   unsigned int
@@ -19,37 +21,43 @@ namespace Exemplar
                        const std::vector<unsigned int> &held_dofs);
 
   /// Six degrees of freedom of one cell that hold a body against rigid motion and
-  /// nothing else: three of its first node, two of the second, one of the third.
+  /// nothing else: three of its first node, two of the second, one of the third. Nodes are those of
+  /// the whole body.
   struct StaticallyDeterminateSupport
   {
-    unsigned int                cell;
-    std::array<unsigned int, 3> nodes;
-    std::vector<unsigned int>   held_dofs; ///< ascending
+    std::array<unsigned int, 4>     corners;   ///< of the cell
+    std::array<dealii::Point<3>, 4> rest;      ///< where these are at rest [m]
+    std::array<unsigned int, 3>     nodes;     ///< with held degrees of freedom
+    std::vector<unsigned int>       held_dofs; ///< ascending
   };
 
-  /// The support in the cell nearest to the centroid of the nodes.
+  /// The support in the cell nearest to the centroid of the nodes of a whole body.
   StaticallyDeterminateSupport
-  support_near_centroid(const Mesh &mesh);
+  support_near_centroid(const std::vector<dealii::Point<3>>            &nodes,
+                        const std::vector<std::array<unsigned int, 4>> &cells);
 
   /// Turn `positions` so that the supported cell stands as it does at rest, unless it
   /// deviates from that by less than `angle` [rad]. The support was chosen for that
   /// orientation and is a poor one in others. Returns whether they were turned.
   bool
-  turn_to_support(const Mesh                         &mesh,
-                  const StaticallyDeterminateSupport &support,
+  turn_to_support(const StaticallyDeterminateSupport &support,
                   double                              angle,
-                  dealii::Vector<double>             &positions);
+                  dealii::Vector<double>             &positions,
+                  const Exchange                     &exchange = Exchange::serial());
 
   /// Take the best-fitting infinitesimal rigid motion (translation and rotation, least
   /// squares over the nodes) out of a displacement [m] of `positions`.
   void
   remove_rigid_motion(const dealii::Vector<double> &positions,
-                      dealii::Vector<double>       &displacement);
+                      dealii::Vector<double>       &displacement,
+                      const Exchange               &exchange = Exchange::serial());
 
   /// Move `positions` rigidly so that it comes nearest to `reference` in the
   /// least-squares sense over the nodes (Kabsch 1976), Eq. (15).
   void
-  align(const dealii::Vector<double> &reference, dealii::Vector<double> &positions);
+  align(const dealii::Vector<double> &reference,
+        dealii::Vector<double>       &positions,
+        const Exchange               &exchange = Exchange::serial());
 } // namespace Exemplar
 
 #endif

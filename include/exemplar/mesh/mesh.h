@@ -2,11 +2,12 @@
 #ifndef exemplar_mesh_h
 #define exemplar_mesh_h
 
-#include <exemplar/mesh/mesh_inputs.h>
+#include <exemplar/mesh/mesh_part.h>
 
 #include <deal.II/grid/tria.h>
 
 #include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,7 @@ namespace Exemplar
 {
   /// The tetrahedral rest mesh. Node i is the i-th node of the file, cell c its
   /// c-th tetrahedron; the Triangulation has the same numbering, and results go
-  /// back to disk in it.
+  /// back to disk in it. Of a mesh that processes share, each has a part.
   class Mesh
   {
   public:
@@ -26,63 +27,94 @@ namespace Exemplar
     /// is no valid body, and for a scale that is not positive.
     Mesh(MshFile contents, const std::string &name, double scale = 1.);
 
+    /// The part of a process. To be made by all processes.
+    Mesh(MeshPart part, const std::string &name, double scale);
+
     unsigned int
     n_nodes() const
     {
-      return static_cast<unsigned int>(contents.nodes.size());
+      return static_cast<unsigned int>(arrays.contents.nodes.size());
     }
 
     unsigned int
     n_cells() const
     {
-      return static_cast<unsigned int>(cells.size());
+      return static_cast<unsigned int>(arrays.cells.size());
+    }
+
+    /// Of the body of which this may be a part.
+    const WholeMesh &
+    whole() const
+    {
+      return of_whole;
+    }
+
+    /// With the processes that have the other parts.
+    const Exchange &
+    exchange() const
+    {
+      return *with_others;
     }
 
     /// Positively oriented nodes of each tetrahedron.
     const std::vector<std::array<unsigned int, 4>> &
     get_cells() const
     {
-      return cells;
+      return arrays.cells;
     }
 
     /// Material id of each cell (physical tag of its volume, 0 = none).
     const std::vector<unsigned int> &
     get_material_ids() const
     {
-      return material_ids;
+      return arrays.material_ids;
     }
 
     /// The number of a cell in the mesh file.
     std::size_t
     element_number(const unsigned int cell) const
     {
-      return element_numbers[cell];
+      return arrays.element_numbers[cell];
     }
 
     /// Every boundary face; those without a physical surface have id 0.
     const std::vector<BoundaryFace> &
     get_boundary_faces() const
     {
-      return boundary_faces;
+      return arrays.boundary_faces;
     }
 
     const std::vector<dealii::Point<3>> &
     get_nodes() const
     {
-      return contents.nodes;
+      return arrays.contents.nodes;
     }
 
-    /// The file as read (scaled), to write poses in the same numbering.
+    /// The file as read (scaled), to write poses in the same numbering; a part of it where this is
+    /// one, without elements.
     const MshFile &
     get_contents() const
     {
-      return contents;
+      return arrays.contents;
     }
 
-    const dealii::Triangulation<3> &
-    get_triangulation() const
+    /// The same, of the whole body; only at the root.
+    const MshFile &
+    contents_of_whole() const
     {
-      return triangulation;
+      return file == nullptr ? arrays.contents : *file;
+    }
+
+    /// Built when it is asked for first: who only gives others their parts of the mesh needs none.
+    /// All processes that share the mesh must ask.
+    const dealii::Triangulation<3> &
+    get_triangulation() const;
+
+    /// The file as read (scaled), from a mesh that nobody needs any more.
+    MshFile
+    take_contents() &&
+    {
+      return std::move(arrays.contents);
     }
 
     /// The file the mesh came from; "box" if generated, "mesh" if made of arrays.
@@ -96,7 +128,7 @@ namespace Exemplar
     const std::vector<std::string> &
     get_warnings() const
     {
-      return warnings;
+      return arrays.warnings;
     }
 
     /// What the lengths of the file were multiplied by.
@@ -106,9 +138,12 @@ namespace Exemplar
       return scale;
     }
 
-    /// Diagonal of the bounding box [m].
+    /// Diagonal of the bounding box of the body [m].
     double
-    diameter() const;
+    diameter() const
+    {
+      return of_whole.diameter;
+    }
 
     /// Places of the nodes [m] in the pose of a file, which is checked as by the function of the
     /// same name, times the mesh's scale. In files of 10-node tetrahedra, here and below, also of
@@ -121,7 +156,7 @@ namespace Exemplar
     std::vector<dealii::Point<3>>
     find_pose(const NamedPoses &poses, const std::string &pose, const std::string &key) const;
 
-    /// The inverse: the mesh with its nodes at `positions`, divided by the mesh's
+    /// The inverse: the whole mesh with its nodes at `positions`, divided by the mesh's
     /// scale, with the file's numbers, order and tags. With places of the middles of edges_of()
     /// behind those of the nodes, the file gets 10-node tetrahedra.
     void
@@ -136,18 +171,25 @@ namespace Exemplar
     std::vector<dealii::Point<3>>
     scaled(std::vector<dealii::Point<3>> nodes) const;
 
-    void
-    build_triangulation();
+    Mesh(MeshArrays arrays, const std::string &name, double scale);
 
-    MshFile                                  contents;
-    std::string                              name;
-    double                                   scale;
-    std::vector<std::array<unsigned int, 4>> cells;
-    std::vector<unsigned int>                material_ids;
-    std::vector<std::size_t>                 element_numbers;
-    std::vector<BoundaryFace>                boundary_faces;
-    std::vector<std::string>                 warnings;
-    dealii::Triangulation<3>                 triangulation;
+    std::unique_ptr<dealii::Triangulation<3>>
+    make_triangulation() const;
+
+    /// Everything else relies on deal.II's numbers being the file's: 9.5 has begun to remove unused
+    /// vertices when reading, so do not take it for granted.
+    void
+    check_numbering() const;
+
+    MeshArrays                      arrays;
+    std::string                     name;
+    double                          scale;
+    WholeMesh                       of_whole;
+    std::vector<unsigned int>       cells_in_file; ///< empty in one process
+    std::shared_ptr<const Exchange> shared;        ///< null in one process
+    const Exchange                 *with_others;   ///< that, or the one of one process
+    std::shared_ptr<const MshFile>  file;          ///< null but at the root of several
+    mutable std::unique_ptr<dealii::Triangulation<3>> triangulation; ///< null: nobody has asked yet
   };
 } // namespace Exemplar
 

@@ -47,7 +47,8 @@ namespace Exemplar
     map() const;
 
     /// The selected nodes in ascending order; those of "nodes FILE" are in `named`, by
-    /// the FILE, and those of selections by the surface, by their text. Throws
+    /// the FILE, and those of selections by the surface, by their text. Of a mesh of which this
+    /// process has a part all are there by their text. Throws
     /// UserError, calling the selection `key`, if it is misspelt or selects nothing.
     std::vector<unsigned int>
     nodes(const Mesh &mesh, const std::string &key, const NamedNodes &named = {}) const;

@@ -91,6 +91,7 @@ namespace Exemplar
     const StrainMeasure           strain;
     const double                  guard_bound;
     const CellKernels            &kernels;
+    const Exchange               &with_others;
     CellBatches                   batches;
     dealii::AlignedVector<double> node_positions; ///< of the last loop, four numbers a node
     dealii::AlignedVector<float>  rotation_sums;

@@ -44,8 +44,8 @@ namespace Exemplar
     double stress_norm = 0.; ///< (sum V T^2)^(1/2)
   };
 
-  /// Psi(x, w), Eqs. (5) and (16), with the stiffness damping: sums over the cells of energies and
-  /// forces, the matrix A and the columns G of Eq. (10). Rotations are kept ("frozen") until
+  /// Psi(x, w), Eqs. (5) and (16), with the stiffness damping: sums over the cells of the body of
+  /// energies and forces, the matrix A and the columns G of Eq. (10). Rotations are kept ("frozen") until
   /// update_rotations() or an evaluation that updates them. Positions, displacements and forces are
   /// by degree of freedom.
   class ElasticPotential
@@ -82,9 +82,9 @@ namespace Exemplar
              RotationUse                rotations   = RotationUse::keep,
              const std::vector<double> *linear_term = nullptr);
 
-    /// Add A, Eq. (8) or (18), to the values on the pattern [N/m] and, with weights to
-    /// find, set the coupling G, Eq. (9): a column a strained weight on the free degrees of
-    /// freedom, one after the other [N]. An exact tangent needs the rotations of these positions.
+    /// Add what the cells of this process give to A, Eq. (8) or (18), to the values on the pattern
+    /// [N/m] and, with weights to find, set what they give to the coupling G, Eq. (9): a column a
+    /// strained weight on FreeDofs::local_list(), one after the other [N]. An exact tangent needs the rotations of these positions.
     void
     assemble_tangent(Tangent                    tangent,
                      const Vector              &positions,
@@ -217,6 +217,14 @@ namespace Exemplar
                       const TangentTask   &tangent,
                       bool                 rotated,
                       std::vector<double> &columns) const;
+
+    /// The part of the cells of this process.
+    void
+    add_own_response(Tangent                    tangent,
+                     const Vector              &displacement,
+                     const Vector              &positions,
+                     const std::vector<double> &weights,
+                     ElasticEvaluation         &result);
 
     template <typename Cell>
     void

@@ -21,6 +21,9 @@ namespace Exemplar
     bool
     differs(double time, double other_time) const override;
 
+    void
+    attach(const SymmetricPattern &pattern, const FreeDofs &free_dofs) override;
+
     double
     add(const Vector &positions, Vector &gradient, Vector &force_scale) const override;
 
@@ -32,6 +35,7 @@ namespace Exemplar
     const Vector &rest_positions;
     Vector        force;       ///< f of the time that is set [N]
     Vector        force_norms; ///< of each node [N]
+    const Exchange *exchange = &Exchange::serial();
   };
 } // namespace Exemplar
 

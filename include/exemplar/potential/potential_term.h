@@ -57,7 +57,9 @@ namespace Exemplar
       return {};
     }
 
-    /// The pattern on which add_tangent() will write is known now.
+    /// The pattern on which add_tangent() will write is known now, and with whom a process shares the
+    /// body: then add_tangent() adds what belongs to its own cells, and add() gives the energy of the
+    /// whole body.
     virtual void
     attach(const SymmetricPattern & /*pattern*/, const FreeDofs & /*free_dofs*/)
     {

@@ -13,6 +13,12 @@ namespace Exemplar
   /// noted, so that a run can save what it has, and a second one ends the program.
   bool
   is_interrupted();
+
+  /// Among several processes a first signal is only noted from now on, as the others must hear of it, and so
+  /// is SIGUSR1: after other signals mpirun leaves processes a second to live, but passes this one on. At a
+  /// second one the process ends, and only one `that_speaks` says so.
+  void
+  note_interrupts_together(bool that_speaks);
 } // namespace Exemplar
 
 #endif

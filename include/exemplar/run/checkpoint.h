@@ -55,7 +55,15 @@ namespace Exemplar
   Checkpoint
   load_checkpoint(const std::filesystem::path &file);
 
-  /// Put the problem where the checkpoint of that file was saved. Throws UserError if what its
+  /// The state of the whole body, at the root of those who share it.
+  State
+  whole_state(const Problem &problem);
+
+  /// The root's to all processes that share a body.
+  void
+  share(const Exchange &exchange, Checkpoint &checkpoint);
+
+  /// Put the problem where the checkpoint of that file, of a whole body, was saved. Throws UserError if what its
   /// solver remembered cannot be read.
   void
   restore(const Checkpoint &checkpoint, const std::filesystem::path &file, Problem &problem);

@@ -46,11 +46,23 @@ namespace Exemplar
 
     bool shows_surface = false; ///< whether the writer needs the surface of the body
 
+    /// What the names of frames end in that say which pieces of processes they consist of, and what
+    /// these begin with; empty: frames have no pieces.
+    std::string joint_ending = {}, joint_beginning = {};
+
     /// The name of a step's frame, without the directory.
     std::string
     frame_name(unsigned int step) const;
 
-    /// The step of the frame of this name; nothing if no run writes such a frame.
+    /// The name of what a process writes of a frame that several share.
+    std::string
+    piece_name(unsigned int step, unsigned int process) const;
+
+    /// The name of the file that joins these.
+    std::string
+    joint_name(unsigned int step) const;
+
+    /// The step of the frame, or of the piece of one, of this name; nothing if no run writes such a frame.
     std::optional<unsigned int>
     step_of(const std::string &file) const;
 

@@ -69,6 +69,17 @@ namespace Exemplar
     Vector
     displacement_of_weight(unsigned int i) const;
 
+    static void
+    refuse_what_is_not_finite(const Frame &frame);
+
+    /// The files of a frame; of a body that processes share, this one's piece.
+    void
+    write_files(Frame &frame) const;
+
+    /// The frame of a step, or what joins its pieces.
+    std::filesystem::path
+    file_of(const FrameFormat &format, unsigned int step) const;
+
     /// The frames on disk, in order of time.
     std::vector<WrittenFrame>
     written_frames(const FrameFormat &format) const;

@@ -12,6 +12,7 @@
 namespace Exemplar
 {
   struct SceneParameters;
+  struct SharedBody;
 
   /// What the files hold that a scene names, or arrays that stand in for them; make_msh() makes
   /// a mesh of arrays. All lengths are in the mesh's unit: Mesh/Scale makes metres of them.
@@ -27,6 +28,8 @@ namespace Exemplar
     std::map<std::string, std::shared_ptr<const PointCache>> caches = {};
     /// How mesh and poses became of surfaces; null if none did.
     std::shared_ptr<const MadeOfSurfaces> made = {};
+    /// What this process has of a body that several share, instead of the mesh; null in one process.
+    std::shared_ptr<SharedBody> shared = {};
   };
 
   /// Read or generate what a scene needs and `given` does not hold. Without importance no

@@ -76,6 +76,11 @@ namespace Exemplar
     void
     start_interpolation();
 
+    /// `what` is not finite in this process, or what to call it if it is in another one; empty if all
+    /// is finite in all.
+    std::string
+    agreed(const std::string &what) const;
+
     /// Throws UserError if the initial state is nothing to begin with.
     void
     check_start();
@@ -89,8 +94,15 @@ namespace Exemplar
     start(State &at);
   };
 
-  /// The problem of a scene and of the files that it names. Throws UserError whatever fails, as
-  /// the scene is to blame before the first step is solved. See read_inputs() for `announce`.
+  /// Gives the inputs of a problem.
+  using ReadInputs = std::function<Inputs(const SceneParameters &)>;
+
+  /// The problem of a scene and of what `read` gives for it. Throws UserError whatever fails, as
+  /// the scene is to blame before the first step is solved.
+  std::unique_ptr<Problem>
+  make_problem(const SceneParameters &parameters, const ReadInputs &read);
+
+  /// The same with the files that the scene names. See read_inputs() for `announce`.
   std::unique_ptr<Problem>
   make_problem(const SceneParameters &parameters, const Announce &announce = {});
 } // namespace Exemplar

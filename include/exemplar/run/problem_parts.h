@@ -31,6 +31,13 @@ namespace Exemplar
     /// Takes the mesh of the inputs, and adds to their nodes what is selected by the surface.
     Body(const SceneParameters &parameters, Inputs &inputs);
 
+    /// With the processes that have other parts of the body.
+    const Exchange &
+    exchange() const
+    {
+      return mesh.exchange();
+    }
+
     const Mesh                           mesh;
     const SurfaceReadings                readings; ///< off the surface
     const Material                       material;
@@ -38,6 +45,7 @@ namespace Exemplar
     const std::unique_ptr<const Patches> patches; ///< of one mean dilatation each
     /// How the mesh and its poses became of surfaces; null if none did.
     const std::shared_ptr<const MadeOfSurfaces> made;
+    const std::shared_ptr<const SharedBody>     shared; ///< null in one process
   };
 
   /// What holds the body, and what is left free.

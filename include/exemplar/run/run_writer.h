@@ -11,6 +11,7 @@
 #include <exemplar/run/statistics_file.h>
 
 #include <chrono>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -18,7 +19,9 @@
 
 namespace Exemplar
 {
-  /// Writes everything that a run of a problem leaves on disk. With more than one thread, frames
+  /// Writes everything that a run of a problem leaves on disk. All processes that share a body must
+  /// call its functions: the root writes all but the others' pieces of frames, and what one throws all
+  /// throw. With more than one thread, frames
   /// are written while the next step is computed; what begin(), add_step() and finish()
   /// throw may then be the error of an earlier frame. Checkpoints and what finish()
   /// writes wait for all frames before them.
@@ -72,6 +75,10 @@ namespace Exemplar
     }
 
   private:
+    /// What the root does alone.
+    void
+    at_root(const std::function<void()> &action) const;
+
     void
     write_original() const;
 
@@ -81,9 +88,13 @@ namespace Exemplar
     void
     write_final_pose() const;
 
-    /// What is saved of the present state.
+    /// What is saved of the present state; whole at the root.
     Checkpoint
     present(const std::string &statistics_digest) const;
+
+    /// Write a row of statistics.csv; of a failed step it is of no state.
+    void
+    write_row(StatisticsRow row, const std::optional<PartSeconds> &seconds, bool is_of_state);
 
     void
     save();
@@ -121,6 +132,7 @@ namespace Exemplar
     lap();
 
     Problem                                 &problem;
+    const Exchange                          &exchange;
     const SceneFile                         &scene;
     Diagnostics                              diagnostics;
     RunDirectory                             directory;

@@ -33,12 +33,26 @@ namespace Exemplar
       return velocities.memory_consumption();
     }
 
-    /// For checkpoints.
+    /// For checkpoints: of the whole body.
     template <typename Archive>
     void
-    serialize(Archive &archive, unsigned int /*version*/)
+    save(Archive &archive) const
     {
-      archive &velocities;
+      std::deque<std::vector<double>> history = velocities.vectors();
+      for (std::vector<double> &vector : history)
+        vector = free_dofs.whole(vector);
+      archive &history;
+    }
+
+    template <typename Archive>
+    void
+    load(Archive &archive)
+    {
+      std::deque<std::vector<double>> history;
+      archive                        &history;
+      for (std::vector<double> &vector : history)
+        vector = free_dofs.part(vector);
+      velocities.restore(std::move(history));
     }
 
   private:

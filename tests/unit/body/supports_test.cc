@@ -43,7 +43,7 @@ namespace Exemplar::Testing
       for (const double length : { 0.3, 1., 7. })
       {
         const Mesh mesh(box_mesh(length, 3, 2));
-        const auto support = support_near_centroid(mesh);
+        const auto support = support_near_centroid(mesh.get_nodes(), mesh.get_cells());
         EXPECT_EQ(support.held_dofs.size(), 6u);
         EXPECT_EQ(n_free_rigid_motions(mesh, FESpace(mesh).rest_positions(), support.held_dofs), 0u);
       }

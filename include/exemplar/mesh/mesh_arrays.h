@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_mesh_arrays_h
+#define exemplar_mesh_arrays_h
+
+#include <exemplar/mesh/mesh_inputs.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace Exemplar
+{
+  /// A tetrahedral mesh that has been checked. Node i is the i-th node of the file, cell c its c-th
+  /// tetrahedron.
+  struct MeshArrays
+  {
+    MshFile                                  contents; ///< as read, nodes scaled [m]
+    std::vector<std::array<unsigned int, 4>> cells;    ///< positively oriented
+    std::vector<unsigned int>                material_ids;
+    std::vector<std::size_t>                 element_numbers; ///< the file's
+    std::vector<BoundaryFace>                boundary_faces;
+    std::vector<std::string>                 warnings; ///< to show the user
+  };
+
+  /// Multiply the nodes by `scale`, and check. `name` stands for the file in messages. Throws
+  /// UserError with element or node numbers of the file for whatever is no valid body, and for a
+  /// scale that is not positive.
+  MeshArrays
+  check_mesh(MshFile contents, const std::string &name, double scale);
+
+  /// Diagonal of the bounding box.
+  double
+  box_diagonal(const std::vector<dealii::Point<3>> &nodes);
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,333 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Several processes under mpirun that fail, are killed or interrupted: no hang, one message, one status, and what was computed is good."""
+
+import os
+import re
+import resource
+import shutil
+import signal
+import subprocess
+import time
+import unittest
+from pathlib import Path
+
+from exemplar_runner import EXEMPLAR, Run, SceneTest, has_trilinos, prm, read_csv, read_summary, results
+
+N = 3
+BODY = {
+    "Mesh/Generator": "box",
+    "Mesh/Box size": "2, 1, 1",
+    "Mesh/Box cells": "6, 3, 3",
+    "Material/Young's modulus": "1e4",
+    "Handles/Names": "left",
+    "Handles/left/Select": "boundary 1",
+    "Loads/Gravity": "0, 0, -1",
+    "Output/Checkpoint minutes": "0",
+}
+STATIC = {**BODY, "Scene": "static", "Time/Increments": "2"}
+DYNAMIC = {**BODY, "Scene": "dynamic", "Time/Step": "0.01", "Time/End": "1.5", "Output/Every": "30"}
+ENDLESS = {**DYNAMIC, "Time/Step": "1e-9", "Output/Every": "1000"}
+FAILING = {**STATIC, "Loads/Gravity": "0, 0, -1e9", "Solver/Maximum iterations": "3"}
+LAUNCHER = ["mpirun", "-n", str(N)]
+
+# One process is started by this shell script instead, with the same arguments.
+ONE_BY_SCRIPT = 'if [ "$OMPI_COMM_WORLD_RANK" = {} ]; then {}; fi; exec "$0" "$@"'
+
+
+def needs_mpi(test):
+    return unittest.skipUnless(has_trilinos() and shutil.which("mpirun"), "needs Trilinos and mpirun")(test)
+
+
+def environment():
+    """As root and on few cores, too."""
+    allowed = ("OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "OMPI_MCA_rmaps_base_oversubscribe")
+    return {**os.environ, **{name: "1" for name in allowed}}
+
+
+@needs_mpi
+class MpiTest(SceneTest):
+    def start(self, *arguments, launcher=(), script=None):
+        process = subprocess.Popen([*(launcher or LAUNCHER), *(["sh", "-c", script] if script else []), EXEMPLAR,
+                                    *map(str, arguments)], cwd=self.directory, text=True, env=environment(),
+                                   stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        self.addCleanup(self.end, process)
+        return process
+
+    def end(self, process):
+        if process.poll() is None:
+            for rank in self.ranks(process):
+                os.kill(rank, signal.SIGKILL)
+            process.kill()
+        process.communicate()
+
+    def result_of(self, process):
+        """What it says ends within a minute."""
+        stdout, stderr = process.communicate(timeout=60)
+        return Run(process.returncode, stdout, stderr, self.directory / "out")
+
+    def run_all(self, scene, *arguments, output="out", **how):
+        self.write("scene.prm", prm(scene))
+        return self.result_of(self.start("scene.prm", "--output", output, *arguments, **how))
+
+    def solve_all(self, scene, *arguments, **how):
+        run = self.run_all(scene, *arguments, **how)
+        self.assertEqual((run.status, self.messages(run)), (0, []), run.stderr)
+        return run.output
+
+    def messages(self, run):
+        return [line[len("exemplar: "):] for line in run.stderr.splitlines() if line.startswith("exemplar: ")]
+
+    def check_end(self, run, status, message):
+        """One message of ours, which mpirun adds nothing to but what it may say of signals."""
+        said = self.messages(run)
+        self.assertEqual(len(said), 1, run.stderr)
+        self.assertRegex(said[0], message)
+        self.assertEqual(run.status, status, run.stderr)
+
+    def refuse(self, scene, message, *arguments, **how):
+        """Refused with nothing written."""
+        run = self.run_all(scene, *arguments, **how)
+        self.check_end(run, 1, message)
+        self.assertFalse((self.directory / "out").exists())
+
+    def ranks(self, process):
+        """Ids of the processes that mpirun has started, in their order."""
+        found = {}
+        for children in Path(f"/proc/{process.pid}/task").glob("*/children"):
+            for child in map(int, children.read_text().split()):
+                try:
+                    text = Path(f"/proc/{child}/environ").read_bytes().decode(errors="replace")
+                except OSError:
+                    continue
+                number = re.search(r"\0OMPI_COMM_WORLD_RANK=(\d+)\0", text)
+                if number:
+                    found[int(number[1])] = child
+        return [found[number] for number in sorted(found)]
+
+    def rows(self):
+        try:
+            return (self.directory / "out/statistics.csv").read_bytes().count(b"\n")
+        except FileNotFoundError:
+            return 0
+
+    def start_and_wait(self, scene, *arguments, rows=20):
+        """Start a run; return when it has made steps."""
+        self.write("scene.prm", prm(scene))
+        process = self.start("scene.prm", "--output", "out", "--quiet", *arguments)
+        end = time.monotonic() + 60
+        while self.rows() < rows:
+            self.assertIsNone(process.poll(), "the program has ended already")
+            self.assertLess(time.monotonic(), end, "it makes no steps")
+            time.sleep(1e-3)
+        return process
+
+    def check_resumed(self, scene):
+        """What is in out goes on to the bytes of a run that nothing happened to."""
+        resumed = results(self.solve_all(scene, "--resume"))
+        (self.directory / "out").rename(self.directory / "resumed")
+        self.assertEqual(resumed, results(self.solve_all(scene)))
+
+
+class Start(MpiTest):
+    def test_one_process_is_as_without_mpirun(self):
+        without = results(self.solve(DYNAMIC, output="without"))
+        self.assertEqual(results(self.solve_all(DYNAMIC, launcher=["mpirun", "-n", "1"])), without)
+
+    def test_commands_for_one_process(self):
+        self.write("scene.prm", prm(STATIC))
+        for arguments, name in ((["verify", "patch"], "exemplar verify"), (["study", "study.prm"], "exemplar study"),
+                                (["mesh", "--surface", "a.obj", "--cells", "100", "--output", "a.msh"], "exemplar mesh"),
+                                (["pose", "--mesh", "a.msh", "--rest", "a.obj", "--pose", "b.obj", "--output", "out"],
+                                 "exemplar pose"),
+                                (["scene.prm", "--validate"], "--validate"), (["--print-parameters"], "--print-parameters")):
+            with self.subTest(name):
+                run = self.result_of(self.start(*arguments))
+                self.check_end(run, 1, f"^{name} cannot be done by several processes. Call it without mpirun.$")
+                self.assertEqual(run.stdout, "")
+
+    def test_version_is_said_once(self):
+        run = self.result_of(self.start("--version"))
+        self.assertEqual((run.status, run.stdout.count("\n"), run.stderr), (0, 1, ""))
+
+    def test_another_program(self):
+        other = self.directory / "other"
+        shutil.copy(EXEMPLAR, other)
+        with open(other, "ab") as file:
+            file.write(b"\n")  # still the same program, but not the same bytes
+        self.refuse(STATIC, "^Process 1 of 3 is another program than process 0. Install the same exemplar .* on all machines.$",
+                    script=ONE_BY_SCRIPT.format(1, f'exec "{other}" "$@"'))
+
+    def test_other_arguments(self):
+        self.refuse(STATIC, "^Process 2 of 3 was given other arguments than process 0. Start all by one command: mpirun -n 3",
+                    script=ONE_BY_SCRIPT.format(2, 'exec "$0" "$@" --verbose'))
+
+    def test_another_scene_behind_the_same_name(self):
+        (self.directory / "elsewhere").mkdir()
+        self.write("elsewhere/scene.prm", prm({**STATIC, "Loads/Gravity": "0, 0, -2"}))
+        self.refuse(STATIC, "^Process 1 of 3 reads another scene than process 0. Let all machines see the same files.$",
+                    script=ONE_BY_SCRIPT.format(1, "cd elsewhere"))
+
+    def test_a_scene_that_one_process_cannot_read(self):
+        self.refuse(STATIC, r"^scene.prm: cannot be read\. .* \(process 1 of 3, on .*\)$",
+                    script=ONE_BY_SCRIPT.format(1, "cd /"))
+
+    def test_another_mpi_library(self):
+        # as MPICH's mpiexec would start it
+        for rank in range(2):
+            run = self.call("nothing.prm", PMI_SIZE="2", PMI_RANK=str(rank))
+            self.assertEqual(run.status, 1)
+            if rank == 0:
+                self.check_end(run, 1, "^mpiexec has started 2 processes that do not find each other: it belongs to another "
+                                       "MPI library than exemplar, which uses Open MPI v")
+            else:
+                self.assertEqual(run.stderr, "")
+
+    def test_srun_without_mpi(self):
+        run = self.call("nothing.prm", SLURM_STEP_NUM_TASKS="2", SLURM_PROCID="0")
+        self.check_end(run, 1, "^srun has started 2 processes that do not find each other: it does not prepare them for MPI.")
+        run = self.call("nothing.prm", SLURM_STEP_NUM_TASKS="2", SLURM_PROCID="1")
+        self.assertEqual((run.status, run.stderr), (1, ""))
+        self.write("scene.prm", prm(STATIC))
+        run = self.call("scene.prm", SLURM_STEP_NUM_TASKS="2", SLURM_PROCID="0", SLURM_PTY_PORT="1")  # a shell of srun --pty
+        self.assertEqual((run.status, run.stderr), (0, ""))
+
+
+class Input(MpiTest):
+    def test_bad_scene(self):
+        self.refuse({**STATIC, "Scene": "x"}, r"Scene[^(]*$")
+
+    def test_no_scene(self):
+        run = self.result_of(self.start("nothing.prm"))
+        self.check_end(run, 1, r"^nothing.prm: cannot be read[^(]*$")
+
+    def test_bad_meshes_and_poses(self):
+        self.write("bad.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\nx\n")
+        for name, keys in (("bad.msh", {"Mesh/Generator": "file", "Mesh/File": "bad.msh", "Mesh/Box size": None,
+                                        "Mesh/Box cells": None}),
+                           ("nothing.msh", {"Mesh/Generator": "file", "Mesh/File": "nothing.msh", "Mesh/Box size": None,
+                                            "Mesh/Box cells": None}),
+                           ("pose.msh", {"Examples/Poses": "pose.msh"})):
+            with self.subTest(name):
+                self.refuse({**STATIC, **keys}, f"{name}[^(]*$")
+
+    def test_a_handle_that_selects_nothing(self):
+        self.refuse({**STATIC, "Handles/left/Select": "boundary 77"}, "boundary 77[^(]*$")
+
+    def test_directories(self):
+        self.write("file", "")
+        self.check_end(self.run_all(STATIC, output="file/out"), 1, "file")
+        self.write("scene.prm", prm(ENDLESS))
+        self.start_and_wait(ENDLESS)
+        run = self.result_of(self.start("scene.prm", "--output", "out"))
+        self.check_end(run, 1, "^Another run is writing into the output directory out.")
+
+    def test_more_processes_than_cells(self):
+        self.refuse({**STATIC, "Mesh/Box cells": "1, 1, 1"}, "cells", launcher=["mpirun", "-n", "25"])
+
+    def test_damaged_checkpoint(self):
+        output = self.solve_all(STATIC)
+        whole = results(output)
+        checkpoint = output / "checkpoint.bin"
+        data = bytearray(checkpoint.read_bytes())
+        data[len(data) // 2] ^= 1
+        checkpoint.write_bytes(data)
+        self.check_end(self.run_all({**STATIC, "Time/Increments": "2"}, "--resume"), 1, "checkpoint")
+        self.assertEqual(results(output), whole)
+
+    def test_numbers_that_fail_in_all_processes(self):
+        run = self.run_all(FAILING)
+        self.check_end(run, 2, r"^[^(]*$")
+        self.assertTrue((run.output / "summary.json").exists())
+
+
+class Death(MpiTest):
+    def test_killed(self):
+        for killed in range(N):
+            with self.subTest(killed=killed):
+                process = self.start_and_wait(DYNAMIC)
+                os.kill(self.ranks(process)[killed], signal.SIGKILL)
+                run = self.result_of(process)
+                self.assertEqual((run.status, self.messages(run)), (128 + signal.SIGKILL, []))
+                self.assertRegex(run.stderr, f"process rank {killed} .* exited on signal 9")  # by mpirun
+                self.check_resumed(DYNAMIC)
+                shutil.rmtree(self.directory / "out")
+                shutil.rmtree(self.directory / "resumed")
+
+    def test_full_disk(self):
+        process = self.start_and_wait(DYNAMIC)
+        root = self.ranks(process)[0]
+        resource.prlimit(root, resource.RLIMIT_FSIZE, (2000, 2000))
+        self.check_end(self.result_of(process), 2, "out")
+        self.check_resumed(DYNAMIC)
+
+    def test_memory(self):
+        # enough to start, not enough for the matrix
+        big = {**STATIC, "Mesh/Box cells": "60, 30, 30"}
+        run = self.run_all(big, script=ONE_BY_SCRIPT.format(1, "ulimit -v 1500000"))
+        self.check_end(run, 2, r"^There is not enough memory .* \(process 1 of 3, on .*\)$")
+
+    def test_interrupted(self):
+        """SIGUSR1, which mpirun passes on and then waits for."""
+        process = self.start_and_wait(DYNAMIC)
+        process.send_signal(signal.SIGUSR1)
+        self.check_end(self.result_of(process), 130, r"^Interrupted after step \d+\. Go on with --resume\.$")
+        self.assertEqual(read_summary(self.directory / "out")["status"], "interrupted")
+        self.check_resumed(DYNAMIC)
+
+    def test_one_interrupted(self):
+        for number, how in ((0, signal.SIGINT), (1, signal.SIGTERM), (2, signal.SIGXCPU)):
+            with self.subTest(number=number, how=how):
+                process = self.start_and_wait(ENDLESS)
+                os.kill(self.ranks(process)[number], how)
+                self.check_end(self.result_of(process), 130, r"^Interrupted after step \d+\. Go on with --resume\.$")
+                rows = read_csv(self.directory / "out")
+                self.assertEqual([row["step"] for row in rows], list(range(len(rows))))
+                shutil.rmtree(self.directory / "out")
+
+    def test_interrupted_before_the_first_step(self):
+        # it waits for the run, which then ends at once
+        self.write("scene.prm", prm({**ENDLESS, "Mesh/Box cells": "24, 12, 12"}))
+        process = self.start("scene.prm", "--output", "out", "--quiet")
+        while len(self.ranks(process)) < N:
+            time.sleep(1e-3)
+        time.sleep(0.7)
+        process.send_signal(signal.SIGUSR1)
+        self.check_end(self.result_of(process), 130, r"^Interrupted after step \d+\. Go on with --resume\.$")
+
+    def test_mpirun_interrupted(self):
+        """Its own status is 1. It leaves the processes a second, which is enough for a small body."""
+        for how in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            with self.subTest(how):
+                process = self.start_and_wait(DYNAMIC)
+                ranks = self.ranks(process)
+                process.send_signal(how)
+                run = self.result_of(process)
+                self.assertEqual(run.status, 1)
+                self.assertLessEqual(len(self.messages(run)), 1, run.stderr)
+                self.assertFalse([rank for rank in ranks if Path(f"/proc/{rank}").exists()])
+                self.check_resumed(DYNAMIC)
+                shutil.rmtree(self.directory / "out")
+                shutil.rmtree(self.directory / "resumed")
+
+    def test_mpirun_killed(self):
+        process = self.start_and_wait(ENDLESS)
+        ranks = self.ranks(process)
+        process.kill()
+        process.communicate(timeout=60)
+        end = time.monotonic() + 20
+        while any(Path(f"/proc/{rank}").exists() for rank in ranks) and time.monotonic() < end:
+            time.sleep(0.01)
+        self.assertFalse([rank for rank in ranks if Path(f"/proc/{rank}").exists()])
+
+    def test_interrupted_twice(self):
+        process = self.start_and_wait({**ENDLESS, "Mesh/Box cells": "24, 12, 12"}, rows=3)
+        os.kill(self.ranks(process)[1], signal.SIGSTOP)  # so that nobody gets on
+        root = self.ranks(process)[0]
+        os.kill(root, signal.SIGTERM)
+        time.sleep(0.2)
+        os.kill(root, signal.SIGTERM)
+        self.check_end(self.result_of(process), 130, "^Interrupted again, and ended at once.")
+
+
+if __name__ == "__main__":
+    unittest.main()
