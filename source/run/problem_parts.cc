@@ -111,7 +111,7 @@ namespace Exemplar
     double
     operations_at_crossover(const Method method, const unsigned int n_examples)
     {
-      return method == Method::quasi_newton ? 1.2e4 * (1. + 0.25 * n_examples)
+      return method == Method::quasi_newton ? 1e4 * (1. + 0.25 * n_examples)
                                             : 1.75e4 * (1. + n_examples);
     }
 
