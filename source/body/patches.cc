@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/body/patches.h>
+#include <exemplar/mesh/mesh_checks.h>
 
 #include <deal.II/base/memory_consumption.h>
 
@@ -45,6 +46,26 @@ namespace Exemplar
       return around;
     }
 
+    constexpr unsigned int no_cell = static_cast<unsigned int>(-1);
+
+    /// The cells that share a face with each cell; no_cell at the boundary.
+    std::vector<std::array<unsigned int, 4>>
+    cells_beside(const std::vector<std::array<unsigned int, 4>> &cells)
+    {
+      std::vector<std::array<unsigned int, 4>> beside(cells.size(),
+                                                      { { no_cell, no_cell, no_cell, no_cell } });
+      const std::vector<CellFace>              faces = sorted_faces({ cells, {}, {} });
+      const auto                               add   = [&](const CellFace &face, const CellFace &of)
+      { *std::find(beside[of.cell].begin(), beside[of.cell].end(), no_cell) = face.cell; };
+      for (std::size_t i = 1; i < faces.size(); ++i)
+        if (faces[i].nodes == faces[i - 1].nodes)
+        {
+          add(faces[i], faces[i - 1]);
+          add(faces[i - 1], faces[i]);
+        }
+      return beside;
+    }
+
     /// The choice of the patches.
     class Stars
     {
@@ -53,7 +74,7 @@ namespace Exemplar
             const unsigned int                              n_mesh_nodes,
             const std::vector<Kind>                        &kinds)
           : cells(cells), kinds(kinds), around(cells_by_node(cells, n_mesh_nodes)),
-            patch(cells.size(), no_patch)
+            beside(cells_beside(cells)), patch(cells.size(), no_patch)
       {
         for (const std::size_t least : { 18, 9 }) // at an inner node there are 24 on average
         {
@@ -183,13 +204,9 @@ namespace Exemplar
       std::map<unsigned int, int>
       patches_beside(const unsigned int cell) const
       {
-        std::map<unsigned int, int> n_common; // nodes of each cell that shares a node
-        for (const unsigned int node : cells[cell])
-          for (const unsigned int other : around[node])
-            ++n_common[other];
         std::map<unsigned int, int> n_faces;
-        for (const auto &[other, n] : n_common)
-          if (n == 3 && patch[other] != no_patch && kinds[other] == kinds[cell])
+        for (const unsigned int other : beside[cell])
+          if (other != no_cell && patch[other] != no_patch && kinds[other] == kinds[cell])
             ++n_faces[patch[other]];
         return n_faces;
       }
@@ -197,6 +214,7 @@ namespace Exemplar
       const std::vector<std::array<unsigned int, 4>> &cells;
       const std::vector<Kind>                        &kinds;
       const std::vector<std::vector<unsigned int>>    around;  ///< the cells at each node
+      const std::vector<std::array<unsigned int, 4>>  beside;  ///< cells_beside()
       std::vector<unsigned int>                       patch;   ///< of each cell
       std::vector<int>                                n_cells; ///< of each patch
       std::vector<std::set<unsigned int>>             nodes;   ///< of each patch

@@ -8,8 +8,11 @@ import subprocess
 import unittest
 import xml.etree.ElementTree
 
+from math import cos, sin
+
 from exemplar_runner import (EXEMPLAR, SceneTest, bend, greatest_distance, has_trilinos, nodes_of, read_csv, read_msh,
-                             read_pvd, read_summary, read_vtu, timeless_statistics, twist, write_scene)
+                             read_pvd, read_summary, read_vtu, results, timeless_statistics, twist, write_msh,
+                             write_scene)
 
 MPI_ENVIRONMENT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
                    "OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_MCA_hwloc_base_binding_policy": "none",
@@ -113,6 +116,93 @@ class SeveralProcesses(SceneTest):
                     one = self.solve(scene, "--quiet", output=f"one_{name}")
                     self.compare(one, self.run_on(n, scene, output=f"on_{n}_{name}"),
                                  self.displacement(one, scene), 1e-8)
+
+    def test_what_surfaces_files_and_regions_say(self):
+        two = {**STATIC, "Mesh/Generator": None, "Mesh/Box size": None, "Mesh/Box cells": None, "Mesh/File": "two.msh",
+               "Material/region 2/Young's modulus": "3e6", **BENT, "Examples/Weights": "free",
+               "Examples/Weights per region": "true", "Handles/Names": "left, listed, led",
+               "Handles/left/Select": "region 3", "Handles/listed/Select": "nodes listed.txt",
+               "Handles/led/Select": "boundary 2", "Handles/led/Follow pose": "led.msh", "Handles/led/Progress": "0.3*t",
+               "Initial/Pose": "led.msh"}
+        box = self.write_box(STATIC, "box.msh")
+
+        def region(element):
+            middle = sum(box.nodes[node][0] for node in element[-4:]) / 4.
+            return 3 if middle < 0.5 else 1 if middle < 2.5 else 2
+        marked = [element if element[1] != 4 else (*element[:3], region(element), *element[4:]) for element in box.elements]
+        write_msh(self.directory / "two.msh", box._replace(elements=marked))
+        write_msh(self.directory / "led.msh", box._replace(elements=marked),
+                  lambda x, y, z: (x * cos(0.5) - y * sin(0.5), x * sin(0.5) + y * cos(0.5), z))
+        some = [str(number) for number, (x, y, z) in box.nodes.items() if abs(x - 2.) < 1e-9 and z > 0.4]
+        (self.directory / "listed.txt").write_text(" ".join(some))
+        one = self.solve(two, "--quiet", output="one")
+        for n in (2, 3):
+            with self.subTest(processes=n):
+                self.compare(one, self.run_on(n, two), 1., 1e-8)
+
+    def test_bytes_repeat(self):
+        scene = {**SCENES["newton, examples"], "Output/Every": "5"}
+        first, second = (self.run_on(2, scene, output=name) for name in ("first", "second"))
+        self.assertEqual(timeless_statistics(first), timeless_statistics(second))
+        names = sorted(file.name for file in first.iterdir() if re.match(r"frame_|final|animation", file.name))
+        self.assertIn("frame_0005_process_0001.vtu", names)
+        for name in names:
+            self.assertEqual((first / name).read_bytes(), (second / name).read_bytes(), name)
+
+    def test_one_process_is_that_without_mpirun(self):
+        scene = {**SCENES["newton, examples"], "Output/Every": "5"}
+        self.assertEqual(results(self.solve(scene, "--quiet", output="alone")), results(self.run_on(1, scene)))
+
+    def test_pieces_make_the_frame(self):
+        scene = {**DYNAMIC, "Output/Every": "5"}
+        one = self.solve(scene, "--quiet", output="one")
+        three = self.run_on(3, scene)
+        self.assertEqual([file for _, file in read_pvd(three)], ["frame_0000.pvtu", "frame_0005.pvtu"])
+        joint = xml.etree.ElementTree.parse(three / "frame_0005.pvtu").getroot()
+        pieces = [piece.get("Source") for piece in joint.iter("Piece")]
+        self.assertEqual(pieces, [f"frame_0005_process_000{i}.vtu" for i in range(3)])
+
+        def cells(files):
+            """Of each cell its corners' displacements, rounded, and its values."""
+            found = []
+            for arrays, _, n_cells in map(read_vtu, files):
+                place, nodes = arrays["Points", "Points"], arrays["Cells", "connectivity"]
+                declared = {array.get("Name") for array in joint.iter("PDataArray")}
+                self.assertEqual({name for section, name in arrays if section != "Cells"}, declared)
+                for cell in range(n_cells):
+                    corners = sorted(tuple(round(x, 6) + 0. for x in place[3 * node:3 * node + 3])
+                                     for node in nodes[4 * cell:4 * cell + 4])
+                    found.append((corners, round(arrays["CellData", "det_F"][cell], 6)))
+            return sorted(found)
+        self.assertEqual(cells([one / "frame_0005.vtu"]), cells([three / piece for piece in pieces]))
+
+    def test_a_run_goes_on_with_another_number_of_processes(self):
+        scene = {**SCENES["newton, BDF2, damping"], **BENT, "Examples/Weights": "simplex", "Output/Every": "1"}
+        whole = self.solve(scene, "--quiet", output="whole")
+        half = {**scene, "Time/End": "0.06"}
+        for before, after in ((3, 2), (2, 1), (1, 3)):
+            with self.subTest(before=before, after=after):
+                output = f"{before}_{after}"
+                self.run_on(before, half, output=output)
+                resumed = self.run_on(after, scene, "--resume", output=output)
+                self.compare(whole, resumed, 1., 1e-8)
+                self.assertEqual(len(read_pvd(resumed)), 6)
+
+    def test_the_summary_tells_of_all_processes(self):
+        one, two = (read_summary(self.solve(STATIC, "--quiet", output="one")), read_summary(self.run_on(2, STATIC)))
+        for key in ("cells", "nodes", "dofs", "constrained_dofs", "steps"):
+            self.assertEqual(one[key], two[key], key)
+        self.assertEqual((two["processes"], len(two["peak_memory_mib_of_processes"])), (2, 2))
+
+    def test_what_processes_cannot_share_is_refused_by_name(self):
+        for key, value in (("Solver/Linear solver", "cholesky"), ("Output/Space error", "true")):
+            with self.subTest(key=key):
+                file = write_scene(self.directory / "scene.prm", {**STATIC, key: value})
+                status, own, _ = launch(2, file, "--quiet", "--output", self.directory / "refused")
+                self.assertEqual((status, len(own)), (1, 1), own)
+                self.assertIn(key, own[0])
+                self.assertIn("mpirun", own[0])
+                self.assertFalse((self.directory / "refused").exists())
 
 
 if __name__ == "__main__":
