@@ -106,6 +106,12 @@ class MpiTest(SceneTest):
                     found[int(number[1])] = child
         return [found[number] for number in sorted(found)]
 
+    def all_take(self, process, how):
+        """Whether no process would end by the signal."""
+        ranks = self.ranks(process)
+        masks = [int(re.search(r"SigCgt:\s*(\w+)", Path(f"/proc/{rank}/status").read_text())[1], 16) for rank in ranks]
+        return len(ranks) == N and all(mask >> how - 1 & 1 for mask in masks)
+
     def wait_for_death(self, ids):
         end = time.monotonic() + 20
         while any(Path(f"/proc/{number}").exists() for number in ids):
@@ -300,9 +306,9 @@ class Death(MpiTest):
         # it waits for the run, which then ends at once
         self.write("scene.prm", prm({**ENDLESS, "Mesh/Box cells": "24, 12, 12"}))
         process = self.start("scene.prm", "--output", "out", "--quiet")
-        while len(self.ranks(process)) < N:
+        while not self.all_take(process, signal.SIGUSR1):
+            self.assertIsNone(process.poll())
             time.sleep(1e-3)
-        time.sleep(0.7)
         process.send_signal(signal.SIGUSR1)
         self.check_end(self.result_of(process), 130, r"^Interrupted after step \d+\. Go on with --resume\.$")
 
