@@ -297,8 +297,9 @@ namespace Exemplar
       counts[2] += 2. * smoother_degree * static_cast<double>(level.matrix.n_blocks())
                    + 2. * static_cast<double>(level.prolongation.n_blocks());
     exchange.sum(counts);
-    const double iteration = 60. * counts[0] + 2.6 * n_cycles * (counts[1] + counts[2]);
-    relative_cost          = 2000. * counts[1] / iteration;
+    const double iteration  = 60. * counts[0] + 2.6 * n_cycles * (counts[1] + counts[2]);
+    relative_cost           = 2000. * counts[1] / iteration;
+    relative_cost_of_column = 1100. * counts[1] / iteration; // by conjugate gradients to 1e-8
   }
 
   double

@@ -475,7 +475,8 @@ namespace Exemplar::Testing
       Columns       kept     = halves(own_rows(right_side())).first;
       inverse->apply(kept);
       EXPECT_LT(difference(kept, solution), 0.1);
-      EXPECT_GT(inverse->cost_in_iterations(), 1.);
+      EXPECT_GT(inverse->cost_in_iterations(0), 1.);
+      EXPECT_GT(inverse->cost_in_iterations(2), inverse->cost_in_iterations(0));
       EXPECT_GT(inverse->memory_consumption(), 0.);
     }
 

@@ -34,6 +34,8 @@ BODY = {
 STATIC = {**BODY, "Scene": "static", "Time/Increments": "2", "Solver/Tolerance": "1e-11"}
 DYNAMIC = {**BODY, "Scene": "dynamic", "Time/Step": "0.02", "Time/End": "0.1", "Solver/Method": "newton",
            "Solver/Tolerance": "1e-11", "Handles/left/Motion": "0; 0; 0.3*sin(4*t)"}
+# in one process with a factor, in several with a multigrid hierarchy
+QUASI_NEWTON = {**DYNAMIC, "Solver/Method": "quasi newton", "Solver/Step tolerance": "1e-11"}
 BENT = {"Examples/Pose functions": bend("pi/2"), "Examples/Importance": "0.8"}
 TWISTED = {"Scene": "interpolation", "Mesh/Generator": "box", "Mesh/Box size": "4, 1, 1", "Mesh/Box cells": "8, 2, 2",
            "Examples/Pose functions": twist("pi/2"), "Examples/Include rest pose": "true",
@@ -61,6 +63,8 @@ SCENES = {
     "newton, lumped, quadratic": {**DYNAMIC, "Material/Mass matrix": "lumped", "Model/Element": "P2",
                                   "Mesh/Box cells": "4, 1, 1"},
     "newton, examples": {**DYNAMIC, **BENT, "Examples/Weights": "simplex"},
+    "quasi newton": QUASI_NEWTON,
+    "quasi newton, examples": {**QUASI_NEWTON, **BENT, "Examples/Weights": "free"},
     "newton, free body": {**DYNAMIC, "Handles/Names": "", "Handles/left/Select": None, "Handles/left/Motion": None,
                           "Initial/Velocity": "-y; x; 0.1*x"},
     "one pass": {**DYNAMIC, "Solver/Method": "one pass", "Solver/Tolerance": None, **BENT,

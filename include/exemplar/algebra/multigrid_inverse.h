@@ -27,9 +27,9 @@ namespace Exemplar
     apply(std::vector<double> &vector) override;
 
     double
-    cost_in_iterations() const override
+    cost_in_iterations(const std::size_t n_columns) const override
     {
-      return relative_cost;
+      return relative_cost + static_cast<double>(n_columns) * relative_cost_of_column;
     }
 
     std::size_t
@@ -87,7 +87,7 @@ namespace Exemplar
     std::pair<double, double> spectrum;        ///< of the finest matrix, preconditioned by a cycle
     unsigned int              n_cycles = 0;
     BlockVector               step; ///< of the polynomial
-    double                    relative_cost = 0.;
+    double                    relative_cost = 0., relative_cost_of_column = 0.;
   };
 } // namespace Exemplar
 
