@@ -2,9 +2,10 @@
 """Print the tables of doc/speed.md on large meshes: cholesky beside iterative, and a bar of a million cells.
 
 Usage: python3 doc/scripts/measure_large.py [BINARY] [PART]...     on a quiet machine
-PART is crossover (five minutes, 2 GB) or million (a minute, 3.5 GB); both by default.
+PART is crossover (five minutes, 2 GB), million (a minute, 3.5 GB) or steps (15 minutes, 5 GB); all by default.
 """
 import resource
+import statistics
 import sys
 import tempfile
 from pathlib import Path
@@ -31,6 +32,26 @@ BODIES = [
 ]
 # of the benchmarks: its tip sinks by a tenth of its length
 MILLION = {**box("4, 1, 1", "140, 35, 35", 9.81), "Material/Young's modulus": 1e7}
+
+# a bar that falls, held at one end; and one whose end is turned to and fro, half a period
+FALLING = {"Scene": "dynamic", "Material/Young's modulus": 1e6, "Material/Poisson's ratio": 0.45, "Material/Density": 1000,
+           "Time/Step": 0.01, "Time/End": 0.6}
+SWUNG = {**FALLING, "Time/Step": 1 / 60, "Time/End": 1,
+         "Handles/left/Motion": "x*(cos(0.6*sin(3.14159*t))-1) + z*sin(0.6*sin(3.14159*t)); 0; "
+                                "z*(cos(0.6*sin(3.14159*t))-1) - x*sin(0.6*sin(3.14159*t))"}
+
+
+def moving(size, cells, motion):
+    return {**{key: value for key, value in box(size, cells, 9.81).items() if key not in ("Time/Increments", "Solver/Tolerance")},
+            **motion}
+
+
+MOVING = [
+    *(("bar 4:1:1 falls", moving("4, 1, 1", f"{4 * n}, {n}, {n}", FALLING)) for n in (8, 10, 12, 14, 16, 20, 25)),
+    *(("bar 4:1:1 is turned", moving("4, 1, 1", f"{4 * n}, {n}, {n}", SWUNG)) for n in (12, 16, 20)),
+    *(("bar 20:1:1 is turned", moving("20, 1, 1", f"{20 * n}, {n}, {n}", SWUNG)) for n in (8, 12)),
+    *(("plate 32:32:1 falls", moving("8, 8, 0.25", f"{32 * n}, {32 * n}, {n}", FALLING)) for n in (3, 4)),
+]
 
 
 def measured(program, scene, folder, solver):
@@ -72,8 +93,33 @@ def million(program, folder):
                  f"{seconds:.0f} s", f"{s['peak_memory_mib'] * 2**20 / 1e9:.2f} GB", f"{s['bytes_per_cell']:,.0f} bytes"))
 
 
+def steps(program, folder):
+    """Quasi-Newton steps with a kept factor and with a kept multigrid hierarchy, run in turn; the better of two."""
+    table = [("body", "cells", "iterations a step", "renewals", "ms a step", "mean", "memory", "auto takes")]
+    for body, keys in MOVING:
+        scene = write_scene(folder / "scene.prm", keys)
+        solvers, measurements = ("cholesky", "iterative"), {}
+        for _ in range(2):
+            for solver in solvers:
+                run = run_scene(program, scene, folder / solver, {"Solver/Linear solver": solver},
+                                arguments=("--threads", "1"))
+                times = [1e3 * row["seconds_step"] for row in run.rows if row["seconds_step"] is not None]
+                measurements.setdefault(solver, []).append(
+                    (run.summary, statistics.median(times), statistics.mean(times)))
+        auto = run_scene(program, scene, folder / "auto", {"Time/End": keys["Time/Step"]}).summary
+        both = lambda text: " / ".join(text(measurements[solver]) for solver in solvers)
+        table.append((body, f"{auto['cells']:,}",
+                      both(lambda runs: f"{runs[0][0]['iterations'] / runs[0][0]['steps']:.2f}"),
+                      both(lambda runs: str(runs[0][0]["factorizations"])),
+                      both(lambda runs: f"{min(median for _, median, _ in runs):.0f}"),
+                      both(lambda runs: f"{min(mean for _, _, mean in runs):.0f}"),
+                      both(lambda runs: f"{runs[0][0]['peak_memory_mib']:.0f}") + " MiB", auto["linear_solver"]))
+        print(*table[-1], sep=" | ", file=sys.stderr, flush=True)
+    print_table(*table)
+
+
 def main():
-    parts = {"crossover": crossover, "million": million}
+    parts = {"crossover": crossover, "million": million, "steps": steps}
     words = sys.argv[1:]
     program = words.pop(0) if words and words[0] not in parts else PROGRAM
     for name in words or parts:

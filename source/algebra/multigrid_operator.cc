@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/algebra/mpi_session.h>
+#include <exemplar/algebra/multigrid_inverse.h>
 #include <exemplar/algebra/multigrid_operator.h>
 #include <exemplar/algebra/rigid_modes.h>
 
@@ -223,7 +224,7 @@ namespace Exemplar
   std::unique_ptr<KeptInverse>
   MultigridOperator::keep() const
   {
-    throw SolverFailure("Solver/Linear solver = iterative makes no factor.");
+    return std::make_unique<MultigridInverse>(*multigrid->GetML(), row_of, free_dofs.exchange());
   }
 
   void

@@ -105,9 +105,15 @@ namespace Exemplar
                                               unit_energy(body.fe_space, body.material), axis);
     }
 
-    /// Operations of a factorisation, for each value of the matrix and solve with it, from which
-    /// conjugate gradients are faster: measured, doc/speed.md.
-    constexpr double operations_at_crossover = 1.75e4;
+    /// Operations of a factorisation, for each value of the matrix, from which multigrid is faster:
+    /// measured, doc/speed.md. Columns of weights beside the right side take conjugate gradients as
+    /// long as that; quasi-Newton's method finds them with each new matrix alone.
+    double
+    operations_at_crossover(const Method method, const unsigned int n_examples)
+    {
+      return method == Method::quasi_newton ? 1.2e4 * (1. + 0.25 * n_examples)
+                                            : 1.75e4 * (1. + n_examples);
+    }
 
     /// Residual of a linear solve over its right side. Newton's method and the fixed point
     /// correct the rest in their next iteration; one pass has none, and Schur complements
@@ -118,13 +124,13 @@ namespace Exemplar
     std::unique_ptr<SpdOperator>
     find_cholesky_operator(const SolverParameters &solver,
                            const unsigned int      n_processes,
-                           const unsigned int      n_columns,
+                           const unsigned int      n_examples,
                            const SymmetricPattern &pattern)
     {
       if (solver.linear_solver == LinearSolver::iterative || n_processes > 1)
         return nullptr;
-      const bool may_choose = solver.linear_solver == LinearSolver::automatic
-                              && solver.method != Method::quasi_newton && has_iterative_operator();
+      const bool may_choose
+          = solver.linear_solver == LinearSolver::automatic && has_iterative_operator();
       auto matrix = make_cholesky_operator();
       try
       {
@@ -138,7 +144,7 @@ namespace Exemplar
       }
       if (may_choose
           && matrix->traits().n_operations
-                 > operations_at_crossover * n_columns * pattern.n_values())
+                 > operations_at_crossover(solver.method, n_examples) * pattern.n_values())
         return nullptr;
       return matrix;
     }
@@ -270,7 +276,7 @@ namespace Exemplar
       return make_umfpack_system(pattern, form);
     const unsigned int n_examples = form != nullptr ? form->coupled.size() : 0;
     const Exchange    &exchange   = potential.get_free_dofs().exchange();
-    auto matrix = find_cholesky_operator(solver, exchange.n_processes(), 1 + n_examples, pattern);
+    auto matrix = find_cholesky_operator(solver, exchange.n_processes(), n_examples, pattern);
     if (matrix == nullptr)
     {
       const bool is_last_word = solver.method == Method::one_pass || n_examples > 0;

@@ -23,9 +23,7 @@ namespace Exemplar
     if (model.is_frozen())
       solver.method = Method::fixed_point;
     else
-      solver.method = scene == SceneKind::dynamic && solver.linear_solver != LinearSolver::iterative
-                          ? Method::quasi_newton
-                          : Method::newton;
+      solver.method = scene == SceneKind::dynamic ? Method::quasi_newton : Method::newton;
   }
 
   void
@@ -131,9 +129,6 @@ namespace Exemplar
     if (solver.method == Method::quasi_newton && scene != SceneKind::dynamic)
       throw UserError("Solver/Method = quasi newton goes from step to step of a dynamic scene; "
                       "this one has none. Set Solver/Method = newton, or Scene = dynamic.");
-    if (solver.method == Method::quasi_newton && solver.linear_solver == LinearSolver::iterative)
-      throw UserError("Solver/Method = quasi newton keeps a factor, but Solver/Linear solver = "
-                      "iterative makes none. Set it to cholesky, or Solver/Method = newton.");
     if (solver.rotations == PassRotations::predicted && scene != SceneKind::dynamic)
       throw UserError(
           "Solver/Rotations = predicted follows the velocities of a dynamic scene; this "

@@ -30,10 +30,9 @@ namespace Exemplar
         "one pass: the paper's, one linear solve with frozen rotations a step; fixed "
         "point: the same, repeated until the residual is below Tolerance; newton: descent on "
         "the energy with its exact tangent, or as much of a convex one as it takes; quasi newton: "
-        "descent with the factor of an earlier step, for dynamic scenes, to Step tolerance; auto: "
-        "quasi newton where it is possible (not with Linear solver = iterative), newton in other "
-        "scenes, fixed point with frozen "
-        "forces, for which nothing else converges.");
+        "descent with the factor, or the multigrid hierarchy, of an earlier step, for dynamic "
+        "scenes, to Step tolerance; auto: quasi newton in dynamic scenes, newton in others, fixed "
+        "point with frozen forces, for which nothing else converges.");
     keys.add("Tolerance", tolerance,
              "Relative residual at which a step has converged: the greatest free residual "
              "force over the greatest nodal force scale. With newton, in static scenes and "
@@ -60,9 +59,8 @@ namespace Exemplar
         "cholesky: CHOLMOD factorises the positions' block, the weights follow from a "
         "dense Schur complement; iterative: the same with conjugate gradients and algebraic "
         "multigrid in place of the factor, for large meshes; umfpack: the whole bordered matrix "
-        "at once, for checking; auto: cholesky, also for quasi newton, which needs a factor, or "
-        "iterative where that is faster by CHOLMOD's count of operations, in compact bodies from "
-        "about 40,000 degrees of freedom.");
+        "at once, for checking; auto: cholesky, or iterative where that is faster by CHOLMOD's "
+        "count of operations, in compact bodies from about 40,000 degrees of freedom.");
     keys.leave_subsection();
   }
 

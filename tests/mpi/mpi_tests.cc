@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <set>
 
 // Run by mpirun; all processes run all tests.
@@ -412,6 +413,71 @@ namespace Exemplar::Testing
       part->fill(*matrix);
       EXPECT_EQ(solve(*matrix), first);
       EXPECT_EQ(solve(*distributed(1e-4)), first);
+    }
+
+    double
+    product(const Exchange &exchange, const Columns &a, const Columns &b)
+    {
+      return exchange.sum(std::inner_product(a.begin(), a.end(), b.begin(), 0.));
+    }
+
+    /// Two columns of numbers for unknowns, as two vectors.
+    std::pair<Columns, Columns>
+    halves(const Columns &columns)
+    {
+      const auto middle = columns.begin() + columns.size() / 2;
+      return { { columns.begin(), middle }, { middle, columns.end() } };
+    }
+
+    TEST_F(Distributed, KeepsASymmetricPositiveInverse)
+    {
+      for (const auto partition : { slices, scattered })
+      {
+        make(bar(), left_end, partition);
+        const auto    matrix   = distributed();
+        const Columns solution = solve(*matrix);
+        const auto    inverse  = matrix->keep();
+        for (double &value : matrix->values()) // it outlives what comes after
+          value *= 2.;
+        matrix->factorize(part->positions);
+        const auto [a, b] = halves(own_rows(right_side()));
+        Columns kept_a = a, kept_b = b;
+        inverse->apply(kept_a);
+        inverse->apply(kept_b);
+        const double a_a = product(*exchange, a, kept_a), a_b = product(*exchange, a, kept_b);
+        EXPECT_GT(a_a, 0.);
+        EXPECT_NEAR(product(*exchange, b, kept_a), a_b, 1e-5 * a_a);
+
+        // linear: of a vector, of its multiple, and of a sum
+        Columns sum;
+        for (std::size_t i = 0; i < a.size(); ++i)
+          sum.push_back(1e-9 * (a[i] - 2. * b[i]));
+        inverse->apply(sum);
+        for (std::size_t i = 0; i < a.size(); ++i)
+          sum[i] = 1e9 * sum[i] + 2. * kept_b[i];
+        EXPECT_LT(difference(sum, kept_a), 1e-3); // single precision
+
+        // and about the inverse of the matrix then
+        EXPECT_LT(difference(kept_a, halves(solution).first), partition == slices ? 0.1 : 0.5);
+        Columns zeros(a.size(), 0.);
+        inverse->apply(zeros);
+        EXPECT_EQ(zeros, Columns(a.size(), 0.));
+      }
+    }
+
+    TEST_F(Distributed, KeepsAnInverseWhereAProcessHasNoUnknowns)
+    {
+      make(bar(),
+           [](const dealii::Point<3> &x, unsigned int /*component*/) { return x[0] <= 2.5; });
+      const auto    matrix   = distributed();
+      const Columns solution = halves(solve(*matrix)).first;
+      const auto    inverse  = matrix->keep();
+      Columns       kept     = halves(own_rows(right_side())).first;
+      inverse->apply(kept);
+      EXPECT_LT(difference(kept, solution), 0.1);
+      EXPECT_GT(inverse->cost_in_iterations(0), 1.);
+      EXPECT_GT(inverse->cost_in_iterations(2), inverse->cost_in_iterations(0));
+      EXPECT_GT(inverse->memory_consumption(), 0.);
     }
 
     TEST_F(Distributed, FailsEverywhereWhereTheMatrixIsIndefinite)

@@ -11,7 +11,8 @@ from exemplar_runner import (BAR, SceneTest, greatest_distance, has_trilinos, ne
 BENT = {**BAR, "Mesh/Box size": "4, 1, 1", "Mesh/Box cells": "12, 3, 3", "Time/Increments": "2",
         "Handles/Names": "left, right", "Handles/right/Select": "boundary 2",
         "Handles/right/Motion": "0; 0; 0.5*t", "Handles/right/Components": "z"}
-EXAMPLES = {**BENT, "Examples/Pose functions": "1.2*x; y; z | x; y; z+0.05*x^2"}
+EXAMPLE_POSES = {"Examples/Pose functions": "1.2*x; y; z | x; y; z+0.05*x^2"}
+EXAMPLES = {**BENT, **EXAMPLE_POSES}
 DYNAMIC = {**BENT, "Scene": "dynamic", "Time/Step": "0.02", "Time/End": "0.24"}
 ITERATIVE = {"Solver/Linear solver": "iterative"}
 
@@ -46,6 +47,17 @@ class Iterative(SceneTest):
 
     def test_one_pass_leaves_nothing_to_the_next(self):
         self.check_agreement({**DYNAMIC, "Solver/Method": "one pass"})
+
+    def test_quasi_newton_keeps_a_hierarchy(self):
+        quasi_newton = {**DYNAMIC, "Solver/Method": "quasi newton", "Solver/Step tolerance": "1e-9"}
+        self.check_agreement(quasi_newton)
+        last = self.check_agreement({**quasi_newton, **EXAMPLE_POSES, "Examples/Importance": "0.5"})
+        self.assertGreater(last[0]["weight_2"], 0.01)
+        # and no more of its work than with a factor is left to the iterations
+        scene = {**DYNAMIC, "Solver/Method": "quasi newton", "Mesh/Box cells": "24, 6, 6"}
+        steps = [read_summary(self.solve({**scene, "Solver/Linear solver": solver}, output=solver))["iterations"]
+                 for solver in ("cholesky", "iterative")]
+        self.assertLess(steps[1], 1.5 * steps[0])
 
     def test_two_runs_give_the_same_bytes(self):
         for scene in (EXAMPLES, DYNAMIC):

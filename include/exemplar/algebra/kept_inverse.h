@@ -19,10 +19,11 @@ namespace Exemplar
     apply(std::vector<double> &vector)
         = 0;
 
-    /// What it costs to make this inverse anew, in iterations of a method that evaluates the
-    /// forces and applies the inverse once: from counts of operations, never from a clock.
+    /// What it costs to make this inverse anew, and to solve for some columns with the matrix then,
+    /// in iterations of a method that evaluates the forces and applies the inverse once: from counts
+    /// of operations, never from a clock.
     virtual double
-    cost_in_iterations() const = 0;
+    cost_in_iterations(std::size_t n_columns) const = 0;
 
     /// In bytes.
     virtual std::size_t

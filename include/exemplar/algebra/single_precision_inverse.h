@@ -17,7 +17,7 @@ namespace Exemplar
     apply(std::vector<double> &vector) override;
 
     double
-    cost_in_iterations() const override
+    cost_in_iterations(std::size_t /*n_columns*/) const override // they cost little
     {
       return relative_cost;
     }

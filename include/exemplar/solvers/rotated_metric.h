@@ -73,7 +73,7 @@ namespace Exemplar
     double
     cost_in_iterations() const
     {
-      return inverse->cost_in_iterations();
+      return inverse->cost_in_iterations(form == nullptr ? 0 : form->coupled.size());
     }
 
     void

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_block_matrix_h
+#define exemplar_block_matrix_h
+
+#include <deal.II/base/partitioner.h>
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace Exemplar
+{
+  /// Four numbers for each block of three rows: with the fourth, which means nothing, they fill a
+  /// register. Behind the own blocks of a process are copies of those of others.
+  using BlockVector = std::vector<float>;
+
+  /// A sparse matrix of blocks of 3 x 3 numbers in single precision. Each process has rows of it,
+  /// and of its columns those that it owns and those of others that occur in its rows.
+  class BlockMatrix
+  {
+  public:
+    /// An entry that add_row() takes.
+    struct Entry
+    {
+      int   column; ///< block, by local number
+      int   place;  ///< three times the column in the block, and the row in it
+      float value;
+    };
+
+    /// With `n_own` columns of blocks, and `n_others` of other processes, which `partitioner` knows
+    /// as four numbers a block. It is null if there are none.
+    BlockMatrix(std::size_t                                                n_own,
+                std::size_t                                                n_others,
+                std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner);
+
+    /// The next row of blocks; sorts the entries.
+    void
+    add_row(std::vector<Entry> &entries);
+
+    /// After the last row.
+    void
+    finish();
+
+    /// Blocks of rows.
+    std::size_t
+    n_rows() const
+    {
+      return start.size() - 1;
+    }
+
+    /// A vector by columns, of zeros.
+    BlockVector
+    zeros() const
+    {
+      return BlockVector(4 * (n_own + n_others), 0.F);
+    }
+
+    std::size_t
+    n_blocks() const
+    {
+      return column.size();
+    }
+
+    /// A block by columns, or null.
+    const float *
+    block(std::size_t row, std::size_t column) const;
+
+    /// Call action(column, block) for the blocks of a row.
+    template <typename Action>
+    void
+    for_each_block(const std::size_t row, const Action &action) const
+    {
+      for (int entry = start[row]; entry < start[row + 1]; ++entry)
+        action(column[entry], &values[9 * static_cast<std::size_t>(entry)]);
+    }
+
+    /// result = A x; for all products x gets the values of others.
+    void
+    multiply(BlockVector &x, BlockVector &result) const;
+
+    /// result += A x
+    void
+    multiply_and_add(BlockVector &x, BlockVector &result) const;
+
+    /// result = b - A x
+    void
+    find_residual(const BlockVector &b, BlockVector &x, BlockVector &result) const;
+
+    /// result = A^T x, the own blocks.
+    void
+    multiply_transposed(const BlockVector &x, BlockVector &result) const;
+
+    /// With three by three numbers for each row in `inverse_diagonal`, D^-1,
+    /// change = keep * change + take * D^-1 (b - A x), then x += change.
+    void
+    correct(const std::vector<float> &inverse_diagonal,
+            const BlockVector        &b,
+            float                     keep,
+            float                     take,
+            BlockVector              &x,
+            BlockVector              &change) const;
+
+    /// In bytes.
+    std::size_t
+    memory_consumption() const;
+
+  private:
+    /// The owners' values to all who need them.
+    void
+    share(BlockVector &vector) const;
+
+    std::size_t                                                n_own, n_others;
+    std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
+    std::vector<int>                                           start, column;
+    std::vector<float> values; ///< 9 a block, and some behind, as registers of four are read
+  };
+
+  /// result = factor * D^-1 x, with three by three numbers for each block of x in D^-1.
+  void
+  multiply_by_blocks(const std::vector<float> &inverse_diagonal,
+                     const BlockVector        &x,
+                     float                     factor,
+                     BlockVector              &result);
+
+  /// Room behind numbers by threes that are read by fours.
+  constexpr std::size_t read_beyond = 4;
+} // namespace Exemplar
+
+#endif
