@@ -3,6 +3,7 @@
 """How several processes scale: doc/studies/parallel.csv, for doc/parallel.md.
 
     python3 doc/scripts/measure_parallel.py [CASE...] [--repeat N] [--program P]
+    python3 doc/scripts/measure_parallel.py --model        doc/studies/parallel_model.csv, from these measurements
 
 The runs of a case are interleaved, and the least of N (3) counts, as other work of the machine can only add to it. Seconds are of the
 clock: all; of it reading the mesh, partitioning it and building the problem; and in dynamics the median step. Memory is the
@@ -11,6 +12,7 @@ greatest of each process. On a quiet machine with two cores, an hour.
 import argparse
 import csv
 import json
+import math
 import os
 import statistics
 import subprocess
@@ -40,7 +42,8 @@ CASES = {
                    *[["50 steps, kept multigrid", "bar100k.prm", {**STEPS, "Mesh/Box cells": "104, 26, 26", **ITERATIVE}, n]
                      for n in (1, 2)]],
 }
-COLUMNS = ["case", "what", "cells", "processes", "seconds", "seconds_read", "seconds_step", "iterations", "factorizations",
+MODEL = TOP / "doc/studies/parallel_model.csv"
+COLUMNS = ["case", "steps", "what", "cells", "processes", "seconds", "seconds_read", "seconds_step", "iterations", "factorizations",
            "memory_mib", "memory_root_mib", "memory_others_mib", "speedup"]
 
 
@@ -54,7 +57,7 @@ def run(program, case, what, scene, settings, n):
         with open(Path(folder) / "out/statistics.csv", newline="") as file:
             steps = [float(row["seconds_step"]) for row in csv.DictReader(file) if row["seconds_step"]]
     peaks = summary.get("peak_memory_mib_of_processes", [summary["peak_memory_mib"]])
-    return {"case": case, "what": what, "cells": summary["cells"], "processes": n, "seconds": summary["seconds"]["total"],
+    return {"case": case, "steps": len(steps) if len(steps) > 1 else "", "what": what, "cells": summary["cells"], "processes": n, "seconds": summary["seconds"]["total"],
             "seconds_read": summary["seconds"]["read"],
             "seconds_step": statistics.median(steps) if len(steps) > 1 else "", "iterations": summary["iterations"],
             "factorizations": summary["factorizations"], "memory_mib": round(sum(peaks)), "memory_root_mib": round(peaks[0]),
@@ -80,12 +83,54 @@ def measure(program, case, repeat):
     return rows
 
 
+def rows_of(case):
+    with FILE.open(newline="") as file:
+        return [row for row in csv.DictReader(file) if row["case"] == case]
+
+
+def model():
+    """doc/parallel.md says what it assumes."""
+    cells, nodes_a_cell, crowded = 100e6, 1 / 5.5, 1.5
+    neighbours, latency, bandwidth, levels, products, cycles = 14, 2e-6, 5e9, 5, 6, 2
+    static = rows_of("static_1M")[0]
+    swing = next(row for row in rows_of("swing_400k") if "multigrid" in row["what"])
+    static_second = (float(static["seconds"]) - float(static["seconds_read"])) / float(static["cells"])
+    step_second = float(swing["seconds_step"]) / float(swing["cells"])
+    iterations = float(swing["iterations"]) / 50
+    conjugate = 69 * (cells / 1e6) ** (1 / 6)
+    rows = []
+    for n in (1, 64, 4096):
+        shared = 6 * (cells * nodes_a_cell / n) ** (2 / 3) if n > 1 else 0
+        exchanges = iterations * (3 + cycles * levels * products)
+        # coarser levels have an eighth of the nodes, and so on
+        volume = 24 * shared * iterations * (3 + cycles * products * 8 / 7)
+        messages = 2 * neighbours * exchanges if n > 1 else 0
+        gather = iterations * 12 * (latency * math.log2(n) + 8 * n / bandwidth)
+        talking = messages * latency + volume / bandwidth + gather
+        step = crowded * step_second * cells / n + talking
+        of_static = (crowded * static_second * cells / n * (cells / 1e6) ** (1 / 6)
+                     + 2 * conjugate * (2 * neighbours * (1 + levels * products) * latency
+                                        + 24 * shared * (1 + products * 8 / 7) / bandwidth))
+        memory = 1.1 * float(static["memory_mib"]) / float(static["cells"]) * 2 ** 20 * cells / n
+        rows.append({"processes": n, "cells_each": round(cells / n), "shared": round(shared), "messages_step": round(messages),
+                     "volume_step": volume / 1e6, "seconds_step": step, "efficiency": (step - talking) / step,
+                     "cg": round(conjugate), "seconds_static": of_static, "memory_each": memory / 1e9})
+    with MODEL.open("w", newline="") as file:
+        writer = csv.DictWriter(file, list(rows[0]), lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("cases", nargs="*", metavar="CASE", help=", ".join(CASES))
     parser.add_argument("--repeat", type=int, default=3)
     parser.add_argument("--program", default=str(TOP / "build/release/exemplar"))
+    parser.add_argument("--model", action="store_true")
     options = parser.parse_args()
+    if options.model:
+        model()
+        return
     cases = options.cases or list(CASES)
     kept = {row["case"]: [] for row in csv.DictReader(FILE.open(newline=""))} if FILE.exists() else {}
     if FILE.exists():

@@ -16,7 +16,7 @@ from exemplar_runner import (EXEMPLAR, REPOSITORY, SceneTest, bend, greatest_dis
 
 MPI_ENVIRONMENT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
                    "OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_MCA_hwloc_base_binding_policy": "none",
-                   "HWLOC_HIDE_ERRORS": "2"}
+                   "OMPI_MCA_mpi_yield_when_idle": "1", "HWLOC_HIDE_ERRORS": "2"}
 
 # A bar of two regions, held and lifted, with an example of unknown weight.
 BODY = {
