@@ -120,6 +120,21 @@ namespace Exemplar
       _exit(status);
     }
 
+    bool has_joined = false; ///< and not yet come to its end
+
+    /// Libraries end the program where they find no memory. What runs then ends the others, who would wait.
+    void
+    tell_of_exit()
+    {
+      if (!has_joined)
+        return;
+      const char message[] = "exemplar: A library that exemplar uses has ended the program, most "
+                             "often for want of memory. Take more machines, or a coarser mesh.\n";
+      if (write(STDERR_FILENO, message, sizeof(message) - 1) < 0)
+        end_all(2); // nobody listens, which changes nothing
+      end_all(2);
+    }
+
     [[noreturn]] void
     end_silently(int)
     {
@@ -263,6 +278,8 @@ namespace Exemplar
     if (size == 1)
       return;
     MPI_Comm_dup(MPI_COMM_WORLD, &ending);
+    has_joined = true;
+    std::atexit(tell_of_exit);
     n_joined   = static_cast<unsigned int>(size);
     own_number = static_cast<unsigned int>(number);
 
@@ -321,6 +338,7 @@ namespace Exemplar
       report("");
       return status;
     }
+    has_joined = false;
     std::cout.flush();
     const bool failed = status != 0;
     if (failed) // the others may end this process any time now, and it has nothing to say of that

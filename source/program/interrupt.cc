@@ -27,8 +27,10 @@ namespace Exemplar
     }
 
     void
-    take_interrupt(int)
+    take_interrupt(const int signal)
     {
+      // METIS, which has a use of its own for SIGTERM, leaves behind a handler that serves once
+      std::signal(signal, take_interrupt);
       if (!noting)
         end_with("exemplar: Interrupted before a run had begun.\n");
       if (interrupted.exchange(true))

@@ -10,13 +10,13 @@ import xml.etree.ElementTree
 
 from math import cos, sin
 
-from exemplar_runner import (EXEMPLAR, SceneTest, bend, greatest_distance, has_trilinos, nodes_of, read_csv, read_msh,
+from exemplar_runner import (EXEMPLAR, REPOSITORY, SceneTest, bend, greatest_distance, has_trilinos, nodes_of, read_csv, read_msh,
                              read_pvd, read_summary, read_vtu, results, timeless_statistics, twist, write_msh,
                              write_scene)
 
 MPI_ENVIRONMENT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
                    "OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_MCA_hwloc_base_binding_policy": "none",
-                   "HWLOC_HIDE_ERRORS": "2"}
+                   "OMPI_MCA_mpi_yield_when_idle": "1", "HWLOC_HIDE_ERRORS": "2"}
 
 # A bar of two regions, held and lifted, with an example of unknown weight.
 BODY = {
@@ -191,6 +191,34 @@ class SeveralProcesses(SceneTest):
                 resumed = self.run_on(after, scene, "--resume", output=output)
                 self.compare(whole, resumed, 1., 1e-8)
                 self.assertEqual(len(read_pvd(resumed)), 6)
+
+    def test_a_quasi_newton_step_of_the_cat_is_that_of_one_process(self):
+        cat = REPOSITORY / "tests/benchmark/scenes/cat_mid60_examples.prm"
+        step = 1. / 60.
+
+        def go_on(n, to, output):
+            words = ["--quiet", "--output", output, "--resume", "--set", "Output/Every=0", "--set", f"Time/End={to}"]
+            if n == 1:
+                self.assertEqual(self.call(cat, *words).status, 0)
+            else:
+                self.assertEqual(launch(n, cat, *words)[:2], (0, []))
+            return nodes_of(output / "final.msh")
+        start = self.run_file(cat, "start", f"Time/End={10 * step}")
+        before = nodes_of(start / "final.msh")
+        ends = {}
+        for n in (1, 2, 3):
+            output = self.directory / f"from_{n}"
+            shutil.copytree(start, output)
+            ends[n] = go_on(n, 11 * step, output)
+        moved = greatest_distance(before, ends[1])
+        self.assertGreater(moved, 0.01)
+        for n in (2, 3):
+            with self.subTest(processes=n):
+                self.assertLess(greatest_distance(ends[1], ends[n]), 1e-3 * moved)
+        # on 2 from a checkpoint of 3
+        third = self.directory / "from_3"
+        twelfth, other = go_on(2, 12 * step, third), go_on(1, 12 * step, self.directory / "from_1")
+        self.assertLess(greatest_distance(twelfth, other), 3e-3 * greatest_distance(ends[1], other))
 
     def test_the_summary_tells_of_all_processes(self):
         one, two = (read_summary(self.solve(STATIC, "--quiet", output="one")), read_summary(self.run_on(2, STATIC)))
