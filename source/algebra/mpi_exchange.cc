@@ -22,20 +22,55 @@ namespace Exemplar
       : communicator(communicator), nodes(std::move(shared_nodes)),
         own_process(rank_in(communicator))
   {
+    for (const unsigned int number : nodes.numbers)
+      is_owned.push_back(number >= nodes.first_numbers[own_process]
+                         && number < nodes.first_numbers[own_process + 1]);
     for (unsigned int node = 0; node < nodes.numbers.size(); ++node)
       (owns(node) ? owned : others).push_back(node);
     for (auto *list : { &owned, &others })
       std::sort(list->begin(), list->end(),
                 [this](const unsigned int a, const unsigned int b)
                 { return nodes.numbers[a] < nodes.numbers[b]; });
+    find_shared_nodes();
   }
 
-  unsigned int
-  MpiExchange::owner(const unsigned int node) const
+  void
+  MpiExchange::find_shared_nodes()
   {
-    const auto after = std::upper_bound(nodes.first_numbers.begin(), nodes.first_numbers.end(),
-                                        nodes.numbers[node]);
-    return static_cast<unsigned int>(after - nodes.first_numbers.begin()) - 1;
+    dealii::IndexSet own(nodes.first_numbers.back()), ghosts(nodes.first_numbers.back());
+    own.add_range(nodes.first_numbers[own_process], nodes.first_numbers[own_process + 1]);
+    for (const unsigned int node : others)
+      ghosts.add_index(nodes.numbers[node]);
+    own.compress();
+    ghosts.compress();
+    const Partitioner of_all_nodes(own, ghosts, communicator);
+
+    std::vector<bool> is_shared(owned.size(), false);
+    for (const auto &[begin, end] : of_all_nodes.import_indices())
+      std::fill(is_shared.begin() + begin, is_shared.begin() + end, true);
+    for (std::size_t i = 0; i < owned.size(); ++i)
+      if (is_shared[i])
+        shared_owned.push_back(owned[i]);
+
+    const auto own_size = static_cast<unsigned int>(shared_owned.size());
+    MPI_Exscan(&own_size, &first_shared, 1, MPI_UNSIGNED, MPI_SUM, communicator);
+    first_shared = own_process == 0 ? 0 : first_shared;
+    n_shared     = dealii::Utilities::MPI::sum(own_size, communicator);
+
+    // owners tell the others the new numbers
+    std::vector<double> numbers(owned.size(), 0.), of_others(others.size()),
+        buffer(of_all_nodes.n_import_indices());
+    for (std::size_t i = 0, next = first_shared; i < owned.size(); ++i)
+      if (is_shared[i])
+        numbers[i] = static_cast<double>(next++);
+    std::vector<MPI_Request> requests;
+    of_all_nodes.export_to_ghosted_array_start(
+        0, dealii::ArrayView<const double>(numbers.data(), numbers.size()),
+        dealii::ArrayView<double>(buffer.data(), buffer.size()),
+        dealii::ArrayView<double>(of_others.data(), of_others.size()), requests);
+    of_all_nodes.export_to_ghosted_array_finish(
+        dealii::ArrayView<double>(of_others.data(), of_others.size()), requests);
+    numbers_of_others.assign(of_others.begin(), of_others.end());
   }
 
   void
@@ -96,11 +131,10 @@ namespace Exemplar
     std::unique_ptr<Partitioner> &found = partitioners[n];
     if (found == nullptr)
     {
-      const unsigned int size = n * nodes.first_numbers.back();
-      dealii::IndexSet   own(size), ghosts(size);
-      own.add_range(n * nodes.first_numbers[own_process], n * nodes.first_numbers[own_process + 1]);
-      for (const unsigned int node : others)
-        ghosts.add_range(n * nodes.numbers[node], n * (nodes.numbers[node] + 1));
+      dealii::IndexSet own(n * n_shared), ghosts(n * n_shared);
+      own.add_range(n * first_shared, n * (first_shared + shared_owned.size()));
+      for (const unsigned int number : numbers_of_others)
+        ghosts.add_range(n * number, n * (number + 1));
       own.compress();
       ghosts.compress();
       found = std::make_unique<Partitioner>(own, ghosts, communicator);
@@ -112,16 +146,17 @@ namespace Exemplar
   void
   MpiExchange::exchange_field(Number *field, const unsigned int n, const bool add_first) const
   {
-    const Partitioner        &with = partitioner(n);
-    std::vector<Number>       of_owned(n * owned.size()), of_others(n * others.size());
-    std::vector<Number>       buffer(with.n_import_indices());
-    std::vector<MPI_Request>  requests;
+    const Partitioner       &with = partitioner(n);
+    std::vector<Number>      of_owned(n * shared_owned.size()), of_others(n * others.size());
+    std::vector<Number>      buffer(with.n_import_indices());
+    std::vector<MPI_Request> requests;
     const auto pack = [&](const std::vector<unsigned int> &list, std::vector<Number> &values)
     {
       for (std::size_t i = 0; i < list.size(); ++i)
         std::copy(field + n * list[i], field + n * (list[i] + 1), &values[n * i]);
     };
-    const auto unpack = [&](const std::vector<unsigned int> &list, const std::vector<Number> &values)
+    const auto unpack
+        = [&](const std::vector<unsigned int> &list, const std::vector<Number> &values)
     {
       for (std::size_t i = 0; i < list.size(); ++i)
         std::copy(values.begin() + n * i, values.begin() + n * (i + 1), field + n * list[i]);
@@ -131,7 +166,7 @@ namespace Exemplar
     const auto const_view = [](const std::vector<Number> &values)
     { return dealii::ArrayView<const Number>(values.data(), values.size()); };
 
-    pack(owned, of_owned);
+    pack(shared_owned, of_owned);
     if (add_first)
     {
       pack(others, of_others);
@@ -139,7 +174,7 @@ namespace Exemplar
                                            view(buffer), requests);
       with.import_from_ghosted_array_finish(dealii::VectorOperation::add, const_view(buffer),
                                             view(of_owned), view(of_others), requests);
-      unpack(owned, of_owned);
+      unpack(shared_owned, of_owned);
     }
     with.export_to_ghosted_array_start(0, const_view(of_owned), view(buffer), view(of_others),
                                        requests);
@@ -197,10 +232,10 @@ namespace Exemplar
       values.insert(values.end(), field + n * node, field + n * (node + 1));
       places.push_back(nodes.in_files[node]);
     }
-    const auto all_values = everywhere ? all_gather(communicator, values)
-                                       : gather(communicator, values);
-    const auto all_places = everywhere ? all_gather(communicator, places)
-                                       : gather(communicator, places);
+    const auto all_values
+        = everywhere ? all_gather(communicator, values) : gather(communicator, values);
+    const auto all_places
+        = everywhere ? all_gather(communicator, places) : gather(communicator, places);
     if (!everywhere && !is_root())
       return {};
     std::vector<double> all(n * static_cast<std::size_t>(nodes.first_numbers.back()));
@@ -212,7 +247,7 @@ namespace Exemplar
   }
 
   std::vector<double>
-  MpiExchange::part(const std::vector<double> whole, const unsigned int n) const
+  MpiExchange::part(std::vector<double> whole, const unsigned int n) const
   {
     std::vector<double> own;
     own.reserve(n * nodes.in_files.size());

@@ -188,8 +188,9 @@ namespace Exemplar
       return checked(function(rest, time), rest.size(), "Handles/" + name, time);
     std::vector<dealii::Tensor<1, 3>> result;
     for (unsigned int point = 0; point < nodes.size(); ++point)
-      result.push_back(path ? path->displacement(places_in_path[point], progress.values(rest[point], time)[0])
-                            : motion.vector(rest[point], time));
+      result.push_back(
+          path ? path->displacement(places_in_path[point], progress.values(rest[point], time)[0])
+               : motion.vector(rest[point], time));
     return result;
   }
 
@@ -197,8 +198,19 @@ namespace Exemplar
   Handles::displacements(const double time) const
   {
     Displacements all;
-    for (const Handle &handle : handles)
-      all.push_back(handle.displacements(rest_positions(handle), time));
+    std::string   failure; // a process may have no node of a handle that fails
+    try
+    {
+      for (const Handle &handle : handles)
+        all.push_back(handle.displacements(rest_positions(handle), time));
+    }
+    catch (const SolverFailure &error)
+    {
+      failure = error.what();
+    }
+    failure = fe_space.exchange().first_text(std::move(failure));
+    if (!failure.empty())
+      throw SolverFailure(failure);
     return all;
   }
 
@@ -312,11 +324,10 @@ namespace Exemplar
   Handles::sum_over(const unsigned int handle, const dealii::Vector<double> &field) const
   {
     dealii::Tensor<1, 3> sum;
-    const Exchange &exchange = fe_space.exchange();
-    const bool      is_alone = exchange.n_processes() == 1;
+    const Exchange      &exchange = fe_space.exchange();
     for (const unsigned int node : handles[handle].nodes)
       for (const unsigned int c : handles[handle].components)
-        if (is_alone || exchange.owns(node))
+        if (exchange.owns(node))
           sum[c] += field[3 * node + c];
     exchange.sum(sum.begin_raw(), 3);
     return sum;

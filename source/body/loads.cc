@@ -114,7 +114,7 @@ namespace Exemplar
         if (n > 0)
           touched.push_back(face);
       }
-      return between.empty() ? touched : between;
+      return mesh.exchange().any(!between.empty()) ? between : touched;
     }
   } // namespace
 

@@ -106,9 +106,8 @@ namespace Exemplar
     };
     MotionSums sums;
     sums.kinetic_energy = 0.5 * with_others.product(state.velocities, p);
-    const bool is_alone = with_others.n_processes() == 1;
     for (unsigned int node = 0; node < p.size() / 3; ++node)
-      if (is_alone || with_others.owns(node))
+      if (with_others.owns(node))
       {
         sums.momentum += at(p, node);
         sums.angular_momentum += dealii::cross_product_3d(at(state.positions, node), at(p, node));

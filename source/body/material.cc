@@ -76,9 +76,8 @@ namespace Exemplar
     std::vector<ElasticConstants> bases{ parameters.everywhere };
     add(parameters.everywhere);
     const std::set<unsigned int> ids
-        = all_regions != nullptr
-              ? *all_regions
-              : std::set<unsigned int>(material_ids.begin(), material_ids.end());
+        = all_regions != nullptr ? *all_regions
+                                 : std::set<unsigned int>(material_ids.begin(), material_ids.end());
     for (const auto &[id, region] : regions_by_id(parameters, names))
     {
       for (unsigned int cell = 0; cell < material_ids.size(); ++cell)

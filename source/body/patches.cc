@@ -30,8 +30,7 @@ namespace Exemplar
         const double lambda = material.elasticity(cell).lambda;
         int          octave = 0;
         std::frexp(lambda, &octave);
-        kinds[cell]
-            = { { static_cast<int>(material_ids[cell]), lambda < 0. ? -1 : 1, octave } };
+        kinds[cell] = { { static_cast<int>(material_ids[cell]), lambda < 0. ? -1 : 1, octave } };
       }
       return kinds;
     }

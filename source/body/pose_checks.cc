@@ -53,7 +53,9 @@ namespace Exemplar
       pose.max_abs_volume      = exchange.max(pose.max_abs_volume);
       pose.max_strain          = exchange.max(pose.max_strain);
       pose.inverted            = exchange.collect(std::move(pose.inverted));
-      pose.size_ratio          = std::sqrt(exchange.sum(square) / exchange.sum(volume));
+      if (exchange.n_processes() > 1)
+        std::sort(pose.inverted.begin(), pose.inverted.end());
+      pose.size_ratio = std::sqrt(exchange.sum(square) / exchange.sum(volume));
       pose.max_abs_volume /= std::pow(std::max(pose.size_ratio, 1e-100), 3);
       return pose;
     }

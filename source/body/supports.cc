@@ -91,10 +91,11 @@ namespace Exemplar
     // rows: the six rigid motions at a held degree of freedom, lengths in diameters
     const Exchange                     &exchange = mesh.exchange();
     const std::vector<dealii::Point<3>> nodes    = nodes_of(whole(exchange, rest_positions, true));
-    const std::vector<unsigned int> held = in_whole(exchange, rest_positions.size(), held_dofs);
-    const dealii::Point<3>     center = centroid({ nodes.begin(), nodes.begin() + mesh.whole().n_nodes });
-    const double               diameter  = mesh.diameter();
-    dealii::FullMatrix<double>          motions(held.size(), 6);
+    const std::vector<unsigned int>     held = in_whole(exchange, rest_positions.size(), held_dofs);
+    const dealii::Point<3>              center
+        = centroid({ nodes.begin(), nodes.begin() + mesh.whole().n_nodes });
+    const double               diameter = mesh.diameter();
+    dealii::FullMatrix<double> motions(held.size(), 6);
     for (unsigned int row = 0; row < held.size(); ++row)
     {
       const unsigned int         node = held[row] / 3, c = held[row] % 3;
@@ -150,9 +151,9 @@ namespace Exemplar
   {
     const std::vector<dealii::Point<3>> x = nodes_of(whole(exchange, positions, true)),
                                         u = nodes_of(whole(exchange, displacement, true));
-    const dealii::Point<3>              center = centroid(x), shift = centroid(u);
-    dealii::Tensor<2, 3>                inertia;
-    dealii::Tensor<1, 3>                moment;
+    const dealii::Point<3> center = centroid(x), shift = centroid(u);
+    dealii::Tensor<2, 3>   inertia;
+    dealii::Tensor<1, 3>   moment;
     for (unsigned int node = 0; node < x.size(); ++node)
     {
       const dealii::Tensor<1, 3> arm = x[node] - center;

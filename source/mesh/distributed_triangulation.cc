@@ -32,8 +32,7 @@ namespace Exemplar
                                  const std::vector<unsigned int> &cells_in_file,
                                  const Exchange                  &exchange)
   {
-    const MPI_Comm communicator
-        = dynamic_cast<const MpiExchange &>(exchange).get_communicator();
+    const MPI_Comm communicator = dynamic_cast<const MpiExchange &>(exchange).get_communicator();
     Description::Description<3, 3> description;
     description.comm                 = communicator;
     description.settings             = Description::default_setting;

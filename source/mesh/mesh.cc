@@ -210,11 +210,11 @@ namespace Exemplar
   }
 
   Mesh::Mesh(MeshArrays checked, const std::string &file_name, const double scale)
-      : arrays(std::move(checked)), name(file_name), scale(scale),
-        of_whole{ n_nodes(),
-                  n_cells(),
-                  box_diagonal(arrays.contents.nodes),
-                  { arrays.material_ids.begin(), arrays.material_ids.end() } },
+      : arrays(std::move(checked)), name(file_name),
+        scale(scale), of_whole{ n_nodes(),
+                                n_cells(),
+                                box_diagonal(arrays.contents.nodes),
+                                { arrays.material_ids.begin(), arrays.material_ids.end() } },
         with_others(&Exchange::serial())
   {
   }
@@ -272,14 +272,13 @@ namespace Exemplar
   Mesh::memory_consumption() const
   {
     const MshFile &contents = arrays.contents;
-    std::size_t    bytes
-        = (triangulation == nullptr ? 0 : triangulation->memory_consumption())
-          + contents.nodes.capacity() * sizeof(contents.nodes[0])
-          + contents.node_numbers.capacity() * sizeof(contents.node_numbers[0])
-          + arrays.cells.capacity() * sizeof(arrays.cells[0])
-          + arrays.material_ids.capacity() * sizeof(arrays.material_ids[0])
-          + arrays.element_numbers.capacity() * sizeof(arrays.element_numbers[0])
-          + arrays.boundary_faces.capacity() * sizeof(arrays.boundary_faces[0]);
+    std::size_t    bytes    = (triangulation == nullptr ? 0 : triangulation->memory_consumption())
+                        + contents.nodes.capacity() * sizeof(contents.nodes[0])
+                        + contents.node_numbers.capacity() * sizeof(contents.node_numbers[0])
+                        + arrays.cells.capacity() * sizeof(arrays.cells[0])
+                        + arrays.material_ids.capacity() * sizeof(arrays.material_ids[0])
+                        + arrays.element_numbers.capacity() * sizeof(arrays.element_numbers[0])
+                        + arrays.boundary_faces.capacity() * sizeof(arrays.boundary_faces[0]);
     for (const MshElement &element : contents.elements)
       bytes += sizeof(element) + element.nodes.capacity() * sizeof(element.nodes[0]);
     return bytes;

@@ -9,8 +9,8 @@ namespace Exemplar
                        const Material     &material,
                        const bool          has_patches)
       : strain(strain), guard_bound(guard_bound), kernels(best_kernels(fe_space.element())),
-        with_others(fe_space.exchange()),
-        batches(fe_space, material, has_patches), node_positions(4 * fe_space.n_nodes())
+        with_others(fe_space.exchange()), batches(fe_space, material, has_patches),
+        node_positions(4 * fe_space.n_nodes())
   {
   }
 

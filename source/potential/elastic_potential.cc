@@ -63,10 +63,12 @@ namespace Exemplar
     {
       if (exchange.n_processes() == 1)
         return;
-      std::vector<double> sums
-          = { result.energy_elastic, result.energy, result.energy_damping, stress_square,
-              static_cast<double>(result.inverted_cells),
-              static_cast<double>(result.guarded_cells) };
+      std::vector<double> sums = { result.energy_elastic,
+                                   result.energy,
+                                   result.energy_damping,
+                                   stress_square,
+                                   static_cast<double>(result.inverted_cells),
+                                   static_cast<double>(result.guarded_cells) };
       sums.insert(sums.end(), result.weight_gradient.begin(), result.weight_gradient.end());
       exchange.sum(sums);
       result.energy_elastic = sums[0];
@@ -85,11 +87,10 @@ namespace Exemplar
     estimate_rounding(const ElasticParts &parts)
     {
       // F of Eq. (1) carries the rounding of the positions, divided by the cell's size
-      const FESpace  &fe_space = parts.fe_space;
-      const Exchange &exchange = fe_space.exchange();
-      const double    of_positions
-          = 2. * std::numeric_limits<double>::epsilon()
-            * exchange.max(fe_space.rest_positions().linfty_norm());
+      const FESpace  &fe_space     = parts.fe_space;
+      const Exchange &exchange     = fe_space.exchange();
+      const double    of_positions = 2. * std::numeric_limits<double>::epsilon()
+                                  * exchange.max(fe_space.rest_positions().linfty_norm());
       CellRounding rounding;
       Vector       force(fe_space.n_nodes());
       for (unsigned int point = 0; point < fe_space.n_points(); ++point)

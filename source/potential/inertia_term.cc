@@ -23,10 +23,10 @@ namespace Exemplar
       return 0.;
     Vector difference = positions;
     difference -= integrator.predicted_positions();
-    const Vector product = mass.times(difference);
-    const double factor  = integrator.mass_factor();
+    const Vector product  = mass.times(difference);
+    const double factor   = integrator.mass_factor();
     const bool   is_alone = exchange->n_processes() == 1;
-    double       energy  = 0.;
+    double       energy   = 0.;
     for (unsigned int node = 0; node < force_scale.size(); ++node)
     {
       const bool counts = is_alone || exchange->owns(node);

@@ -15,8 +15,9 @@ namespace Exemplar
                                    const SymmetricPattern &pattern,
                                    const FreeDofs         &free_dofs)
       : patches(patches), examples(examples), free_dofs(free_dofs),
-        scatter(patches, fe_space, pattern, free_dofs), guard(patches, fe_space, material, examples),
-        fractions(fe_space.n_points()), means(patches.size(), 0.), mean_squares(patches.size(), 0.),
+        scatter(patches, fe_space, pattern, free_dofs),
+        guard(patches, fe_space, material, examples), fractions(fe_space.n_points()),
+        means(patches.size(), 0.), mean_squares(patches.size(), 0.),
         traces(batched_size(fractions.size(), 1)), squares(traces.size()), pressures(traces.size()),
         scales(traces.size())
   {
@@ -184,12 +185,10 @@ namespace Exemplar
       scatter.gradient(patch, cells, b);
       for (unsigned int weight = 0; weight < examples->n_weights(); ++weight)
         if (examples->is_strained(weight))
-          scatter.add_column(patch,
-                             examples->importance() * stiffness(patch)
-                                 * examples->patch_dilatation(patch, weight),
-                             b,
-                             &columns[free_dofs.local_list().size()
-                                      * examples->strained_index(weight)]);
+          scatter.add_column(
+              patch,
+              examples->importance() * stiffness(patch) * examples->patch_dilatation(patch, weight),
+              b, &columns[free_dofs.local_list().size() * examples->strained_index(weight)]);
     }
   }
 

@@ -58,10 +58,10 @@ namespace Exemplar
       auto           problem
           = MpiSession::n_processes() == 1
                 ? make_problem(parameters, announce)
-                : make_problem(parameters,
-                               ReadInputs([&](const SceneParameters &scene) {
-                                 return read_shared_inputs(scene, MPI_COMM_WORLD, announce);
-                               }));
+                : make_problem(
+                    parameters,
+                    ReadInputs([&](const SceneParameters &scene)
+                               { return read_shared_inputs(scene, MPI_COMM_WORLD, announce); }));
       warn_at_root(problem->warnings());
       return problem;
     }
@@ -108,7 +108,8 @@ namespace Exemplar
       std::cout << "Solver    " << method_name(problem.parameters.solver.method) << ", "
                 << problem.system.bordered().traits().name << ", " << problem.time_axis.n_steps()
                 << " steps; " << processes_text(exchange.n_processes())
-                << problem.parameters.solver.n_threads << (problem.parameters.solver.n_threads == 1 ? " thread" : " threads") << "; BLAS "
+                << problem.parameters.solver.n_threads
+                << (problem.parameters.solver.n_threads == 1 ? " thread" : " threads") << "; BLAS "
                 << blas.library << ' ' << blas.core << '\n';
       std::cout << "Output    " << problem.parameters.output.directory << std::endl;
     }

@@ -2,6 +2,7 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/run/agreement.h>
 
+#include <exception>
 #include <stdexcept>
 #include <string>
 
@@ -13,25 +14,35 @@ namespace Exemplar
     constexpr char user_error = 'u', solver_failure = 's', other_error = 'o';
 
     std::string
-    error_of(const std::function<void()> &action)
+    message_of(const std::exception_ptr &error)
     {
       try
       {
-        action();
+        std::rethrow_exception(error);
       }
-      catch (const UserError &error)
+      catch (const UserError &user)
       {
-        return user_error + std::string(error.what());
+        return user_error + std::string(user.what());
       }
       catch (const SolverFailure &failure)
       {
         return solver_failure + std::string(failure.what());
       }
-      catch (const std::exception &error)
+      catch (const std::exception &other)
       {
-        return other_error + std::string(error.what());
+        return other_error + std::string(other.what());
       }
-      return {};
+    }
+
+    /// What another process has thrown.
+    [[noreturn]] void
+    throw_as(const char kind, const std::string &message)
+    {
+      if (kind == user_error)
+        throw UserError(message);
+      if (kind == solver_failure)
+        throw SolverFailure(message);
+      throw std::runtime_error(message);
     }
   } // namespace
 
@@ -43,15 +54,20 @@ namespace Exemplar
       action();
       return;
     }
-    const std::string error = exchange.first_text(error_of(action));
-    if (error.empty())
-      return;
-    const std::string message = error.substr(1);
-    if (error[0] == user_error)
-      throw UserError(message);
-    if (error[0] == solver_failure)
-      throw SolverFailure(message);
-    throw std::runtime_error(message);
+    std::exception_ptr own;
+    try
+    {
+      action();
+    }
+    catch (const std::exception &)
+    {
+      own = std::current_exception();
+    }
+    const std::string message = exchange.first_text(own == nullptr ? "" : message_of(own));
+    if (own != nullptr)
+      std::rethrow_exception(own); // as it is: who catches it may know more of it than its text
+    if (!message.empty())
+      throw_as(message[0], message.substr(1));
   }
 
   void

@@ -45,10 +45,9 @@ namespace Exemplar
     const Exchange &exchange = problem.body.exchange();
     if (handles != nullptr)
     {
-      double     own      = exchange.is_root() ? work.handles : 0.;
-      const bool is_alone = exchange.n_processes() == 1;
+      double own = exchange.is_root() ? work.handles : 0.;
       for (const unsigned int dof : handles->held_dofs())
-        if (is_alone || exchange.owns(dof / 3))
+        if (exchange.owns(dof / 3))
           own += problem.evaluation.gradient[dof] * displacement[dof];
       work.handles = exchange.sum(own);
     }

@@ -87,8 +87,9 @@ namespace Exemplar
     static const std::regex frame("frame_" + number + "\\.(.+)"),
         piece("frame_" + number + "_process_" + number + "\\.(.+)");
     std::smatch parts;
-    const bool  is_whole = std::regex_match(file, parts, frame)
-                          && (parts[2] == name || (!joint_ending.empty() && parts[2] == joint_ending));
+    const bool  is_whole
+        = std::regex_match(file, parts, frame)
+          && (parts[2] == name || (!joint_ending.empty() && parts[2] == joint_ending));
     if (is_whole
         || (!joint_ending.empty() && std::regex_match(file, parts, piece) && parts[3] == name))
       return static_cast<unsigned int>(std::stoul(parts[1]));

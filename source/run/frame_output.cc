@@ -127,7 +127,7 @@ namespace Exemplar
              state.velocities, problem.potential.get_cells().cell_results(state.positions, state.weights)
     };
     frame.displacement -= problem.body.fe_space.rest_positions();
-    frame.space_error = std::move(space_error);
+    frame.space_error        = std::move(space_error);
     const Exchange &exchange = problem.body.exchange();
     do_in_agreement(exchange,
                     [&]
@@ -181,7 +181,8 @@ namespace Exemplar
   FrameOutput::is_missing() const
   {
     return problem.body.exchange().any(
-        std::any_of(writers.begin(), writers.end(), [&](const Writer &writer)
+        std::any_of(writers.begin(), writers.end(),
+                    [&](const Writer &writer)
                     { return !fs::exists(file_of(*writer.first, problem.state.step)); }));
   }
 

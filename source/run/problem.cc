@@ -287,8 +287,7 @@ namespace Exemplar
   std::unique_ptr<Problem>
   make_problem(const SceneParameters &parameters, const Announce &announce)
   {
-    return make_problem(parameters,
-                        ReadInputs([&announce](const SceneParameters &scene)
-                                   { return read_inputs(scene, {}, announce); }));
+    return make_problem(parameters, ReadInputs([&announce](const SceneParameters &scene)
+                                               { return read_inputs(scene, {}, announce); }));
   }
 } // namespace Exemplar

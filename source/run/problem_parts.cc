@@ -192,8 +192,7 @@ namespace Exemplar
   } // namespace
 
   Body::Body(const SceneParameters &parameters, Inputs &inputs)
-      : mesh(make_mesh(parameters.mesh, inputs)),
-        readings(make_readings(parameters, mesh, inputs)),
+      : mesh(make_mesh(parameters.mesh, inputs)), readings(make_readings(parameters, mesh, inputs)),
         material(parameters.material,
                  mesh.get_material_ids(),
                  mesh.get_contents(),

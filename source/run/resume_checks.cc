@@ -91,8 +91,8 @@ namespace Exemplar
       const std::string &key = changed.key;
       if (key == "Mesh/Surface") // frames may show one from now on, but no other one
         return !changed.before.empty();
-      return key == "Scene" || key == "Time/Step" || key == "Time/Increments" || key == "Model/Element"
-             || key.compare(0, 5, "Mesh/") == 0;
+      return key == "Scene" || key == "Time/Step" || key == "Time/Increments"
+             || key == "Model/Element" || key.compare(0, 5, "Mesh/") == 0;
     }
 
     void

@@ -67,7 +67,8 @@ namespace Exemplar
                        const std::vector<FrameFormat> &formats)
       : problem(problem), exchange(problem.body.exchange()), scene(scene), diagnostics(problem),
         directory(problem.parameters.output.directory, formats),
-        input_digests(exchange.is_root() ? digests_of(scene) : std::map<std::string, std::string>()),
+        input_digests(exchange.is_root() ? digests_of(scene)
+                                         : std::map<std::string, std::string>()),
         last_checkpoint(std::chrono::steady_clock::now()),
         frames(problem, directory.get_path(), formats), estimator(problem)
   {
@@ -268,7 +269,8 @@ namespace Exemplar
   RunWriter::write_rest_mesh() const
   {
     if (problem.parameters.mesh.is_surface())
-      problem.body.mesh.write_pose(problem.body.mesh.get_nodes(), directory.rest_mesh());
+      problem.body.mesh.write_pose(problem.body.mesh.contents_of_whole().nodes,
+                                   directory.rest_mesh());
   }
 
   PartSeconds
@@ -410,6 +412,6 @@ namespace Exemplar
   RunWriter::present(const std::string &statistics_digest) const
   {
     return { values_of(scene),       input_digests, whole_state(problem), problem.solver_memory(),
-             diagnostics.get_work(), totals,        accepted_bytes, statistics_digest };
+             diagnostics.get_work(), totals,        accepted_bytes,       statistics_digest };
   }
 } // namespace Exemplar

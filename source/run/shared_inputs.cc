@@ -61,14 +61,14 @@ namespace Exemplar
       void
       serialize(Archive &archive, unsigned int /*version*/)
       {
-        MeshArrays &mesh = body.mesh.arrays;
-        archive    &error &nodes &poses &selections;
-        archive    &body.mesh.whole &body.mesh.cells_in_file &body.patches &body.shares;
-        archive    &body.material.youngs_modulus &body.material.poissons_ratio &body.material.density;
-        archive    &mesh.contents.node_numbers &mesh.contents.nodes &mesh.contents.physical_names;
-        archive    &mesh.cells &mesh.material_ids &mesh.element_numbers &mesh.boundary_faces;
-        bool        has_support = body.support.has_value();
-        archive    &has_support;
+        MeshArrays                   &mesh = body.mesh.arrays;
+        archive &error &nodes &poses &selections;
+        archive &body.mesh.whole &body.mesh.cells_in_file &body.patches &body.shares;
+        archive &body.material.youngs_modulus &body.material.poissons_ratio &body.material.density;
+        archive &mesh.contents.node_numbers &mesh.contents.nodes &mesh.contents.physical_names;
+        archive &mesh.cells &mesh.material_ids &mesh.element_numbers &mesh.boundary_faces;
+        bool     has_support = body.support.has_value();
+        archive &has_support;
         if (!has_support)
           return;
         if (!body.support)
@@ -165,15 +165,15 @@ namespace Exemplar
         result.nodes.numbers       = chosen(numbers, nodes);
         result.nodes.first_numbers = first_numbers;
 
-        const MshFile &file            = mesh.get_contents();
-        MeshPart      &part            = result.body.mesh;
-        MeshArrays    &own             = part.arrays;
-        part.whole                     = mesh.whole();
-        part.cells_in_file             = cells;
-        own.contents.nodes             = chosen(file.nodes, vertices);
-        own.contents.node_numbers      = chosen(file.node_numbers, vertices);
-        own.contents.physical_names    = file.physical_names;
-        own.material_ids               = chosen(mesh.get_material_ids(), cells);
+        const MshFile &file         = mesh.get_contents();
+        MeshPart      &part         = result.body.mesh;
+        MeshArrays    &own          = part.arrays;
+        part.whole                  = mesh.whole();
+        part.cells_in_file          = cells;
+        own.contents.nodes          = chosen(file.nodes, vertices);
+        own.contents.node_numbers   = chosen(file.node_numbers, vertices);
+        own.contents.physical_names = file.physical_names;
+        own.material_ids            = chosen(mesh.get_material_ids(), cells);
         for (const unsigned int cell : cells)
         {
           own.cells.push_back(mesh.get_cells()[cell]);
@@ -184,7 +184,8 @@ namespace Exemplar
         for (const unsigned int face : faces_of[process])
         {
           BoundaryFace own_face = mesh.get_boundary_faces()[face];
-          std::transform(own_face.nodes.begin(), own_face.nodes.end(), own_face.nodes.begin(), here);
+          std::transform(own_face.nodes.begin(), own_face.nodes.end(), own_face.nodes.begin(),
+                         here);
           own.boundary_faces.push_back(own_face);
         }
         if (!patches.empty())
@@ -266,7 +267,8 @@ namespace Exemplar
       {
         for (const auto &[name, places] : inputs.poses)
           if (places.size() > mesh.n_nodes())
-            check_straight(places, edges_of(mesh.get_cells()), mesh.diameter(), name);
+            check_straight(places, edges_of(mesh.get_cells()), mesh.diameter() / mesh.get_scale(),
+                           name);
       }
 
       /// The graph of what stays whole, patches or cells: an edge where two share a face.
@@ -408,7 +410,7 @@ namespace Exemplar
     {
       try
       {
-        inputs = read_inputs(scene, {}, announce);
+        inputs                         = read_inputs(scene, {}, announce);
         const unsigned int n_processes = dealii::Utilities::MPI::n_mpi_processes(communicator);
         Distributor        distributor(scene, inputs, n_processes);
         for (unsigned int process = 1; process < n_processes; ++process)

@@ -31,7 +31,11 @@ namespace Exemplar
             && (elements.empty() || elements.back() != element))
           elements.push_back(element);
       }
-      return problem.body.exchange().collect(std::move(elements));
+      const Exchange &exchange = problem.body.exchange();
+      elements                 = exchange.collect(std::move(elements));
+      if (exchange.n_processes() > 1)
+        std::sort(elements.begin(), elements.end());
+      return elements;
     }
 
     std::vector<std::size_t>
@@ -130,11 +134,11 @@ namespace Exemplar
       const auto example = only_example(problem);
       if (problem.parameters.scene != SceneKind::interpolation || !example)
         return {};
-      const Exchange   &exchange = problem.body.exchange();
-      const auto        reached  = points_of(whole(exchange, problem.state.positions, true));
-      const auto        pose = points_of(whole(exchange, problem.examples.poses->pose(*example), true));
-      const RigidMotion motion  = best_rigid_motion(pose, reached);
-      double            miss    = 0.;
+      const Exchange &exchange = problem.body.exchange();
+      const auto      reached  = points_of(whole(exchange, problem.state.positions, true));
+      const auto pose = points_of(whole(exchange, problem.examples.poses->pose(*example), true));
+      const RigidMotion motion = best_rigid_motion(pose, reached);
+      double            miss   = 0.;
       for (std::size_t node = 0; node < pose.size(); ++node)
         miss = std::max(miss, reached[node].distance(motion(pose[node])));
       miss /= problem.body.mesh.diameter();
@@ -159,7 +163,8 @@ namespace Exemplar
       Vector        held = rest;
       problem.constraints.handles->move(problem.state.time, held);
       held -= rest;
-      return problem.body.exchange().max(max_entry(held.begin(), held.end())) < 1e-10 * problem.body.mesh.diameter();
+      return problem.body.exchange().max(max_entry(held.begin(), held.end()))
+             < 1e-10 * problem.body.mesh.diameter();
     }
   } // namespace
 

@@ -111,12 +111,12 @@ namespace Exemplar
                 const std::string               &status,
                 const std::filesystem::path     &file)
   {
-    const BlasInfo  blas     = blas_info();
-    const Exchange &exchange = problem.body.exchange();
-    const double    peak     = peak_memory_mib();
-    const auto      n_nodes  = exchange.n_nodes(problem.body.fe_space.n_nodes());
-    const double    n_free   = exchange.sum(problem.constraints.free_dofs.size());
-    const std::vector<std::size_t> peaks = exchange.collect({ static_cast<std::size_t>(peak) });
+    const BlasInfo                 blas     = blas_info();
+    const Exchange                &exchange = problem.body.exchange();
+    const double                   peak     = peak_memory_mib();
+    const auto                     n_nodes  = exchange.n_nodes(problem.body.fe_space.n_nodes());
+    const double                   n_free   = exchange.sum(problem.constraints.free_dofs.size());
+    const std::vector<std::size_t> peaks    = exchange.collect({ static_cast<std::size_t>(peak) });
     const Conditioning             conditioning = problem.conditioning();
 
     const std::vector<PartOfProblem> parts = inventory(problem);
@@ -131,14 +131,14 @@ namespace Exemplar
     json["blas_threads"] = blas.threads;
     if (exchange.n_processes() > 1)
       json["processes"] = exchange.n_processes();
-    json["threads"]      = problem.parameters.solver.n_threads;
-    json["scene"]        = printable(problem.parameters.name);
-    json["mesh"]         = printable(problem.body.mesh.get_name());
-    json["mesh_sha256"]  = mesh_sha256;
-    json["cells"]        = problem.body.mesh.whole().n_cells;
-    json["element"]      = problem.body.fe_space.element() == Element::P1 ? "P1" : "P2";
-    json["nodes"]        = n_nodes;
-    json["dofs"]         = 3 * n_nodes;
+    json["threads"]          = problem.parameters.solver.n_threads;
+    json["scene"]            = printable(problem.parameters.name);
+    json["mesh"]             = printable(problem.body.mesh.get_name());
+    json["mesh_sha256"]      = mesh_sha256;
+    json["cells"]            = problem.body.mesh.whole().n_cells;
+    json["element"]          = problem.body.fe_space.element() == Element::P1 ? "P1" : "P2";
+    json["nodes"]            = n_nodes;
+    json["dofs"]             = 3 * n_nodes;
     json["constrained_dofs"] = 3 * n_nodes - static_cast<unsigned int>(n_free);
     if (problem.constraints.support && exchange.is_root())
       json["support_nodes"] = support_nodes(problem);
@@ -174,9 +174,9 @@ namespace Exemplar
                             ? peak
                             : static_cast<double>(std::accumulate(peaks.begin(), peaks.end(), 0ul)))
                      / problem.body.mesh.whole().n_cells);
-    json["memory_mib"]     = memory_of(parts);
-    json["used"]           = names_of(parts, true);
-    json["left_out"]       = names_of(parts, false);
+    json["memory_mib"] = memory_of(parts);
+    json["used"]       = names_of(parts, true);
+    json["left_out"]   = names_of(parts, false);
 
     if (!exchange.is_root())
       return;

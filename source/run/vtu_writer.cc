@@ -202,8 +202,8 @@ namespace Exemplar
     std::ostream &out     = atomic_file.stream();
     const auto    declare = [&](const std::string &type, const std::string &name, const int n)
     {
-      out << "<PDataArray type=\"" << type << "\" Name=\"" << name << "\" NumberOfComponents=\"" << n
-          << "\"/>\n";
+      out << "<PDataArray type=\"" << type << "\" Name=\"" << name << "\" NumberOfComponents=\""
+          << n << "\"/>\n";
     };
     out << "<?xml version=\"1.0\"?>\n"
         << "<VTKFile type=\"PUnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "

@@ -255,8 +255,8 @@ namespace Exemplar
   void
   Newton::save(boost::archive::binary_oarchive &archive) const
   {
-    const Vector positions = whole(potential.get_free_dofs().exchange(), accepted.positions);
-    archive     &positions &accepted.weights;
+    const Vector        positions = whole(potential.get_free_dofs().exchange(), accepted.positions);
+    archive &positions &accepted.weights;
   }
 
   void

@@ -299,10 +299,16 @@ namespace Exemplar
   void
   QuasiNewton::save(boost::archive::binary_oarchive &archive) const
   {
-    const FreeDofs &free_dofs  = potential.get_free_dofs();
-    MetricHistory   of_body    = history;
-    Lbfgs           body_lbfgs = lbfgs;
-    of_body.positions          = whole(free_dofs.exchange(), history.positions);
+    const FreeDofs &free_dofs = potential.get_free_dofs();
+    if (free_dofs.exchange().n_processes() == 1)
+    {
+      archive &history &lbfgs;
+      prediction.save(archive);
+      return;
+    }
+    MetricHistory of_body    = history;
+    Lbfgs         body_lbfgs = lbfgs;
+    of_body.positions        = whole(free_dofs.exchange(), history.positions);
     body_lbfgs.map([&](const std::vector<double> &vector) { return free_dofs.whole(vector); });
     archive &of_body &body_lbfgs;
     prediction.save(archive);
@@ -311,8 +317,8 @@ namespace Exemplar
   void
   QuasiNewton::load(boost::archive::binary_iarchive &archive)
   {
-    const FreeDofs &free_dofs = potential.get_free_dofs();
-    archive        &history &lbfgs;
+    const FreeDofs   &free_dofs = potential.get_free_dofs();
+    archive &history &lbfgs;
     history.positions = part(free_dofs.exchange(), history.positions);
     lbfgs.map([&](const std::vector<double> &vector) { return free_dofs.part(vector); });
     prediction.load(archive);

@@ -37,8 +37,8 @@ namespace Exemplar
     std::vector<double> columns = system.columns();
     if (!form->coupled.empty())
       system.apply_inverse(columns);
-    schur = make_schur_complement(*form, system.columns(), columns.data(),
-                                  free_dofs.size(), free_dofs.exchange());
+    schur = make_schur_complement(*form, system.columns(), columns.data(), free_dofs.size(),
+                                  free_dofs.exchange());
     G.assign(system.columns().begin(), system.columns().end());
     Z.assign(columns.begin(), columns.end());
   }

@@ -74,7 +74,8 @@ namespace Exemplar
         return v;
       v *= shift;
       v += system.displacement(at, system.solve(at, evaluation)); // -A^-1 K v
-      const double greatest = potential.get_free_dofs().exchange().max(max_entry(v.begin(), v.end()));
+      const double greatest
+          = potential.get_free_dofs().exchange().max(max_entry(v.begin(), v.end()));
       if (!(greatest > 0.))
         break;
       v /= greatest;

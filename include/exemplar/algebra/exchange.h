@@ -149,7 +149,7 @@ namespace Exemplar
     /// A field with n numbers a node, for all nodes of the body in the order of one process. With
     /// `everywhere` all processes have it, else the root alone.
     virtual std::vector<double>
-    whole(const double *field,
+    whole(const double      *field,
           const unsigned int n,
           const std::size_t  n_nodes,
           bool /*everywhere*/) const
@@ -179,8 +179,7 @@ namespace Exemplar
   {
     if (exchange.n_processes() == 1 || field.size() == 0)
       return field;
-    const std::vector<double> all
-        = exchange.whole(field.begin(), 3, field.size() / 3, everywhere);
+    const std::vector<double> all = exchange.whole(field.begin(), 3, field.size() / 3, everywhere);
     return { all.begin(), all.end() };
   }
 

@@ -102,7 +102,8 @@ namespace Exemplar
         unknowns[i] = field[own[i]];
     }
 
-    /// Add a factor times numbers by unknown to a field.
+    /// Add a factor times numbers by unknown to a field. All processes must call this and the
+    /// functions below.
     void
     add(const double factor, const std::vector<double> &unknowns, Vector &field) const
     {
@@ -121,7 +122,7 @@ namespace Exemplar
     std::vector<double>
     whole(const std::vector<double> &unknowns) const;
 
-    /// What of a whole() are unknowns of this process. All processes must call it.
+    /// What of a whole() are unknowns of this process.
     std::vector<double>
     part(const std::vector<double> &whole) const;
 

@@ -74,7 +74,7 @@ namespace Exemplar
     bool
     owns(const unsigned int node) const override
     {
-      return owner(node) == own_process;
+      return is_owned[node];
     }
 
     void
@@ -113,11 +113,12 @@ namespace Exemplar
   private:
     using Partitioner = dealii::Utilities::MPI::Partitioner;
 
-    /// The process that owns a node.
-    unsigned int
-    owner(unsigned int node) const;
+    /// Find the nodes that processes share, and number them anew, so that only these are packed and
+    /// sent.
+    void
+    find_shared_nodes();
 
-    /// For fields with n numbers a node.
+    /// For fields with n numbers a shared node.
     const Partitioner &
     partitioner(unsigned int n) const;
 
@@ -128,7 +129,11 @@ namespace Exemplar
     const MPI_Comm            communicator;
     const SharedNodes         nodes;
     const unsigned int        own_process;
-    std::vector<unsigned int> owned, others; ///< nodes, by ascending number
+    std::vector<bool>         is_owned;             ///< of each node
+    std::vector<unsigned int> owned;                ///< nodes, by ascending number
+    std::vector<unsigned int> shared_owned, others; ///< that others have, too; that others own
+    std::vector<unsigned int> numbers_of_others;    ///< among shared nodes, ascending
+    unsigned int first_shared = 0, n_shared = 0;    ///< number of shared_owned[0]; of all processes
     mutable std::map<unsigned int, std::unique_ptr<Partitioner>> partitioners;
   };
 } // namespace Exemplar

@@ -68,7 +68,8 @@ namespace Exemplar
     void
     set_motion(const std::string &name, Motion motion);
 
-    /// Put the held degrees of freedom where they are at time t [s]. Throws SolverFailure if a
+    /// Put the held degrees of freedom where they are at time t [s]. All processes that share the body
+    /// must call this and are_elsewhere(). Throws SolverFailure if a
     /// motion is not finite and, of motions that a program has set, UserError if one gives not as
     /// many displacements as there are points, or if handles that overlap disagree.
     void
@@ -111,6 +112,7 @@ namespace Exemplar
       Expression                progress; ///< on the path, if there is one
       std::optional<RigidPath>  path;     ///< of all of the handle to the pose that is followed
       Motion                    function; ///< a program's, instead of all these
+
       std::vector<unsigned int> places_in_path = {}; ///< of each node, among those of all processes
 
       /// Of `nodes`, which are at `rest` at rest, at time t [s].

@@ -35,7 +35,8 @@ namespace Exemplar
       return matrix;
     }
 
-    /// M times a field, by degree of freedom.
+    /// M times a field, by degree of freedom. All processes that share the body must call this and
+    /// motion_sums().
     Vector
     times(const Vector &field) const;
 

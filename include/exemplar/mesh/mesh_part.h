@@ -31,9 +31,9 @@ namespace Exemplar
   struct MeshPart
   {
     WholeMesh                       whole;
-    MeshArrays                      arrays;   ///< without elements
+    MeshArrays                      arrays;        ///< without elements
     std::vector<unsigned int>       cells_in_file; ///< index of each cell in the whole
-    std::shared_ptr<const Exchange> exchange; ///< with the others
+    std::shared_ptr<const Exchange> exchange;      ///< with the others
     /// The file as read (scaled), at the root; null elsewhere.
     std::shared_ptr<const MshFile> contents_of_whole;
   };

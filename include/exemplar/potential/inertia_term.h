@@ -57,7 +57,7 @@ namespace Exemplar
     const TimeIntegrator &integrator;
     const bool            is_reported;
     std::vector<double>   mass_values; ///< M on the pattern [kg]
-    bool                  in_step = false;
+    bool                  in_step  = false;
     const Exchange       *exchange = &Exchange::serial();
   };
 } // namespace Exemplar

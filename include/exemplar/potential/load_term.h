@@ -31,10 +31,10 @@ namespace Exemplar
     memory_consumption() const override;
 
   private:
-    const Loads  &loads;
-    const Vector &rest_positions;
-    Vector        force;       ///< f of the time that is set [N]
-    Vector        force_norms; ///< of each node [N]
+    const Loads    &loads;
+    const Vector   &rest_positions;
+    Vector          force;       ///< f of the time that is set [N]
+    Vector          force_norms; ///< of each node [N]
     const Exchange *exchange = &Exchange::serial();
   };
 } // namespace Exemplar

@@ -30,7 +30,8 @@ namespace Exemplar::Testing
     TEST(RegionShares, WithoutLengthACellBelongsToItsRegion)
     {
       const Body         body(bar_of_two_regions(1.5));
-      const RegionShares shares(body.fe_space, body.mesh.get_material_ids(), body.mesh.whole().material_ids, 0.);
+      const RegionShares shares(body.fe_space, body.mesh.get_material_ids(),
+                                body.mesh.whole().material_ids, 0.);
       ASSERT_EQ(shares.n_regions(), 2u);
       EXPECT_EQ(shares.material_id(1), 2u);
       for (unsigned int cell = 0; cell < body.fe_space.n_cells(); ++cell)
@@ -42,7 +43,8 @@ namespace Exemplar::Testing
       // in a long bar: 1/2 exp(-d/l) on the far side of the border, l = length / (2 sqrt 3)
       const double       length = 1.2, l = length / std::sqrt(12.);
       const Body         body(bar_of_two_regions(2., box_mesh(4., 160, 1)));
-      const RegionShares shares(body.fe_space, body.mesh.get_material_ids(), body.mesh.whole().material_ids, length);
+      const RegionShares shares(body.fe_space, body.mesh.get_material_ids(),
+                                body.mesh.whole().material_ids, length);
       for (unsigned int cell = 0; cell < body.fe_space.n_cells(); ++cell)
       {
         const double x = centroid_x(body, cell), far = 0.5 * std::exp(-std::abs(x - 2.) / l);
@@ -55,7 +57,8 @@ namespace Exemplar::Testing
     {
       // a few cells of 24,000, and a length that spreads it over the whole bar
       const Body         body(bar_of_two_regions(3.9997, box_mesh(4., 4000, 1)));
-      const RegionShares shares(body.fe_space, body.mesh.get_material_ids(), body.mesh.whole().material_ids, 1e3);
+      const RegionShares shares(body.fe_space, body.mesh.get_material_ids(),
+                                body.mesh.whole().material_ids, 1e3);
       double             greatest = 0.;
       for (unsigned int cell = 0; cell < body.fe_space.n_cells(); ++cell)
         greatest = std::max(greatest, share_of(shares, 1, cell));
@@ -67,7 +70,8 @@ namespace Exemplar::Testing
     TEST(RegionShares, OneRegionIsGlobal)
     {
       const Body         body;
-      const RegionShares shares(body.fe_space, body.mesh.get_material_ids(), body.mesh.whole().material_ids, 1.);
+      const RegionShares shares(body.fe_space, body.mesh.get_material_ids(),
+                                body.mesh.whole().material_ids, 1.);
       for (unsigned int cell = 0; cell < body.fe_space.n_cells(); ++cell)
         EXPECT_EQ(share_of(shares, 0, cell), 1.);
     }
