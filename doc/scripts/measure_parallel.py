@@ -5,7 +5,7 @@
     python3 doc/scripts/measure_parallel.py [CASE...] [--repeat N] [--program P]
     python3 doc/scripts/measure_parallel.py --model        doc/studies/parallel_model.csv, from these measurements
 
-The runs of a case are interleaved, and the least of N (3) counts, as other work of the machine can only add to it. Seconds are of the
+`speedup` is that of cells a second. The runs of a case are interleaved, and the least of N (3) counts, as other work of the machine can only add to it. Seconds are of the
 clock: all; of it reading the mesh, partitioning it and building the problem; and in dynamics the median step. Memory is the
 greatest of each process. On a quiet machine with two cores, an hour.
 """
@@ -26,7 +26,7 @@ ENVIRONMENT = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_R
                "OPENBLAS_NUM_THREADS": "1"}
 ITERATIVE, CHOLESKY = {"Solver/Linear solver": "iterative"}, {"Solver/Linear solver": "cholesky"}
 STATIC = "static, multigrid"
-STEPS = {"Time/End": 0.5}  # 50
+STEPS = {"Time/End": 0.5}  # 50 steps
 # case: [what, scene, settings, processes]
 CASES = {
     "static_100k": [[STATIC, "bar1M.prm", {"Mesh/Box cells": "64, 16, 16", **ITERATIVE}, n] for n in (1, 2)],
@@ -79,8 +79,13 @@ def measure(program, case, repeat):
     for row in rows:
         alone = next(other for other in rows if other["what"] == row["what"] and other["processes"] == 1)
         measure_of = "seconds_step" if row["seconds_step"] else "seconds"
-        row["speedup"] = f"{alone[measure_of] / row[measure_of]:.2f}"
-    return rows
+        row["speedup"] = round(alone[measure_of] / row[measure_of] * row["cells"] / alone["cells"], 2)
+    return [rounded(row) for row in rows]
+
+
+def rounded(row):
+    """To three digits."""
+    return {key: float(f"{value:.3g}") if isinstance(value, float) else value for key, value in row.items()}
 
 
 def rows_of(case):
@@ -99,7 +104,7 @@ def model():
     iterations = float(swing["iterations"]) / 50
     conjugate = 69 * (cells / 1e6) ** (1 / 6)
     rows = []
-    for n in (1, 64, 4096):
+    for n in (64, 4096):
         shared = 6 * (cells * nodes_a_cell / n) ** (2 / 3) if n > 1 else 0
         exchanges = iterations * (3 + cycles * levels * products)
         # coarser levels have an eighth of the nodes, and so on
@@ -118,7 +123,7 @@ def model():
     with MODEL.open("w", newline="") as file:
         writer = csv.DictWriter(file, list(rows[0]), lineterminator="\n")
         writer.writeheader()
-        writer.writerows(rows)
+        writer.writerows(map(rounded, rows))
 
 
 def main():
