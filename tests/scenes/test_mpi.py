@@ -144,6 +144,29 @@ class SeveralProcesses(SceneTest):
             with self.subTest(processes=n):
                 self.compare(one, self.run_on(n, two), 1., 1e-8)
 
+    def test_what_the_surface_says(self):
+        """A painted body, held where a map says and pulled around a vertex; of a mesh that is given, and one that is made."""
+        vertices = [(x, y, z) for x in (0., 2., 4.) for y in (-.5, .5) for z in (-.5, .5)]
+        faces = [(1, 2, 4, 3), (9, 11, 12, 10)]
+        for k in (0, 4):
+            faces += [(1 + k, 5 + k, 6 + k, 2 + k), (3 + k, 4 + k, 8 + k, 7 + k), (1 + k, 3 + k, 7 + k, 5 + k), (2 + k, 6 + k, 8 + k, 4 + k)]
+        self.write("box.obj", "\n".join(["v {} {} {}".format(*v) for v in vertices]
+                                        + [f"f {a} {b} {c}\nf {a} {c} {d}" for a, b, c, d in faces]) + "\n")
+        self.write("along.csv", "\n".join(str(v[0] / 4.) for v in vertices) + "\n")
+        scene = {**STATIC, "Mesh/Surface": "box.obj", "Material/Young's modulus map": "along.csv from 1 to 3", "Loads/Gravity": None,
+                 "Handles/left/Select": "map along.csv below 0.05", "Loads/Names": "pull",
+                 "Loads/pull/Select": "vertex 8 within 0.8", "Loads/pull/Force": "0; 3000; 5000"}
+        made = {**scene, "Mesh/Surface": None, "Mesh/Generator": None, "Mesh/Box size": None, "Mesh/Box cells": None,
+                "Mesh/File": "box.obj", "Mesh/Cells": "300"}
+        for name, which in (("given", scene), ("made", made)):
+            one = self.solve(which, "--quiet", output=f"one_{name}")
+            for n in (2, 3):
+                with self.subTest(mesh=name, processes=n):
+                    several = self.run_on(n, which, output=f"on_{n}_{name}")
+                    self.compare(one, several, 0.1, 1e-8)
+                    if name == "made":
+                        self.assertEqual((one / "rest.msh").read_bytes(), (several / "rest.msh").read_bytes())
+
     def test_bytes_repeat(self):
         scene = {**SCENES["newton, examples"], "Output/Every": "5"}
         first, second = (self.run_on(2, scene, output=name) for name in ("first", "second"))
