@@ -18,7 +18,7 @@
 #include <boost/serialization/utility.hpp>
 #include <boost/serialization/vector.hpp>
 #include <deal.II/base/mpi.h>
-#include <deal.II/lac/dynamic_sparsity_pattern.h>
+#include <deal.II/lac/sparsity_pattern.h>
 #include <deal.II/lac/sparsity_tools.h>
 
 #include <algorithm>
@@ -277,16 +277,25 @@ namespace Exemplar
                  const std::vector<unsigned int> &lump_of_cell,
                  const unsigned int               n_lumps)
       {
-        dealii::DynamicSparsityPattern graph(n_lumps);
+        std::vector<unsigned int> row_lengths(n_lumps, 1); // and the diagonal
+        std::vector<std::pair<std::size_t, std::size_t>> edges;
         for (std::size_t i = 1; i < faces.size(); ++i)
           if (faces[i].nodes == faces[i - 1].nodes)
           {
             const unsigned int a = lump_of_cell[faces[i - 1].cell], b = lump_of_cell[faces[i].cell];
-            graph.add(a, b);
-            graph.add(b, a);
+            if (a == b)
+              continue;
+            edges.emplace_back(a, b);
+            ++row_lengths[a];
+            ++row_lengths[b];
           }
-        dealii::SparsityPattern pattern;
-        pattern.copy_from(graph);
+        dealii::SparsityPattern pattern(n_lumps, n_lumps, row_lengths);
+        for (const auto &[a, b] : edges)
+        {
+          pattern.add(a, b);
+          pattern.add(b, a);
+        }
+        pattern.compress();
         return pattern;
       }
 
