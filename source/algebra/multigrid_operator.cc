@@ -9,6 +9,7 @@
 
 #include <Epetra_Vector.h>
 #include <Teuchos_ParameterList.hpp>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <malloc.h>
@@ -25,7 +26,12 @@ namespace Exemplar
   public:
     SharedVector() = default;
 
-    SharedVector(const unsigned int n, const Exchange &exchange) : Vector(n), exchange(&exchange) {}
+    /// Where there are no rows, an entry of zero stands for them: deal.II asserts in Debug that
+    /// vectors are not empty.
+    SharedVector(const unsigned int n, const Exchange &exchange)
+        : Vector(std::max(n, 1U)), exchange(&exchange)
+    {
+    }
 
     using Vector::operator=;
 
@@ -103,6 +109,8 @@ namespace Exemplar
       vmult(SharedVector &image, const SharedVector &vector) const
       {
         Epetra_Vector result = view(map, image);
+        if (map.NumMyElements() == 0)
+          image = 0.;
         multiply(view(map, vector), result);
         check_curvature(vector, image);
       }
