@@ -31,7 +31,7 @@ STEPS = {"Time/End": 0.5}  # 50 steps
 CASES = {
     "static_100k": [[STATIC, "bar1M.prm", {"Mesh/Box cells": "64, 16, 16", **ITERATIVE}, n] for n in (1, 2)],
     "static_1M": [[STATIC, "bar1M.prm", ITERATIVE, n] for n in (1, 2)],
-    "static_greatest": [[STATIC, "bar1M.prm", {"Mesh/Box cells": "244, 61, 61", **ITERATIVE}, n] for n in (1, 2)],
+    "static_greatest": [[STATIC, "bar1M.prm", {"Mesh/Box cells": "240, 60, 60", **ITERATIVE}, 2]],  # 15 GiB
     "weak": [[STATIC, "bar1M.prm", {"Mesh/Box cells": cells, **ITERATIVE}, n]
              for n, cells in ((1, "112, 28, 28"), (2, "224, 28, 28"))],
     "patches_500k": [["static, multigrid, patches", "bar1M.prm",
@@ -77,9 +77,10 @@ def measure(program, case, repeat):
             least["seconds_step"] = min(row["seconds_step"] for row in found)
         rows.append(least)
     for row in rows:
-        alone = next(other for other in rows if other["what"] == row["what"] and other["processes"] == 1)
         measure_of = "seconds_step" if row["seconds_step"] else "seconds"
-        row["speedup"] = round(alone[measure_of] / row[measure_of] * row["cells"] / alone["cells"], 2)
+        for alone in rows:
+            if alone["what"] == row["what"] and alone["processes"] == 1:
+                row["speedup"] = round(alone[measure_of] / row[measure_of] * row["cells"] / alone["cells"], 2)
     return [rounded(row) for row in rows]
 
 

@@ -113,7 +113,7 @@ class SeveralProcesses(SceneTest):
                     self.assertLess(abs(value - other[name]), 1e-6 * size + 1e-12, (name, mine["step"]))
 
     def test_results_are_those_of_one_process(self):
-        for n, names in ((2, SCENES), (3, ("static", "newton, examples", "static, quadratic", "interpolation"))):
+        for n, names in ((2, SCENES), (4, ("newton, examples",)), (3, ("static", "newton, examples", "static, quadratic", "interpolation"))):
             for name in names:
                 with self.subTest(scene=name, processes=n):
                     scene = SCENES[name]
