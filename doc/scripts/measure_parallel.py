@@ -31,7 +31,7 @@ STEPS = {"Time/End": 0.5}  # 50 steps
 CASES = {
     "static_100k": [[STATIC, "bar1M.prm", {"Mesh/Box cells": "64, 16, 16", **ITERATIVE}, n] for n in (1, 2)],
     "static_1M": [[STATIC, "bar1M.prm", ITERATIVE, n] for n in (1, 2)],
-    "static_greatest": [[STATIC, "bar1M.prm", {"Mesh/Box cells": "240, 60, 60", **ITERATIVE}, 2]],  # 15 GiB
+    "static_greatest": [[STATIC, "bar1M.prm", {"Mesh/Box cells": "240, 60, 60", **ITERATIVE}, n] for n in (1, 2)],  # 15 GiB
     "weak": [[STATIC, "bar1M.prm", {"Mesh/Box cells": cells, **ITERATIVE}, n]
              for n, cells in ((1, "112, 28, 28"), (2, "224, 28, 28"))],
     "patches_500k": [["static, multigrid, patches", "bar1M.prm",
