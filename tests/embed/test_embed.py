@@ -19,7 +19,7 @@ def run(*command):
 with tempfile.TemporaryDirectory() as directory:
     prefix, build = Path(directory, "prefix"), Path(directory, "build")
     run("cmake", "--install", sys.argv[1], "--prefix", prefix)
-    run("cmake", "-S", Path(__file__).parent, "-B", build, f"-DCMAKE_PREFIX_PATH={prefix}")
+    run("cmake", "-G", "Ninja", "-S", Path(__file__).parent, "-B", build, f"-DCMAKE_PREFIX_PATH={prefix}")
     run("cmake", "--build", build)
     rows = [[float(number) for number in line.split()] for line in run(build / "embed").splitlines()]
 
