@@ -37,6 +37,19 @@ namespace Exemplar
       PoseOptions        pose;
     };
 
+    /// What --help ends with.
+    std::string
+    footer(const std::string &example)
+    {
+      return "Examples:\n  $ " + example + R"(
+
+Exit status:
+  0    done
+  1    the input or the command line is wrong, and nothing is written; verify: a case failed
+  2    a solver failed, or memory or disk ran out; what was computed is on disk
+  130  stopped by a signal; what was computed is on disk, and --resume goes on)";
+    }
+
     void
     declare_scene(CLI::App &app, Arguments &arguments)
     {
@@ -66,9 +79,13 @@ namespace Exemplar
 
     /// A command with options of its own, and none of those of scenes.
     CLI::App &
-    add_command(CLI::App &app, const std::string &name, const std::string &description)
+    add_command(CLI::App          &app,
+                const std::string &name,
+                const std::string &description,
+                const std::string &example)
     {
       CLI::App *command = app.add_subcommand(name, description);
+      command->footer(footer("exemplar " + name + " " + example));
       for (CLI::Option *of_scenes : app.get_options())
         command->excludes(of_scenes);
       return *command;
@@ -78,7 +95,8 @@ namespace Exemplar
     declare_study(CLI::App &app, Arguments &arguments)
     {
       CLI::App &command
-          = add_command(app, "study", "run a scene with many settings: error against run time");
+          = add_command(app, "study", "run a scene with many settings: error against run time",
+                        "prm/studies/solver_tolerance.prm --output study");
       command.add_option("STUDY", arguments.study.file, "study file (.prm)");
       command.add_option("--output", arguments.study.output, "directory of the results");
       command.add_flag("--quiet", arguments.study.quiet, "print warnings and errors only");
@@ -91,7 +109,8 @@ namespace Exemplar
     declare_verify(CLI::App &app, Arguments &arguments)
     {
       CLI::App &command = add_command(
-          app, "verify", "compute the reference cases and compare: pass or fail, a line a number");
+          app, "verify", "compute the reference cases and compare: pass or fail, a line a number",
+          "uniaxial patch");
       command.add_option("NAME", arguments.cases, "cases to compute instead of all");
       command.add_flag("--list", arguments.list_cases,
                        "names, contents and sources of the cases; computes nothing");
@@ -101,7 +120,8 @@ namespace Exemplar
     CLI::App &
     declare_mesh(CLI::App &app, Arguments &arguments)
     {
-      CLI::App &command = add_command(app, "mesh", "fill a surface with tetrahedra");
+      CLI::App &command = add_command(app, "mesh", "fill a surface with tetrahedra",
+                                      "--surface cow.obj --cells 5000 --output cow.msh");
       command
           .add_option("--surface", arguments.mesh.meshing.surface, "the surface (.obj .ply .stl)")
           ->required();
@@ -122,7 +142,8 @@ namespace Exemplar
     declare_pose(CLI::App &app, Arguments &arguments)
     {
       CLI::App &command = add_command(
-          app, "pose", "carry poses of a surface onto its tetrahedra, as examples of scenes");
+          app, "pose", "carry poses of a surface onto its tetrahedra, as examples of scenes",
+          "--mesh cow.msh --rest cow.obj --pose 'walk_*.obj' --output poses");
       PoseOptions &pose = arguments.pose;
       command.add_option("--mesh", pose.mesh, "tetrahedra inside the surface (.msh)")->required();
       command.add_option("--rest", pose.rest, "the surface at rest (.obj .ply .stl)")->required();
@@ -199,10 +220,11 @@ namespace Exemplar
     // each of several processes has one core
     arguments.run.n_threads = MpiSession::n_processes() > 1 ? 1 : n_available_cores();
     arguments.study.stop    = is_interrupted;
-    CLI::App app("exemplar: elastic solids that deform the way their examples say");
+    CLI::App app("Elastic solids that deform the way their examples say", "exemplar");
     app.set_version_flag("--version",
                          std::string("exemplar " EXEMPLAR_VERSION " (" EXEMPLAR_GIT_REVISION ")")
                              + (has_iterative_operator() ? "" : " without Trilinos"));
+    app.footer(footer("exemplar bar.prm --set Examples/Importance=0 --output plain"));
     declare_scene(app, arguments);
     const CLI::App &study_command  = declare_study(app, arguments);
     const CLI::App &verify_command = declare_verify(app, arguments);
