@@ -10,10 +10,10 @@ import sys
 import tempfile
 from pathlib import Path
 
-from scene_runs import CELLS, PROGRAM, bend, print_table, run_scene, twist, write_scene
+from scene_runs import MEASURED, PROGRAM, bend, print_table, run_scene, twist, write_scene
 
 HELD = {"Scene": "static", "Mesh/Generator": "box", "Time/Increments": 1, "Solver/Tolerance": 1e-6,
-        "Handles/Names": "left", "Handles/left/Select": "boundary 1", **CELLS}
+        "Handles/Names": "left", "Handles/left/Select": "boundary 1", **MEASURED}
 # lifted at the other end, with an example that follows and two that do not
 DRAGGED = {"Handles/Names": "left, right", "Handles/right/Select": "boundary 2", "Handles/right/Motion": "0; 0; t",
            "Handles/right/Components": "z",

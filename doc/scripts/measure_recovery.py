@@ -13,10 +13,10 @@ from pathlib import Path
 
 import numpy as np
 
-from scene_runs import BAR, CELLS, PROGRAM, TOP, bend, print_table, read_msh, run_scene, twist, write_msh, write_scene
+from scene_runs import BAR, MEASURED, PROGRAM, TOP, bend, print_table, read_msh, run_scene, twist, write_msh, write_scene
 
 SEEDS = 20
-STATIC = {"Scene": "static", "Time/Increments": 1, **CELLS}
+STATIC = {"Scene": "static", "Time/Increments": 1, **MEASURED}
 SMALL_BAR = {**BAR, "Mesh/Box cells": "8, 2, 2", "Handles/Names": "end", "Handles/end/Select": "boundary 1"}
 CAT_FEET = (-0.6, -0.2, -0.01, 0.6, 0.2, 0.08)
 BODIES = {

@@ -29,7 +29,7 @@ COARSE = {"bar": ("8, 2, 2", "16, 4, 4"), "cook": ("cook_8.geo", "cook_16.geo", 
 SCENE = {"bar": "space_bar.prm", "cook": "cook.prm", "cat": "space_cat.prm", "lifted": "pulled.prm",
          "swing": "bar.prm"}
 SETTINGS = {"lifted": {"Handles/right/Motion": "0; 0; 0.8*t", "Time/Increments": 4, "Examples/Weights": "free",
-                       "Examples/Importance": 0.8}, "swing": {"Time/End": 0.7, "Time/Step": 0.02}}
+                       "Examples/Energy": "scaled", "Examples/Importance": 0.8}, "swing": {"Time/End": 0.7, "Time/Step": 0.02}}
 COLUMNS = ["body", "mesh", "nu", "dilatation", "displacement", "displacement_true", "energy", "energy_true", "weights",
            "weights_true"]
 

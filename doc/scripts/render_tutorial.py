@@ -193,7 +193,7 @@ def step3(program):
     picture.write("step3_cat.png")
 
     ways = [("simplex", "auto", "scaled", "#d97a1e"), ("free", "auto", "scaled", "#3d76a8"), ("free", "0", "scaled", "#7a3d99"),
-            ("simplex", "auto", "blended", "#3f8f3f")]
+            ("simplex", "auto", "blended", "#3f8f3f"), ("simplex", "auto", "mixed", "#b0306a")]
     for name, column, settings in (
             ("step3_weights.svg", "weight_1", "set yrange [0:3]\nset key top right\nset ylabel 'weight of the arch'"),
             ("step3_back.svg", "probe_z", "set yrange [0:0.2]\nset key bottom right\nset ylabel 'rise of the back [m]'")):

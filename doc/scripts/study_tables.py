@@ -19,6 +19,8 @@ A page says itself which table it wants, in a comment before it; a table ends wi
                                     column an element; <!-- reach: NAME: ERROR --> seconds to that error, a column a ratio of Poisson
 <!-- effectivity: NAME -->        estimated over true errors of doc/scripts/measure_space_error.py: of displacements, then of energies
                                     or, in scenes with weights to find, of these
+<!-- dial: NAME -->            of a study of importances: how much of its way from importance 0 to 1 the probe has gone, a line a motion
+                               and an energy
 <!-- stability: all -->, <!-- elements: all -->, <!-- failures: all -->     the stability studies: a line a study, an
                                     element, a case that failed
 """
@@ -216,6 +218,21 @@ def effectivity(name, where, _):
                     [[*key, *(line[nu] for nu in nus)] for key, line in lines.items()])
 
 
+def dial(name, *_):
+    """The way of the probe, as far as it leads where the probe is at importance 1."""
+    rows, body = read(name), []
+    importances = list(dict.fromkeys(float(row["Examples/Importance"]) for row in rows))
+    motion = next(key for key in rows[0] if key.endswith("/Motion"))
+    for drag, energy in values_of(rows, [motion, "Examples/Energy"]):
+        of = [row for row in rows if (row[motion], row["Examples/Energy"]) == (drag, energy)]
+        places = [[float(row[f"probe_{axis}"]) for axis in "xyz"] for row in of]
+        way = [b - a for a, b in zip(places[0], places[-1])]
+        gone = [sum((x - a) * w for x, a, w in zip(place, places[0], way)) / sum(w * w for w in way) for place in places]
+        least = min(b - a for a, b in zip(gone, gone[1:]))
+        body.append([f"`{drag}`", energy, *(f"{100 * share:.0f} %" for share in gone[1:-1]), f"{max(100 * least, 0):.1f} %"])
+    return markdown(["drag", "energy", *(f"η = {eta:g}" for eta in importances[1:-1]), "least quarter"], body)
+
+
 def draw_space(names):
     """doc/figures/space.svg: error against seconds, a row a body, a column a ratio of Poisson, with the Pareto fronts."""
     nus = ("0.3", "0.45", "0.49", "0.499")
@@ -293,7 +310,8 @@ def failures(*_):
     return markdown(["study", "element", "case", "how it ended", "steps before"], body)
 
 
-KINDS = {make.__name__: make for make in (table, orders, cost, extrapolation, space, reach, effectivity, stability, elements, failures)}
+KINDS = {make.__name__: make
+         for make in (table, orders, cost, extrapolation, dial, space, reach, effectivity, stability, elements, failures)}
 
 
 def page_with_tables(page):

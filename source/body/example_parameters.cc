@@ -14,7 +14,9 @@ namespace Exemplar
   namespace
   {
     const EnumTable<ExampleEnergy> energies
-        = { { ExampleEnergy::scaled, "scaled" }, { ExampleEnergy::blended, "blended" } };
+        = { { ExampleEnergy::scaled, "scaled" },
+            { ExampleEnergy::blended, "blended" },
+            { ExampleEnergy::mixed, "mixed" } };
     const EnumTable<WeightRule> weight_kinds = { { WeightRule::simplex, "simplex" },
                                                  { WeightRule::free, "free" },
                                                  { WeightRule::prescribed, "prescribed" } };
@@ -72,7 +74,8 @@ namespace Exemplar
     keys.add(
         "Energy", energy, energies,
         "scaled: V/2 (strain - eta E(w)) : C : (strain - eta E(w)), as the paper; blended: (1 - "
-        "eta) of the elastic energy and eta of the distance to E(w).");
+        "eta) of the elastic energy and eta of the distance to E(w); mixed: four fifths of scaled "
+        "and one of blended, with which every part of the range of Importance acts.");
     keys.add(
         "Weights", weights, weight_kinds,
         "simplex: minimise the energy over weights that sum to one and are not negative; free: "

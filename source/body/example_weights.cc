@@ -12,6 +12,18 @@
 
 namespace Exemplar
 {
+  namespace
+  {
+    /// How much of the blended energy is in `energy`; the rest is the scaled one, Eq. (5).
+    double
+    blended_part(const ExampleEnergy energy)
+    {
+      if (energy == ExampleEnergy::mixed)
+        return 0.2;
+      return energy == ExampleEnergy::blended ? 1. : 0.;
+    }
+  } // namespace
+
   ExampleWeights::ExampleWeights(const ExampleParameters &parameters,
                                  const ExamplePoses      &poses,
                                  const double             unit_energy,
@@ -25,7 +37,7 @@ namespace Exemplar
     }
     compute_form(parameters, unit_energy);
     if (are_unknown())
-      check_independence(unit_energy);
+      check_independence(unit_energy, parameters.ridge(unit_energy) > 0.);
   }
 
   void
@@ -44,8 +56,8 @@ namespace Exemplar
         penalty(weight, weight) = sigma * fraction[weight / poses.size()];
     }
     const double eta = poses.importance();
-    if (parameters.energy == ExampleEnergy::blended)
-      penalty.add(eta * (1. - eta), poses.gram_matrix());
+    if (parameters.energy != ExampleEnergy::scaled)
+      penalty.add(blended_part(parameters.energy) * eta * (1. - eta), poses.gram_matrix());
     form.H = penalty;
     form.H.add(eta * eta, poses.gram_matrix());
     for (unsigned int weight = 0; weight < n; ++weight)

@@ -12,7 +12,7 @@
 namespace Exemplar
 {
   void
-  ExampleWeights::check_independence(const double unit_energy)
+  ExampleWeights::check_independence(const double unit_energy, const bool has_ridge)
   {
     const unsigned int               k           = n_per_region();
     const dealii::FullMatrix<double> differences = form_of_differences(poses.gram_matrix(), k);
@@ -26,8 +26,7 @@ namespace Exemplar
     const std::string  where   = region ? " in region " + std::to_string(*region) : "";
     const std::string  which
         = "Example " + std::to_string(example) + " (" + poses.name(example) + ")" + where;
-    const bool decided = penalty(second(least.row), second(least.row)) > 0.;
-    if (least.ratio < 1e-12 && !decided)
+    if (least.ratio < 1e-12 && !has_ridge)
       throw UserError(which
                       + " is an affine combination of the examples before it, so their weights "
                         "are not determined. Remove it from Examples/Poses or Examples/Pose "
@@ -39,7 +38,7 @@ namespace Exemplar
          << "an affine combination of the examples before it (condition number of their Gram "
             "matrix: "
          << condition << "). "
-         << (decided ? "The weight penalty decides between them; remove the example if it is there "
+         << (has_ridge ? "The weight penalty decides between them; remove the example if it is there "
                        "by mistake."
                      : "Their weights are sensitive; remove the example, or set Examples/Weight "
                        "penalty to auto.");

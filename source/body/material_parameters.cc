@@ -28,7 +28,7 @@ namespace Exemplar
       if (!(constants.poissons_ratio > -1. && constants.poissons_ratio < 0.5))
         throw UserError(section + "/Poisson's ratio = " + shortest_text(constants.poissons_ratio)
                         + " is not allowed: it must lie strictly between -1 and 0.5. For a nearly "
-                          "incompressible material take 0.49.");
+                          "incompressible material take 0.499; up to 0.4999 is tested.");
     }
   } // namespace
 

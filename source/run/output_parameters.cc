@@ -47,7 +47,8 @@ namespace Exemplar
     keys.add("Space error", space_error, space_error_uses,
              "true: how far the mesh is from ever finer ones is estimated at the end, by a step of "
              "quadratic elements, for summary.json and the last frame; frames: in each frame, too. "
-             "With Model/Element = P1. It takes about ten times the memory of the run.");
+             "With Model/Element = P1. It takes two to ten times the memory of the run, the "
+             "more the larger the mesh.");
     keys.leave_subsection();
   }
 

@@ -94,13 +94,13 @@ namespace Exemplar::Verification
                  Comparison::absolute, 0. } };
     }
 
-    /// eta w of the stretched and dragged bar with free weights and no ridge.
+    /// eta w of the stretched and dragged bar with the scaled energy, free weights and no ridge.
     double
     scaled_weight(const double importance)
     {
       Scene scene(dragged
-                  + examples_of(twisted, set("Importance", importance) + set("Weights", "free")
-                                             + set("Weight penalty", "0")));
+                  + examples_of(twisted, set("Importance", importance) + set("Energy", "scaled")
+                                             + set("Weights", "free") + set("Weight penalty", "0")));
       return importance * scene.solve().weights[1];
     }
 

@@ -141,7 +141,7 @@ def measure_growth_with_examples(options, failures):
     for count in EXAMPLE_COUNTS:
         print(f"cat with {count} examples ...", file=sys.stderr, flush=True)
         settings = {"Examples/Pose functions": pose_functions(count), "Examples/Include rest pose": "true",
-                    "Examples/Importance": 0.8, "Examples/Weights": "simplex"} if count else {}
+                    "Examples/Importance": 0.8, "Examples/Energy": "scaled", "Examples/Weights": "simplex"} if count else {}
         result = measure(options, "cat_mid60", failures, settings)
         if result is not None:
             results[count] = result

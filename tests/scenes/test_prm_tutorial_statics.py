@@ -145,14 +145,17 @@ class TutorialStatics(Tutorial):
         rows = self.study("step3_importance", "Time/Increments=1", {"0 0.3 0.6 0.8 0.9 1": "0 0.3 1"})
         self.assertEqual({row["status"] for row in rows}, {"converged"})
         simplex = self.of(rows, Weights="simplex", Energy="scaled")
-        blended = self.of(rows, Weights="simplex", Energy="blended")
+        blended, mixed = (self.of(rows, Weights="simplex", Energy=energy) for energy in ("blended", "mixed"))
         free, ridge = (self.of(rows, Weights="free", penalty=penalty) for penalty in ("0", "auto"))
-        for group in (simplex, blended):
+        for group in (simplex, blended, mixed):
             for row in group[1:]:
                 self.assertTrue(all(0 <= float(row[f"weight_{i}"]) <= 1 for i in range(3)))
             self.assert_grows(self.numbers(group, "probe_z"))
         self.assertEqual(float(simplex[1]["weight_1"]), 1)
-        self.assert_grows(self.numbers(blended[1:], "weight_1"))
+        for group in (blended, mixed):
+            self.assert_grows(self.numbers(group[1:], "weight_1"))
+        for slow, between, fast in zip(blended[1:-1], mixed[1:-1], simplex[1:-1]):
+            self.assert_grows(self.numbers((slow, between, fast), "probe_z"))
         for group in (free, ridge):
             self.assertGreater(float(group[1]["weight_1"]), 1)
             self.assertLess(float(group[1]["weight_0"]), 0)
@@ -162,9 +165,9 @@ class TutorialStatics(Tutorial):
                 self.assertAlmostEqual(float(row["Examples/Importance"]) * float(row[column]), float(free[-1][column]),
                                        delta=1e-5)
             self.assertAlmostEqual(float(row["probe_z"]), float(free[-1]["probe_z"]), delta=1e-5)
-        for row in (simplex[-1], blended[-1]):
+        for row in (simplex[-1], blended[-1], mixed[-1]):
             self.assertAlmostEqual(float(row["weight_1"]), float(free[-1]["weight_1"]), delta=1e-5)
-        self.assertEqual(len({row["probe_z"] for row in (simplex[0], free[0], ridge[0], blended[0])}), 1)
+        self.assertEqual(len({row["probe_z"] for row in (simplex[0], free[0], ridge[0], blended[0], mixed[0])}), 1)
 
 
 if __name__ == "__main__":

@@ -12,7 +12,8 @@ namespace Exemplar
   enum class ExampleEnergy
   {
     scaled,
-    blended
+    blended,
+    mixed
   };
 
   enum class WeightRule
@@ -31,7 +32,7 @@ namespace Exemplar
     bool                     include_rest_pose = true;
     double                   importance        = 0.8; ///< eta
     std::string              weight_penalty    = "auto";
-    ExampleEnergy            energy            = ExampleEnergy::scaled;
+    ExampleEnergy            energy            = ExampleEnergy::mixed;
     WeightRule               weights           = WeightRule::simplex;
     std::string              prescribed_weights;
     bool                     weights_per_region  = false;

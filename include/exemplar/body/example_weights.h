@@ -74,8 +74,8 @@ namespace Exemplar
       return form;
     }
 
-    /// The second derivative by the weights of what depends on them alone: the ridge
-    /// and, with the blended energy, eta (1 - eta) sum V E_i : C : E_j [J].
+    /// The second derivative by the weights of what depends on them alone: the ridge and
+    /// p eta (1 - eta) sum V E_i : C : E_j [J], where p is the blended part of the energy.
     const dealii::FullMatrix<double> &
     penalty_matrix() const
     {
@@ -131,8 +131,10 @@ namespace Exemplar
     void
     check_prescribed(const TimeAxis &axis) const;
 
+    /// Warns of examples that depend on each other; throws UserError where no ridge decides
+    /// between them.
     void
-    check_independence(double unit_energy);
+    check_independence(double unit_energy, bool has_ridge);
 
     const ExamplePoses        &poses;
     const bool                 bounded; ///< not below zero

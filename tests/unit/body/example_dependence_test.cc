@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
+
 #include "body.h"
 #include "expect_contains.h"
 
@@ -34,6 +36,19 @@ namespace Exemplar::Testing
           expect_contains(all[0], "(pose function 'x; y; z') is the rest pose, moved rigidly");
         expect_contains(all.back(),
                         "Example 3 (pose function '" + last + "') is an affine combination");
+      }
+    }
+
+    TEST(ExampleDependence, WithoutARidgeNoEnergyDecidesBetweenThem)
+    {
+      ExampleParameters parameters;
+      parameters.pose_functions = "1.1*x; y; z | 1.3*x; y; z";
+      parameters.weight_penalty = "0";
+      for (const ExampleEnergy energy :
+           { ExampleEnergy::scaled, ExampleEnergy::blended, ExampleEnergy::mixed })
+      {
+        parameters.energy = energy;
+        EXPECT_THROW(Body().examples(parameters), UserError);
       }
     }
 
