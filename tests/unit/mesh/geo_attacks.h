@@ -22,7 +22,7 @@ namespace Exemplar::Testing
     static const std::vector<GeoAttack> attacks{
       // commands
       { "SystemCall \"touch TRACE\";", true },
-      { "System 'touch TRACE';", false },
+      { "System 'touch TRACE';", true },
       { "NonBlockingSystemCall \"touch TRACE\";", true },
       { "a = \"touch TRACE\"; SystemCall a;", false },
       { "SystemCall StrCat(\"touch \", \"TRACE\");", true },
@@ -33,12 +33,12 @@ namespace Exemplar::Testing
       { "If (1)\nSystemCall 'touch TRACE';\nEndIf", true },
       { "For i In {1:2}\nSystemCall Sprintf('touch TRACE_%g', i);\nEndFor\nSystemCall 'touch TRACE';",
         true },
-      { "StringToName[\"SystemCall\"] \"touch TRACE\";", false },
+      { "StringToName[\"SystemCall\"] \"touch TRACE\";", true },
       { "S2N(\"SystemCall\") \"touch TRACE\";", false },
       { "Parse \"SystemCall 'touch TRACE';\";", false },
       // strings, comments and skipped parts that may be read in two ways
-      { "a = \"\n// \"; SystemCall 'touch TRACE';", true },
-      { "If (0)\na = \"EndIf SystemCall 'touch TRACE';\";\nEndIf", false },
+      { "a = \"\n// \"; SystemCall 'touch TRACE';", false },
+      { "If (0)\na = \"EndIf SystemCall 'touch TRACE';\";\nEndIf", true },
       { "// a \"\nSystemCall \"touch TRACE\"; // \"", true },
       { "a = 'open\nSystemCall \"touch TRACE\";", false },
       { "// c\rSystemCall \"touch TRACE\";\n", false },
@@ -49,7 +49,7 @@ namespace Exemplar::Testing
       { "Printf(Sprintf(\"x\")) > Str(\"TRACE\");", true },
       { "Error(\"x\") > \"TRACE\";", false },
       { "Warning(\"x\") > \"TRACE\";", false },
-      { "Point(1) = {0, 0, 0}; Mesh 1; Save \"TRACE\";", true },
+      { "Point(1) = {0, 0, 0}; Mesh 1; Save \"TRACE.msh\";", false },
       { "Save 'TRACE.msh'; Save 'TRACE';", true },
       { "Print \"TRACE\";", false },
       { "CreateDir \"TRACE\";", true },
@@ -59,7 +59,7 @@ namespace Exemplar::Testing
       { "General.SessionFileName = \"TRACE\"; General.SaveSession = 1; Exit;", false },
       { "SetString(\"General.OptionsFileName\", \"TRACE\"); SetNumber(\"General.SaveOptions\", 1);",
         false },
-      { "View \"v\" { SP(0, 0, 0){1}; }; Save View[0] \"TRACE\";", true },
+      { "View \"v\" { SP(0, 0, 0){1}; }; Save View[0] \"TRACE\";", false },
       { "View \"v\" { SP(0, 0, 0){1}; }; SendToServer View[0] 'TRACE';", false },
       // programs by other names
       { "OnelabRun(\"a\", \"touch TRACE\");", false },
@@ -69,13 +69,13 @@ namespace Exemplar::Testing
         false },
       { "SetFactory(\"OpenCASCADE\"); Box(1) = {0, 0, 0, 1, 1, 1}; Field[1] = ExternalProcess; "
         "Field[1].CommandLine = \"touch TRACE\"; Background Field = 1;",
-        true },
+        false },
       { "View \"v\" { SP(0, 0, 0){1}; }; Plugin(Annotate).Text = \"x\"; Plugin(Annotate).Run; Save "
         "View[0] \"TRACE\";",
-        true },
+        false },
       { "View \"v\" { SP(0, 0, 0){1}; }; Plugin(MathEval).Expression0 = \"v0\"; "
         "Plugin(MathEval).Run; Save View[1] \"TRACE\";",
-        true },
+        false },
       // inclusions
       { "Include \"evil.geo\";", true },
       { "Include \"DIR/evil.geo\";", true },
@@ -87,10 +87,10 @@ namespace Exemplar::Testing
       { "Merge \"evil.msh\";", true },
       { "Merge \"evil_behind_blanks.msh\";", true },
       { "Merge \"evil\";", true },
-      { "Merge \"evil.stl\"; Include \"evil.stl\";", true },
+      { "Include \"evil.stl\";", false },
       { "Merge \"evil.geo.gz\";", false },
       { "MergeWithBoundingBox \"evil.geo\";", true },
-      { "Open \"evil.geo\";", true },
+      { "Open \"evil.geo\";", false },
       { "Include \"nested.geo\";", true },
       { "Macro f\nInclude \"evil.geo\";\nReturn\nCall f;", true },
       { "Include \"sub/empty.geo\"; Include \"both.geo\";", true },
