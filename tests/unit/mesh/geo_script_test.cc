@@ -113,6 +113,7 @@ namespace Exemplar::Testing
                                       "../" + directory.filename().string() + "/script.geo" })
         expect_contains(refusal("If (0)\nInclude '" + name + "';\nEndIf"), "includes itself");
       write_file("twice.geo", "Include 'twice_0.geo';");
+      write_file("twice_14.geo", "");
       for (unsigned int i = 0; i < 14; ++i)
       {
         const std::string next = "Include 'twice_" + std::to_string(i + 1) + ".geo';\n";

@@ -228,7 +228,7 @@ namespace Exemplar::Testing
              "Physical Surface(7) = {1}; Physical Volume(5) = {1}; Mesh.SaveAll = 1;",
              "Mesh.ScalingFactor = 1e-3; Mesh 2; Physical Volume(5) = {1};", "" })
       {
-        std::ofstream(parameters.file) << box << script;
+        std::ofstream(parameters.file) << box << script << "\n"; // gmsh drops a line that has no end
         ASSERT_EQ(std::system(("cd '" + directory.string() + "' && cp *bar*.geo itself.geo && "
                                "gmsh -3 -format msh22 itself.geo -o itself.msh > /dev/null 2>&1")
                                   .c_str()),
