@@ -62,8 +62,7 @@ namespace Exemplar
           gmsh::model::getEntities(entities, dimension);
           for (const int type : std::set<int>(types.begin(), types.end()))
             for (const auto &[ignored, entity] : entities)
-              for (const int group : groups_of(dimension, entity))
-                take_elements_of(type, entity, group);
+              take_elements_of(type, entity, groups_of(dimension, entity));
         }
       }
 
@@ -77,23 +76,23 @@ namespace Exemplar
       }
 
       void
-      take_elements_of(const int type, const int entity, const int group)
+      take_elements_of(const int type, const int entity, const std::vector<int> &groups)
       {
         std::vector<std::size_t> numbers, nodes;
         gmsh::model::mesh::getElementsByType(type, numbers, nodes, entity);
-        const std::size_t n = numbers.empty() ? 0 : nodes.size() / numbers.size();
-        for (std::size_t i = 0; i < numbers.size(); ++i)
-        {
-          MshElement element{ msh.elements.size() + 1,
-                              static_cast<unsigned int>(type),
-                              std::abs(group),
-                              entity,
-                              { nodes.begin() + static_cast<std::ptrdiff_t>(i * n),
-                                nodes.begin() + static_cast<std::ptrdiff_t>((i + 1) * n) } };
-          if (group < 0)
-            turn_over(element);
-          msh.elements.push_back(element);
-        }
+        const std::size_t n     = numbers.empty() ? 0 : nodes.size() / numbers.size();
+        auto              begin = nodes.begin();
+        for (std::size_t i = 0; i < numbers.size(); ++i, begin += static_cast<std::ptrdiff_t>(n))
+          for (const int group : groups)
+          {
+            msh.elements.push_back({ msh.elements.size() + 1,
+                                     static_cast<unsigned int>(type),
+                                     std::abs(group),
+                                     entity,
+                                     { begin, begin + static_cast<std::ptrdiff_t>(n) } });
+            if (group < 0)
+              turn_over(msh.elements.back());
+          }
       }
 
       /// Groups of negative numbers hold their elements turned over.
