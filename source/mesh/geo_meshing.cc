@@ -5,6 +5,7 @@
 #include <exemplar/mesh/geo_meshing.h>
 #include <exemplar/mesh/gmsh_session.h>
 #include <exemplar/mesh/msh_comment.h>
+#include <exemplar/mesh/msh_file.h>
 
 #include <gmsh.h>
 #include <unistd.h>
