@@ -13,8 +13,8 @@ esac
 cd "$(dirname "$(readlink -f "$0")")"
 
 packages=(git g++ cmake ninja-build libdeal.ii-dev libsuitesparse-dev libopenblas0-pthread
-          libmuparser-dev libcli11-dev nlohmann-json3-dev libssl-dev zlib1g-dev libopenmpi-dev openmpi-bin
-          libgtest-dev libxsimd-dev python3 python3-dev python3-numpy pybind11-dev gmsh gnuplot-nox help2man)
+          libmuparser-dev libcli11-dev nlohmann-json3-dev libssl-dev zlib1g-dev libseccomp-dev libopenmpi-dev
+          openmpi-bin libgtest-dev libxsimd-dev python3 python3-dev python3-numpy pybind11-dev gnuplot-nox help2man)
 packages_for_tests=(blender)
 
 # Install those of some packages that are missing; end the script if that fails.

@@ -4,6 +4,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <stdio_ext.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -12,6 +13,8 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdio>
+#include <cstdlib>
 #include <new>
 #include <system_error>
 
@@ -59,20 +62,74 @@ namespace Exemplar
       }
     }
 
-    /// In the copy.
-    [[noreturn]] void
-    work_and_end(const std::function<std::string()> &work, const int out, const pid_t parent)
+    /// Both ends of a pipe.
+    struct Pipe
     {
+      Pipe()
+      {
+        int ends[2];
+        if (pipe2(ends, O_CLOEXEC) != 0)
+          throw std::system_error(errno, std::generic_category(), "opening a pipe");
+        in  = ends[0];
+        out = ends[1];
+      }
+
+      Pipe(const Pipe &) = delete;
+      Pipe &
+      operator=(const Pipe &)
+          = delete;
+
+      ~Pipe()
+      {
+        close(in);
+        close_out();
+      }
+
+      void
+      close_out()
+      {
+        if (out >= 0)
+          close(out);
+        out = -1;
+      }
+
+      int in = -1, out = -1;
+    };
+
+    /// In the copy: let go of all that it has open but the way back, which becomes the descriptor
+    /// that is returned, and let libraries talk to `messages`, or to nobody if that is negative.
+    int
+    keep_only(const int out, const int messages)
+    {
+      constexpr int kept = STDERR_FILENO + 1;
+      const int     null = open("/dev/null", O_RDWR);
+      const int     talk = messages >= 0 ? messages : null;
+      __fpurge(stdout); // not ours to write
+      if (null < 0 || dup2(null, STDIN_FILENO) < 0 || dup2(talk, STDOUT_FILENO) < 0
+          || dup2(talk, STDERR_FILENO) < 0 || (out != kept && dup3(out, kept, O_CLOEXEC) < 0))
+        _exit(1);
+      close_range(kept + 1, ~0U, 0);
+      return kept;
+    }
+
+    /// In the copy: it ends with its parent, alone and without a core file.
+    void
+    depend_on(const pid_t parent)
+    {
+      setpgid(0, 0);
       for (const int signal : { SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGQUIT })
         std::signal(signal, SIG_IGN); // the parent takes them, and this ends with it
       prctl(PR_SET_PDEATHSIG, SIGKILL);
       const rlimit none{ 0, 0 };
       setrlimit(RLIMIT_CORE, &none);
-      const int null = open("/dev/null", O_RDWR);
-      if (getppid() != parent || null < 0)
+      if (getppid() != parent)
         _exit(1);
-      for (const int stream : { STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO })
-        dup2(null, stream); // libraries may talk
+      std::atexit([] { _exit(1); }); // a library that calls exit() does not clean up for the parent
+    }
+
+    [[noreturn]] void
+    work_and_end(const std::function<std::string()> &work, const int out)
+    {
       const std::string answer = answer_of(work) + end_mark;
       for (std::size_t n = 0; n < answer.size();)
       {
@@ -84,27 +141,32 @@ namespace Exemplar
       _exit(0);
     }
 
-    /// A copy of the process, killed if nobody has waited for its end.
+    /// Why nothing more is read of a copy.
+    enum class CopyEnd
+    {
+      of_itself,
+      too_late,
+      too_many_messages
+    };
+
+    /// A copy of the process, killed in the end with all that it has started.
     class Copy
     {
     public:
-      explicit Copy(const std::function<std::string()> &work)
+      Copy(const std::function<std::string()> &work, const bool has_messages)
       {
-        int ends[2];
-        if (pipe2(ends, O_CLOEXEC) != 0)
-          throw std::system_error(errno, std::generic_category(), "opening a pipe");
-        in                 = ends[0];
         const pid_t parent = getpid();
         id                 = fork();
         if (id == 0)
-          work_and_end(work, ends[1], parent);
-        const int error = errno;
-        close(ends[1]);
-        if (id < 0)
         {
-          close(in);
-          throw std::system_error(error, std::generic_category(), "starting a process");
+          depend_on(parent);
+          work_and_end(work, keep_only(answers.out, has_messages ? messages.out : -1));
         }
+        if (id < 0)
+          throw std::system_error(errno, std::generic_category(), "starting a process");
+        setpgid(id, id); // here and there, as nobody knows who is first
+        answers.close_out();
+        messages.close_out();
       }
 
       Copy(const Copy &) = delete;
@@ -114,63 +176,77 @@ namespace Exemplar
 
       ~Copy()
       {
-        close(in);
-        if (id > 0)
-          end();
-      }
-
-      /// All that it says until it ends; false if it takes longer.
-      bool
-      read(const double timeout, std::string &answer) const
-      {
-        using Clock      = std::chrono::steady_clock;
-        const auto begin = Clock::now();
-        char       buffer[1 << 16];
-        for (;;)
-        {
-          pollfd end{ in, POLLIN, 0 };
-          if (poll(&end, 1, 200) > 0)
-          {
-            const ssize_t n = ::read(in, buffer, sizeof(buffer));
-            if (n == 0)
-              return true;
-            if (n > 0)
-              answer.append(buffer, static_cast<std::size_t>(n));
-          }
-          if (std::chrono::duration<double>(Clock::now() - begin).count() > timeout)
-            return false;
-        }
-      }
-
-    private:
-      /// It has said all, or is ended.
-      void
-      end() const
-      {
-        kill(id, SIGKILL);
+        if (id < 0)
+          return;
+        kill(-id, SIGKILL);
         while (waitpid(id, nullptr, 0) < 0 && errno == EINTR)
           ;
       }
 
-      int   in = -1;
+      /// All that it says until it ends.
+      CopyEnd
+      read(const double timeout, CopyMessages *said, std::string &answer) const
+      {
+        using Clock      = std::chrono::steady_clock;
+        const auto begin = Clock::now();
+        pollfd     ends[] = { { answers.in, POLLIN, 0 }, { messages.in, POLLIN, 0 } };
+        for (;;)
+        {
+          poll(ends, 2, 200);
+          std::string ignored;
+          if (ends[1].revents != 0 && !append(ends[1].fd, said != nullptr ? said->text : ignored))
+            ends[1].fd = -1; // it is not asked again
+          const bool has_ended = ends[0].revents != 0 && !append(ends[0].fd, answer);
+          if (has_ended && ends[1].revents == 0) // what it has started may keep its messages open
+            return CopyEnd::of_itself;
+          if (said != nullptr && said->text.size() > said->max_bytes)
+            return CopyEnd::too_many_messages;
+          if (std::chrono::duration<double>(Clock::now() - begin).count() > timeout)
+            return CopyEnd::too_late;
+        }
+      }
+
+    private:
+      /// What there is in a pipe; false at its end.
+      static bool
+      append(const int in, std::string &text)
+      {
+        char          buffer[1 << 16];
+        const ssize_t n = ::read(in, buffer, sizeof(buffer));
+        if (n > 0)
+          text.append(buffer, static_cast<std::size_t>(n));
+        return n > 0 || (n < 0 && errno == EINTR);
+      }
+
+      Pipe  answers, messages;
       pid_t id = -1;
     };
+
+    /// Throws if a copy did not come to its own end.
+    void
+    require_end(const CopyEnd end, const CopyTask &task, const CopyMessages *messages)
+    {
+      if (end == CopyEnd::too_late)
+        throw SolverFailure(task.what + " did not come to an end within "
+                            + std::to_string(static_cast<long>(task.timeout))
+                            + " s and was ended. " + task.remedy);
+      if (end == CopyEnd::too_many_messages)
+        throw SolverFailure(task.what + " wrote more than "
+                            + std::to_string(messages->max_bytes >> 20)
+                            + " MiB of messages and was ended. " + task.remedy);
+    }
   } // namespace
 
   std::string
   in_process_copy(const std::function<std::string()> &work,
-                  const double                        timeout,
-                  const std::string                  &what,
-                  const std::string                  &remedy)
+                  const CopyTask                     &task,
+                  CopyMessages                       *messages)
   {
     std::string answer;
-    const bool  has_ended = Copy(work).read(timeout, answer);
-    if (!has_ended)
-      throw SolverFailure(what + " did not come to an end within "
-                          + std::to_string(static_cast<long>(timeout)) + " s and was ended. "
-                          + remedy);
+    const auto  end = Copy(work, messages != nullptr).read(task.timeout, messages, answer);
+    require_end(end, task, messages);
     if (answer.size() < 2 || answer.back() != end_mark)
-      throw SolverFailure(what + " crashed in a library that it uses. " + remedy);
+      throw SolverFailure(task.what + " crashed in a library that it uses. " + task.remedy);
     const std::string text = answer.substr(1, answer.size() - 2);
     switch (answer[0])
     {

@@ -52,6 +52,22 @@ namespace Exemplar
       throw std::runtime_error("Cannot write " + file.string() + "; is the disk full?");
   }
 
+  std::string
+  sealed(const std::string &bytes)
+  {
+    return bytes + seal_of(sha256_of_text(bytes));
+  }
+
+  std::optional<std::string>
+  unsealed(std::string bytes)
+  {
+    if (bytes.size() <= seal_size)
+      return std::nullopt;
+    const std::string seal = bytes.substr(bytes.size() - seal_size);
+    bytes.resize(bytes.size() - seal_size);
+    return seal == seal_of(sha256_of_text(bytes)) ? std::optional(std::move(bytes)) : std::nullopt;
+  }
+
   std::uintmax_t
   n_sealed_bytes(const std::filesystem::path &file)
   {

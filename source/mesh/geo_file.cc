@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/base/child_process.h>
+#include <exemplar/base/build_identity.h>
 #include <exemplar/base/digest.h>
 #include <exemplar/base/errors.h>
-#include <exemplar/base/kept_file.h>
-#include <exemplar/mesh/geo_script.h>
+#include <exemplar/base/kept_bytes.h>
+#include <exemplar/base/private_directory.h>
+#include <exemplar/mesh/geo_meshing.h>
+#include <exemplar/mesh/geo_text.h>
+#include <exemplar/mesh/gmsh_session.h>
 #include <exemplar/mesh/mesh_generation.h>
+#include <exemplar/mesh/msh_comment.h>
 
 #include <algorithm>
+#include <fstream>
 #include <sstream>
-#include <vector>
 
-// Meshes that gmsh makes of .geo files, and the directory in which they are kept.
+// Meshes that gmsh makes of .geo files.
 
 namespace Exemplar
 {
@@ -19,8 +23,8 @@ namespace Exemplar
   namespace
   {
     /// What gmsh is allowed [s, bytes]: far more than any mesh has taken, but not for ever.
-    constexpr double         time_limit   = 600.;
-    constexpr std::uintmax_t output_limit = 16 << 20;
+    constexpr double      time_limit    = 600.;
+    constexpr std::size_t message_limit = 16 << 20;
 
     /// gmsh's errors, or else the last lines that it wrote.
     std::string
@@ -42,60 +46,110 @@ namespace Exemplar
       return text;
     }
 
-    std::string
-    gmsh_version(const fs::path &geo)
+    /// What gmsh makes of a .geo, from a script that runs in a directory.
+    struct Meshing
     {
-      const ChildOutput gmsh
-          = output_of_child({ "gmsh", "--version" }, { "/", time_limit, output_limit });
-      if (gmsh.end.exit_status == no_such_program)
-        throw UserError(geo.string()
-                        + ": meshing it needs gmsh, which cannot be started. Install "
-                          "the package gmsh, or mesh it elsewhere and set Mesh/File "
-                          "to the .msh.");
-      return gmsh.text;
+      const fs::path &geo;       ///< for messages
+      fs::path        script;    ///< the .geo, or the text that was made of it
+      fs::path        directory; ///< an empty one, or that of the text
+      Confinement     confinement;
+    };
+
+    std::string
+    mesh(const Meshing &meshing, CopyMessages &messages)
+    {
+      const std::string geo = meshing.geo.string();
+      const CopyTask    task{ geo + ": gmsh",
+                           "Is there a loop without end? If not, mesh it yourself (gmsh -3 " + geo
+                               + ") and set Mesh/File to the .msh.",
+                           time_limit };
+      try
+      {
+        return mesh_script(meshing.script, meshing.directory, meshing.confinement, task, messages);
+      }
+      catch (const SolverFailure &failure) // the file is to blame
+      {
+        throw UserError(failure.what());
+      }
+      catch (const UserError &error)
+      {
+        throw UserError(geo + ": " + error.what());
+      }
     }
 
-    /// What to say of a gmsh that was ended; empty if it came to its own end.
-    std::string
-    why_ended(const ChildEnd &end)
-    {
-      if (end.signal == 0)
-        return "";
-      if (end.timed_out)
-        return "gmsh did not come to an end within " + std::to_string(static_cast<int>(time_limit))
-               + " s and was ended. Is there a loop without end? If not, mesh it";
-      if (end.said_too_much)
-        return "gmsh wrote more than " + std::to_string(output_limit >> 20)
-               + " MiB of messages and was ended. Is there a loop without end? If not, mesh it";
-      return "";
-    }
-
-    /// Have gmsh mesh a file, in the directory of the mesh that it is to make.
     void
-    run_gmsh(const fs::path &geo, const fs::path &made)
+    require_mesh(const std::string &msh, const std::string &messages, const fs::path &geo)
     {
-      // Absolute, so that no name is taken for an option, and names in it are found from there.
-      const ChildOutput gmsh = output_of_child(
-          { "gmsh", "-3", fs::absolute(geo).string(), "-format", "msh22", "-o", made.string() },
-          { made.parent_path(), time_limit, output_limit });
-      if (const std::string why = why_ended(gmsh.end); !why.empty())
-        throw UserError(geo.string() + ": " + why + " yourself and set Mesh/File to the .msh.");
-      const bool no_error = (gmsh.text.find("Error ") == std::string::npos);
-      if (gmsh.end.exit_status != 0 || !no_error || !fs::exists(made))
-        throw UserError(geo.string() + ": gmsh could not mesh it:" + telling_lines(gmsh.text)
+      if (msh.empty() || messages.find("Error ") != std::string::npos)
+        throw UserError(geo.string() + ": gmsh could not mesh it:" + telling_lines(messages)
                         + "\n  Try it with: gmsh -3 " + geo.string());
+    }
+
+    void
+    write_copy(const fs::path &file, const std::string &bytes)
+    {
+      std::ofstream out(file, std::ios::binary);
+      out << bytes << std::flush;
+      if (!out)
+        throw UserError(file.string() + ": cannot be written; is the disk full? Set TMPDIR to a "
+                        "directory with more room.");
+    }
+
+    std::string
+    mesh_text(const GeoText &text, const fs::path &geo)
+    {
+      const PrivateDirectory directory;
+      for (const auto &[name, bytes] : text.data)
+        write_copy(directory.path() / name, bytes);
+      const fs::path script = directory.path() / "script.geo";
+      write_copy(script, text.script);
+      CopyMessages      messages{ message_limit };
+      const std::string msh
+          = mesh({ geo, script, directory.path(), Confinement::kernel }, messages);
+      require_mesh(msh, text.with_origins(messages.text, script.string()), geo);
+      return msh;
+    }
+
+    std::string
+    mesh_with_commands(const fs::path &geo)
+    {
+      const PrivateDirectory directory;
+      CopyMessages           messages{ message_limit };
+      const std::string      msh
+          = mesh({ geo, fs::absolute(geo), directory.path(), Confinement::none }, messages);
+      require_mesh(msh, messages.text, geo);
+      return msh;
+    }
+
+    /// The walls that the comment names, behind that of the text.
+    std::vector<std::string>
+    walls_around(const std::string &msh)
+    {
+      std::vector<std::string> walls{ "text" };
+      std::istringstream       words(comment_of(msh));
+      for (std::string wall; words >> wall;)
+        walls.push_back(wall);
+      return walls;
     }
   } // namespace
 
-  fs::path
+  MshFile
   mesh_geo_file(const fs::path &geo, const bool allow_commands)
   {
-    // First: a missing file needs no gmsh. What a script with commands reads and does is not
-    // known, so it is run each time.
-    const GeoInputs   inputs = allow_commands ? GeoInputs{ sha256(geo), false } : check_geo(geo);
-    const std::string key    = sha256_of_text(inputs.digests + gmsh_version(geo)
-                                              + (inputs.all_known ? "" : fs::absolute(geo).string()));
-    return kept_file(key + ".msh", !inputs.all_known,
-                     [&](const fs::path &made) { run_gmsh(geo, made); });
+    const std::string name = geo.string();
+    if (allow_commands)
+    {
+      MshFile msh   = read_msh_bytes(mesh_with_commands(geo), name);
+      msh.geo_walls = std::vector<std::string>();
+      return msh;
+    }
+    const GeoText     text = make_geo_text(geo);
+    const std::string key
+        = sha256_of_text(text.digest() + "\n" + gmsh_identity() + "\n" + own_build_identity());
+    const KeptBytes kept = kept_bytes(key + ".msh", [&] { return mesh_text(text, geo); });
+    MshFile         msh  = read_msh_bytes(kept.bytes, name);
+    msh.note             = kept.warning;
+    msh.geo_walls        = walls_around(kept.bytes);
+    return msh;
   }
 } // namespace Exemplar

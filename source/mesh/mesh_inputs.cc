@@ -10,11 +10,12 @@ namespace Exemplar
 {
   namespace
   {
-    std::filesystem::path
+    MshFile
     msh_of(const MeshParameters &parameters)
     {
       const std::filesystem::path path(parameters.file);
-      return path.extension() == ".geo" ? mesh_geo_file(path, parameters.allow_commands) : path;
+      return path.extension() == ".geo" ? mesh_geo_file(path, parameters.allow_commands)
+                                        : read_msh(path);
     }
 
     /// Append an element between nodes that exist.
@@ -48,7 +49,7 @@ namespace Exemplar
                         "Mesh/Generator = box; exactly one of them.");
     if (has_box)
       return generate_box(parameters.box_size, parameters.box_cells);
-    MshFile msh = read_msh(msh_of(parameters));
+    MshFile msh = msh_of(parameters);
     if (has_quadratic_tetrahedra(msh))
       take_corners(msh, parameters.name());
     return msh;

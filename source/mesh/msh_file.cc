@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Format: https://gmsh.info/doc/texinfo/gmsh.html, "File formats".
+#include <exemplar/base/errors.h>
+#include <exemplar/base/text_file.h>
 #include <exemplar/mesh/msh_node_index.h>
 #include <exemplar/mesh/msh_reader.h>
 
@@ -180,6 +182,16 @@ namespace Exemplar
   MshFile
   read_msh(const std::filesystem::path &file)
   {
-    return MshReader(file).read();
+    std::string reason;
+    if (auto bytes = read_text_file(file, &reason))
+      return read_msh_bytes(std::move(*bytes), file.string());
+    throw UserError(file.string() + ": cannot be opened (" + reason
+                    + "). Give the path of a gmsh .msh file.");
+  }
+
+  MshFile
+  read_msh_bytes(std::string bytes, const std::string &name)
+  {
+    return MshReader(std::move(bytes), name).read();
   }
 } // namespace Exemplar

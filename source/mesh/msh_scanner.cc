@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/base/message_text.h>
-#include <exemplar/base/text_file.h>
 #include <exemplar/mesh/msh_scanner.h>
 
 #include <charconv>
@@ -18,20 +17,10 @@ namespace Exemplar
     {
       return c == ' ' || c == '\n' || c == '\r' || c == '\t';
     }
-
-    std::string
-    read_msh_bytes(const std::filesystem::path &file)
-    {
-      std::string reason;
-      if (auto bytes = read_text_file(file, &reason))
-        return std::move(*bytes);
-      throw UserError(file.string() + ": cannot be opened (" + reason
-                      + "). Give the path of a gmsh .msh file.");
-    }
   } // namespace
 
-  MshScanner::MshScanner(const std::filesystem::path &path)
-      : file(path), bytes(read_msh_bytes(path))
+  MshScanner::MshScanner(std::string bytes, const std::string &name)
+      : file(name), bytes(std::move(bytes))
   {
   }
 

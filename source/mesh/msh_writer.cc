@@ -4,6 +4,7 @@
 
 #include <array>
 #include <charconv>
+#include <sstream>
 
 namespace Exemplar
 {
@@ -112,17 +113,30 @@ namespace Exemplar
       line.flush();
       out << "$EndElements\n";
     }
+
+    void
+    write_to(std::ostream &out, const MshFile &msh)
+    {
+      out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
+      write_physical_names(msh, out);
+      write_nodes(msh, out);
+      write_elements(msh, out);
+    }
   } // namespace
+
+  std::string
+  msh_text(const MshFile &msh)
+  {
+    std::ostringstream out;
+    write_to(out, msh);
+    return out.str();
+  }
 
   void
   write_msh(const MshFile &msh, const std::filesystem::path &file)
   {
-    AtomicFile    atomic_file(file);
-    std::ostream &out = atomic_file.stream();
-    out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
-    write_physical_names(msh, out);
-    write_nodes(msh, out);
-    write_elements(msh, out);
+    AtomicFile atomic_file(file);
+    write_to(atomic_file.stream(), msh);
     atomic_file.commit();
   }
 } // namespace Exemplar

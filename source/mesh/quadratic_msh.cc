@@ -150,7 +150,7 @@ namespace Exemplar
       for (const std::size_t node : element.nodes)
         keep[node] = true;
     remove_nodes(msh, keep);
-    msh.note = name
+    msh.note += (msh.note.empty() ? "" : " ") + name
                + ": has 10-node tetrahedra with straight edges, of which the corners are taken. "
                  "Model/Element = P2 puts nodes into the middles of the edges again, P1 does "
                  "without.";

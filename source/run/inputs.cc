@@ -37,7 +37,8 @@ namespace Exemplar
         for (const LoadParameters &load : scene.loads.named)
           add_nodes(load.select, "Loads/" + load.name);
         for_each_pose([this](const std::string &file) { add(file); });
-        inputs.made = surfaces.get_made();
+        inputs.made      = surfaces.get_made();
+        inputs.geo_walls = inputs.mesh.geo_walls;
       }
 
     private:

@@ -48,7 +48,7 @@ namespace Exemplar
   std::vector<std::string>
   warnings_of(const MadeOfSurfaces &made)
   {
-    std::vector<std::string> warnings;
+    std::vector<std::string> warnings = made.warnings;
     for (const MadeOfSurfaces::Pose &pose : made.poses)
       if (pose.quality.greatest_error > tolerable_error)
         warnings.push_back(pose.file + ": the mesh is up to " + percent(pose.quality.greatest_error)

@@ -200,7 +200,7 @@ namespace Exemplar
                  &mesh.whole().material_ids),
         fe_space(mesh, parameters.model.element),
         patches(make_patches(parameters, mesh, fe_space, material, inputs.shared.get())),
-        made(inputs.made), shared(inputs.shared)
+        made(inputs.made), geo_walls(inputs.geo_walls), shared(inputs.shared)
   {
     inputs.nodes.insert(readings.nodes.begin(), readings.nodes.end());
   }

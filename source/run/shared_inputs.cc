@@ -488,8 +488,9 @@ namespace Exemplar
     Inputs own;
     own.poses  = std::move(parcel.poses);
     own.nodes  = std::move(parcel.selections);
-    own.made   = inputs.made;
-    own.shared = std::make_shared<SharedBody>(std::move(parcel.body));
+    own.made      = inputs.made;
+    own.geo_walls = inputs.mesh.geo_walls;
+    own.shared    = std::make_shared<SharedBody>(std::move(parcel.body));
     return own;
   }
 } // namespace Exemplar

@@ -149,6 +149,8 @@ namespace Exemplar
       if (!made->poses.empty())
         json["poses_carried"] = poses_carried(made->poses);
     }
+    if (problem.body.geo_walls)
+      json["geo_confinement"] = *problem.body.geo_walls;
     json["linear_solver"]  = problem.system.bordered().traits().name;
     json["examples"]       = problem.examples.poses != nullptr ? problem.examples.poses->size() : 0;
     json["steps"]          = problem.state.step;

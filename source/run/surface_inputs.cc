@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/build_identity.h>
 #include <exemplar/base/digest.h>
 #include <exemplar/base/errors.h>
-#include <exemplar/base/kept_file.h>
+#include <exemplar/base/kept_bytes.h>
 #include <exemplar/base/number_text.h>
-#include <exemplar/base/version.h>
+#include <exemplar/mesh/gmsh_session.h>
+#include <exemplar/mesh/msh_comment.h>
 #include <exemplar/run/scene_parameters.h>
 #include <exemplar/run/surface_inputs.h>
 #include <exemplar/surface/mesh_making.h>
@@ -12,8 +14,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <fstream>
-#include <iterator>
+#include <algorithm>
 #include <map>
 #include <optional>
 
@@ -24,30 +25,11 @@ namespace Exemplar
     namespace fs = std::filesystem;
     using Json   = nlohmann::ordered_json;
 
-    /// To be raised with each change of what is made of the same surfaces.
-    const std::string method = "exemplar " EXEMPLAR_VERSION " surfaces 2\n";
-
-    /// A .msh may have a section of comments, which its readers pass over.
-    void
-    append_comment(const fs::path &msh, const std::string &line)
-    {
-      std::ofstream out(msh, std::ios::binary | std::ios::app);
-      out << "$Comments\n" << line << "\n$EndComments\n" << std::flush;
-      if (!out)
-        throw std::runtime_error("Cannot write " + msh.string() + "; is the disk full?");
-    }
-
+    /// Of the program that makes something of surfaces, and of gmsh's library.
     std::string
-    comment_of(const fs::path &msh)
+    maker()
     {
-      std::ifstream     in(msh, std::ios::binary);
-      const std::string text{ std::istreambuf_iterator<char>(in), {} };
-      const std::string begin = "\n$Comments\n";
-      const std::size_t at    = text.rfind(begin);
-      if (at == std::string::npos)
-        throw std::runtime_error(msh.string() + " has no comments. Remove it.");
-      const std::size_t line = at + begin.size();
-      return text.substr(line, text.find('\n', line) - line);
+      return own_build_identity() + " " + gmsh_identity() + "\n";
     }
 
     /// Of a surface's bytes, and of the format that they are in.
@@ -149,30 +131,30 @@ namespace Exemplar
   {
     const MeshParameters &mesh = scene.mesh;
     const std::string     key
-        = sha256_of_text(method + surface_digest(mesh.file) + std::to_string(mesh.n_cells)
+        = sha256_of_text(maker() + surface_digest(mesh.file) + std::to_string(mesh.n_cells)
                          + (mesh.repair ? " repaired" : ""));
-    const fs::path kept = kept_file(
-        key + ".msh", false,
-        [&](const fs::path &made_file)
+    const KeptBytes kept = kept_bytes(
+        key + ".msh",
+        [&]
         {
           announce("filling " + mesh.file + " with " + std::to_string(mesh.n_cells) + " cells");
-          const SurfaceMeshingOptions options{ mesh.file, mesh.n_cells, mesh.repair,
-                                               "",        "Mesh/Cells", "Mesh/Repair = true" };
-          append_comment(made_file, Exemplar::to_text(make_mesh_file(options, made_file)));
+          return Exemplar::make_mesh({ mesh.file, mesh.n_cells, mesh.repair, "", "Mesh/Cells",
+                                       "Mesh/Repair = true" });
         });
-    get_made_anew().mesh = report_from_text(comment_of(kept));
-    return read_msh(kept);
+    get_made_anew().mesh = report_in(kept.bytes);
+    add_warning(kept.warning);
+    return read_msh_bytes(kept.bytes, mesh.file);
   }
 
   std::vector<dealii::Point<3>>
   SurfaceInputs::carry(const std::string &file, const MshFile &mesh)
   {
     const std::string key
-        = sha256_of_text(method + mesh_digest(mesh) + surface_digest(poses->rest.name)
+        = sha256_of_text(maker() + mesh_digest(mesh) + surface_digest(poses->rest.name)
                          + surface_digest(file) + shortest_text(scene.examples.attach));
-    const fs::path kept = kept_file(
-        key + ".msh", false,
-        [&](const fs::path &made_file)
+    const KeptBytes kept = kept_bytes(
+        key + ".msh",
+        [&]
         {
           PoseTransfer &transfer = poses->transfer_to(mesh, scene);
           announce("carrying " + file + " onto the mesh");
@@ -184,10 +166,18 @@ namespace Exemplar
             throw SolverFailure(file + ": cells stay inverted in this pose: element " + bad
                                 + ". Attach the surface more softly, by Examples/Attach, or take a "
                                   "finer mesh, by Mesh/Cells.");
-          write_msh(pose, made_file);
-          append_comment(made_file, to_text(quality));
+          return with_comment(msh_text(pose), to_text(quality));
         });
-    get_made_anew().poses.push_back({ file, quality_from_text(comment_of(kept)) });
-    return Exemplar::read_pose(kept, mesh, scene.mesh.name());
+    get_made_anew().poses.push_back({ file, quality_from_text(comment_of(kept.bytes)) });
+    add_warning(kept.warning);
+    return read_msh_bytes(kept.bytes, file).nodes;
+  }
+
+  void
+  SurfaceInputs::add_warning(const std::string &warning)
+  {
+    std::vector<std::string> &warnings = get_made_anew().warnings;
+    if (!warning.empty() && std::find(warnings.begin(), warnings.end(), warning) == warnings.end())
+      warnings.push_back(warning);
   }
 } // namespace Exemplar

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
+#include <exemplar/mesh/gmsh_session.h>
 #include <exemplar/mesh/msh_file.h>
 #include <exemplar/surface/surface_edges.h>
 #include <exemplar/surface/surface_geometry.h>
@@ -16,39 +17,23 @@ namespace Exemplar
 {
   namespace
   {
-    /// gmsh keeps one model for the whole process; here it lives for one filling.
-    class GmshSession
+    void
+    set_options()
     {
-    public:
-      GmshSession()
-      {
-        gmsh::initialize(0, nullptr, false); // no user's settings
-        const std::map<std::string, double> options{
-          { "General.Terminal", 0. },
-          { "General.NumThreads", 1. },
-          { "Mesh.Algorithm3D", 1. },
-          { "Mesh.Optimize", 1. },
-          { "Mesh.OptimizeThreshold", .3 },
-          { "Mesh.MeshSizeExtendFromBoundary", 1. },
-          { "Mesh.Renumber", 0. },
-          { "Mesh.RandomSeed", 1. },
-          { "Mesh.AngleToleranceFacetOverlap", 1e-3 } // degrees: thin wedges may be
-        };
-        for (const auto &[name, value] : options)
-          gmsh::option::setNumber(name, value);
-        gmsh::model::add("surface");
-      }
-
-      GmshSession(const GmshSession &) = delete;
-      GmshSession &
-      operator=(const GmshSession &)
-          = delete;
-
-      ~GmshSession()
-      {
-        gmsh::finalize();
-      }
-    };
+      const std::map<std::string, double> options{
+        { "General.Terminal", 0. },
+        { "General.NumThreads", 1. },
+        { "Mesh.Algorithm3D", 1. },
+        { "Mesh.Optimize", 1. },
+        { "Mesh.OptimizeThreshold", .3 },
+        { "Mesh.MeshSizeExtendFromBoundary", 1. },
+        { "Mesh.Renumber", 0. },
+        { "Mesh.RandomSeed", 1. },
+        { "Mesh.AngleToleranceFacetOverlap", 1e-3 } // degrees: thin wedges may be
+      };
+      for (const auto &[name, value] : options)
+        gmsh::option::setNumber(name, value);
+    }
 
     [[noreturn]] void
     throw_unfilled(const std::string &reason)
@@ -211,6 +196,8 @@ namespace Exemplar
     std::vector<unsigned int> shells;
     const unsigned int        n_shells = number_shells(surface, sorted_sides(surface), shells);
     const GmshSession         session;
+    set_options();
+    gmsh::model::add("surface");
     TetrahedralMesh           mesh{ surface.vertices, {}, {}, surface };
     mesh.boundary.vertices.clear();
     try

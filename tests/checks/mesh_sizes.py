@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The animals' .geo models still give the paper's mesh sizes within 2 %, as do the committed meshes.
 
-Usage: python3 tests/checks/mesh_sizes.py      (EXEMPLAR is the program; gmsh must be installed)
+Usage: python3 tests/checks/mesh_sizes.py      (EXEMPLAR is the program)
 """
 import os
 import re

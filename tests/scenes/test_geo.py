@@ -2,13 +2,13 @@
 """A .geo file is a program: it runs confined, does nothing but mesh, and does not outlive the run."""
 
 import os
-import shutil
 import signal
 import subprocess
 import time
 import unittest
+from pathlib import Path
 
-from exemplar_runner import BAR, EXEMPLAR, SceneTest, prm
+from exemplar_runner import BAR, EXEMPLAR, SceneTest, prm, read_summary
 
 SCENE = {**BAR, "Mesh/Generator": None, "Mesh/Box size": None, "Mesh/Box cells": None,
          "Mesh/File": "box.geo"}
@@ -39,18 +39,22 @@ class GeoTest(SceneTest):
         return self.call("scene.prm", "--output", "out", "--quiet", *arguments, **self.environment)
 
 
-@unittest.skipUnless(shutil.which("gmsh"), "gmsh is not installed")
-class RealGmsh(GeoTest):
+class Meshing(GeoTest):
+    def cached(self):
+        return sorted(file.name for file in (self.directory / "cache/exemplar").iterdir())
+
     def test_a_script_meshes_and_does_nothing_else(self):
         run = self.run_with(BOX)
         self.assertEqual((run.status, run.stderr), (0, ""))
         names = {"box.geo", "cache", "out", "scene.prm", "size.inc"}
         self.assertEqual({file.name for file in self.directory.iterdir()}, names)
-        cached = list((self.directory / "cache/exemplar").iterdir())
-        self.assertEqual([file.suffix for file in cached], [".msh"])
+        self.assertRegex("".join(self.cached()), r"\A[0-9a-f]{64}\.msh\Z")
+        walls = read_summary(self.directory / "out")["geo_confinement"]
+        self.assertEqual(walls[0], "text")
+        self.assertIn(walls[1], ("seccomp", "landlock"))
         self.write("size.inc", "length = 3;\n")  # another mesh, as an included file has changed
         self.assertEqual(self.run_with(BOX).status, 0)
-        self.assertEqual(len(list((self.directory / "cache/exemplar").iterdir())), 2)
+        self.assertEqual(len(self.cached()), 2)
 
     def test_commands_are_refused_unless_allowed(self):
         trace = self.directory / "trace"
@@ -66,31 +70,57 @@ class RealGmsh(GeoTest):
         run = self.run_with(BOX + f'SystemCall "touch {trace}";', "--allow-commands")
         self.assertEqual((run.status, run.stderr), (0, ""))
         self.assertTrue(trace.exists())
+        self.assertEqual(read_summary(self.directory / "out")["geo_confinement"], [])
+
+    def test_a_disguised_script_is_no_data(self):
+        trace = self.directory / "trace"
+        self.write("part.obj", f'SystemCall "touch {trace}";')
+        run = self.run_with('Merge "part.obj";', "--validate")
+        self.assertEqual(run.status, 1)
+        self.assertIn("part.obj:1: the command SystemCall", run.stderr)
+        self.assertFalse(trace.exists())
+
+    def test_options_at_home_are_not_read(self):
+        trace = self.directory / "trace"
+        home = self.directory / "home"
+        home.mkdir()
+        for name in (".gmshrc", ".gmsh-options"):
+            (home / name).write_text(f'SystemCall "touch {trace}";\n')
+        self.environment["HOME"] = str(home)
+        for arguments in ((), ("--allow-commands",)):
+            self.assertEqual(self.run_with(BOX, *arguments).status, 0)
+            self.assertFalse(trace.exists())
+
+    def test_a_relative_home_is_no_place_for_the_cache(self):
+        self.environment = {"XDG_CACHE_HOME": "", "HOME": "relative"}
+        run = self.run_with(BOX)
+        self.assertEqual(run.status, 0, run.stderr)
+        self.assertIn("XDG_CACHE_HOME", run.stderr)
+        self.assertFalse((self.directory / "relative").exists())
 
 
-class FakeGmsh(GeoTest):
-    def setUp(self):
-        super().setUp()
-        (self.directory / "bin").mkdir()
-        script = self.write("bin/gmsh", '#!/bin/sh\nif [ "$1" = --version ]; then echo 4; exit 0; fi\n'
-                            f"echo $$ > '{self.directory}/pid.new'; mv '{self.directory}/pid.new' '{self.directory}/pid'\n"
-                            "exec sleep 1000\n")
-        script.chmod(0o755)
-        self.environment["PATH"] = f"{self.directory}/bin:{os.environ['PATH']}"
+class Ending(GeoTest):
+    def child_of(self, pid):
+        """The process in which gmsh meshes, or None."""
+        for stat in Path("/proc").glob("[0-9]*/stat"):
+            try:
+                words = stat.read_text().rpartition(") ")[2].split()
+            except OSError:
+                continue
+            if int(words[1]) == pid:
+                return int(stat.parent.name)
+        return None
 
     def test_gmsh_does_not_outlive_a_run(self):
-        self.write("box.geo", BOX)
+        self.write("box.geo", "For i In {1:1e9}\nx = i;\nEndFor\n")
         for how in (signal.SIGKILL, signal.SIGTERM, signal.SIGINT):
             for arguments in ([], ["--validate"]):
-                pid_file = self.directory / "pid"
-                pid_file.unlink(missing_ok=True)
                 with subprocess.Popen([EXEMPLAR, "scene.prm", "--output", "out", *arguments], cwd=self.directory,
                                       env={**os.environ, **self.environment}, stdin=subprocess.DEVNULL,
                                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
-                    while not pid_file.exists():
+                    while (pid := self.child_of(process.pid)) is None:
                         self.assertIsNone(process.poll())
                         time.sleep(0.01)
-                    pid = int(pid_file.read_text())
                     process.send_signal(how)
                     process.wait(timeout=60)
                 end = time.monotonic() + 30

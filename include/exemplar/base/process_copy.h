@@ -7,17 +7,32 @@
 
 namespace Exemplar
 {
+  /// What a copy of this process is for, and what it is allowed.
+  struct CopyTask
+  {
+    std::string what;    ///< is said to have crashed, or to have come to no end
+    std::string remedy;  ///< a sentence
+    double      timeout; ///< [s]
+  };
+
+  /// What libraries say on the standard streams.
+  struct CopyMessages
+  {
+    std::size_t max_bytes; ///< a copy that says more is ended
+    std::string text = {};
+  };
+
   /// Calls `work` in a copy of this process (fork) and returns what it returns: for libraries that
   /// may crash or never end on odd input, or that keep one state for the whole process. The copy
-  /// has no standard streams and no other thread, and ends with this process. What `work` throws
-  /// (UserError, SolverFailure, std::bad_alloc, any other std::exception) is thrown here. If the
-  /// copy crashes, or does not end within `timeout` seconds, this throws SolverFailure:
-  /// "`what` crashed" or "`what` did not come to an end within ... s", and `remedy`.
+  /// has no other thread and none of the files that are open here; it ends with this process, and
+  /// so does what it has started. `messages` takes what is said there; without it nobody hears it.
+  /// What `work` throws (UserError, SolverFailure, std::bad_alloc, any other std::exception) is
+  /// thrown here. If the copy crashes, or goes beyond a limit, this throws SolverFailure:
+  /// "`what` crashed ...", "`what` did not come to an end within ... s" and so on, and `remedy`.
   std::string
   in_process_copy(const std::function<std::string()> &work,
-                  double                              timeout,
-                  const std::string                  &what,
-                  const std::string                  &remedy);
+                  const CopyTask                     &task,
+                  CopyMessages                       *messages = nullptr);
 } // namespace Exemplar
 
 #endif

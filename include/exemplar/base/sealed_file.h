@@ -6,8 +6,10 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <ostream>
 #include <streambuf>
+#include <string>
 
 // A sealed file ends in the SHA-256 of all its bytes before, so that one which was damaged is told
 // from a whole one. The seal has the form of a section of a gmsh .msh file, which may carry one.
@@ -40,6 +42,14 @@ namespace Exemplar
   /// Write the seal behind the bytes of a file. Throws std::runtime_error if that fails.
   void
   seal_file(const std::filesystem::path &file);
+
+  /// Bytes and their seal, as a sealed file holds them.
+  std::string
+  sealed(const std::string &bytes);
+
+  /// What stands in front of the seal; nothing if there is none, or not of these bytes.
+  std::optional<std::string>
+  unsealed(std::string bytes);
 
   /// Number of bytes in front of the seal; 0 if there is none, if it is not of these bytes, or if
   /// this is no file that can be read.

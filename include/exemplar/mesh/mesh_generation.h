@@ -13,12 +13,12 @@ namespace Exemplar
   MshFile
   generate_box(const std::array<double, 3> &size, const std::array<unsigned int, 3> &n_cells);
 
-  /// Mesh a .geo file with gmsh, in an empty directory and not for ever. Returns the .msh, which
-  /// is kept sealed in $XDG_CACHE_HOME/exemplar or ~/.cache/exemplar under the SHA-256 of all that
-  /// it follows from (the .geo, what it includes or merges, and gmsh's version) and used again
-  /// while its seal is whole; where the .geo reads other files, too, it is meshed each time.
-  /// Throws UserError for a .geo that could run programs or write files, unless `allow_commands`.
-  std::filesystem::path
+  /// Mesh a .geo file by gmsh, in a confined copy of this process and not for ever. gmsh reads a
+  /// text that make_geo_text() makes; the mesh is kept (see kept_bytes()) under the SHA-256 of that
+  /// text and of what meshes it. With `allow_commands` gmsh reads the file itself, may run programs
+  /// and write files, and does so each time. Throws UserError for a .geo that could do that without
+  /// being allowed, or that gmsh cannot mesh.
+  MshFile
   mesh_geo_file(const std::filesystem::path &geo, bool allow_commands);
 } // namespace Exemplar
 

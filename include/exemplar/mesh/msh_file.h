@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,9 @@ namespace Exemplar
     /// (dimension, physical tag) -> name
     std::map<std::pair<int, int>, std::string> physical_names;
     std::string note = {}; ///< for the user, on what was made of the file; empty: nothing
+    /// What stood around gmsh when it made this of a .geo ("text", "seccomp", "landlock"); nothing
+    /// if it was not made of one.
+    std::optional<std::vector<std::string>> geo_walls = {};
   };
 
   /// gmsh's numbers for the element types that the program uses.
@@ -63,6 +67,14 @@ namespace Exemplar
   /// opened, is truncated, of another version, or refers to unknown nodes.
   MshFile
   read_msh(const std::filesystem::path &file);
+
+  /// The same of bytes in memory, for which `name` stands in messages.
+  MshFile
+  read_msh_bytes(std::string bytes, const std::string &name);
+
+  /// MSH 2.2 ASCII, as write_msh() writes it.
+  std::string
+  msh_text(const MshFile &msh);
 
   /// Write MSH 2.2 ASCII with 17 digits, so that reading it back gives the same
   /// doubles. Written to a temporary name and renamed, so that no half file is left.

@@ -5,7 +5,6 @@
 #include <exemplar/mesh/msh_file.h>
 #include <exemplar/mesh/msh_scanner.h>
 
-#include <filesystem>
 #include <map>
 #include <set>
 #include <string>
@@ -17,7 +16,7 @@ namespace Exemplar
   class MshReader
   {
   public:
-    explicit MshReader(const std::filesystem::path &file) : in(file) {}
+    MshReader(std::string bytes, const std::string &name) : in(std::move(bytes), name) {}
 
     MshFile
     read();

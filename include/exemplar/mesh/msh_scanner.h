@@ -15,7 +15,8 @@ namespace Exemplar
   class MshScanner
   {
   public:
-    explicit MshScanner(const std::filesystem::path &file);
+    /// `name` stands for the file in messages.
+    MshScanner(std::string bytes, const std::string &name);
 
     /// From here on the `read_` functions read binary numbers (true) or text.
     void

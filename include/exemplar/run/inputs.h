@@ -8,6 +8,7 @@
 #include <exemplar/surface/point_cache.h>
 
 #include <memory>
+#include <optional>
 
 namespace Exemplar
 {
@@ -28,6 +29,8 @@ namespace Exemplar
     std::map<std::string, std::shared_ptr<const PointCache>> caches = {};
     /// How mesh and poses became of surfaces; null if none did.
     std::shared_ptr<const MadeOfSurfaces> made = {};
+    /// What stood around gmsh, see MshFile::geo_walls.
+    std::optional<std::vector<std::string>> geo_walls = {};
     /// What this process has of a body that several share, instead of the mesh; null in one process.
     std::shared_ptr<SharedBody> shared = {};
   };

@@ -18,13 +18,14 @@ namespace Exemplar
 
     MeshingReport     mesh; ///< empty if the mesh was not made of one
     std::vector<Pose> poses;
+    std::vector<std::string> warnings; ///< of the making
   };
 
   /// What to know of it, a line each.
   std::vector<std::string>
   lines_of(const MadeOfSurfaces &made);
 
-  /// Poses that the mesh follows badly.
+  /// What was wrong in the making, and poses that the mesh follows badly.
   std::vector<std::string>
   warnings_of(const MadeOfSurfaces &made);
 } // namespace Exemplar

@@ -45,6 +45,8 @@ namespace Exemplar
     const std::unique_ptr<const Patches> patches; ///< of one mean dilatation each
     /// How the mesh and its poses became of surfaces; null if none did.
     const std::shared_ptr<const MadeOfSurfaces> made;
+    /// What stood around gmsh, see MshFile::geo_walls.
+    const std::optional<std::vector<std::string>> geo_walls;
     const std::shared_ptr<const SharedBody>     shared; ///< null in one process
   };
 

@@ -16,7 +16,7 @@ namespace Exemplar
   using Announce = std::function<void(const std::string &)>;
 
   /// Mesh and poses that a scene names as surfaces. They are made as `exemplar mesh` and `exemplar
-  /// pose` make them, and kept (see kept_file()) under the SHA-256 of all that they follow from.
+  /// pose` make them, and kept (see kept_bytes()) under the SHA-256 of all that they follow from.
   class SurfaceInputs
   {
   public:
@@ -50,6 +50,9 @@ namespace Exemplar
 
     MadeOfSurfaces &
     get_made_anew();
+    /// Once, if there is one.
+    void
+    add_warning(const std::string &warning);
 
     const SceneParameters          &scene;
     const Announce                  announce;

@@ -6,18 +6,20 @@
 
 namespace Exemplar
 {
-  /// mesh_surface() in a process of its own, because CGAL and gmsh may crash or never end on odd
-  /// surfaces, and gmsh keeps one model for the whole process. The mesh is written to `msh`, whole
-  /// or not at all. Throws as mesh_surface() does, and SolverFailure for a crash and after 15 s
-  /// and 30 ms a cell and 0.1 ms a byte of the surface.
+  /// mesh_surface() in a confined process of its own (see confine_this_process()), because CGAL and
+  /// gmsh may crash or never end on odd surfaces, and gmsh keeps one model for the whole process.
+  /// Returns the bytes of a .msh with the report as its comment. Throws as mesh_surface() does, and
+  /// SolverFailure for a crash and after 60 s and 30 ms a cell and 0.1 ms a byte of the surface.
+  std::string
+  make_mesh(const SurfaceMeshingOptions &options);
+
+  /// The same, written to `msh` without the comment, whole or not at all.
   MeshingReport
   make_mesh_file(const SurfaceMeshingOptions &options, const std::filesystem::path &msh);
 
-  /// A report as one line of text, and back. Throws std::exception for another text.
-  std::string
-  to_text(const MeshingReport &report);
+  /// The report in what make_mesh() has returned. Throws std::exception if there is none.
   MeshingReport
-  report_from_text(const std::string &text);
+  report_in(const std::string &msh);
 } // namespace Exemplar
 
 #endif

@@ -4,9 +4,11 @@
 
 #include "expect_contains.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <new>
 
@@ -17,7 +19,7 @@ namespace Exemplar::Testing
     std::string
     in_copy(const std::function<std::string()> &work, const double timeout = 60.)
     {
-      return in_process_copy(work, timeout, "The work", "Try less.");
+      return in_process_copy(work, { "The work", "Try less.", timeout });
     }
 
     template <typename Error>
@@ -81,6 +83,52 @@ namespace Exemplar::Testing
                           },
                           0.),
                       "The work did not come to an end within 0 s and was ended. Try less.");
+      EXPECT_EQ(error_in_copy<SolverFailure>([]() -> std::string { std::exit(0); }), crashed);
+    }
+
+    TEST(ProcessCopyTest, MessagesComeHereUpToALimit)
+    {
+      const CopyTask task{ "The work", "Try less.", 60. };
+      CopyMessages   messages{ 1 << 20 };
+      EXPECT_EQ(in_process_copy(
+                    []
+                    {
+                      std::fputs("one\n", stderr);
+                      EXPECT_EQ(std::system("echo two; sleep 1000 &"), 0); // who holds our pipe
+                      return std::string("done");
+                    },
+                    task, &messages),
+                "done");
+      EXPECT_EQ(messages.text, "one\ntwo\n");
+      try
+      {
+        in_process_copy(
+            []() -> std::string
+            {
+              for (;;)
+                std::fputs("again and again\n", stderr);
+            },
+            task, &messages);
+        ADD_FAILURE();
+      }
+      catch (const SolverFailure &failure)
+      {
+        expect_contains(failure.what(), "The work wrote more than 1 MiB of messages");
+      }
+    }
+
+    TEST(ProcessCopyTest, ItHasNoneOfTheFilesThatAreOpenHere)
+    {
+      EXPECT_EQ(in_copy(
+                    []
+                    {
+                      std::string found;
+                      for (int i = 4; i < 1000; ++i)
+                        if (fcntl(i, F_GETFD) >= 0)
+                          found += std::to_string(i) + " ";
+                      return found;
+                    }),
+                "");
     }
   } // namespace
 } // namespace Exemplar::Testing

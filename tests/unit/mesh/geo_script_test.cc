@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
-#include <exemplar/mesh/geo_script.h>
+#include <exemplar/mesh/geo_text.h>
+#include <exemplar/mesh/merged_formats.h>
 
 #include "expect_contains.h"
 #include "temporary_directory.h"
@@ -23,11 +24,10 @@ namespace Exemplar::Testing
         const auto geo = write_file("script.geo", text);
         try
         {
-          check_geo(geo);
+          make_geo_text(geo);
         }
         catch (const UserError &error)
         {
-          expect_contains(error.what(), "--allow-commands");
           return error.what();
         }
         return "";
@@ -63,6 +63,7 @@ namespace Exemplar::Testing
                                         "If (0)\nSystemCall 'x';\nEndIf" })
         EXPECT_NE(refusal(script), "") << script;
       expect_contains(refusal("\n\nSave 'x';"), "script.geo:3: the command Save");
+      expect_contains(refusal("Save 'x';"), "--allow-commands");
     }
 
     TEST_F(GeoScriptTest, WhatGmshMightReadOtherwiseIsRefused)
@@ -104,26 +105,81 @@ namespace Exemplar::Testing
       expect_contains(refusal(""), "script.geo.opt:1");
       std::filesystem::remove(directory / "script.geo.opt");
       // data are not read as commands
-      write_file("part.stl", "solid SystemCall 'x';");
-      EXPECT_EQ(refusal("Merge 'part.stl'; Include 'script.geo'; Merge 'absent.geo';"), "");
+      write_file("part.stl", "solid SystemCall 'x'; facet");
+      EXPECT_EQ(refusal("Merge 'part.stl';"), "");
       EXPECT_NE(refusal("Include 'part.stl';"), "");
+      expect_contains(refusal("\nMerge 'absent.geo';"), "script.geo:2: ");
+      for (const std::string name : { std::string("script.geo"),
+                                      "../" + directory.filename().string() + "/script.geo" })
+        expect_contains(refusal("If (0)\nInclude '" + name + "';\nEndIf"), "includes itself");
+      write_file("twice.geo", "Include 'twice_0.geo';");
+      write_file("twice_14.geo", "");
+      for (unsigned int i = 0; i < 14; ++i)
+      {
+        const std::string next = "Include 'twice_" + std::to_string(i + 1) + ".geo';\n";
+        write_file("twice_" + std::to_string(i) + ".geo", next + next);
+      }
+      expect_contains(refusal("Include 'twice.geo';"), "too many inclusions");
     }
 
-    TEST_F(GeoScriptTest, TheDigestsAreOfAllFiles)
+    TEST_F(GeoScriptTest, TheTextIsTheScriptsWithoutThemselves)
     {
-      const auto geo = write_file("script.geo", "Include 'part.inc'; Merge 'part.stl';");
+      const auto geo = write_file("script.geo", "a = 1; // one\n\nb += .5e-3;Include \"sub/part.inc\"; "
+                                                "c/**/=\n{0 : 2}; e = 1d;\n");
+      std::filesystem::create_directory(directory / "sub");
+      write_file("sub/part.inc", "/* part\n */ d = 'x;';Merge \"../part.any\";");
+      write_file("part.any", "solid\nfacet");
+      write_file("script.geo.opt", "Mesh.Optimize = 0;");
+      const GeoText text = make_geo_text(geo);
+      EXPECT_EQ(text.script, "a = 1;\nb += .5e-3;\nd = 'x;';Merge \"data_1.stl\";\nc =\n"
+                             "{0 : 2}; e = 1 d;\nMesh.Optimize = 0;\n");
+      ASSERT_EQ(text.data.size(), 1u);
+      EXPECT_EQ(text.data.at("data_1.stl"), "solid\nfacet");
+      EXPECT_EQ(text.with_origins("Error: '/x/script.geo', line 3: bad", "/x/script.geo"),
+                "Error: '" + (directory / "sub/part.inc").string() + "', line 2: bad");
+      EXPECT_EQ(text.with_origins("'/x/script.geo', line 99", "/x/script.geo"),
+                "'/x/script.geo', line 99");
+    }
+
+    TEST_F(GeoScriptTest, TheDigestIsOfTheText)
+    {
+      const auto geo = write_file("script.geo", "Include 'part.inc'; Merge 'part.stl'; a() = ListFromFile(\"list\");");
       write_file("part.inc", "a = 1;");
-      write_file("part.stl", "solid");
-      const GeoInputs before = check_geo(geo);
-      EXPECT_TRUE(before.all_known);
+      write_file("part.stl", "solid facet");
+      write_file("list", "1 2");
       for (const auto &[name, text] :
-           { std::pair("part.inc", "a = 2;"), { "part.stl", "solid 2" } })
+           { std::pair("part.inc", "a = 2;"), { "part.stl", "solid facet 2" }, { "list", "1 3" } })
       {
-        const std::string last = check_geo(geo).digests;
+        const GeoText     before = make_geo_text(geo);
+        const std::string last   = before.digest();
         write_file(name, text);
-        EXPECT_NE(check_geo(geo).digests, last) << name;
+        EXPECT_EQ(before.digest(), last); // whatever becomes of the files
+        EXPECT_NE(make_geo_text(geo).digest(), last) << name;
       }
-      EXPECT_FALSE(check_geo(write_file("reader.geo", "a() = ListFromFile(\"x\");")).all_known);
+      for (const std::string script :
+           { "a() = ListFromFile(StrCat(\"l\", \"ist\"));", "Field[1].FileName = 'list';",
+             "a = FileExists('list');", "s = GetEnv('HOME');" })
+        expect_contains(refusal(script), "reads what exemplar does not know");
+    }
+
+    TEST_F(GeoScriptTest, DataAreKnownByTheirBytes)
+    {
+      for (const auto &[bytes, extension] :
+           { std::pair<std::string, std::string>("solid x\nfacet", ".stl"),
+             { "solid x; SystemCall 'x';", "" },
+             { std::string(80, 'S') + std::string("\1\0\0\0", 4) + std::string(50, 'x'), ".stl" },
+             { std::string(80, 'S') + std::string("\1\0\0\0", 4) + std::string(51, 'x'), "" },
+             { "ISO-10303-21;", ".step" },
+             { std::string(72, ' ') + "S      1\n" + std::string(80, ' '), ".iges" },
+             { "DBRep_DrawableShape\n", ".brep" },
+             { "$MeshFormat\n2.2 0 8", ".msh" },
+             { "\n$MeshFormat\n", "" },
+             { "ply\nformat", ".ply" },
+             { "plyer", "" },
+             { "# vtk DataFile Version 3", ".vtk" },
+             { "    -1\n  2411", ".unv" },
+             { "", "" } })
+        EXPECT_EQ(merged_format(bytes), extension) << bytes;
     }
   } // namespace
 } // namespace Exemplar::Testing

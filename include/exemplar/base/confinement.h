@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_confinement_h
+#define exemplar_confinement_h
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace Exemplar
+{
+  /// For a process that is about to read what a stranger has made: it gives up, for ever, all but
+  /// computing, reading the system's files and `readable` (files, or directories with all in
+  /// them), and using the files that are open. It starts no program, opens nothing to write,
+  /// removes and renames nothing, opens no socket and signals nobody but itself. Returns the
+  /// kernel's walls that stand now: "seccomp", "landlock", both, or none where the kernel has
+  /// neither.
+  std::vector<std::string>
+  confine_this_process(const std::vector<std::filesystem::path> &readable);
+} // namespace Exemplar
+
+#endif
