@@ -13,6 +13,7 @@
 #include <iostream>
 #include <limits>
 #include <mpi.h>
+#include <mutex>
 #include <thread>
 #include <unistd.h>
 #include <vector>
@@ -162,9 +163,9 @@ namespace Exemplar
       setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
       // hwloc, by which it looks at the machine, would say on stderr what it misses, such as /sys
       setenv("HWLOC_HIDE_ERRORS", "2", 0);
-      // other threads than this one write files and share loops, and never call MPI
+      // threads with a problem each call MPI one after the other: TrilinosLock
       int provided = 0;
-      MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED,
+      MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED,
                       &provided); // does not return if it fails
       mpi_was_started = true;
     }
@@ -244,9 +245,16 @@ namespace Exemplar
   void
   MpiSession::require()
   {
-    int is_running = 0;
-    MPI_Initialized(&is_running);
-    if (is_running != 0)
+    static std::mutex                 one_at_a_time; // MPI starts once, whichever thread is first
+    const std::lock_guard<std::mutex> lock(one_at_a_time);
+    int                               has_started = 0, has_ended = 0;
+    MPI_Initialized(&has_started);
+    MPI_Finalized(&has_ended);
+    if (has_ended != 0)
+      throw UserError("Solver/Linear solver = iterative needs MPI, which has ended in this process "
+                      "and cannot start again. Call MPI_Finalize, or let the Exemplar::MpiSession "
+                      "end, when the last problem is solved.");
+    if (has_started != 0)
       return;
     if (!mpi_may_be_started)
       throw UserError("Solver/Linear solver = iterative needs MPI, which this program has not "

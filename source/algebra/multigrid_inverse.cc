@@ -2,6 +2,7 @@
 #include <exemplar/algebra/long_vectors.h>
 #include <exemplar/algebra/mpi_exchange.h>
 #include <exemplar/algebra/multigrid_inverse.h>
+#include <exemplar/algebra/trilinos_lock.h>
 
 #include <deal.II/base/tensor.h>
 #include <deal.II/lac/tridiagonal_matrix.h>
@@ -114,6 +115,7 @@ namespace Exemplar
     BlockMatrix
     copy_in_blocks(ML_Operator *matrix, const Exchange &exchange)
     {
+      const TrilinosLock             lock;
       const int                      n_own  = matrix->invec_leng / 3;
       const std::vector<std::size_t> firsts = first_numbers(n_own, exchange);
       const std::vector<std::size_t> numbers

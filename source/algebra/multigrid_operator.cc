@@ -3,6 +3,7 @@
 #include <exemplar/algebra/multigrid_inverse.h>
 #include <exemplar/algebra/multigrid_operator.h>
 #include <exemplar/algebra/rigid_modes.h>
+#include <exemplar/algebra/trilinos_lock.h>
 
 #include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/vector_memory.templates.h> // for vectors that are not deal.II's
@@ -161,11 +162,21 @@ namespace Exemplar
                           "mesh.");
   }
 
-  void
-  MultigridOperator::clear()
+  MultigridOperator::~MultigridOperator()
   {
+    const TrilinosLock lock;
     multigrid.reset(); // refers to the matrix
     matrix.reset();
+  }
+
+  void
+  MultigridOperator::reinit(const SymmetricPattern &pattern)
+  {
+    const TrilinosLock lock;
+    multigrid.reset();
+    matrix.reset();
+    lower_values.assign(pattern.n_values(), 0.);
+    make_matrix(pattern);
   }
 
   void
@@ -175,6 +186,7 @@ namespace Exemplar
       return;
     place_nodes(positions);
     fill_matrix();
+    const TrilinosLock lock;
     // nothing takes as much memory as a hierarchy: give back what has been freed before
     multigrid.reset();
     malloc_trim(0);
@@ -254,8 +266,11 @@ namespace Exemplar
       throw SolverFailure("The forces are not finite numbers.");
     const auto multiply
         = [this](const Epetra_Vector &x, Epetra_Vector &y) { matrix->Multiply(false, x, y); };
-    const auto cycle
-        = [this](const Epetra_Vector &x, Epetra_Vector &y) { multigrid->ApplyInverse(x, y); };
+    const auto cycle = [this](const Epetra_Vector &x, Epetra_Vector &y)
+    {
+      const TrilinosLock lock;
+      multigrid->ApplyInverse(x, y);
+    };
     dealii::SolverControl                       control(max_iterations, tolerance * norm);
     dealii::PrimitiveVectorMemory<SharedVector> memory;
     try

@@ -5,6 +5,7 @@
 #include <exemplar/base/errors.h>
 
 #include <cholmod.h>
+#include <mutex>
 #include <string>
 
 namespace Exemplar
@@ -64,8 +65,7 @@ namespace Exemplar
         matrix.sorted = 1;
         matrix.packed = 1;
         cholmod_free_factor(&factor, &common);
-        const OpenMPScope scope(OpenMPScope::Threads::one);
-        factor = cholmod_analyze(&matrix, &common);
+        analyze();
         check("analysis");
       }
 
@@ -114,6 +114,17 @@ namespace Exemplar
       }
 
     private:
+      /// One thread at a time: METIS, which orders large matrices, draws from the one sequence of
+      /// random numbers of the C library, and the order decides the last digits.
+      void
+      analyze()
+      {
+        static std::mutex                 of_random_numbers;
+        const std::lock_guard<std::mutex> lock(of_random_numbers);
+        const OpenMPScope                 scope(OpenMPScope::Threads::one);
+        factor = cholmod_analyze(&matrix, &common);
+      }
+
       FactorPanels
       panels() const
       {

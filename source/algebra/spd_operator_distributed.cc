@@ -33,20 +33,18 @@ namespace Exemplar
         number_rows();
       }
 
+    private:
       void
-      reinit(const SymmetricPattern &new_pattern) override
+      make_matrix(const SymmetricPattern &new_pattern) override
       {
-        clear();
         pattern = new_pattern;
-        lower_values.assign(pattern.n_values(), 0.);
         const ByProcess<int> received
             = dealii::Utilities::MPI::some_to_some(exchange.get_communicator(), list_foreign());
         number_columns(received);
-        make_matrix(received);
+        insert_couplings(received);
         find_places(received);
       }
 
-    private:
       void
       number_rows()
       {
@@ -148,7 +146,7 @@ namespace Exemplar
       }
 
       void
-      make_matrix(const ByProcess<int> &received)
+      insert_couplings(const ByProcess<int> &received)
       {
         // an entry that several processes know is counted more than once at first
         std::vector<std::size_t> start(n_rows() + 1, 0);

@@ -14,11 +14,10 @@ namespace Exemplar
     public:
       using MultigridOperator::MultigridOperator;
 
+    private:
       void
-      reinit(const SymmetricPattern &pattern) override
+      make_matrix(const SymmetricPattern &pattern) override
       {
-        clear();
-        lower_values.assign(pattern.n_values(), 0.);
         const std::size_t n_entries = 2 * pattern.row.size() - pattern.n() + n_rows() - pattern.n();
         check_size(n_entries);
 
@@ -37,7 +36,6 @@ namespace Exemplar
         matrix->OptimizeStorage();
       }
 
-    private:
       std::vector<int>
       row_starts(const SymmetricPattern &pattern) const
       {

@@ -5,9 +5,20 @@
 
 #include <pybind11/numpy.h>
 
+#include <functional>
+
 namespace Exemplar::Python
 {
   namespace py = pybind11;
+
+  std::string
+  text_of(const py::handle &object, const std::string &what)
+  {
+    std::string text = py::str(object);
+    if (text.find('\0') != std::string::npos)
+      throw UserError(what + " holds a NUL character ('\\0'). Remove it.");
+    return text;
+  }
 
   namespace
   {
@@ -24,20 +35,50 @@ namespace Exemplar::Python
       return key == "Pose functions" ? " | " : ", ";
     }
 
+    bool
+    is_list(const py::handle &value)
+    {
+      if (py::isinstance<py::array>(value))
+        return py::reinterpret_borrow<py::array>(value).ndim() > 0;
+      return py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value);
+    }
+
     std::string
-    text_of(const py::handle &value, const std::string &separator)
+    text_of_value(const py::handle &value, const std::string &what)
     {
       if (py::isinstance<py::bool_>(value))
         return value.cast<bool>() ? "true" : "false";
-      const bool is_list = py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value)
-                           || py::isinstance<py::array>(value);
-      if (!is_list)
-        return py::str(value);
+      if (is_list(value) || py::isinstance<py::dict>(value))
+        throw UserError(what
+                        + " holds lists within lists of lists, or a dictionary in a list. "
+                          "Allowed: a value, a list of values, or of poses a list of lists of "
+                          "three formulas.");
+      return text_of(value, what);
+    }
+
+    std::string
+    join(const py::handle                                     &list,
+         const std::string                                    &separator,
+         const std::function<std::string(const py::handle &)> &text_of_entry)
+    {
       std::string text;
-      for (const py::handle entry : value)
-        // a list in a list is a pose's three formulas
-        text += (text.empty() ? "" : separator) + text_of(entry, "; ");
+      bool        is_first = true;
+      for (const py::handle entry : list)
+      {
+        text += (is_first ? "" : separator) + text_of_entry(entry);
+        is_first = false;
+      }
       return text;
+    }
+
+    /// The text of a value, of a list, or of a list of lists, such as a pose's three formulas.
+    std::string
+    text_for_key(const py::handle &value, const std::string &key, const std::string &what)
+    {
+      const auto of_value = [&](const py::handle &entry) { return text_of_value(entry, what); };
+      const auto of_entry = [&](const py::handle &entry)
+      { return is_list(entry) ? join(entry, "; ", of_value) : of_value(entry); };
+      return is_list(value) ? join(value, separator(key), of_entry) : of_value(value);
     }
 
     /// Sections of a dictionary that name their subsections: who leaves out Names has listed all.
@@ -57,19 +98,27 @@ namespace Exemplar::Python
     }
 
     void
-    add_section(const py::dict                 &section,
+    add_section(const py::dict                 &given,
                 const std::vector<std::string> &path,
                 std::vector<Assignment>        &assignments)
     {
+      const py::dict section = given.attr("copy")(); // str() of a key or a value may change `given`
       add_names(section, path, assignments);
       for (const auto &[key, value] : section)
       {
-        const std::string name = py::str(key);
+        std::string where = "scene: ";
+        for (const std::string &outer : path)
+          where += outer + "/";
+        const std::string name = text_of(key, where + "a key");
         if (!py::isinstance<py::dict>(value))
         {
-          assignments.push_back({ path, name, text_of(value, separator(name)), "scene" });
+          assignments.push_back({ path, name, text_for_key(value, name, where + name), "scene" });
           continue;
         }
+        if (path.size() == 2)
+          throw UserError(where + name
+                          + " is a dictionary. The sections of a scene are at most two "
+                            "deep, as Handles/NAME is: give it a value.");
         std::vector<std::string> deeper = path;
         deeper.push_back(name);
         add_section(py::reinterpret_borrow<py::dict>(value), deeper, assignments);
@@ -87,32 +136,50 @@ namespace Exemplar::Python
         return SceneFile({}, "", sections).get_parameters();
       }
       // a str or a path
-      const std::string text = py::module_::import("os").attr("fspath")(scene).cast<std::string>();
+      const std::string text = text_of(py::module_::import("os").attr("fspath")(scene), "scene");
       if (text.find('\n') != std::string::npos)
         return SceneFile({}, text, assignments).get_parameters();
       return SceneFile(text, read_prm(text), assignments).get_parameters();
     }
 
-    /// The rows of an array (n, width); `what` stands for it in messages.
+    /// In words, as in "an array of shape (9, 2)" or "a NoneType".
+    std::string
+    description(const py::handle &object, const py::array &array)
+    {
+      if (!array || array.ndim() == 0)
+        return "a " + std::string(py::str(py::type::of(object).attr("__name__")));
+      return "an array of shape " + std::string(py::str(array.attr("shape")));
+    }
+
+    /// The rows of an array (n, width), or any number of them where n is negative; `what` stands for
+    /// it in messages.
     template <typename Number>
     py::array_t<Number, py::array::c_style | py::array::forcecast>
-    rows_of(const py::handle &object, const std::string &what, const py::ssize_t width)
+    rows_of(const py::handle  &object,
+            const std::string &what,
+            const py::ssize_t  n,
+            const py::ssize_t  width)
     {
       const auto any = py::array::ensure(object);
-      if (!any || any.ndim() != 2 || any.shape(1) != width)
-        throw UserError(what + " must be an array of shape (n, " + std::to_string(width) + ").");
-      if (std::is_integral_v<Number> && any.dtype().kind() != 'i' && any.dtype().kind() != 'u')
+      if (!any || any.ndim() != 2 || any.shape(1) != width || (n >= 0 && any.shape(0) != n))
+        throw UserError(what + " must be an array of shape (" + (n < 0 ? "n" : std::to_string(n))
+                        + ", " + std::to_string(width) + "), but is " + description(object, any)
+                        + ".");
+      const char kind = any.dtype().kind();
+      if (std::is_integral_v<Number> && kind != 'i' && kind != 'u')
         throw UserError(what + " must be an array of integers.");
-      const auto rows = py::array_t<Number, py::array::c_style | py::array::forcecast>::ensure(any);
-      if (!rows)
-        throw UserError(what + " must be an array of numbers.");
+      py::array_t<Number, py::array::c_style | py::array::forcecast> rows;
+      if (kind != 'c') // of which the real parts alone would be taken
+        rows = decltype(rows)::ensure(any);
+      if (kind == 'c' || !rows)
+        throw UserError(what + " must be an array of real numbers.");
       return rows;
     }
 
     std::vector<dealii::Point<3>>
-    points_of(const py::handle &object, const std::string &what)
+    points_of(const py::handle &object, const std::string &what, const py::ssize_t n = -1)
     {
-      const auto                    rows = rows_of<double>(object, what, 3);
+      const auto                    rows = rows_of<double>(object, what, n, 3);
       const auto                    x    = rows.unchecked<2>();
       std::vector<dealii::Point<3>> points;
       for (py::ssize_t i = 0; i < x.shape(0); ++i)
@@ -137,7 +204,7 @@ namespace Exemplar::Python
       if (parts.size() != 2 && parts.size() != 3)
         throw UserError(
             "mesh must be (nodes (n, 3), cells (m, 4)) or (nodes, cells, material ids (m)).");
-      const auto rows  = rows_of<long long>(parts[1], "mesh: cells", 4);
+      const auto rows  = rows_of<long long>(parts[1], "mesh: cells", -1, 4);
       const auto nodes = rows.unchecked<2>();
       std::vector<std::array<unsigned int, 4>> cells(nodes.shape(0));
       for (py::ssize_t c = 0; c < nodes.shape(0); ++c)
@@ -174,26 +241,21 @@ namespace Exemplar::Python
   }
 
   Motion
-  motion_of(const py::function &function)
+  motion_of(const std::string &handle, const py::object &function)
   {
-    // whoever drops the last copy may not hold Python's lock
-    const std::shared_ptr<py::function> shared(new py::function(function),
-                                               [](py::function *last)
-                                               {
-                                                 const py::gil_scoped_acquire lock;
-                                                 delete last;
-                                               });
-    return [shared](const std::vector<dealii::Point<3>> &rest, const double time)
+    return [handle, &function](const std::vector<dealii::Point<3>> &rest, const double time)
     {
       const py::gil_scoped_acquire lock;
-      py::array_t<double>          points({ py::ssize_t(rest.size()), py::ssize_t(3) });
+      const auto                   n = py::ssize_t(rest.size());
+      py::array_t<double>          points({ n, py::ssize_t(3) });
       auto                         x = points.mutable_unchecked<2>();
       for (std::size_t i = 0; i < rest.size(); ++i)
         for (unsigned int c = 0; c < 3; ++c)
           x(i, c) = rest[i][c];
       std::vector<dealii::Tensor<1, 3>> displacements;
       for (const dealii::Point<3> &u :
-           points_of((*shared)(points, time), "What the function of a motion returns"))
+           points_of(function(points, time),
+                     "Handles/" + handle + ": what the function of its motion returns", n))
         displacements.push_back(u);
       return displacements;
     };

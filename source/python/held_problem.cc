@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/mpi_session.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/python/from_python.h>
 #include <exemplar/python/held_problem.h>
+#include <exemplar/python/unlocked_work.h>
 
 #include <utility>
 
@@ -12,10 +14,10 @@ namespace Exemplar::Python
   namespace
   {
     std::unique_ptr<Problem>
-    make_problem(const py::object &scene, const py::object &mesh, const py::object &poses)
+    make_unlocked(Given given)
     {
-      Given                        given = from_python(scene, mesh, poses);
-      const py::gil_scoped_release unlocked;
+      UnlockedWork::check();
+      const UnlockedWork unlocked;
       try
       {
         Inputs inputs = read_inputs(given.scene, std::move(given.inputs));
@@ -33,6 +35,18 @@ namespace Exemplar::Python
     {
       static const auto session = std::make_shared<MpiSession>();
       return session;
+    }
+
+    std::shared_ptr<Problem>
+    make_problem(const py::object &scene, const py::object &mesh, const py::object &poses)
+    {
+      const auto mpi      = mpi_session(); // ends after the last problem
+      const auto end_last = [mpi](Problem *problem)
+      {
+        const UnlockedWork unlocked; // another thread may use Trilinos for long
+        delete problem;
+      };
+      return { make_unlocked(from_python(scene, mesh, poses)).release(), end_last };
     }
 
     /// An array in memory that `owner` keeps.
@@ -59,8 +73,7 @@ namespace Exemplar::Python
   } // namespace
 
   HeldProblem::HeldProblem(const py::object &scene, const py::object &mesh, const py::object &poses)
-      : mpi(mpi_session()), problem(make_problem(scene, mesh, poses)), diagnostics(*problem),
-        callback(py::none())
+      : callback(py::none()), problem(make_problem(scene, mesh, poses)), diagnostics(*problem)
   {
     problem->solver->observe = [this](const SolveReport &iteration) { return observe(iteration); };
   }
@@ -79,6 +92,7 @@ namespace Exemplar::Python
     const py::gil_scoped_acquire lock;
     if (PyErr_CheckSignals() != 0)
       throw py::error_already_set(); // Ctrl-C
+    UnlockedWork::check();
     if (callback.is_none())
       return true;
     const py::object function = callback; // which it may replace
@@ -112,6 +126,7 @@ namespace Exemplar::Python
       throw UserError(
           "All " + std::to_string(problem->time_axis.n_steps())
           + " steps of the scene are made. Change Time/End or Time/Increments for more.");
+    UnlockedWork::check();
     let_go(problem->state.positions, shown_positions);
     let_go(problem->state.velocities, shown_velocities);
     const auto keep_alive = shared_from_this(); // a callback may drop the last other owner
@@ -119,7 +134,7 @@ namespace Exemplar::Python
     stepping              = std::this_thread::get_id();
     try
     {
-      const py::gil_scoped_release unlocked;
+      const UnlockedWork unlocked;
       report = advance();
       diagnostics.add_step();
     }
@@ -143,11 +158,14 @@ namespace Exemplar::Python
   }
 
   void
-  HeldProblem::set_motion(const std::string &handle, const py::function &function)
+  HeldProblem::set_motion(const py::str &name, const py::function &function)
   {
+    const std::string handle = text_of(name, "set_motion: the name of the handle");
     if (stepping != std::thread::id())
       throw std::runtime_error("A step of this problem is being made: set motions between steps.");
-    problem->set_motion(handle, motion_of(function));
+    py::object &kept = motions[handle]; // null if there is no such handle, which the next line says
+    problem->set_motion(handle, motion_of(handle, kept));
+    kept = function;
   }
 
   void
@@ -156,6 +174,23 @@ namespace Exemplar::Python
     if (!function.is_none() && !PyCallable_Check(function.ptr()))
       throw py::type_error("on_iteration needs a function or None.");
     callback = function;
+  }
+
+  int
+  HeldProblem::visit_functions(const visitproc visit, void *arg) const
+  {
+    Py_VISIT(callback.ptr());
+    for (const auto &[handle, function] : motions)
+      Py_VISIT(function.ptr());
+    return 0;
+  }
+
+  void
+  HeldProblem::forget_functions()
+  {
+    callback = py::none();
+    for (auto &[handle, function] : motions)
+      function = py::none();
   }
 
   void
@@ -180,8 +215,8 @@ namespace Exemplar::Python
     // the memory is of the problem until a step leaves it to the array
     return read_only_rows(
         field.begin(), n_nodes, 3,
-        keeper(std::make_shared<std::pair<std::shared_ptr<HeldProblem>, std::shared_ptr<Shown>>>(
-            shared_from_this(), shown)));
+        keeper(std::make_shared<std::pair<std::shared_ptr<Problem>, std::shared_ptr<Shown>>>(
+            problem, shown)));
   }
 
   py::array
@@ -202,14 +237,14 @@ namespace Exemplar::Python
   {
     const auto &nodes = problem->body.mesh.get_nodes();
     static_assert(sizeof(nodes[0]) == 3 * sizeof(double));
-    return read_only_rows(&nodes[0][0], nodes.size(), 3, keeper(shared_from_this()));
+    return read_only_rows(&nodes[0][0], nodes.size(), 3, keeper(problem));
   }
 
   py::array
   HeldProblem::cells()
   {
     const auto &cells = problem->body.mesh.get_cells();
-    return read_only_rows(cells[0].data(), cells.size(), 4, keeper(shared_from_this()));
+    return read_only_rows(cells[0].data(), cells.size(), 4, keeper(problem));
   }
 
   py::dict

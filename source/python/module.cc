@@ -2,7 +2,8 @@
 #include <exemplar/base/environment.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/base/version.h>
-#include <exemplar/python/held_problem.h>
+#include <exemplar/python/problem_type.h>
+#include <exemplar/python/unlocked_work.h>
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/multithread_info.h>
@@ -15,6 +16,27 @@ namespace Exemplar::Python
 {
   namespace
   {
+    /// When first used, pybind11 looks into numpy, which must be here: the import of a module lets
+    /// other threads run, and these would wait for ever for pybind11 and it for them.
+    void
+    import_numpy()
+    {
+      try
+      {
+        py::module_::import("numpy");
+        py::dtype::of<double>();
+      }
+      catch (py::error_already_set &error)
+      {
+        if (!error.matches(PyExc_ImportError))
+          throw;
+        py::raise_from(error, PyExc_ImportError,
+                       "exemplar needs numpy, which this Python cannot import. Install it (Debian: "
+                       "apt-get install python3-numpy; elsewhere: pip install numpy).");
+        throw py::error_already_set();
+      }
+    }
+
     void
     add_exceptions(py::module_ &module)
     {
@@ -78,8 +100,7 @@ namespace Exemplar::Python
       problem.def(
           "on_iteration", &HeldProblem::on_iteration, py::arg("function"),
           "Call function(report) after each iteration of a step; None: call nothing.\n\n"
-          "A function that refers to the problem keeps it alive until another is set. If it\n"
-          "returns False, the step is left and Interrupted raised; methods that cannot\n"
+          "If it returns False, the step is left and Interrupted raised; methods that cannot\n"
           "stop within a step finish it before.");
     }
 
@@ -142,7 +163,8 @@ namespace Exemplar::Python
     add_problem(py::module_ &module)
     {
       Class problem(module, "Problem",
-                    "An elastic body with example poses, as a scene describes it.");
+                    "An elastic body with example poses, as a scene describes it.",
+                    py::custom_type_setup(support_garbage_collection));
       problem.def(
           py::init<const py::object &, const py::object &, const py::object &>(), py::arg("scene"),
           py::arg("mesh") = py::none(), py::arg("poses") = py::none(),
@@ -165,6 +187,7 @@ namespace Exemplar::Python
 PYBIND11_MODULE(exemplar, module)
 {
   using namespace Exemplar;
+  Python::import_numpy();
   module.doc()
       = "Elastic solids that deform the way their examples say. doc/python.md has examples.";
   module.attr("__version__") = EXEMPLAR_VERSION;
@@ -175,6 +198,7 @@ PYBIND11_MODULE(exemplar, module)
       "use_one_blas_thread", &use_one_blas_thread,
       "Let BLAS use one thread in the whole process, numpy with it if it uses the same BLAS.\n"
       "Results are then the same bytes as the program's. Importing exemplar does not do so.");
+  py::module_::import("atexit").attr("register")(py::cpp_function(&Python::UnlockedWork::end_all));
   dealii::MultithreadInfo::set_thread_limit(1);
   dealii::deal_II_exceptions::disable_abort_on_exception();
 }

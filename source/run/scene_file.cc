@@ -161,10 +161,6 @@ namespace Exemplar
       parameters.name = file.string();
     std::vector<Assignment> assignments = read_assignments(text, parameters.name);
     assignments.insert(assignments.end(), overrides.begin(), overrides.end());
-    if (find_assignment(assignments, "Scene") == nullptr)
-      throw UserError(parameters.name
-                      + ": Scene is not set. Add a line 'set Scene = dynamic' (or static, or "
-                        "interpolation).");
 
     const auto first_named = std::stable_partition(
         assignments.begin(), assignments.end(), [](const Assignment &a) { return !is_named(a); });
@@ -179,6 +175,10 @@ namespace Exemplar
     check_listed(named, "Loads", load_names);
     declare_named_subsections(named);
     keys.apply(named, directory());
+    if (find_assignment(assignments, "Scene") == nullptr) // after misspelt names of it
+      throw UserError(parameters.name
+                      + ": Scene is not set. Add a line 'set Scene = dynamic' (or static, or "
+                        "interpolation).");
 
     make_selections_absolute();
     const ExampleParameters given = parameters.examples;

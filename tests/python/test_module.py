@@ -8,6 +8,7 @@ import sys
 import tempfile
 import threading
 import unittest
+import weakref
 from pathlib import Path
 
 import numpy as np
@@ -92,9 +93,12 @@ class Scenes(unittest.TestCase):
         bare = without_mesh(BAR)
         for message, arguments in {
             "Scene is not set": ({"Mesh": BAR["Mesh"]},),
+            "'Szene'. Did you mean 'Scene'": ({"Szene" if key == "Scene" else key: BAR[key] for key in BAR},),
+            "Did you mean 'Mesh/Generator'": ({**BAR, "Mehs": {"Generator": "box"}},),
             "nonsense": ({**BAR, "Model": {"Strain": "nonsense"}},),
             "absent.prm": ("absent.prm",),
-            "shape \\(n, 3\\)": (bare, (nodes[:, :2], cells)),
+            "nodes must be an array of shape \\(n, 3\\), but is an array of shape \\(45, 2\\)": (bare, (nodes[:, :2], cells)),
+            "real numbers": (bare, (nodes + 1j, cells)),
             "has node 99": (bare, (nodes, np.array([[0, 1, 2, 99]]))),
             "has -1": (bare, (nodes, np.array([[0, 1, 2, -1]]))),
             "array of integers": (bare, (nodes, cells + 0.5)),
@@ -109,6 +113,44 @@ class Scenes(unittest.TestCase):
         problem = solved(BAR)
         with self.assertRaisesRegex(exemplar.UserError, "All 3 steps"):
             problem.step()
+
+
+    def test_dictionaries_without_end(self):
+        section, entries = {}, []
+        section["Mesh"] = section
+        entries.append(entries)
+        deep = "value"
+        for _ in range(100000):
+            deep = {"Mesh": deep}
+        for message, scene in {
+            "Mesh/Mesh/Mesh is a dictionary. The sections of a scene are at most two deep": section,
+            "Mesh/Mesh/Mesh is": deep,
+            "Mesh/Box size holds lists within lists": {**BAR, "Mesh": {"Box size": entries}},
+            "Mesh/Box size holds .* a dictionary in a list": {**BAR, "Mesh": {"Box size": [{}]}},
+        }.items():
+            with self.subTest(message), self.assertRaisesRegex(exemplar.UserError, message):
+                exemplar.Problem(scene)
+        while isinstance(deep, dict):  # one after the other: freeing it at once would recurse in C
+            deep = deep.pop("Mesh")
+
+    def test_texts_with_nul(self):
+        for scene in {**BAR, "Mesh": {"File": "a\0b"}}, {**BAR, "Me\0sh": 1}, "a\0b.prm", "set Scene = static\n\0\n":
+            with self.subTest(scene), self.assertRaisesRegex(exemplar.UserError, "scene.* holds a NUL character .*Remove it"):
+                exemplar.Problem(scene)
+        with self.assertRaisesRegex(exemplar.UserError, "NUL character"):
+            exemplar.Problem(BAR).set_motion("ri\0ght", lambda rest, t: rest)
+
+    def test_problem_that_was_never_made(self):
+        class Empty(exemplar.Problem):
+            def __init__(self):
+                pass
+
+        unmade = exemplar.Problem.__new__(exemplar.Problem)
+        gc.collect()
+        for use in (unmade.step, unmade.run, lambda: unmade.positions, lambda: unmade.energies, Empty,
+                    lambda: unmade.on_iteration(None)):
+            with self.assertRaisesRegex(TypeError, "Problem|__init__"):
+                use()
 
 
 class State(unittest.TestCase):
@@ -177,6 +219,38 @@ class Callbacks(unittest.TestCase):
         problem.run()
         np.testing.assert_allclose(problem.positions, solved(BAR).positions, atol=1e-10)
 
+    def test_motions_of_other_shapes(self):
+        problem = exemplar.Problem(BAR)
+        for given, function in {"is an array of shape (8, 3)": lambda rest, t: rest[1:],
+                                "is an array of shape (9, 2)": lambda rest, t: rest[:, :2],
+                                "is a NoneType": lambda rest, t: None, "real numbers": lambda rest, t: 1j * rest}.items():
+            problem.set_motion("right", function)
+            with self.subTest(given), self.assertRaises(exemplar.UserError) as caught:
+                problem.step()
+            self.assertIn("Handles/right", str(caught.exception))
+            self.assertIn(given, str(caught.exception))
+            self.assertTrue("shape (9, 3)" in str(caught.exception) or given == "real numbers")
+
+    def test_cycles_are_freed(self):
+        class Subclass(exemplar.Problem):
+            pass
+
+        for kind in exemplar.Problem, Subclass:
+            problem = kind(BAR)
+            problem.set_motion("right", lambda rest, t, held=problem: 0 * rest)
+            problem.set_motion("left", lambda rest, t, held=problem.positions: 0 * rest)
+            problem.on_iteration(lambda report, held=(problem, problem.rest_positions): None)
+            problem.step()
+            rest, dead = problem.rest_positions, weakref.ref(problem)
+            functions = [weakref.ref(function) for function in gc.get_referents(problem) if callable(function)
+                         and not isinstance(function, type)]
+            self.assertEqual(len(functions), 3)
+            del problem
+            gc.collect()
+            self.assertIsNone(dead())
+            self.assertEqual([function() for function in functions], [None, None, None])
+            self.assertEqual(rest.max(), 2)
+
     def test_callback_sees_iterations_and_may_stop(self):
         problem = exemplar.Problem(BAR)
         residuals = []
@@ -221,6 +295,13 @@ class Processes(unittest.TestCase):
         for thread in threads:
             thread.join()
         self.assertEqual(got, expected)
+
+    def test_import_without_numpy(self):
+        code = "import sys\nsys.modules['numpy'] = None\nimport exemplar"
+        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("ImportError: exemplar needs numpy", done.stderr)
+        self.assertIn("python3-numpy", done.stderr)
 
     def test_multigrid_ends_with_the_interpreter(self):
         code = ("import exemplar, sys\n"

@@ -27,8 +27,8 @@ namespace Exemplar
     operator=(const MpiSession &)
         = delete;
 
-    /// For those who call MPI: it runs afterwards. Throws UserError if it does not run and there
-    /// is no session to start it.
+    /// For those who call MPI: it runs afterwards. Any thread may call this. Throws UserError if it
+    /// does not run and there is no session to start it, or if it has ended before.
     static void
     require();
 

@@ -26,6 +26,11 @@ namespace Exemplar
     /// `free_dofs` must outlive this. Starts MPI if it does not run.
     MultigridOperator(const FreeDofs &free_dofs, double tolerance);
 
+    ~MultigridOperator() override;
+
+    void
+    reinit(const SymmetricPattern &pattern) override;
+
     OperatorTraits
     traits() const override;
 
@@ -56,10 +61,6 @@ namespace Exemplar
     void
     check_size(std::size_t n_entries) const;
 
-    /// Forget the matrix and its hierarchy.
-    void
-    clear();
-
     const FreeDofs                   &free_dofs;
     std::vector<unsigned int>         nodes;  ///< those with rows
     std::vector<int>                  row_of; ///< of each unknown
@@ -67,6 +68,11 @@ namespace Exemplar
     std::unique_ptr<Epetra_CrsMatrix> matrix;
 
   private:
+    /// `matrix` for a pattern of the lower triangle; its values do not matter.
+    virtual void
+    make_matrix(const SymmetricPattern &pattern)
+        = 0;
+
     /// The values of the lower triangle, of which each process has its cells' part, to the rows of
     /// the matrix. Throws SolverFailure in all processes if an entry of the diagonal is not positive.
     virtual void

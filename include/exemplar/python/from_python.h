@@ -19,6 +19,11 @@ namespace Exemplar::Python
     Inputs          inputs;
   };
 
+  /// What Python's str() makes of a key, a value or a name. Throws UserError for a NUL character,
+  /// at which a message would end; `what` says there what it is.
+  std::string
+  text_of(const pybind11::handle &object, const std::string &what);
+
   /// The arguments of exemplar.Problem: the path of a .prm file, its text or a dictionary of
   /// sections; None or a tuple (nodes, cells) or (nodes, cells, material ids); None or a list of
   /// poses. Throws UserError for what these cannot be, and pybind11's exceptions.
@@ -27,10 +32,11 @@ namespace Exemplar::Python
               const pybind11::object &mesh,
               const pybind11::object &poses);
 
-  /// A motion that calls function(rest (k,3), t) -> (k,3), with Python's lock held. Exceptions of
-  /// the function pass through.
+  /// A motion of a handle that calls function(rest (k,3), t) -> (k,3), with Python's lock held.
+  /// `function` is looked at in each call and must outlive them. Exceptions of the function pass
+  /// through; UserError is thrown if it returns anything else.
   Motion
-  motion_of(const pybind11::function &function);
+  motion_of(const std::string &handle, const pybind11::object &function);
 } // namespace Exemplar::Python
 
 #endif

@@ -2,13 +2,13 @@
 #ifndef exemplar_held_problem_h
 #define exemplar_held_problem_h
 
-#include <exemplar/algebra/mpi_session.h>
 #include <exemplar/run/diagnostics.h>
 #include <exemplar/run/problem.h>
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include <map>
 #include <memory>
 #include <string>
 #include <thread>
@@ -16,7 +16,8 @@
 namespace Exemplar::Python
 {
   /// A problem that Python holds. Steps are made without Python's lock; meanwhile other threads
-  /// are refused, and callbacks of the step may only look.
+  /// are refused, and callbacks of the step may only look. It owns the functions of Python, and
+  /// arrays do not own it: what refers to both could never be freed.
   class HeldProblem : public std::enable_shared_from_this<HeldProblem>
   {
   public:
@@ -35,11 +36,20 @@ namespace Exemplar::Python
     run();
 
     void
-    set_motion(const std::string &handle, const pybind11::function &function);
+    set_motion(const pybind11::str &name, const pybind11::function &function);
 
     /// None: nothing is called.
     void
     on_iteration(const pybind11::object &function);
+
+    /// For Python's garbage collector: call visit(function, arg) for all of set_motion() and
+    /// on_iteration().
+    int
+    visit_functions(visitproc visit, void *arg) const;
+
+    /// For a problem that nobody will use any more.
+    void
+    forget_functions();
 
     /// To look at the problem. Throws RuntimeError while another thread makes a step.
     const Problem &
@@ -92,12 +102,12 @@ namespace Exemplar::Python
     SolveReport
     advance();
 
-    const std::shared_ptr<MpiSession> mpi; ///< ends after the last problem
-    std::unique_ptr<Problem>          problem;
-    Diagnostics                       diagnostics;
-    SolveReport                       report;
-    pybind11::object                  callback;
-    std::shared_ptr<Shown>            shown_positions, shown_velocities;
+    std::map<std::string, pybind11::object> motions;  ///< functions, by handle
+    pybind11::object                        callback; ///< None or a function
+    const std::shared_ptr<Problem>          problem;  ///< its memory is shared with arrays
+    Diagnostics                             diagnostics;
+    SolveReport                             report;
+    std::shared_ptr<Shown>                  shown_positions, shown_velocities;
     std::thread::id stepping;           ///< the thread that makes a step; none: no step is made
     bool            is_stopped = false; ///< by the callback
   };

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_unlocked_work_h
+#define exemplar_unlocked_work_h
+
+#include <pybind11/pybind11.h>
+
+#include <optional>
+
+namespace Exemplar::Python
+{
+  /// While it lives, other threads of Python run. Python kills threads that want its lock while it
+  /// ends, and C++ ends the process for that: end_all(), called first at Python's end, waits for
+  /// all such work.
+  class UnlockedWork
+  {
+  public:
+    UnlockedWork();
+    ~UnlockedWork();
+
+    UnlockedWork(const UnlockedWork &) = delete;
+    UnlockedWork &
+    operator=(const UnlockedWork &)
+        = delete;
+
+    /// To be called with Python's lock before such work and now and then within. If Python ends, it
+    /// throws SystemExit, at which a thread ends without a word.
+    static void
+    check();
+
+    static void
+    end_all();
+
+  private:
+    // these two are read and written with Python's lock alone
+    inline static unsigned int n_running = 0;
+    inline static bool         is_ending = false;
+
+    std::optional<pybind11::gil_scoped_release> unlocked;
+  };
+} // namespace Exemplar::Python
+
+#endif

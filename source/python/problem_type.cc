@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/python/problem_type.h>
+
+namespace Exemplar::Python
+{
+  namespace py = pybind11;
+
+  namespace
+  {
+    extern "C"
+    {
+      int
+      traverse_problem(PyObject *self, visitproc visit, void *arg)
+      {
+        Py_VISIT(Py_TYPE(self));
+        const HeldProblem *held = held_by(self);
+        return held == nullptr ? 0 : held->visit_functions(visit, arg);
+      }
+
+      int
+      clear_problem(PyObject *self)
+      {
+        if (HeldProblem *held = held_by(self))
+          held->forget_functions();
+        return 0;
+      }
+
+      void
+      end_problem(PyObject *self)
+      {
+        PyObject_GC_UnTrack(self); // before parts of it are gone
+        py::detail::pybind11_object_dealloc(self);
+      }
+    }
+  } // namespace
+
+  HeldProblem *
+  held_by(PyObject *object)
+  {
+    auto *instance = reinterpret_cast<py::detail::instance *>(object);
+    // the collector may look at an object that pybind11 has not laid out yet
+    if (!instance->simple_layout && instance->nonsimple.status == nullptr)
+      return nullptr;
+    const py::detail::value_and_holder held = instance->get_value_and_holder();
+    return held.holder_constructed() ? held.value_ptr<HeldProblem>() : nullptr;
+  }
+
+  void
+  support_garbage_collection(PyHeapTypeObject *type)
+  {
+    type->ht_type.tp_flags |= Py_TPFLAGS_HAVE_GC;
+    type->ht_type.tp_traverse = traverse_problem;
+    type->ht_type.tp_clear    = clear_problem;
+    type->ht_type.tp_dealloc  = end_problem;
+  }
+} // namespace Exemplar::Python
