@@ -114,15 +114,25 @@ namespace Exemplar
     }
   } // namespace
 
+  const std::string msh_beginning = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
+
+  std::string
+  msh_end(const std::string &comment)
+  {
+    return "$Comments\n" + comment + "\n$EndComments\n";
+  }
+
   void
-  write_msh(const MshFile &msh, const std::filesystem::path &file)
+  write_msh(const MshFile &msh, const std::filesystem::path &file, const std::string &comment)
   {
     AtomicFile    atomic_file(file);
     std::ostream &out = atomic_file.stream();
-    out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
+    out << msh_beginning;
     write_physical_names(msh, out);
     write_nodes(msh, out);
     write_elements(msh, out);
+    if (!comment.empty())
+      out << msh_end(comment);
     atomic_file.commit();
   }
 } // namespace Exemplar

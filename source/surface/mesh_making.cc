@@ -20,6 +20,8 @@ namespace Exemplar
     }
   } // namespace
 
+  const std::string made_mesh_comment = "a mesh by exemplar";
+
   MeshingReport
   make_mesh_file(const SurfaceMeshingOptions &options, const std::filesystem::path &msh)
   {
@@ -27,7 +29,7 @@ namespace Exemplar
         [&]
         {
           const MeshedSurface meshed = mesh_surface(options);
-          write_msh(meshed.mesh, msh);
+          write_msh(meshed.mesh, msh, made_mesh_comment);
           return to_text(meshed.report);
         },
         time_limit(options), options.surface.string() + ": filling the surface with cells",

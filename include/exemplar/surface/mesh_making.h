@@ -13,6 +13,9 @@ namespace Exemplar
   MeshingReport
   make_mesh_file(const SurfaceMeshingOptions &options, const std::filesystem::path &msh);
 
+  /// The comment by which such a mesh is known.
+  extern const std::string made_mesh_comment;
+
   /// A report as one line of text, and back. Throws std::exception for another text.
   std::string
   to_text(const MeshingReport &report);
