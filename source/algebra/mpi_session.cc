@@ -123,6 +123,20 @@ namespace Exemplar
 
     bool has_joined = false; ///< and not yet come to its end
 
+    void
+    start_mpi();
+
+    /// As end_all() by the one process of mpirun -n 1, which runs without MPI.
+    [[noreturn]] void
+    end_alone(const int status)
+    {
+      std::cout.flush();
+      if (!mpi_was_started)
+        start_mpi();
+      ending = MPI_COMM_WORLD;
+      end_all(status);
+    }
+
     /// Libraries end the program where they find no memory. What runs then ends the others, who would wait.
     void
     tell_of_exit()
@@ -344,6 +358,8 @@ namespace Exemplar
     if (n_joined == 1)
     {
       report("");
+      if (status != 0 && is_child_of_mpirun())
+        end_alone(status);
       return status;
     }
     has_joined = false;

@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdio>
 #include <stdexcept>
 #include <streambuf>
 #include <system_error>
@@ -29,10 +28,11 @@ namespace Exemplar
   class AtomicFile::Buffer : public std::streambuf
   {
   public:
-    explicit Buffer(const std::filesystem::path &file)
-        : descriptor(::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)),
-          bytes(1 << 16)
+    Buffer(const OpenDirectory &directory, const std::filesystem::path &name) : bytes(1 << 16)
     {
+      if (directory.get_descriptor() >= 0) // else errno is that of opening it
+        descriptor = ::openat(directory.get_descriptor(), name.c_str(),
+                              O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
       if (descriptor < 0)
         reason = errno;
       setp(bytes.data(), bytes.data() + bytes.size());
@@ -94,23 +94,29 @@ namespace Exemplar
       return reason == 0;
     }
 
-    int               descriptor;
-    int               reason = 0;
+    int               descriptor = -1;
+    int               reason     = 0;
     std::vector<char> bytes;
   };
 
   AtomicFile::AtomicFile(const std::filesystem::path &target)
-      : path(target), temporary(target.string() + ".tmp"),
-        buffer(std::make_unique<Buffer>(temporary)), out(buffer.get())
+      : path(target), temporary(temporary_of(target)), directory(target.parent_path()),
+        buffer(std::make_unique<Buffer>(directory, temporary.filename())), out(buffer.get())
   {
     if (buffer->get_reason() != 0)
       throw_io_error(temporary, "create", buffer->get_reason());
   }
 
+  std::filesystem::path
+  AtomicFile::temporary_of(std::filesystem::path path)
+  {
+    return path += ".tmp";
+  }
+
   AtomicFile::~AtomicFile()
   {
     if (!committed)
-      ::unlink(temporary.c_str());
+      ::unlinkat(directory.get_descriptor(), temporary.filename().c_str(), 0);
   }
 
   std::ostream &
@@ -139,7 +145,9 @@ namespace Exemplar
       throw_io_error(temporary, "write", buffer->get_reason());
     if (!out)
       throw std::runtime_error("Cannot write " + temporary.string() + ": the stream has failed.");
-    if (std::rename(temporary.c_str(), path.c_str()) != 0)
+    if (::renameat(directory.get_descriptor(), temporary.filename().c_str(),
+                   directory.get_descriptor(), path.filename().c_str())
+        != 0)
       throw_io_error(path, "replace", errno);
     committed = true;
   }

@@ -2,6 +2,8 @@
 #include <exemplar/base/launcher.h>
 
 #include <cstdlib>
+#include <fstream>
+#include <unistd.h>
 
 namespace Exemplar
 {
@@ -43,5 +45,19 @@ namespace Exemplar
     if (n_tasks > 1 && !is_in_environment("SLURM_PTY_PORT"))
       return { "srun", n_tasks, number_in_environment("SLURM_PROCID", 0), false };
     return {};
+  }
+
+  bool
+  is_child_of_mpirun()
+  {
+    if (!is_in_environment("OMPI_COMM_WORLD_SIZE"))
+      return false;
+    std::ifstream comm("/proc/" + std::to_string(getppid()) + "/comm");
+    std::string   parent;
+    std::getline(comm, parent);
+    for (const std::string name : { "mpirun", "mpiexec", "orte" }) // orterun, orted, mpirun.openmpi
+      if (parent.compare(0, name.size(), name) == 0)
+        return true;
+    return false;
   }
 } // namespace Exemplar

@@ -109,7 +109,8 @@ namespace Exemplar
 
   void
   Mesh::write_pose(const std::vector<dealii::Point<3>> &positions,
-                   const std::filesystem::path         &file_path) const
+                   const std::filesystem::path         &file_path,
+                   const std::string                   &comment) const
   {
     const MshFile                &contents = contents_of_whole();
     std::vector<dealii::Point<3>> places   = positions;
@@ -119,12 +120,12 @@ namespace Exemplar
     {
       const auto edges
           = edges_of(file == nullptr ? arrays.cells : extract_tetrahedra(contents, name).nodes);
-      write_msh(with_middles(contents, edges, places), file_path);
+      write_msh(with_middles(contents, edges, places), file_path, comment);
       return;
     }
     AssertDimension(places.size(), contents.nodes.size());
     MshFile pose = contents;
     pose.nodes   = std::move(places);
-    write_msh(pose, file_path);
+    write_msh(pose, file_path, comment);
   }
 } // namespace Exemplar

@@ -117,12 +117,20 @@ namespace Exemplar
     void
     write_to(std::ostream &out, const MshFile &msh)
     {
-      out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
+      out << msh_beginning;
       write_physical_names(msh, out);
       write_nodes(msh, out);
       write_elements(msh, out);
     }
   } // namespace
+
+  const std::string msh_beginning = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
+
+  std::string
+  msh_end(const std::string &comment)
+  {
+    return "$Comments\n" + comment + "\n$EndComments\n";
+  }
 
   std::string
   msh_text(const MshFile &msh)
@@ -133,10 +141,12 @@ namespace Exemplar
   }
 
   void
-  write_msh(const MshFile &msh, const std::filesystem::path &file)
+  write_msh(const MshFile &msh, const std::filesystem::path &file, const std::string &comment)
   {
     AtomicFile atomic_file(file);
     write_to(atomic_file.stream(), msh);
+    if (!comment.empty())
+      atomic_file.stream() << msh_end(comment);
     atomic_file.commit();
   }
 } // namespace Exemplar

@@ -5,9 +5,11 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/base/standard_streams.h>
 #include <exemplar/base/version.h>
+#include <exemplar/mesh/mesh_parameters.h>
 #include <exemplar/program/command_line.h>
 #include <exemplar/program/interrupt.h>
 #include <exemplar/program/mesh_command.h>
+#include <exemplar/program/number_option.h>
 #include <exemplar/program/pose_command.h>
 #include <exemplar/program/run_scene.h>
 #include <exemplar/study/study.h>
@@ -61,12 +63,11 @@ Exit status:
                      "directory of the results instead of Output/Directory");
       app.add_flag("--resume", arguments.run.resume,
                    "go on from the checkpoint in the output directory");
-      app.add_option("--resume-from", arguments.run.resume_from,
-                     "go on from the state of this step, also with an edited scene");
-      app.add_option("--threads", arguments.run.n_threads,
-                     "threads instead of one a core (one in each of several processes); results do "
-                     "not depend on it")
-          ->check(CLI::Range(1, 1024));
+      add_number_option(app, "--resume-from", arguments.run.resume_from, 0U, 1000000000U,
+                        "go on from the state of this step, also with an edited scene");
+      add_number_option(app, "--threads", arguments.run.n_threads, 1U, 1024U,
+                        "threads instead of one a core (one in each of several processes); results "
+                        "do not depend on it");
       app.add_flag("--allow-commands", arguments.run.allow_commands,
                    "let a .geo run programs and write files: only for one that you trust");
       app.add_flag("--quiet", arguments.run.quiet, "print warnings and errors only");
@@ -125,7 +126,8 @@ Exit status:
       command
           .add_option("--surface", arguments.mesh.meshing.surface, "the surface (.obj .ply .stl)")
           ->required();
-      command.add_option("--cells", arguments.mesh.meshing.n_cells, "how many tetrahedra, about")
+      add_number_option(command, "--cells", arguments.mesh.meshing.n_cells, least_n_cells,
+                        most_n_cells, "how many tetrahedra, about")
           ->required();
       command
           .add_option("--output", arguments.mesh.output, "the mesh (.msh); a table (.csv) beside")
@@ -152,11 +154,9 @@ Exit status:
                       "its poses, in the same order of vertices; 'walk_*.obj' is a sequence")
           ->required();
       command.add_option("--output", pose.output, "directory of the results")->required();
-      command
-          .add_option("--attach", pose.attach,
-                      "how strongly the surface holds, over the stiffness of the body")
-          ->check(CLI::Range(1e-3, 1e6))
-          ->capture_default_str();
+      add_number_option(command, "--attach", pose.attach, 1e-3, 1e6,
+                        "how strongly the surface holds, over the stiffness of the body")
+          ->default_str(shortest_text(pose.attach));
       command.add_flag("--quiet", pose.quiet, "print warnings and errors only");
       return command;
     }
@@ -251,6 +251,9 @@ Exit status:
       refuse_processes("exemplar " + command->get_name());
     if (arguments.validate || arguments.print)
       refuse_processes(arguments.validate ? "--validate" : "--print-parameters");
+    if (arguments.run.resume && arguments.run.resume_from)
+      throw UserError("--resume goes on from the last checkpoint, --resume-from from the step that "
+                      "it names: give one of them.");
     if (!arguments.output.empty())
       arguments.run.overrides.push_back("Output/Directory=" + arguments.output);
 

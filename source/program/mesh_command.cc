@@ -4,7 +4,7 @@
 #include <exemplar/base/message_text.h>
 #include <exemplar/base/standard_streams.h>
 #include <exemplar/base/text_file.h>
-#include <exemplar/mesh/mesh_parameters.h>
+#include <exemplar/mesh/msh_file.h>
 #include <exemplar/program/mesh_command.h>
 #include <exemplar/run/output_directory.h>
 #include <exemplar/surface/mesh_making.h>
@@ -18,6 +18,8 @@ namespace Exemplar
 
   namespace
   {
+    const std::string header_of_numbers = "quantity,value\n";
+
     fs::path
     table_of(const MeshCommandOptions &options)
     {
@@ -27,11 +29,6 @@ namespace Exemplar
     void
     check_options(const MeshCommandOptions &options)
     {
-      const unsigned int n = options.meshing.n_cells;
-      if (n < least_n_cells || n > most_n_cells)
-        throw UserError("--cells: the number of tetrahedra must be from "
-                        + std::to_string(least_n_cells) + " to " + std::to_string(most_n_cells)
-                        + ", found " + std::to_string(n) + ".");
       if (options.output.extension() != ".msh")
         throw UserError("--output: the mesh is written as .msh, found "
                         + in_quotes(options.output.string()) + ". Give a name that ends so.");
@@ -41,7 +38,9 @@ namespace Exemplar
                         + ". Make it, or write elsewhere.");
       const std::string remedy = " Give another name by --output.";
       require_writable(directory, remedy);
-      for (const fs::path &file : { options.output, table_of(options) })
+      for (const OwnFile &file :
+           { OwnFile{ options.output, msh_beginning, msh_end(made_mesh_comment) },
+             OwnFile{ table_of(options), header_of_numbers } })
         require_replaceable(file, { options.meshing.surface, options.meshing.materials }, remedy);
     }
 
@@ -49,7 +48,7 @@ namespace Exemplar
     write_table(const MeshingReport &report, const fs::path &file)
     {
       AtomicFile out(file);
-      write_csv_header(out.stream(), { { "quantity", "" }, { "value", "" } });
+      out.stream() << header_of_numbers;
       for (const auto &[what, value] : report.table)
         write_csv_cells(out.stream(), { { "", what }, { "", value } });
       out.commit();

@@ -23,6 +23,13 @@ namespace Exemplar
   {
     namespace fs = std::filesystem;
 
+    /// The comment by which a pose is known that this command has written.
+    const std::string pose_comment = "a pose by exemplar";
+
+    const std::string header_of_poses
+        = "pose,inverted_cells,min_det_F,max_det_F,stretch_min,stretch_1,stretch_99,stretch_max,"
+          "surface_error_mean,surface_error_max,rotation,shift,seconds\n";
+
     const char *const remedy = " Give another directory by --output.";
 
     /// A pose on its way from a surface to a mesh.
@@ -54,10 +61,14 @@ namespace Exemplar
           throw UserError("The poses " + before->second.string() + " and " + file.string()
                           + " would both be written to " + output.string()
                           + ". Give each a name of its own, or take two directories.");
-        require_replaceable(output, { options.mesh }, remedy);
         poses.push_back({ file, output, {}, {}, 0. });
       }
-      require_replaceable(options.output / "poses.csv", {}, remedy);
+      std::vector<fs::path> inputs = { options.mesh, options.rest };
+      for (const PoseFile &pose : poses)
+        inputs.push_back(pose.file);
+      for (const PoseFile &pose : poses)
+        require_replaceable({ pose.output, msh_beginning, msh_end(pose_comment) }, inputs, remedy);
+      require_replaceable({ options.output / "poses.csv", header_of_poses }, inputs, remedy);
       require_writable(options.output, remedy);
       return poses;
     }
@@ -77,8 +88,7 @@ namespace Exemplar
     write_csv(const std::vector<PoseFile> &poses, const std::size_t n_done, const fs::path &file)
     {
       AtomicFile csv(file);
-      csv.stream() << "pose,inverted_cells,min_det_F,max_det_F,stretch_min,stretch_1,stretch_99,"
-                      "stretch_max,surface_error_mean,surface_error_max,rotation,shift,seconds\n";
+      csv.stream() << header_of_poses;
       for (std::size_t k = 0; k < n_done; ++k)
       {
         const PoseQuality &q = poses[k].quality;
@@ -130,7 +140,7 @@ namespace Exemplar
       const std::string inverted = inverted_elements(transfer, mesh, x);
       if (!inverted.empty())
         return "\n  " + pose.file.string() + ": element " + inverted;
-      mesh.write_pose(x, pose.output);
+      mesh.write_pose(x, pose.output, pose_comment);
       return "";
     }
   } // namespace

@@ -202,6 +202,27 @@ namespace Exemplar
         progress.update(problem.state.step, note(report));
       }
     }
+
+    void
+    run_to_end(Problem &problem, RunWriter &writer, Progress &progress, StateReview &review)
+    {
+      try
+      {
+        run_steps(problem, writer, progress, review);
+      }
+      catch (const Interrupted &)
+      {
+        progress.finish();
+        writer.finish("interrupted");
+        MpiSession::wait_for_all(); // while the root writes
+        throw Interrupted("Interrupted after step " + std::to_string(problem.state.step)
+                          + ". Go on with --resume.");
+      }
+      progress.finish();
+      writer.finish(status_name(problem.parameters.solver.method == Method::one_pass
+                                    ? SolveStatus::one_pass
+                                    : SolveStatus::converged));
+    }
   } // namespace
 
   void
@@ -248,20 +269,12 @@ namespace Exemplar
     StateReview review(*problem);
     try
     {
-      run_steps(*problem, writer, progress, review);
+      run_to_end(*problem, writer, progress, review);
     }
-    catch (const Interrupted &)
+    catch (const UserError &error) // files have been written, so it is not refused any more
     {
-      progress.finish();
-      writer.finish("interrupted");
-      MpiSession::wait_for_all(); // while the root writes
-      throw Interrupted("Interrupted after step " + std::to_string(problem->state.step)
-                        + ". Go on with --resume.");
+      throw std::runtime_error(error.what());
     }
-    progress.finish();
-    writer.finish(status_name(problem->parameters.solver.method == Method::one_pass
-                                  ? SolveStatus::one_pass
-                                  : SolveStatus::converged));
     warn_at_root(review.warnings());
     if (!is_quiet)
     {

@@ -24,13 +24,13 @@ namespace Exemplar
   void
   serialize(Archive &archive, SceneEdit &edit, const unsigned int)
   {
-    archive &edit.step &edit.before;
+    archive &edit.step &edit.before &edit.scene;
   }
 
   namespace
   {
     /// The first line. The number grows with every change of what follows.
-    const std::string format = "exemplar checkpoint 6";
+    const std::string format = "exemplar checkpoint 7";
 
     const std::string without_resume = " Run the scene without --resume.";
 
@@ -49,7 +49,7 @@ namespace Exemplar
       archive &totals.iterations &totals.factorizations &totals.worst_residual;
       for (double &seconds : totals.seconds)
         archive &seconds;
-      archive &totals.edits;
+      archive &totals.first_scene &totals.edits;
       archive &checkpoint.solver_memory &checkpoint.statistics_bytes &checkpoint.statistics_digest;
     }
 

@@ -33,9 +33,9 @@ namespace Exemplar
   } // namespace
 
   FrameOutput::FrameOutput(Problem                        &problem,
-                           std::filesystem::path           directory,
+                           const RunDirectory             &directory,
                            const std::vector<FrameFormat> &formats)
-      : problem(problem), directory(std::move(directory)), formats(formats), skin(make_skin()),
+      : problem(problem), directory(directory), formats(formats), skin(make_skin()),
         background(problem.parameters.solver.n_threads > 1)
   {
     const OutputParameters &output = problem.parameters.output;
@@ -99,7 +99,7 @@ namespace Exemplar
     const std::string faces = obj_faces(*problem.surface);
     const auto        write = [&](const std::string &name, const Vector &displacement)
     {
-      AtomicFile file(directory / (name + ".obj"));
+      AtomicFile file(directory.get_path() / (name + ".obj"));
       file.stream() << "# a shape by exemplar\n"
                     << obj_vertices(skin->carry(displacement)) << faces;
       file.commit();
@@ -156,7 +156,8 @@ namespace Exemplar
       frame.surface = skin->carry(frame.displacement);
     for (const auto &[format, writer] : writers)
     {
-      writer->write(frame, directory
+      directory.require_taken();
+      writer->write(frame, directory.get_path()
                                / (is_alone ? format->frame_name(frame.step)
                                            : format->piece_name(frame.step, exchange.process())));
       if (is_alone || !exchange.is_root())
@@ -164,17 +165,17 @@ namespace Exemplar
       std::vector<std::string> pieces;
       for (unsigned int process = 0; process < exchange.n_processes(); ++process)
         pieces.push_back(format->piece_name(frame.step, process));
-      write_joint_vtu(frame, pieces, directory / format->joint_name(frame.step));
+      write_joint_vtu(frame, pieces, directory.get_path() / format->joint_name(frame.step));
     }
   }
 
   fs::path
   FrameOutput::file_of(const FrameFormat &format, const unsigned int step) const
   {
-    if (const fs::path joint = directory / format.joint_name(step);
+    if (const fs::path joint = directory.get_path() / format.joint_name(step);
         !format.joint_ending.empty() && fs::exists(joint))
       return joint;
-    return directory / format.frame_name(step);
+    return directory.get_path() / format.frame_name(step);
   }
 
   bool
@@ -198,7 +199,7 @@ namespace Exemplar
     for (const auto &[format, writer] : writers)
       if (const auto written = written_frames(*format);
           !format->animation.empty() && !written.empty())
-        writer->write_animation(written, directory / format->animation);
+        writer->write_animation(written, directory.get_path() / format->animation);
   }
 
   std::vector<WrittenFrame>
@@ -216,7 +217,7 @@ namespace Exemplar
   FrameOutput::remove(const unsigned int step) const
   {
     std::vector<fs::path> files;
-    for (const fs::directory_entry &entry : fs::directory_iterator(directory))
+    for (const fs::directory_entry &entry : fs::directory_iterator(directory.get_path()))
       for (const FrameFormat &format : formats)
         if (format.step_of(entry.path().filename().string()) == step
             && fs::is_regular_file(entry.symlink_status()))

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/atomic_file.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/run/output_directory.h>
 
@@ -34,18 +35,50 @@ namespace Exemplar
                       + "." + remedy);
   }
 
+  namespace
+  {
+    /// Whether a file ends in these bytes.
+    bool
+    ends_in(const fs::path &file, const std::string &end)
+    {
+      std::ifstream in(file, std::ios::binary);
+      in.seekg(-static_cast<std::streamoff>(end.size()), std::ios::end);
+      std::string bytes(end.size(), '\0');
+      in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+      return in && bytes == end;
+    }
+
+    void
+    refuse_foreign(const fs::path    &file,
+                   const std::string &beginning,
+                   const std::string &end,
+                   const std::string &remedy)
+    {
+      if (is_absent(file))
+        return;
+      std::string objection = objection_to(file, beginning);
+      if (objection.empty() && !ends_in(file, end))
+        objection = "was not written by exemplar";
+      if (!objection.empty())
+        throw UserError(file.string() + ": is to be written, but " + objection
+                        + ". Nothing has been changed. Move it away." + remedy);
+    }
+  } // namespace
+
   void
-  require_replaceable(const fs::path              &file,
+  require_replaceable(const OwnFile               &file,
                       const std::vector<fs::path> &inputs,
                       const std::string           &remedy)
   {
-    std::error_code none;
-    if (fs::exists(file, none) && !fs::is_regular_file(file, none))
-      throw UserError(file.string() + ": is to be written, but is no regular file." + remedy);
-    for (const fs::path &input : inputs)
-      if (fs::equivalent(file, input, none))
-        throw UserError(file.string() + ": is to be written, but is the input " + input.string()
-                        + "." + remedy);
+    const fs::path temporary = AtomicFile::temporary_of(file.path);
+    for (const fs::path &written : { file.path, temporary })
+      for (const fs::path &input : inputs)
+        if (std::error_code none; fs::equivalent(written, input, none))
+          throw UserError(written.string() + ": is to be written, but is the input "
+                          + input.string() + "." + remedy);
+    refuse_foreign(file.path, file.beginning, file.end, remedy);
+    refuse_foreign(temporary, file.beginning, "",
+                   remedy); // what a killed command has left is no whole file
   }
 
   bool

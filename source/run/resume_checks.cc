@@ -36,6 +36,18 @@ namespace Exemplar
       }
     };
 
+    /// Whether a run had the scenes of the state until its step.
+    bool
+    is_of_run(const Checkpoint &state, const RunTotals &run)
+    {
+      const std::vector<SceneEdit> &before = state.totals.edits, &all = run.edits;
+      const auto                    same = [](const SceneEdit &a, const SceneEdit &b)
+      { return a.step == b.step && a.scene == b.scene; };
+      return state.totals.first_scene == run.first_scene && before.size() <= all.size()
+             && std::equal(before.begin(), before.end(), all.begin(), same)
+             && (before.size() == all.size() || all[before.size()].step >= state.state.step);
+    }
+
     /// All but those that any resumed run may change.
     std::vector<ChangedKey>
     changed_keys(const Checkpoint &checkpoint, const SceneFile &scene)
@@ -196,6 +208,36 @@ namespace Exemplar
     return digests;
   }
 
+  std::string
+  digest_of(const SceneFile &scene, const std::map<std::string, std::string> &input_digests)
+  {
+    std::string text;
+    for (const auto &[key, value] : values_of(scene))
+      if (!may_change(key))
+        text += key + "=" + value + '\n';
+    for (const auto &[file, digest] : input_digests)
+      text += file + " " + digest + '\n';
+    return sha256_of_text(text);
+  }
+
+  void
+  check_kept_state(const Checkpoint            &state,
+                   const std::filesystem::path &file,
+                   const unsigned int           step,
+                   const Checkpoint            &last,
+                   const std::filesystem::path &statistics)
+  {
+    const std::string remedy = " Take another step, or run the scene from its start, without "
+                               "--resume-from.";
+    if (state.state.step != step)
+      throw UserError(file.string() + " is not the state of step " + std::to_string(step)
+                      + ", but of step " + std::to_string(state.state.step) + "." + remedy);
+    if (!is_of_run(state, last.totals))
+      throw UserError(file.string() + " is the state of another run than this directory's."
+                      + remedy);
+    check_statistics(statistics, state.state.step > last.state.step ? state : last);
+  }
+
   void
   check_resumable(const Checkpoint                         &checkpoint,
                   const SceneFile                          &scene,
@@ -251,7 +293,7 @@ namespace Exemplar
   void
   check_statistics(const std::filesystem::path &file, const Checkpoint &checkpoint)
   {
-    const std::string remedy = " Run the scene without --resume.";
+    const std::string remedy = " Run the scene from its start, without --resume and --resume-from.";
     std::error_code   error;
     if (!std::filesystem::is_regular_file(file, error)
         || std::filesystem::file_size(file, error) < checkpoint.statistics_bytes)

@@ -126,9 +126,16 @@ namespace Exemplar
   }
 
   void
+  RunDirectory::watch()
+  {
+    watched = std::make_unique<const OpenDirectory>(path);
+  }
+
+  void
   RunDirectory::require_taken() const
   {
-    if (taken != nullptr && !taken->is_in_place())
+    if ((taken != nullptr && !taken->is_in_place())
+        || (watched != nullptr && !watched->is_in_place()))
       throw std::runtime_error(
           "The output directory " + path.string()
           + " has been removed or replaced while the run was writing into it.");

@@ -37,29 +37,6 @@ namespace Exemplar
                               + " is not a finite number. Take smaller steps, and look at what "
                                 "handles, loads and Initial do.");
     }
-
-    /// Whether the checkpoint's step had a frame only because the run ended there.
-    bool
-    is_only_last_frame(const Checkpoint &checkpoint)
-    {
-      const auto every = checkpoint.parameters.find("Output/Every");
-      return every != checkpoint.parameters.end()
-             && checkpoint.state.step % std::max(1, std::stoi(every->second)) != 0;
-    }
-
-    void
-    write_parameters(const SceneFile              &scene,
-                     const std::vector<SceneEdit> &edits,
-                     const fs::path               &file)
-    {
-      AtomicFile atomic_file(file);
-      atomic_file.stream() << RunDirectory::mark << '\n';
-      for (const SceneEdit &edit : edits)
-        atomic_file.stream() << "# after step " << edit.step << "; the scene before is "
-                             << edit.before << '\n';
-      print_keys(atomic_file.stream(), scene.get_keys(), false);
-      atomic_file.commit();
-    }
   } // namespace
 
   RunWriter::RunWriter(Problem                        &problem,
@@ -69,15 +46,20 @@ namespace Exemplar
         directory(problem.parameters.output.directory, formats),
         input_digests(exchange.is_root() ? digests_of(scene)
                                          : std::map<std::string, std::string>()),
-        last_checkpoint(std::chrono::steady_clock::now()),
-        frames(problem, directory.get_path(), formats), estimator(problem)
+        last_checkpoint(std::chrono::steady_clock::now()), frames(problem, directory, formats),
+        estimator(problem)
   {
   }
 
   void
   RunWriter::at_root(const std::function<void()> &action) const
   {
-    do_at_root(exchange, action);
+    do_at_root(exchange,
+               [&]
+               {
+                 directory.require_taken();
+                 action();
+               });
   }
 
   void
@@ -95,12 +77,14 @@ namespace Exemplar
           [&]
           {
             directory.take_for_new_run(inputs());
-            write_parameters(scene, totals.edits, directory.parameters_prm());
+            totals.first_scene = digest_of(scene, input_digests);
+            write_parameters(totals.edits);
             write_original();
             write_rest_mesh();
             statistics.emplace(directory.statistics());
             frames.write_shapes();
           });
+      watch_directory();
       if (frames.is_due(0))
         write_frame();
       write_row(diagnostics.row(problem.state, SolveReport()), {}, true);
@@ -109,6 +93,13 @@ namespace Exemplar
     }
     end_reading();
     lap();
+  }
+
+  void
+  RunWriter::watch_directory()
+  {
+    if (!exchange.is_root())
+      directory.watch();
   }
 
   void
@@ -127,134 +118,21 @@ namespace Exemplar
   }
 
   void
-  RunWriter::resume()
-  {
-    Checkpoint checkpoint;
-    at_root(
-        [&]
-        {
-          directory.take_for_resume(scene.named_files());
-          checkpoint = load_checkpoint(directory.checkpoint());
-          check_resumable(checkpoint, scene, input_digests, problem, directory.checkpoint());
-          check_statistics(directory.statistics(), checkpoint);
-        });
-    share(exchange, checkpoint);
-    restore(checkpoint, directory.checkpoint(), problem); // the last thing that may refuse
-    {
-      StepClock::Scope scope(problem.clock, Part::output);
-      at_root(
-          [&]
-          {
-            statistics.emplace(directory.statistics(), checkpoint.statistics_bytes);
-            write_original();
-            write_rest_mesh();
-            write_parameters(scene, checkpoint.totals.edits, directory.parameters_prm());
-            directory.remove_shapes(); // Output/Formats may have changed
-            frames.write_shapes();
-          });
-    }
-    accepted_bytes = checkpoint.statistics_bytes;
-    diagnostics.resume(checkpoint.work);
-    go_on_from(checkpoint);
-  }
-
-  fs::path
-  RunWriter::find_state(const unsigned int step) const
-  {
-    const fs::path kept = directory.state(step);
-    if (fs::exists(kept))
-      return kept;
-    const std::string failure = "There is no state of step " + std::to_string(step) + " in "
-                                + directory.get_path().string();
-    if (!fs::exists(directory.checkpoint()))
-      throw UserError(failure + ", and no run has written there. Run the scene from its start.");
-    const unsigned int last = load_checkpoint(directory.checkpoint()).state.step;
-    if (last == step)
-      return directory.checkpoint();
-    std::string steps;
-    for (const unsigned int other : directory.kept_states())
-      if (other != last)
-        steps += std::to_string(other) + ", ";
-    throw UserError(failure + ". There are those of: " + steps + std::to_string(last)
-                    + ". Choose one of them, or run the scene from its start with "
-                      "Output/Keep states = true, which keeps one for each frame.");
-  }
-
-  std::vector<std::string>
-  RunWriter::resume_from(const unsigned int step)
-  {
-    Checkpoint checkpoint;
-    EditCheck  check;
-    fs::path   file;
-    at_root(
-        [&]
-        {
-          directory.take_for_resume(scene.named_files());
-          file       = find_state(step);
-          checkpoint = load_checkpoint(file);
-          check      = check_editable(checkpoint, scene, input_digests, problem, file);
-        });
-    share(exchange, checkpoint);
-    restore(checkpoint, file, problem);
-    {
-      StepClock::Scope scope(problem.clock, Part::output);
-      diagnostics.resume(checkpoint.work);
-      StatisticsRow row = diagnostics.row(problem.state, SolveReport());
-      Diagnostics::append_seconds(row, {});
-      totals = checkpoint.totals;
-      at_root(
-          [&]
-          {
-            // the last thing that may refuse
-            StatisticsFile::require_step(directory.statistics(), step);
-            if (check.is_edited)
-              totals.edits.push_back({ step, directory.keep_earlier_scene() });
-            statistics.emplace(StatisticsFile::behind_step(directory.statistics(), step, row));
-            accepted_bytes = statistics->n_bytes();
-            write_original();
-            write_rest_mesh();
-            write_parameters(scene, totals.edits, directory.parameters_prm());
-            directory.remove_shapes();
-            directory.remove_animations();
-            frames.write_shapes();
-          });
-      checkpoint.totals = totals;
-      save(); // a crash from now on can be resumed
-      at_root(
-          [&]
-          {
-            fs::remove(directory.final_pose());
-            fs::remove(directory.summary());
-          });
-    }
-    go_on_from(checkpoint);
-    return check.notes;
-  }
-
-  void
-  RunWriter::go_on_from(const Checkpoint &checkpoint)
-  {
-    at_root(
-        [&]
-        {
-          directory.remove_frames_after(checkpoint.state.step);
-          if (is_only_last_frame(checkpoint) && !frames.is_due(checkpoint.state.step))
-            frames.remove(checkpoint.state.step);
-        });
-    if (frames.is_due(checkpoint.state.step) && frames.is_missing()) // a resume has removed it
-      write_frame();
-    totals                 = checkpoint.totals;
-    earlier_factorizations = totals.factorizations;
-    end_reading();
-    last_lap = problem.clock.read();
-    for (unsigned int part = 0; part < n_parts; ++part)
-      totals.seconds[part] += last_lap[part];
-  }
-
-  void
   RunWriter::end_reading()
   {
     problem.clock.switch_to(Part::evaluate);
+  }
+
+  void
+  RunWriter::write_parameters(const std::vector<SceneEdit> &edits) const
+  {
+    AtomicFile atomic_file(directory.parameters_prm());
+    atomic_file.stream() << RunDirectory::mark << '\n';
+    for (const SceneEdit &edit : edits)
+      atomic_file.stream() << "# after step " << edit.step << "; the scene before is "
+                           << edit.before << '\n';
+    print_keys(atomic_file.stream(), scene.get_keys(), false);
+    atomic_file.commit();
   }
 
   void
@@ -297,7 +175,6 @@ namespace Exemplar
     totals.factorizations = earlier_factorizations + problem.system.n_factorizations();
     totals.worst_residual = std::max(totals.worst_residual, report.residual);
 
-    at_root([&] { directory.require_taken(); });
     space_error.reset();
     if (accepted)
       diagnostics.add_step();
@@ -355,7 +232,6 @@ namespace Exemplar
     {
       StepClock::Scope scope(problem.clock, Part::output);
       frames.drain();
-      at_root([&] { directory.require_taken(); });
       write_final_pose();
       save(); // whatever happens to animations and estimates
       if (is_last_step())
@@ -365,6 +241,7 @@ namespace Exemplar
       at_root([&] { frames.write_animations(); });
     }
     lap();
+    at_root([] {}); // the directory is still there
     const auto mesh_digest = input_digests.find(problem.parameters.mesh.file);
     write_summary(problem, totals, space_error,
                   mesh_digest != input_digests.end() ? mesh_digest->second : "generated", status,
@@ -392,10 +269,8 @@ namespace Exemplar
   RunWriter::save()
   {
     frames.drain(); // because a resumed run does not write them again
-    last_checkpoint = std::chrono::steady_clock::now();
-    std::string digest;
-    at_root([&] { digest = sha256_of_begin(directory.statistics(), accepted_bytes); });
-    const Checkpoint checkpoint = present(digest);
+    last_checkpoint             = std::chrono::steady_clock::now();
+    const Checkpoint checkpoint = present();
     at_root([&] { save_checkpoint(checkpoint, directory.checkpoint()); });
   }
 
@@ -404,14 +279,16 @@ namespace Exemplar
   {
     if (!problem.parameters.output.keep_states || !frames.is_due(problem.state.step))
       return;
-    const Checkpoint checkpoint = present("");
+    const Checkpoint checkpoint = present();
     at_root([&] { save_checkpoint(checkpoint, directory.state(problem.state.step)); });
   }
 
   Checkpoint
-  RunWriter::present(const std::string &statistics_digest) const
+  RunWriter::present() const
   {
+    std::string digest;
+    at_root([&] { digest = sha256_of_begin(directory.statistics(), accepted_bytes); });
     return { values_of(scene),       input_digests, whole_state(problem), problem.solver_memory(),
-             diagnostics.get_work(), totals,        accepted_bytes,       statistics_digest };
+             diagnostics.get_work(), totals,        accepted_bytes,       digest };
   }
 } // namespace Exemplar

@@ -71,23 +71,17 @@ namespace Exemplar
     }
   } // namespace
 
-  void
-  StatisticsFile::require_step(const std::filesystem::path &path, const unsigned int step)
-  {
-    read_up_to(path, step);
-  }
-
-  StatisticsFile
-  StatisticsFile::behind_step(const std::filesystem::path &path,
-                              const unsigned int           step,
-                              const StatisticsRow         &row)
+  std::uintmax_t
+  StatisticsFile::keep_rows(const std::filesystem::path &path,
+                            const unsigned int           step,
+                            const StatisticsRow         &row)
   {
     const EarlierRows        earlier = read_up_to(path, step);
     std::vector<std::string> wanted;
     for (const auto &cell : row)
       wanted.push_back(cell.first);
     if (earlier.columns == wanted)
-      return StatisticsFile(path, earlier.n_bytes);
+      return earlier.n_bytes;
     AtomicFile file(path);
     write_csv_header(file.stream(), row);
     for (const std::string &line : earlier.lines)
@@ -104,7 +98,7 @@ namespace Exemplar
       write_csv_cells(file.stream(), kept);
     }
     file.commit();
-    return StatisticsFile(path, std::filesystem::file_size(path));
+    return std::filesystem::file_size(path);
   }
 
   StatisticsFile::StatisticsFile(const std::filesystem::path &path)

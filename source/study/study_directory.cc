@@ -20,12 +20,6 @@ namespace Exemplar
 
     const std::string remedy = " Give another one by --output.";
 
-    fs::path
-    temporary(fs::path file)
-    {
-      return file += ".tmp";
-    }
-
     /// Whether the file is empty or begins as study.csv does, whose first columns differ.
     bool
     has_head_of_table(const fs::path &file)
@@ -65,9 +59,9 @@ namespace Exemplar
   StudyDirectory::refuse_directory_of_others() const
   {
     // a study that was killed before it had a file leaves the first one's temporary
-    const bool is_stillborn
-        = std::all_of(fs::directory_iterator(path), fs::directory_iterator(),
-                      [&](const auto &entry) { return entry.path() == temporary(study_prm()); });
+    const bool is_stillborn = std::all_of(
+        fs::directory_iterator(path), fs::directory_iterator(),
+        [&](const auto &entry) { return entry.path() == AtomicFile::temporary_of(study_prm()); });
     if (!is_ours() && !is_stillborn)
       throw UserError("Output directory " + path.string()
                       + " is not empty and holds no study of exemplar." + remedy);
@@ -98,9 +92,9 @@ namespace Exemplar
     for (const auto &[file, beginning] : files)
     {
       require(file, beginning);
-      require(temporary(file), beginning);
+      require(AtomicFile::temporary_of(file), beginning);
     }
-    for (const fs::path &table : { csv(), temporary(csv()) })
+    for (const fs::path &table : { csv(), AtomicFile::temporary_of(csv()) })
       if (!is_absent(table) && !has_head_of_table(table))
         refuse(table, "was not written by exemplar");
     require(svg(), "<?xml ");

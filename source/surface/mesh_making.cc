@@ -30,6 +30,8 @@ namespace Exemplar
     }
   } // namespace
 
+  const std::string made_mesh_comment = "a mesh by exemplar";
+
   std::string
   make_mesh(const SurfaceMeshingOptions &options)
   {
@@ -52,7 +54,7 @@ namespace Exemplar
   {
     const std::string made = make_mesh(options);
     AtomicFile        file(msh);
-    file.stream() << without_comment(made);
+    file.stream() << without_comment(made) << msh_end(made_mesh_comment);
     file.commit();
     return report_in(made);
   }

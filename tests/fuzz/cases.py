@@ -11,7 +11,7 @@ import mutations
 import skins
 
 # files: {name: bytes}; arguments: after the program's name; earlier: arguments of runs that come before and that must
-# succeed; damage: {"file", "seed"} changes a file that these have left; plants: {name: text} of files put there then, a
+# succeed; damage: {"file", "seed"} changes a file that these have left, or puts "by" in its place; plants: {name: text} of files put there then, a
 # directory if None; check: what else must hold; place: the name of the working directory.
 Case = namedtuple("Case", "kind files arguments earlier damage plants check place", defaults=([], None, {}, None, "run"))
 
@@ -320,7 +320,51 @@ def skin_scene_case(r, _):
                 check=r.choice([None, "again", "validate"]))
 
 
-KINDS = [(surface_case, 2), (posed_case, 3), (skin_scene_case, 2), (scene_case, 20), (extreme_case, 16), (formula_case, 12), (mesh_case, 16), (pose_case, 8), (list_case, 3),
+MAPS = ["Material/Young's modulus map", "Material/Poisson's ratio map", "Material/Density map", "Examples/Weight maps"]
+
+
+def painted_case(r, _):
+    """Maps painted on the surface of a mesh, and handles that follow a point cache of it."""
+    skin = skins.box_skin()
+    entries = {**bases.FILE, **bases.HELD, **bases.LATER, "Scene": "dynamic", "Mesh/Surface": "rest.obj", "Examples/Poses": "pose.msh"}
+    files = good_files([])
+    files["rest.obj"] = skins.obj(skin)
+    values = skins.odd_values(r, len(skin.vertices))
+    name, content = r.choice([("paint.csv", skins.table(values)), ("paint.csv", skins.table(values, "two")),
+                              ("paint.ply", skins.painted_ply(skin, values))])
+    files[name] = r.choice([content, mutations.damaged(r, content), mutations.spoilt_text(r, content)])
+    column = r.choice(["", "", ":paint", ":paint", ":" + r.choice(mutations.TEXTS)[:50]]) if name == "paint.csv" else ":paint"
+    words = name + column + r.choice(["", "", " absolute", " from 0 to 2", f" from {mutations.number(r)} to {mutations.number(r)}"])
+    action = r.randrange(4)
+    if action == 0:
+        entries["Handles/left/Select"] = f"map {name}{column}" + r.choice(["", f" above {mutations.number(r)}", " below 0.5"])
+    elif action == 1:
+        ending, make = r.choice([(".mdd", skins.mdd), (".pc2", skins.pc2)])
+        files["rig" + ending] = skins.odd_cache(r, skin, make)
+        entries["Handles/left/Follow cache"] = "rig" + ending
+        entries["Handles/left/Cache start"] = r.choice(["file", "file", "0", mutations.number(r)])
+    else:
+        path = r.choice(MAPS)
+        entries[path] = name + column if path.startswith("Examples") else words
+    return Case("painted", {**files, "scene.prm": prm_bytes(entries.items())}, ["scene.prm", *OUT],
+                check=r.choice([None, None, "again", "validate"]))
+
+
+def state_case(r, _):
+    """A run with kept states, of which one is damaged, or in place of another; then --resume-from."""
+    scene = {**r.choice([scene for scene in bases.SCENES if scene["Scene"] == "dynamic"]), "Output/Keep states": "true",
+             "Output/Every": "1"}
+    words = ["scene.prm", "--quiet", "--threads", "1"]
+    step = r.randrange(5)
+    file = r.choice([f"state_000{step}.bin"] * 3 + ["checkpoint.bin", "statistics.csv"])
+    other = f"state_000{r.choice([k for k in range(5) if k != step])}.bin"
+    return Case("state", good_files(scene.items()), [*words, "--output", "out", "--resume-from", str(step)],
+                [[*words, "--output", "whole"], [*words, "--output", "out"]],
+                {"file": "out/" + file, "seed": r.randrange(2**32), "by": "out/" + other if r.random() < .3 else None},
+                check="resumed")
+
+
+KINDS = [(painted_case, 4), (state_case, 4), (surface_case, 2), (posed_case, 3), (skin_scene_case, 2), (scene_case, 20), (extreme_case, 16), (formula_case, 12), (mesh_case, 16), (pose_case, 8), (list_case, 3),
          (study_case, 5), (checkpoint_case, 8), (command_case, 7), (geo_case, 1), (directory_case, 3)]
 PLACES = ["a b", "é", "a#b", "a,b", "a;b", 'a"b', "a\nb", "\udcff", "%s", "a\\", "-", "n" * 200, "$HOME", "a=b", "a'b", "a|b",
           "\x1b[1m"]

@@ -54,7 +54,10 @@ class Fuzzer:
             self.plant(directory / name, content)
         if case.damage:
             file = directory / case.damage["file"]
-            file.write_bytes(mutations.damaged(random.Random(case.damage["seed"]), file.read_bytes()))
+            if case.damage.get("by"):
+                shutil.copyfile(directory / case.damage["by"], file)
+            else:
+                file.write_bytes(mutations.damaged(random.Random(case.damage["seed"]), file.read_bytes()))
         return []
 
     @staticmethod

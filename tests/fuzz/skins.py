@@ -60,6 +60,58 @@ def ply(skin, form="ascii"):
                            for f in skin.faces)
 
 
+def cut(x):
+    """A whole number as a file of four bytes may have it."""
+    return (int(x) + 2**31) % 2**32 - 2**31
+
+
+def mdd(samples, counts=None):
+    frames, points = counts or (len(samples), len(samples[0]))
+    return (struct.pack(">2i", cut(frames), cut(points)) + b"".join(struct.pack(">f", .02 * k) for k in range(len(samples)))
+            + b"".join(single(x)[::-1] for sample in samples for v in sample for x in v))
+
+
+def pc2(samples, counts=None):
+    frames, points = counts or (len(samples), len(samples[0]))
+    return (struct.pack("<12siiffi", b"POINTCACHE2\0", 1, cut(points), 0., 50., cut(frames))
+            + b"".join(single(x) for sample in samples for v in sample for x in v))
+
+
+def table(values, column="paint"):
+    return (f"vertex,{column}\n" + "".join(f"{v + 1},{value!r}\n" for v, value in enumerate(values))).encode()
+
+
+def painted_ply(skin, values):
+    head, body = ply(skin).split(b"element face")
+    head = head.replace(b"property double z\n", b"property double z\nproperty float paint\n")
+    start, rows = body.split(b"end_header\n")
+    rows = rows.split(b"\n")
+    rows[:len(values)] = [row + b" " + repr(value).encode() for row, value in zip(rows, values)]
+    return head + b"element face" + start + b"end_header\n" + b"\n".join(rows)
+
+
+def odd_values(r, n):
+    """Numbers for vertices, from 0 to 1 and otherwise, sometimes too many or too few."""
+    values = [round(r.random(), 3) for _ in range(max(0, n + r.choice([0, 0, 0, 0, -1, 1, -n])))]
+    for _ in range(r.choice([0, 0, 1, 3])):
+        if values:
+            values[r.randrange(len(values))] = r.choice([*mutations.REALS, r.uniform(-3, 3)])
+    return values
+
+
+def odd_cache(r, skin, make):
+    """A point cache of the skin that moves a little, or is wrong."""
+    samples = [[[x + .02 * k * (c == 2) for c, x in enumerate(v)] for v in skin.vertices] for k in range(r.choice([1, 2, 3, 3]))]
+    action = r.random()
+    if action < .25:
+        samples[-1][r.randrange(len(samples[-1]))][r.randrange(3)] = r.choice(mutations.REALS)
+    elif action < .4:
+        return make(samples, (r.choice(mutations.INTEGERS), r.choice([len(samples[0]), r.choice(mutations.INTEGERS)])))
+    elif action < .8:
+        return mutations.damaged(r, make(samples))
+    return make(samples)
+
+
 def single(x):
     """As a number of four bytes has it."""
     return struct.pack("<f", max(-3e38, min(3e38, x)) if abs(x) < float("inf") else x)

@@ -96,7 +96,28 @@ STUDIES = [
 ]
 
 
+# every option that takes a number, and what it asks for; unit tests have more texts
+POSE = ["pose", "--mesh", "small.msh", "--rest", "a.obj", "--pose", "b.obj", "--output", "out"]
+NO_NUMBERS = ["nan", "-inf", "1e400", "0x10", "", " 5", "5 ", "+5", "-1"]
+NO_WHOLE_NUMBERS = [*NO_NUMBERS, "1.5", "4294967301"]
+NUMBERS = [
+    ("--threads", ["scene.prm"], [*NO_WHOLE_NUMBERS, "0", "1025"], "whole number from 1 to 1024"),
+    ("--resume-from", ["scene.prm"], [*NO_WHOLE_NUMBERS, "1000000001"], "whole number from 0 to 1000000000"),
+    ("--cells", ["mesh", "--surface", "a.obj", "--output", "a.msh"], [*NO_WHOLE_NUMBERS, "9", "10000001"],
+     "whole number from 10 to 10000000"),
+    ("--attach", POSE, [*NO_NUMBERS, "-0", "1e-400", "9e-4", "1000001"], "number from 0.001 to 1e+06"),
+]
+
+
 class BadInputs(BadInputTest):
+    def test_numbers(self):
+        self.write("scene.prm", prm(BAR))
+        before = self.tree()
+        for name, arguments, texts, allowed in NUMBERS:
+            for text in texts:
+                with self.subTest(name=name, text=text):
+                    self.check(self.call(*arguments, f"{name}={text}"), [name, allowed] if text else [name], before)
+
     def test_commands(self):
         self.write("scene.prm", prm(BAR))
         self.write("study.prm", prm(STUDY))

@@ -52,7 +52,7 @@ class DirectoryTest(SceneTest):
     def run_killed(self, prepare, *arguments, follow=True):
         """Run the program again and again, each time killed at another of the system calls that change a directory;
         `prepare` is called before each, and what is yielded after each tells it. `follow`: also threads and children."""
-        for call in ("unlink", "unlinkat", "rename", "mkdir", "truncate"):
+        for call in ("unlink", "unlinkat", "rename", "renameat", "mkdir", "truncate"):
             number = 1
             prepare()
             while self.is_killed(call, number, arguments, follow):

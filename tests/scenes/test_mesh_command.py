@@ -48,6 +48,40 @@ class MeshCommandTest(SceneTest):
         self.made("ball.obj", 2000, "--quiet")
         self.assertEqual((self.directory / "body.msh").read_bytes(), first)
 
+    def test_what_another_has_made_stays(self):
+        self.surface("box.obj", *surfaces.cube())
+        self.made("box.obj", 300)
+        made = {name: (self.directory / name).read_bytes() for name in ("body.msh", "body.csv")}
+        own = made["body.msh"]
+        unlike = {"text": b"mine\n", "empty": b"", "of gmsh": own[:own.index(b"$Comments")], "appended to": own + b"mine\n"}
+        for name, kind in [("body.msh", kind) for kind in unlike] + [
+                (name, kind) for name in ("body.csv", "body.msh.tmp", "body.csv.tmp") for kind in ("text",)] + [
+                (name, kind) for name in ("body.msh", "body.csv", "body.msh.tmp", "body.csv.tmp")
+                for kind in ("directory", "link", "dangling link", "protected")]:
+            with self.subTest(name=name, kind=kind):
+                file = self.directory / name
+                file.unlink(missing_ok=True)
+                if kind == "directory":
+                    file.mkdir()
+                elif "link" in kind:
+                    self.write("mine", "mine")
+                    file.symlink_to("mine" if kind == "link" else "nowhere")
+                else:
+                    file.write_bytes(unlike.get(kind, made.get(name, b"")))
+                    file.chmod(0o444 if kind == "protected" else 0o644)
+                before = {path: path.read_bytes() for path in self.directory.iterdir() if path.is_file()}
+                run = self.mesh("box.obj", 300)
+                self.assertEqual((run.status, run.stdout), (1, ""), run.stderr)
+                self.assertIn(f"{name}: is to be written, but", run.stderr)
+                self.assertIn("Nothing has been changed", run.stderr)
+                self.assertEqual({path: path.read_bytes() for path in self.directory.iterdir() if path.is_file()}, before)
+                file.rmdir() if kind == "directory" else file.unlink()
+                for other, content in made.items():
+                    (self.directory / other).write_bytes(content)
+        self.write("body.csv.tmp", "quan")  # what a killed command leaves
+        self.made("box.obj", 300)
+        self.assertEqual({name: (self.directory / name).read_bytes() for name in made}, made)
+
     def test_groups_become_boundary_ids_of_a_scene(self):
         vertices, faces = surfaces.cube()
         names = ["bottom", "top", "front", "back", "left", "right"]

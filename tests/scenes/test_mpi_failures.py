@@ -126,10 +126,10 @@ class MpiTest(SceneTest):
         except FileNotFoundError:
             return 0
 
-    def start_and_wait(self, scene, *arguments, rows=20):
+    def start_and_wait(self, scene, *arguments, rows=20, **how):
         """Start a run; return when it has made steps."""
         self.write("scene.prm", prm(scene))
-        process = self.start("scene.prm", "--output", "out", "--quiet", *arguments)
+        process = self.start("scene.prm", "--output", "out", "--quiet", *arguments, **how)
         end = time.monotonic() + 60
         while self.rows() < rows:
             self.assertIsNone(process.poll(), "the program has ended already")
@@ -151,6 +151,17 @@ class Start(MpiTest):
     def test_one_process_is_as_without_mpirun(self):
         without = results(self.solve(DYNAMIC, output="without"))
         self.assertEqual(results(self.solve_all(DYNAMIC, launcher=["mpirun", "-n", "1"])), without)
+
+    def test_one_process_that_fails_says_so_alone(self):
+        alone = {"launcher": ["mpirun", "-n", "1"]}
+        for scene, status, message in (({**STATIC, "Scene": "x"}, 1, "^scene.prm:[0-9]+: Scene"), (FAILING, 2, "^Step 1 stopped"),
+                                       ({**FAILING, "Solver/Linear solver": "iterative"}, 2, "^Step 1 stopped")):
+            run = self.run_all(scene, "--quiet", **alone)
+            self.assertEqual((run.status, run.stderr.count("\n")), (status, 1), run.stderr)
+            self.check_end(run, status, message)
+        # mpirun lives on with who has started the program
+        run = self.run_all({**STATIC, "Scene": "x"}, script='"$0" "$@"; echo "status $?"; exit 0', **alone)
+        self.assertEqual((run.status, run.stdout), (0, "status 1\n"), run.stderr)
 
     def test_commands_for_one_process(self):
         self.write("scene.prm", prm(STATIC))
@@ -280,6 +291,23 @@ class Death(MpiTest):
                 self.assertEqual((run.status, len(said)), (2, 1), run.stderr)
                 self.assertRegex(said[0], r"out/.*: File too large|File too large.*out/" if number == 0 else "process_0001.vtu")
                 self.check_resumed(DYNAMIC)
+
+    def test_replaced_directory(self):
+        scene = {**DYNAMIC, "Time/End": "80", "Output/Every": "1", "Output/Keep states": "true"}
+        for processes in (N, 2, 1):
+            for moment in range(4):
+                with self.subTest(processes=processes, moment=moment):
+                    process = self.start_and_wait(scene, launcher=["mpirun", "-n", str(processes)])
+                    time.sleep(0.007 * moment)
+                    (self.directory / "out").rename(self.directory / "moved")
+                    (self.directory / "out").mkdir()
+                    run = self.result_of(process)
+                    said = self.messages(run)
+                    self.assertEqual((run.status, len(said)), (2, 1), run.stderr)
+                    self.assertRegex(said[0], "has been removed or replaced while|^Cannot (create|replace) out/")
+                    self.assertEqual(list((self.directory / "out").iterdir()), [])
+                    for name in ("out", "moved"):
+                        shutil.rmtree(self.directory / name)
 
     def test_memory(self):
         # enough to start, not enough for the matrix: a library ends the program, or this throws

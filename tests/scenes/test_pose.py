@@ -110,6 +110,27 @@ class Pose(SceneTest):
         self.refuse(["bar.msh: is to be written, but is the input"], "bar.obj", output=".")
         self.refuse(["p.obj and more/p.obj would both be written"], "p.obj", "more/p.obj")
 
+    def test_what_another_has_made_stays(self):
+        self.surface("bow.obj", bent)
+        out = self.directory / "out"
+        out.mkdir()
+        self.write("out/notes.txt", "mine")
+        for name in ("bow.msh", "poses.csv", "bow.msh.tmp", "poses.csv.tmp"):
+            with self.subTest(name):
+                for content in ("mine\n", (self.directory / "bar.msh").read_text() if name == "bow.msh" else "pose\n"):
+                    self.write("out/" + name, content)
+                    self.refuse([f"out/{name}: is to be written, but was not written by exemplar", "Move it away"], "bow.obj")
+                    self.assertEqual((out / name).read_text(), content)
+                    (out / name).unlink()
+                (out / name).symlink_to("../bar.msh")
+                self.refuse([f"out/{name}: is to be written, but is ", "bar.msh" if name == "bow.msh" else ""], "bow.obj")
+                (out / name).unlink()
+        self.write("out/poses.csv.tmp", "pose,inv")  # what a killed command leaves
+        for _ in range(2):  # over its own results, too
+            self.assertEqual(self.pose("bow.obj").status, 0)
+        self.assertEqual(sorted(file.name for file in out.iterdir()), ["bow.msh", "notes.txt", "poses.csv"])
+        self.assertEqual((out / "notes.txt").read_text(), "mine")
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs that go on from a step that is kept, with the same scene or an edited one."""
 
+import shutil
 import unittest
 
 from exemplar_runner import SceneTest, prm, read_csv, read_summary, results
@@ -135,6 +136,76 @@ class ResumeFrom(SceneTest):
             self.assertIn(word, run.stderr)
         self.assertEqual({file.name: file.read_bytes() for file in run.output.iterdir()}, before)
 
+    def put(self, source, name):
+        shutil.copy(self.directory / source, self.directory / "out" / name)
+
+    def test_what_is_not_of_the_step(self):
+        out = self.solve(DYNAMIC)
+        for name in ("state_0008.bin", "checkpoint.bin"):
+            self.put("out/" + name, "state_0004.bin")
+            self.refused(DYNAMIC, "4", "state_0004.bin is not the state of step 4, but of step "
+                         + ("8" if name.startswith("state") else "18"))
+        self.put("out/state_0008.bin", "state_0005.bin")
+        self.refused(DYNAMIC, "5", "is not the state of step 5")
+        text = (out / "statistics.csv").read_text()
+        lines = text.split("\n")
+        for at in (1, 8, 15):  # before the step and after it: the checkpoint speaks for all
+            changed = [line.replace("0", "1", 1) if i == at else line for i, line in enumerate(lines)]
+            (out / "statistics.csv").write_text("\n".join(changed))
+            self.refused(DYNAMIC, "8", "statistics.csv has changed since the checkpoint")
+        (out / "statistics.csv").write_text(text)
+        self.solve(DYNAMIC, "--resume-from", "8")
+
+    def test_states_of_other_runs(self):
+        stiffer = {**DYNAMIC, "Material/Young's modulus": "2e4"}
+        self.solve(stiffer, output="other")
+        whole = results(self.solve(DYNAMIC, output="whole"))
+        out = self.solve(DYNAMIC)
+        for scene in (DYNAMIC, stiffer):
+            self.put("other/state_0008.bin", "state_0008.bin")
+            self.refused(scene, "8", "state_0008.bin is the state of another run")
+        # of what this run was before it was edited, and of another edit
+        self.put("whole/state_0008.bin", "state_0008.bin")
+        softer = {**DYNAMIC, "Material/Young's modulus": "5e3"}
+        self.assertEqual(self.solve(stiffer, "--resume-from", "8"), out)
+        shutil.copytree(out, self.directory / "edited")
+        self.put("whole/state_0012.bin", "state_0012.bin")
+        self.refused(stiffer, "12", "is the state of another run")
+        self.solve(softer, "--resume-from", "8")
+        self.put("edited/state_0012.bin", "state_0012.bin")
+        self.refused(softer, "12", "is the state of another run")
+        # the same scene gives the same states
+        self.solve(DYNAMIC, "--resume-from", "4")
+        self.put("whole/state_0008.bin", "state_0008.bin")
+        self.solve(DYNAMIC, "--resume-from", "8")
+        self.assertEqual({name: content for name, content in results(out).items() if name != "statistics.csv"},
+                         {name: content for name, content in whole.items() if name != "statistics.csv"})
+        # all from the start, by the table that an edit has left
+        self.solve(DYNAMIC, "--resume-from", "0")
+
+    def test_behind_the_checkpoint(self):
+        # a run that was killed has states that are later than its checkpoint
+        self.solve({**DYNAMIC, "Time/End": "0.08"}, output="half")
+        out = self.solve(DYNAMIC)
+        whole = self.contents(out)
+        self.put("half/checkpoint.bin", "checkpoint.bin")
+        text = (out / "statistics.csv").read_text()
+        lines = text.split("\n")
+        lines[11] = lines[11].replace("0", "1", 1)
+        (out / "statistics.csv").write_text("\n".join(lines))
+        self.refused(DYNAMIC, "12", "statistics.csv has changed since the checkpoint")
+        (out / "statistics.csv").write_text(text)
+        self.assertEqual(self.contents(self.solve(DYNAMIC, "--resume-from", "12")), whole)
+
+    def test_not_together_with_resume(self):
+        self.solve(DYNAMIC)
+        before = {file.name: file.read_bytes() for file in (self.directory / "out").iterdir()}
+        run = self.attempt(DYNAMIC, "--resume", "--resume-from", "8")
+        self.assertEqual((run.status, run.stdout), (1, ""))
+        self.assertIn("--resume goes on from the last checkpoint, --resume-from from the step that it names: give one",
+                      run.stderr)
+        self.assertEqual({file.name: file.read_bytes() for file in run.output.iterdir()}, before)
+
     def test_refused(self):
         out = self.solve(DYNAMIC)
         self.refused(DYNAMIC, "5", "no state of step 5", "0, 4, 8, 12, 16, 18. Choose", "Keep states")
@@ -150,10 +221,10 @@ class ResumeFrom(SceneTest):
         (out / "state_0008.bin").write_bytes(content)
         self.refused(DYNAMIC, "8", "is damaged")
         (out / "statistics.csv").write_text("step,time,status,\n")
-        self.refused(DYNAMIC, "4", "has no row of step 4")
+        self.refused(DYNAMIC, "4", "is missing or shorter than at the checkpoint", "--resume-from")
         run = self.attempt(DYNAMIC, "--resume-from", "4", output="new")
         self.assertEqual(run.status, 1)
-        self.assertIn("no run has written there", run.stderr)
+        self.assertIn("no checkpoint of a run to go on with", run.stderr)
         run = self.attempt({**DYNAMIC, "Output/Every": "0"})
         self.assertIn("Output/Every = 0 makes no frames", run.stderr)
 

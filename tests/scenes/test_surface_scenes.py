@@ -66,7 +66,8 @@ class SurfaceScenes(SceneTest):
         self.assertEqual(results(self.solve(SCENE, "--threads", "1", "--quiet", output="again")), first)
         # by the commands, one after the other
         self.assertEqual(self.call("mesh", "--surface", "rest.obj", "--cells", 400, "--output", "body.msh").status, 0)
-        self.assertEqual((self.directory / "body.msh").read_bytes(), (out / "rest.msh").read_bytes())
+        self.assertEqual((self.directory / "body.msh").read_text().removesuffix("$Comments\na mesh by exemplar\n$EndComments\n"),
+                         (out / "rest.msh").read_text())
         self.assertEqual(self.call("pose", "--mesh", "body.msh", "--rest", "rest.obj", "--pose", "bow.obj", "twist.ply",
                                    "--output", "poses").status, 0)
         by_hand = {**SCENE, "Mesh/File": "body.msh", "Mesh/Cells": None, "Examples/Poses": "poses/bow.msh, poses/twist.msh"}

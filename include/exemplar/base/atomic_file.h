@@ -2,6 +2,8 @@
 #ifndef exemplar_atomic_file_h
 #define exemplar_atomic_file_h
 
+#include <exemplar/base/open_directory.h>
+
 #include <filesystem>
 #include <memory>
 #include <ostream>
@@ -12,10 +14,15 @@ namespace Exemplar
   /// renamed by commit(). Without commit() the destructor removes the temporary
   /// and what stood at `path` stays. Opening and commit() throw
   /// std::runtime_error with the path and the system's reason (disk full, ...).
+  /// It stays in the directory that `path` led to when it was opened, wherever that is moved.
   class AtomicFile
   {
   public:
     explicit AtomicFile(const std::filesystem::path &path);
+
+    /// Under which name the file of this path is written.
+    static std::filesystem::path
+    temporary_of(std::filesystem::path path);
 
     AtomicFile(const AtomicFile &) = delete;
     AtomicFile &
@@ -46,6 +53,7 @@ namespace Exemplar
 
     std::filesystem::path   path;
     std::filesystem::path   temporary;
+    OpenDirectory           directory; ///< in which both are
     std::unique_ptr<Buffer> buffer;
     std::ostream            out;
     bool                    committed = false;

@@ -2,6 +2,8 @@
 #ifndef exemplar_directory_lock_h
 #define exemplar_directory_lock_h
 
+#include <exemplar/base/open_directory.h>
+
 #include <filesystem>
 #include <string>
 
@@ -15,21 +17,16 @@ namespace Exemplar
   public:
     /// Throws UserError with `refusal` if another has it.
     DirectoryLock(const std::filesystem::path &directory, const std::string &refusal);
-    ~DirectoryLock();
 
-    DirectoryLock(const DirectoryLock &) = delete;
-    DirectoryLock &
-    operator=(const DirectoryLock &)
-        = delete;
-
-    /// Whether the path still leads to the directory that is locked, which may have been removed,
-    /// and another made in its place.
+    /// As that of OpenDirectory.
     bool
-    is_in_place() const;
+    is_in_place() const
+    {
+      return locked.is_in_place();
+    }
 
   private:
-    const std::filesystem::path path;
-    const int                   descriptor;
+    const OpenDirectory locked;
   };
 } // namespace Exemplar
 

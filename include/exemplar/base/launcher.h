@@ -25,6 +25,11 @@ namespace Exemplar
 
   Launch
   find_launch();
+
+  /// Whether Open MPI's mpirun itself has started this process, and not a script or program that it has
+  /// started.
+  bool
+  is_child_of_mpirun();
 } // namespace Exemplar
 
 #endif

@@ -6,7 +6,10 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <system_error>
 
 namespace Exemplar
 {
@@ -29,6 +32,20 @@ namespace Exemplar
     char buffer[32];
     std::snprintf(buffer, sizeof(buffer), "%.3g", value);
     return buffer;
+  }
+
+  /// The number that the whole text is in decimal digits: no blanks, no sign +, no infinity, no NaN, and
+  /// nothing that the type cannot hold. Fractions and powers of ten only where the type has them.
+  template <typename Number>
+  std::optional<Number>
+  decimal_number(const std::string_view text)
+  {
+    Number     number{};
+    const auto end  = text.data() + text.size();
+    const auto read = std::from_chars(text.data(), end, number);
+    if (read.ec != std::errc() || read.ptr != end || !std::isfinite(static_cast<double>(number)))
+      return std::nullopt;
+    return number;
   }
 
   /// NaN unless the whole text is a number.

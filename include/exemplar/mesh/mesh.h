@@ -158,10 +158,11 @@ namespace Exemplar
 
     /// The inverse: the whole mesh with its nodes at `positions`, divided by the mesh's
     /// scale, with the file's numbers, order and tags. With places of the middles of edges_of()
-    /// behind those of the nodes, the file gets 10-node tetrahedra.
+    /// behind those of the nodes, the file gets 10-node tetrahedra. `comment` as in write_msh().
     void
     write_pose(const std::vector<dealii::Point<3>> &positions,
-               const std::filesystem::path         &file) const;
+               const std::filesystem::path         &file,
+               const std::string                   &comment = "") const;
 
     /// In bytes.
     std::size_t

@@ -77,9 +77,17 @@ namespace Exemplar
   msh_text(const MshFile &msh);
 
   /// Write MSH 2.2 ASCII with 17 digits, so that reading it back gives the same
-  /// doubles. Written to a temporary name and renamed, so that no half file is left.
+  /// doubles. Written to a temporary name and renamed, so that no half file is left. A `comment` of one
+  /// line goes to the end, where readers pass over it.
   void
-  write_msh(const MshFile &msh, const std::filesystem::path &file);
+  write_msh(const MshFile &msh, const std::filesystem::path &file, const std::string &comment = "");
+
+  /// What every file by write_msh() begins with.
+  extern const std::string msh_beginning;
+
+  /// What those with this comment end in.
+  std::string
+  msh_end(const std::string &comment);
 } // namespace Exemplar
 
 #endif

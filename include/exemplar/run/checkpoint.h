@@ -18,6 +18,7 @@ namespace Exemplar
   {
     unsigned int step;   ///< the last one of the scene before
     std::string  before; ///< the file that holds it, original_N.prm
+    std::string  scene;  ///< digest_of() the scene that goes on
   };
 
   /// Totals over all steps, for the summary.
@@ -28,7 +29,9 @@ namespace Exemplar
     double       worst_residual = 0.;
     PartSeconds  seconds{};
 
-    std::vector<SceneEdit> edits; ///< in order
+    // by these a state is known as one of this run
+    std::string            first_scene; ///< digest_of() the scene with which the run began
+    std::vector<SceneEdit> edits;       ///< in order
   };
 
   /// A state on disk, of the last step or of a frame that is kept: what a resumed run needs to end in the same bytes as one that was never stopped. Rotations
@@ -43,7 +46,7 @@ namespace Exemplar
     Work                               work;
     RunTotals                          totals;
     std::uintmax_t                     statistics_bytes = 0; ///< of statistics.csv at this state
-    std::string                        statistics_digest; ///< SHA-256 of these; of a frame: empty
+    std::string                        statistics_digest;    ///< SHA-256 of these
   };
 
   /// Atomic: a kill at any moment leaves the checkpoint before or the new one.

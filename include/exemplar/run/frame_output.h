@@ -6,6 +6,7 @@
 #include <exemplar/run/frame_formats.h>
 #include <exemplar/run/frame_writer.h>
 #include <exemplar/run/problem.h>
+#include <exemplar/run/run_directory.h>
 #include <exemplar/surface/surface_skin.h>
 
 #include <filesystem>
@@ -21,10 +22,10 @@ namespace Exemplar
   class FrameOutput
   {
   public:
-    /// Keeps references to the problem and to `formats`, all that there are. Throws UserError
+    /// Keeps references to all three; `formats` are all that there are. Throws UserError
     /// if the scene asks for another one, or shows a surface that is not that of the body.
     FrameOutput(Problem                        &problem,
-                std::filesystem::path           directory,
+                const RunDirectory             &directory,
                 const std::vector<FrameFormat> &formats);
 
     /// Whether a step has a frame: every so many steps, and the last.
@@ -85,7 +86,7 @@ namespace Exemplar
     written_frames(const FrameFormat &format) const;
 
     Problem                        &problem;
-    const std::filesystem::path     directory;
+    const RunDirectory             &directory;
     const std::vector<FrameFormat> &formats;
 
     /// Carries the surface that formats show; null if none does.

@@ -19,9 +19,18 @@ namespace Exemplar
   void
   make_directory(const std::filesystem::path &path, const std::string &remedy);
 
-  /// Throws UserError if a file to be written is there and is no regular file, or one of `inputs`.
+  /// A file to be written, and how the program knows one that it has written itself.
+  struct OwnFile
+  {
+    std::filesystem::path path;
+    std::string           beginning;
+    std::string           end = ""; ///< if the file is whole
+  };
+
+  /// Throws UserError if a file that this program has not written is in the way of one to be written or
+  /// of its temporary, or if it is one of `inputs`.
   void
-  require_replaceable(const std::filesystem::path              &file,
+  require_replaceable(const OwnFile                            &file,
                       const std::vector<std::filesystem::path> &inputs,
                       const std::string                        &remedy);
 

@@ -22,6 +22,21 @@ namespace Exemplar
   std::map<std::string, std::string>
   digests_of(const SceneFile &scene);
 
+  /// SHA-256 of all of a scene that its states follow from: its values, without those that a resumed run
+  /// may change, and its input files.
+  std::string
+  digest_of(const SceneFile &scene, const std::map<std::string, std::string> &input_digests);
+
+  /// Throws UserError unless `state`, which was kept in `file`, is that of `step` in the run that has
+  /// left `last`, its latest checkpoint, and unless `statistics` begins with the rows up to the later of
+  /// both.
+  void
+  check_kept_state(const Checkpoint            &state,
+                   const std::filesystem::path &file,
+                   unsigned int                 step,
+                   const Checkpoint            &last,
+                   const std::filesystem::path &statistics);
+
   /// Throws UserError if the checkpoint in `file` is none of this scene and its input files, does
   /// not stand at a step of it, or holds a state that is none of its problem: of other sizes, or
   /// not finite. A resumed run may end later and write differently; all else must be the same.

@@ -47,8 +47,12 @@ namespace Exemplar
     void
     remove_shapes() const;
 
-    /// Throws std::runtime_error if the directory that was taken has been removed or replaced, for what
-    /// stands there now may be another run's.
+    /// Of a process that writes into a directory which another one has taken.
+    void
+    watch();
+
+    /// Throws std::runtime_error if the directory that was taken, or is watched, has been removed or
+    /// replaced, for what stands there now may be another run's.
     void
     require_taken() const;
 
@@ -158,7 +162,8 @@ namespace Exemplar
 
     std::filesystem::path                path;
     const std::vector<FrameFormat>      &formats;
-    std::unique_ptr<const DirectoryLock> taken; ///< null: it is not
+    std::unique_ptr<const DirectoryLock> taken;   ///< null: it is not
+    std::unique_ptr<const OpenDirectory> watched; ///< the same
   };
 } // namespace Exemplar
 

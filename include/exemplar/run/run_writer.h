@@ -75,12 +75,16 @@ namespace Exemplar
     }
 
   private:
-    /// What the root does alone.
+    /// What the root does alone, while the directory is the one that it has taken.
     void
     at_root(const std::function<void()> &action) const;
 
     void
     write_original() const;
+
+    /// All values in force, behind what says where the run went on with another scene.
+    void
+    write_parameters(const std::vector<SceneEdit> &edits) const;
 
     void
     write_rest_mesh() const;
@@ -90,7 +94,11 @@ namespace Exemplar
 
     /// What is saved of the present state; whole at the root.
     Checkpoint
-    present(const std::string &statistics_digest) const;
+    present() const;
+
+    /// After the root has taken the directory: notice in all processes if it is replaced.
+    void
+    watch_directory();
 
     /// Write a row of statistics.csv; of a failed step it is of no state.
     void
@@ -118,9 +126,14 @@ namespace Exemplar
     void
     go_on_from(const Checkpoint &checkpoint);
 
-    /// The file that holds the state of a step.
+    /// The file that holds the state of a step, and what it holds. Throws UserError unless it is of
+    /// the run in the directory, and so is statistics.csv.
     std::filesystem::path
-    find_state(unsigned int step) const;
+    load_state(unsigned int step, Checkpoint &checkpoint) const;
+
+    /// The name of the file that holds the state of a step; empty if it is that of the checkpoint.
+    std::filesystem::path
+    find_state(unsigned int step, unsigned int last) const;
 
     /// The clock counts as evaluation what follows and no other part claims, such as moving the
     /// handles.

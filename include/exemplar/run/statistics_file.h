@@ -21,14 +21,11 @@ namespace Exemplar
     /// Go on behind the first `n_bytes` of a file and forget the rest.
     StatisticsFile(const std::filesystem::path &path, std::uintmax_t n_bytes);
 
-    /// Throws UserError unless a file has a row of this step.
-    static void
-    require_step(const std::filesystem::path &path, unsigned int step);
-
-    /// Go on behind the row of a step, which must be there, with the columns of `row`. Other columns
-    /// of earlier rows are left out, and what they lack is empty.
-    static StatisticsFile
-    behind_step(const std::filesystem::path &path, unsigned int step, const StatisticsRow &row);
+    /// Number of bytes up to the row of a step, which must be there, in the columns of `row`. If they were
+    /// others, the file is replaced by these rows: columns that `row` has not are left out, and what
+    /// earlier rows lack is empty.
+    static std::uintmax_t
+    keep_rows(const std::filesystem::path &path, unsigned int step, const StatisticsRow &row);
 
     void
     write(const StatisticsRow &row);

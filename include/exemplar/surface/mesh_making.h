@@ -17,6 +17,9 @@ namespace Exemplar
   MeshingReport
   make_mesh_file(const SurfaceMeshingOptions &options, const std::filesystem::path &msh);
 
+  /// The comment by which the file is known.
+  extern const std::string made_mesh_comment;
+
   /// The report in what make_mesh() has returned. Throws std::exception if there is none.
   MeshingReport
   report_in(const std::string &msh);

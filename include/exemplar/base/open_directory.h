@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_open_directory_h
+#define exemplar_open_directory_h
+
+#include <filesystem>
+
+namespace Exemplar
+{
+  /// A directory that stays the same one if its path comes to lead elsewhere.
+  class OpenDirectory
+  {
+  public:
+    /// An empty path is the working directory. If it cannot be opened, `errno` says why.
+    explicit OpenDirectory(const std::filesystem::path &path);
+    ~OpenDirectory();
+
+    OpenDirectory(const OpenDirectory &) = delete;
+    OpenDirectory &
+    operator=(const OpenDirectory &)
+        = delete;
+
+    /// Negative if it could not be opened.
+    int
+    get_descriptor() const
+    {
+      return descriptor;
+    }
+
+    /// Whether the path still leads to this directory, which may have been removed, and another made in
+    /// its place. Of one that could not be opened nothing is known, and it counts as in place.
+    bool
+    is_in_place() const;
+
+  private:
+    const std::filesystem::path path;
+    const int                   descriptor;
+  };
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_number_option_h
+#define exemplar_number_option_h
+
+#include <exemplar/base/errors.h>
+#include <exemplar/base/message_text.h>
+#include <exemplar/base/number_text.h>
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+#include <type_traits>
+
+namespace Exemplar
+{
+  /// A bound of an option, for messages.
+  template <typename Number>
+  std::string
+  bound_text(const Number bound)
+  {
+    if constexpr (std::is_integral<Number>::value)
+      return std::to_string(bound);
+    else
+      return shortest_text(bound);
+  }
+
+  /// Declare an option that takes a number from `least` to `most`, in decimal digits alone: CLI11 itself
+  /// would take NaN for a number in any range, and octal and hexadecimal ones. Whoever gives another
+  /// text gets a UserError. `target` may be a std::optional.
+  template <typename Target, typename Number>
+  CLI::Option *
+  add_number_option(CLI::App          &app,
+                    const std::string &name,
+                    Target            &target,
+                    const Number       least,
+                    const Number       most,
+                    const std::string &description)
+  {
+    const auto read = [&target, name, least, most](const std::string &text)
+    {
+      const auto number = decimal_number<Number>(text);
+      if (!number || *number < least || *number > most)
+        throw UserError(name + ": expected a "
+                        + (std::is_integral<Number>::value ? "whole number" : "number") + " from "
+                        + bound_text(least) + " to " + bound_text(most)
+                        + " in decimal digits, found " + in_quotes(text)
+                        + ". exemplar --help lists what is allowed.");
+      target = *number;
+    };
+    return app.add_option_function<std::string>(name, read, description)
+        ->type_name(std::is_integral<Number>::value ? "UINT" : "FLOAT");
+  }
+} // namespace Exemplar
+
+#endif
