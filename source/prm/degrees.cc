@@ -47,7 +47,7 @@ namespace Exemplar
     for (std::sregex_iterator found(formulas.begin(), formulas.end(), call), end; found != end;
          ++found)
     {
-      const auto open = static_cast<std::size_t>(found->position() + found->length() - 1);
+      const auto        open = static_cast<std::size_t>(found->position() + found->length() - 1);
       const std::string argument = in_parentheses(formulas, open);
       if (const std::string number = degrees_in(argument); !number.empty())
         all.push_back({ (*found)[1], argument, number });

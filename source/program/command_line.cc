@@ -161,7 +161,7 @@ namespace Exemplar
       require_printed();
     }
 
-    /// What is not a run of a scene is done by one process.
+    /// What is neither a run of a scene nor verify is done by one process.
     void
     refuse_processes(const std::string &command)
     {
@@ -225,8 +225,9 @@ namespace Exemplar
     {
       throw UserError(std::string(error.what()) + ". exemplar --help lists what is allowed.");
     }
-    for (const CLI::App *command : app.get_subcommands())
-      refuse_processes("exemplar " + command->get_name());
+    for (const CLI::App *command : { &study_command, &mesh_command, &pose_command })
+      if (*command)
+        refuse_processes("exemplar " + command->get_name());
     if (arguments.validate || arguments.print)
       refuse_processes(arguments.validate ? "--validate" : "--print-parameters");
     if (!arguments.output.empty())

@@ -57,7 +57,10 @@ namespace Exemplar
 
     /// Begin or go on in the output directory, and keep there from now on what the run says.
     void
-    take_directory(const RunOptions &options, const Problem &problem, RunWriter &writer, RunLog &log)
+    take_directory(const RunOptions &options,
+                   const Problem    &problem,
+                   RunWriter        &writer,
+                   RunLog           &log)
     {
       try
       {
@@ -101,11 +104,8 @@ namespace Exemplar
     }
 
     void
-    run_steps(Problem     &problem,
-              RunWriter   &writer,
-              RunLog      &log,
-              Progress    &progress,
-              StateReview &review)
+    run_steps(
+        Problem &problem, RunWriter &writer, RunLog &log, Progress &progress, StateReview &review)
     {
       while (problem.state.step < problem.time_axis.n_steps())
       {
@@ -144,8 +144,8 @@ namespace Exemplar
 
     const Exchange &exchange = problem->body.exchange();
     Progress        progress(std::cout, is_terminal(),
-                             options.quiet || options.verbose || !exchange.is_root(),
-                             problem->state.step, problem->time_axis.n_steps());
+                             options.quiet || options.verbose || !exchange.is_root(), problem->state.step,
+                             problem->time_axis.n_steps());
     problem->solver->observe = [&](const SolveReport &report)
     {
       progress.go_on(progress_text(report));

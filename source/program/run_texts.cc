@@ -62,10 +62,10 @@ namespace Exemplar
     body_text(const Problem &problem)
     {
       const BodyMeasures measures = measure(problem.body);
-      std::string        text     = "Body      " + plain(measures.size[0]) + " x "
-                         + plain(measures.size[1]) + " x " + plain(measures.size[2])
-                         + " m, " + plain(measures.mass) + " kg; E " + range_text(measures.young)
-                         + " Pa, nu " + range_text(measures.poisson);
+      std::string text = "Body      " + plain(measures.size[0]) + " x " + plain(measures.size[1])
+                         + " x " + plain(measures.size[2]) + " m, " + plain(measures.mass)
+                         + " kg; E " + range_text(measures.young) + " Pa, nu "
+                         + range_text(measures.poisson);
       const Loads *loads = problem.actions.loads.get();
       if (loads != nullptr && loads->has_gravity())
       {
@@ -104,6 +104,23 @@ namespace Exemplar
       text << solver.n_threads << (solver.n_threads == 1 ? " thread" : " threads") << "; BLAS "
            << blas.library << ' ' << blas.core << '\n';
       return text.str();
+    }
+
+    /// Cells of a body that one process solves faster than several, as doc/parallel.md has measured.
+    unsigned int
+    cells_of_one_process(const SceneKind scene)
+    {
+      return scene == SceneKind::dynamic ? 10000 : 50000;
+    }
+
+    std::string
+    hint_text(const Problem &problem)
+    {
+      const unsigned int bound = cells_of_one_process(problem.parameters.scene);
+      if (problem.body.exchange().n_processes() == 1 || problem.body.mesh.whole().n_cells >= bound)
+        return "";
+      return "Note      with fewer than " + std::to_string(bound)
+             + " cells one process is faster: start without mpirun\n";
     }
 
     std::string
@@ -151,7 +168,7 @@ namespace Exemplar
     return "Scene     " + printable(problem.parameters.name) + '\n' + mesh_text(problem)
            + made_text(problem.body.made.get()) + body_text(problem)
            + examples_text(problem.examples.poses.get()) + solver_text(problem) + "Output    "
-           + problem.parameters.output.directory + '\n';
+           + problem.parameters.output.directory + '\n' + hint_text(problem);
   }
 
   std::string

@@ -15,7 +15,7 @@ namespace Exemplar
       for (const BoundaryFace &face : mesh.get_boundary_faces())
       {
         const auto &x = mesh.get_nodes();
-        const auto  a = x[face.nodes[1]] - x[face.nodes[0]], b = x[face.nodes[2]] - x[face.nodes[0]];
+        const auto a = x[face.nodes[1]] - x[face.nodes[0]], b = x[face.nodes[2]] - x[face.nodes[0]];
         area += 0.5 * dealii::cross_product_3d(a, b).norm();
       }
       return mesh.exchange().sum(area);

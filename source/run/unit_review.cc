@@ -65,7 +65,8 @@ namespace Exemplar
     {
       if (measures.density.least < light)
         return "A density of " + short_text(measures.density.least)
-               + " kg/m^3 is that of a gas; water has 1000. Material/Density is in kg/m^3, of which "
+               + " kg/m^3 is that of a gas; water has 1000. Material/Density is in kg/m^3, of "
+                 "which "
                  "1000 are one g/cm^3.";
       if (measures.density.greatest > heavy)
         return "A density of " + short_text(measures.density.greatest)
@@ -80,7 +81,8 @@ namespace Exemplar
       if (measures.young.least >= soft)
         return {};
       return "Young's modulus of " + short_text(measures.young.least)
-             + " Pa is less than that of jelly, which has some 1000 Pa. Material/Young's modulus is "
+             + " Pa is less than that of jelly, which has some 1000 Pa. Material/Young's modulus "
+               "is "
                "in Pa, of which 1e6 are one MPa.";
     }
 
@@ -124,11 +126,12 @@ namespace Exemplar
       const double         sag      = estimate.sag / measures.length();
       if (!(sag >= great_sag) && !(estimate.strain >= great_strain))
         return {};
-      const double      ratio   = measures.weight_over_stiffness(gravity_of(problem)) * measures.length();
-      const std::string how_far = sag > 1. ? "further than it is long"
-                                           : "by some " + std::to_string(std::lround(100. * sag))
-                                                 + " % of its length";
-      return "Its own weight makes this body sag " + how_far + " (rho g L / E = " + short_text(ratio)
+      const double ratio = measures.weight_over_stiffness(gravity_of(problem)) * measures.length();
+      const std::string how_far
+          = sag > 1. ? "further than it is long"
+                     : "by some " + std::to_string(std::lround(100. * sag)) + " % of its length";
+      return "Its own weight makes this body sag " + how_far
+             + " (rho g L / E = " + short_text(ratio)
              + "; estimated from where it is held and how slender it is). If that is not meant, "
                "look at the units: Young's modulus is in Pa (1e6 are one MPa), lengths are in m "
                "(Mesh/Scale), gravity is in m/s^2.";
@@ -188,12 +191,13 @@ namespace Exemplar
       {
         return {}; // the step will say so
       }
-      travel = { exchange.max(travel.in_step), exchange.max(travel.in_all) };
+      travel                    = { exchange.max(travel.in_step), exchange.max(travel.in_all) };
       const std::string of_size = " times the size of the body (" + short_text(size) + " m)";
       if (travel.in_step > great_step * size)
         return "Handles move by up to " + short_text(travel.in_step) + " m in a step, "
                + short_text(travel.in_step / size) + of_size
-               + ". Motions are in metres, angles in radians. If this is meant, take smaller steps.";
+               + ". Motions are in metres, angles in radians. If this is meant, take smaller "
+                 "steps.";
       if (travel.in_all > great_way * size)
         return "Handles move by up to " + short_text(travel.in_all) + " m, "
                + short_text(travel.in_all / size) + of_size + ". Motions are in metres.";
@@ -221,7 +225,9 @@ namespace Exemplar
 
     /// The greatest magnitude of an angle [rad] at the corners of the body and at a few times.
     double
-    greatest_angle(const std::string &argument, const Problem &problem, const BodyMeasures &measures)
+    greatest_angle(const std::string  &argument,
+                   const Problem      &problem,
+                   const BodyMeasures &measures)
     {
       double greatest = 0.;
       try
@@ -266,14 +272,14 @@ namespace Exemplar
     const Loads   *loads   = problem.actions.loads.get();
     if (handles == nullptr || handles->size() == 0 || loads == nullptr || !loads->has_gravity())
       return { 0., 0. };
-    const auto                 &g        = problem.parameters.loads.gravity;
-    const double                gravity  = gravity_of(problem);
-    const dealii::Tensor<1, 3>  down({ g[0] / gravity, g[1] / gravity, g[2] / gravity });
-    const double                factor   = measures.weight_over_stiffness(gravity);
-    const double                squared  = measures.thickness() * measures.thickness();
-    const FESpace              &fe_space = problem.body.fe_space;
-    const auto                  boxes    = boxes_of(*handles, fe_space);
-    double                      sag = 0., distance = 0.;
+    const auto                &g       = problem.parameters.loads.gravity;
+    const double               gravity = gravity_of(problem);
+    const dealii::Tensor<1, 3> down({ g[0] / gravity, g[1] / gravity, g[2] / gravity });
+    const double               factor   = measures.weight_over_stiffness(gravity);
+    const double               squared  = measures.thickness() * measures.thickness();
+    const FESpace             &fe_space = problem.body.fe_space;
+    const auto                 boxes    = boxes_of(*handles, fe_space);
+    double                     sag = 0., distance = 0.;
     for (unsigned int node = 0; node < fe_space.n_nodes(); ++node)
     {
       dealii::Tensor<1, 3> way({ 1e300, 0., 0. });

@@ -29,11 +29,11 @@ namespace Exemplar
   {
     std::array<double, 3> size; ///< of the bounding box [m]
     double                volume;
-    double                area;    ///< of the boundary [m^2]
-    double                mass;    ///< [kg]
-    Range                 young;   ///< Young's modulus of the cells [Pa]
-    Range                 poisson; ///< Poisson's ratio of the cells
-    Range                 density; ///< of the cells [kg/m^3]
+    double                area;       ///< of the boundary [m^2]
+    double                mass;       ///< [kg]
+    Range                 young;      ///< Young's modulus of the cells [Pa]
+    Range                 poisson;    ///< Poisson's ratio of the cells
+    Range                 density;    ///< of the cells [kg/m^3]
     double                soft_young; ///< harmonic mean of Young's modulus over the volume [Pa]
 
     /// The greatest extent of the bounding box [m].
