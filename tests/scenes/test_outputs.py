@@ -179,7 +179,7 @@ class Outputs(SceneTest):
     def test_final_pose_keeps_numbers_and_tags(self):
         self.write("hand.msh", HAND_WRITTEN)
         hand = read_msh(self.directory / "hand.msh")
-        scene = {"Scene": "static", "Mesh/File": "hand.msh", "Mesh/Scale": "0.001",
+        scene = {"Scene": "static", "Mesh/File": "hand.msh", "Mesh/Scale": "0.01",
                  "Handles/Names": "base", "Handles/base/Select": "nodes base.txt",
                  "Loads/Gravity": "0, 0, -1000", "Material/region 7/Young's modulus": "2e6"}
         self.write("base.txt", "17\n3 101\n")
