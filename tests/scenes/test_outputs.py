@@ -310,7 +310,7 @@ class Outputs(SceneTest):
             ({**BAR, "Material/Density": "7.85e6"}, ["7.85e+06 kg/m^3", "all metals"]),
             ({**BAR, "Material/Young's modulus": "10"}, ["Young's modulus of 10 Pa", "1e6 are one MPa"]),
             ({**BAR, "Loads/Gravity": "0, 0, -100"}, ["sag further than it is long (rho g L / E = 0.2;"]),
-            ({**BAR, "Loads/Gravity": "0, 0, -15"}, ["sag by some 41 % of its length (rho g L / E = 0.03;"]),
+            ({**BAR, "Loads/Gravity": "0, 0, -15"}, ["sag by some 30 % of its length (rho g L / E = 0.03;"]),
             ({**pulled, motion: "0; 0; sin(90*t)"}, ["sin(90*t) goes up to 14.3 turns", "write 90*pi/180."]),
             ({**pulled, motion: "300*t; 0; 0"}, ["150 m in a step, 61.2 times the size of the body (2.45 m)"]),
             ({**pulled, motion: "100*t; 0; 0", "Time/Increments": "50"}, ["up to 100 m, 40.8 times"]),
