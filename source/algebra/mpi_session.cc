@@ -177,6 +177,8 @@ namespace Exemplar
       setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
       // hwloc, by which it looks at the machine, would say on stderr what it misses, such as /sys
       setenv("HWLOC_HIDE_ERRORS", "2", 0);
+      // who waits for another process lets it have the core: cores may be shared, and the other be late
+      setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);
       // threads with a problem each call MPI one after the other: TrilinosLock
       int provided = 0;
       MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED,

@@ -1,12 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/progress.h>
 
+#include <algorithm>
 #include <sstream>
+#include <system_error>
 
 namespace Exemplar
 {
   namespace
   {
+    using std::chrono::milliseconds;
+
+    // signs of life at least every 5 s
+    constexpr milliseconds line_interval(4000);
+
+    // a bar that changes faster cannot be read, and steps that take less need no other sign
+    constexpr milliseconds bar_interval(100), sign_interval(500), long_step(1000);
+
     double
     seconds_between(const std::chrono::steady_clock::time_point a,
                     const std::chrono::steady_clock::time_point b)
@@ -36,28 +46,89 @@ namespace Exemplar
                      const unsigned int n_steps,
                      const std::string &unit)
       : out(out), is_terminal(is_terminal), quiet(quiet), first(first), n_steps(n_steps),
-        unit(unit), begin(Clock::now()), last_shown(begin)
+        unit(unit), begin(Clock::now()), done(first), step_begin(begin), last_shown(begin)
   {
+  }
+
+  Progress::~Progress()
+  {
+    finish();
+  }
+
+  void
+  Progress::go_on(const std::string &note)
+  {
+    if (quiet)
+      return;
+    const std::lock_guard<std::mutex> lock(mutex);
+    under_way = note;
+    if (watcher.joinable() || ended)
+      return;
+    try
+    {
+      watcher = std::thread([this] { watch(); });
+    }
+    catch (const std::system_error &)
+    {
+      ended = true; // there are no threads left, and the run matters more than its display
+    }
+  }
+
+  Progress::Clock::time_point
+  Progress::next_sign() const
+  {
+    return is_terminal ? std::max(last_shown + sign_interval, step_begin + long_step)
+                       : last_shown + line_interval;
+  }
+
+  void
+  Progress::watch()
+  {
+    std::unique_lock<std::mutex> lock(mutex);
+    while (!ended)
+    {
+      changed.wait_until(lock, next_sign());
+      const auto now = Clock::now();
+      if (!ended && done < n_steps && now >= next_sign())
+      {
+        last_shown = now;
+        show(done + 1, duration_text(seconds_between(step_begin, now)), under_way);
+      }
+      else if (!ended && done == n_steps)
+        changed.wait(lock); // for the end
+    }
   }
 
   void
   Progress::update(const unsigned int step, const std::string &note)
   {
-    const auto   now      = Clock::now();
-    const double interval = is_terminal ? 0.1 : 5.;
-    if (quiet || (step != n_steps && seconds_between(last_shown, now) < interval))
+    if (quiet)
       return;
-    last_shown = now;
+    const std::lock_guard<std::mutex> lock(mutex);
+    const auto                        now = Clock::now();
 
-    const double       left = seconds_between(begin, now) / (step - first) * (n_steps - step);
+    done       = step;
+    step_begin = now;
+    under_way.clear();
+    if (step == n_steps || now >= last_shown + (is_terminal ? bar_interval : line_interval))
+    {
+      last_shown        = now;
+      const double left = seconds_between(begin, now) / (step - first) * (n_steps - step);
+      show(step, duration_text(left) + " left", note);
+    }
+  }
+
+  void
+  Progress::show(const unsigned int step, const std::string &duration, const std::string &note)
+  {
     std::ostringstream text;
     if (is_terminal)
     {
-      const unsigned int width = 20, filled = width * step / n_steps;
+      const unsigned int width = 20, filled = width * done / n_steps;
       text << '[' << std::string(filled, '#') << std::string(width - filled, '.') << "] ";
     }
-    text << unit << " " << step << " of " << n_steps << ", " << duration_text(left) << " left, "
-         << note;
+    text << unit << " " << step << " of " << n_steps << ", " << duration
+         << (note.empty() ? "" : ", ") << note;
     if (is_terminal) // one line, whatever stood there before; "\033[K" clears the rest of it
       out << '\r' << text.str().substr(0, 79) << "\033[K" << std::flush;
     else
@@ -68,6 +139,13 @@ namespace Exemplar
   void
   Progress::finish()
   {
+    {
+      const std::lock_guard<std::mutex> lock(mutex);
+      ended = true;
+    }
+    changed.notify_all();
+    if (watcher.joinable())
+      watcher.join();
     if (line_open)
       out << std::endl;
     line_open = false;

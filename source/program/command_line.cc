@@ -182,7 +182,7 @@ Exit status:
       require_printed();
     }
 
-    /// What is not a run of a scene is done by one process.
+    /// What is neither a run of a scene nor verify is done by one process.
     void
     refuse_processes(const std::string &command)
     {
@@ -247,8 +247,9 @@ Exit status:
     {
       throw UserError(std::string(error.what()) + ". exemplar --help lists what is allowed.");
     }
-    for (const CLI::App *command : app.get_subcommands())
-      refuse_processes("exemplar " + command->get_name());
+    for (const CLI::App *command : { &study_command, &mesh_command, &pose_command })
+      if (*command)
+        refuse_processes("exemplar " + command->get_name());
     if (arguments.validate || arguments.print)
       refuse_processes(arguments.validate ? "--validate" : "--print-parameters");
     if (arguments.run.resume && arguments.run.resume_from)

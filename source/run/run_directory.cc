@@ -13,7 +13,8 @@ namespace Exemplar
 {
   namespace fs = std::filesystem;
 
-  const std::string RunDirectory::mark = "# exemplar: all parameters in force";
+  const std::string RunDirectory::mark     = "# exemplar: all parameters in force";
+  const std::string RunDirectory::log_mark = "exemplar: what the run has said";
 
   namespace
   {
@@ -52,6 +53,7 @@ namespace Exemplar
     {
       static const std::map<std::string, std::string> files
           = { { "parameters.prm", RunDirectory::mark + "\n" },
+              { "log.txt", RunDirectory::log_mark + "\n" },
               { "original.prm", "" }, // as the user wrote it
               { "statistics.csv", "step,time,status," },
               { "summary.json", "{\n  \"program\": \"exemplar\"" },

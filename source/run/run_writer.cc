@@ -227,7 +227,7 @@ namespace Exemplar
   }
 
   void
-  RunWriter::finish(const std::string &status)
+  RunWriter::finish(const std::string &status, const std::vector<std::string> &warnings)
   {
     {
       StepClock::Scope scope(problem.clock, Part::output);
@@ -245,7 +245,7 @@ namespace Exemplar
     const auto mesh_digest = input_digests.find(problem.parameters.mesh.file);
     write_summary(problem, totals, space_error,
                   mesh_digest != input_digests.end() ? mesh_digest->second : "generated", status,
-                  directory.summary());
+                  warnings, directory.summary());
   }
 
   void

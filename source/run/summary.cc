@@ -91,6 +91,15 @@ namespace Exemplar
       return json;
     }
 
+    Json
+    warnings_of(const std::vector<std::string> &warnings)
+    {
+      Json json = Json::array();
+      for (const std::string &warning : warnings)
+        json.push_back(message_text(warning));
+      return json;
+    }
+
     /// Names of the parts that are there, or of those that are not.
     Json
     names_of(const std::vector<PartOfProblem> &parts, const bool is_there)
@@ -109,6 +118,7 @@ namespace Exemplar
                 const std::optional<SpaceError> &space_error,
                 const std::string               &mesh_sha256,
                 const std::string               &status,
+                const std::vector<std::string>  &warnings,
                 const std::filesystem::path     &file)
   {
     const BlasInfo                 blas     = blas_info();
@@ -157,6 +167,7 @@ namespace Exemplar
     json["iterations"]     = totals.iterations;
     json["factorizations"] = totals.factorizations;
     json["status"]         = status;
+    json["warnings"]       = warnings_of(warnings);
     json["worst_residual"] = totals.worst_residual;
     if (space_error)
       json["space_error"] = errors_of(*space_error);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/mpi_session.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/verification/verification.h>
 
@@ -39,6 +40,9 @@ namespace Exemplar
         for (const auto &subject : { kernel_cases, derivative_cases, static_cases, beam_cases,
                                      space_cases, dynamic_cases, example_cases })
           for (Case &one : subject())
+            all.push_back(std::move(one));
+        if (MpiSession::n_processes() > 1)
+          for (Case &one : process_cases())
             all.push_back(std::move(one));
         return all;
       }
@@ -104,18 +108,25 @@ namespace Exemplar
 
       /// Print a line for each number. Returns whether all are as expected.
       bool
+      print(const std::string &name, const std::vector<Measurement> &measurements)
+      {
+        bool passes = true;
+        for (const Measurement &m : measurements)
+        {
+          print_row(m.passes() ? "PASS" : "FAIL", name + " (" + m.what + ")",
+                    six_digits(m.expected), six_digits(m.got), tolerance_text(m));
+          passes = passes && m.passes();
+        }
+        return passes;
+      }
+
+      /// Compute and print a case of one process.
+      bool
       run(const Case &one)
       {
         try
         {
-          bool passes = true;
-          for (const Measurement &m : one.measure())
-          {
-            print_row(m.passes() ? "PASS" : "FAIL", one.name + " (" + m.what + ")",
-                      six_digits(m.expected), six_digits(m.got), tolerance_text(m));
-            passes = passes && m.passes();
-          }
-          return passes;
+          return print(one.name, one.measure());
         }
         catch (const Interrupted &)
         {
@@ -130,15 +141,40 @@ namespace Exemplar
     } // namespace
   }   // namespace Verification
 
+  namespace
+  {
+    /// The names of the cases that have failed, at the root.
+    std::vector<std::string>
+    run_all(const std::vector<Verification::Case> &cases)
+    {
+      std::vector<std::string> failed;
+      for (const Verification::Case &one : cases)
+      {
+        bool passes = true;
+        if (one.is_shared) // what fails in one process alone ends all
+        {
+          const auto measurements = one.measure();
+          passes = !MpiSession::is_root() || Verification::print(one.name, measurements);
+        }
+        else if (MpiSession::is_root())
+          passes = Verification::run(one);
+        if (!passes)
+          failed.push_back(one.name);
+        MpiSession::wait_for_all();
+      }
+      return failed;
+    }
+  } // namespace
+
   int
   verify(const std::vector<std::string> &names)
   {
     const std::vector<Verification::Case> cases = Verification::select(names);
-    Verification::print_row("", "case (what)", "expected", "got", "tolerance");
-    std::vector<std::string> failed;
-    for (const Verification::Case &one : cases)
-      if (!Verification::run(one))
-        failed.push_back(one.name);
+    if (MpiSession::is_root())
+      Verification::print_row("", "case (what)", "expected", "got", "tolerance");
+    const std::vector<std::string> failed = run_all(cases);
+    if (!MpiSession::is_root())
+      return 0;
     std::cout << cases.size() - failed.size() << " of " << cases.size() << " cases pass";
     for (std::size_t i = 0; i < failed.size(); ++i)
       std::cout << (i == 0 ? "; failed: " : ", ") << failed[i];
@@ -149,6 +185,8 @@ namespace Exemplar
   void
   list_verification_cases()
   {
+    if (!MpiSession::is_root())
+      return;
     for (const Verification::Case &one : Verification::all_cases())
       std::cout << std::left << std::setw(32) << one.name << one.description << '\n';
   }

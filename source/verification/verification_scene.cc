@@ -21,7 +21,7 @@ namespace Exemplar::Verification
   }
 
   State
-  Scene::solve()
+  solve_all_steps(Problem &problem)
   {
     while (problem.state.step < problem.time_axis.n_steps())
     {
@@ -32,6 +32,12 @@ namespace Exemplar::Verification
                             + shortest_text(report.residual));
     }
     return problem.state;
+  }
+
+  State
+  Scene::solve()
+  {
+    return solve_all_steps(problem);
   }
 
   Inputs
@@ -184,8 +190,8 @@ namespace Exemplar::Verification
     const auto           nodes = Selection{ selection }.nodes(problem.body.mesh, "verify");
     for (const unsigned int node : nodes)
       for (unsigned int c = 0; c < 3; ++c)
-        sum[c] += state.positions[3 * node + c]
-                  - problem.body.fe_space.rest_positions()[3 * node + c];
+        sum[c]
+            += state.positions[3 * node + c] - problem.body.fe_space.rest_positions()[3 * node + c];
     return sum / static_cast<double>(nodes.size());
   }
 

@@ -15,7 +15,7 @@ DYNAMIC = {**BAR, "Scene": "dynamic", "Material/Young's modulus": "1e4", "Time/S
            "Output/Every": "2"}
 OF_FILE = {**DYNAMIC, "Mesh/Generator": None, "Mesh/Box size": None, "Mesh/Box cells": None, "Mesh/File": "bar.msh"}
 OWN = ("original.prm", "parameters.prm", "statistics.csv", "summary.json", "final.msh", "checkpoint.bin",
-       "animation.pvd", "frame_0000.vtu", "frame_0002.vtu", "frame_0004.vtu")
+       "log.txt", "animation.pvd", "frame_0000.vtu", "frame_0002.vtu", "frame_0004.vtu")
 
 
 def tree(directory):

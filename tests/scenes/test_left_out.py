@@ -153,7 +153,7 @@ class LeftOut(SceneTest):
         self.check_parts(output, [], ["frame writer"])
         self.assertEqual({file.name for file in output.iterdir()},
                          {"checkpoint.bin", "final.msh", "original.prm", "parameters.prm",
-                          "statistics.csv", "summary.json"})
+                          "log.txt", "statistics.csv", "summary.json"})
 
 
 if __name__ == "__main__":

@@ -11,8 +11,8 @@ import xml.etree.ElementTree
 from math import cos, sin
 
 from exemplar_runner import (EXEMPLAR, REPOSITORY, SceneTest, bend, greatest_distance, has_trilinos, nodes_of, read_csv, read_msh,
-                             read_pvd, read_summary, read_vtu, results, timeless_statistics, twist, write_msh,
-                             write_scene)
+                             read_pvd, read_summary, read_vtu, results, timeless_statistics, twist, without_sagging,
+                             write_msh, write_scene)
 
 MPI_ENVIRONMENT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
                    "OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_MCA_hwloc_base_binding_policy": "none",
@@ -81,7 +81,7 @@ def launch(n, *arguments, environment=None, timeout=240):
                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=timeout,
                           env={**os.environ, **MPI_ENVIRONMENT, **(environment or {})})
     own = [line for line in done.stderr.splitlines() if line.startswith(("exemplar: ", "Warning: "))]
-    return done.returncode, own, done
+    return done.returncode, without_sagging(own), done
 
 
 @unittest.skipUnless(shutil.which("mpirun") and has_trilinos(), "without mpirun, or built without Trilinos")
@@ -120,6 +120,28 @@ class SeveralProcesses(SceneTest):
                     one = self.solve(scene, "--quiet", output=f"one_{name}")
                     self.compare(one, self.run_on(n, scene, output=f"on_{n}_{name}"),
                                  self.displacement(one, scene), 1e-8)
+
+    def test_verify(self):
+        """Cases of one process by the root alone, and bodies that all share."""
+        status, own, done = launch(2, "verify", "uniform-scale", "shared-stretch", "shared-static", "shared-dynamics")
+        self.assertEqual((status, own), (0, []), done.stdout + done.stderr)
+        head, *lines, last = done.stdout.splitlines()
+        self.assertEqual([line.split()[:2] for line in lines],
+                         [["PASS", "uniform-scale"], *[["PASS", "shared-stretch"]] * 2,
+                          *[["PASS", "shared-static"]] * 2, *[["PASS", "shared-dynamics"]] * 2])
+        self.assertEqual(last, "4 of 4 cases pass")
+        self.assertEqual(self.call("verify", "shared-static").status, 1)  # nobody to share it with
+
+    def test_a_log_without_escapes(self):
+        scene = write_scene(self.directory / "scene.prm", STATIC)
+        status, own, done = launch(2, scene, "--output", self.directory / "out")
+        self.assertEqual((status, own), (0, []), done.stderr)
+        for letter in ("\r", "\x1b"):
+            self.assertNotIn(letter, done.stdout)
+        self.assertIn("with fewer than 50000 cells one process is faster: start without mpirun", done.stdout)
+        log = (self.directory / "out/log.txt").read_text()
+        self.assertEqual(log.count("Where the time went"), 1)
+        self.assertIn("2 processes of 1 thread", log)
 
     def test_what_surfaces_files_and_regions_say(self):
         two = {**STATIC, "Mesh/Generator": None, "Mesh/Box size": None, "Mesh/Box cells": None, "Mesh/File": "two.msh",

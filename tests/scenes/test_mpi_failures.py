@@ -165,7 +165,7 @@ class Start(MpiTest):
 
     def test_commands_for_one_process(self):
         self.write("scene.prm", prm(STATIC))
-        for arguments, name in ((["verify", "patch"], "exemplar verify"), (["study", "study.prm"], "exemplar study"),
+        for arguments, name in ((["study", "study.prm"], "exemplar study"),
                                 (["mesh", "--surface", "a.obj", "--cells", "100", "--output", "a.msh"], "exemplar mesh"),
                                 (["pose", "--mesh", "a.msh", "--rest", "a.obj", "--pose", "b.obj", "--output", "out"],
                                  "exemplar pose"),

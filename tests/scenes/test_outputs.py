@@ -1,10 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What a run writes, and what the command line prints."""
 
+import contextlib
+import os
+import pty
 import re
+import subprocess
 import unittest
 
-from exemplar_runner import (BAR, REPOSITORY, SceneTest, distance, greatest_distance, prm, read_csv, read_msh,
+from exemplar_runner import (BAR, EXEMPLAR, REPOSITORY, SceneTest, distance, greatest_distance, prm, read_csv, read_msh,
                              read_pvd, read_summary, read_vtu, results)
 
 DYNAMIC = {**BAR, "Scene": "dynamic", "Mesh/Scale": "0.5", "Material/Density": "10",
@@ -12,7 +16,8 @@ DYNAMIC = {**BAR, "Scene": "dynamic", "Mesh/Scale": "0.5", "Material/Density": "
            "Handles/left/Motion": "0; 0; 0.1*t", "Output/Every": "2",
            "Material/region 1/Poisson's ratio": "0.3"}
 FILES = {"frame_0000.vtu", "frame_0002.vtu", "frame_0004.vtu", "animation.pvd", "final.msh",
-         "statistics.csv", "summary.json", "original.prm", "parameters.prm", "checkpoint.bin"}
+         "statistics.csv", "summary.json", "original.prm", "parameters.prm", "checkpoint.bin",
+         "log.txt"}
 
 # 2 regions, unordered gaps in the numbers of nodes and elements, tags that differ from the
 # entities, a point and a line element, a face without a physical surface
@@ -174,7 +179,7 @@ class Outputs(SceneTest):
     def test_final_pose_keeps_numbers_and_tags(self):
         self.write("hand.msh", HAND_WRITTEN)
         hand = read_msh(self.directory / "hand.msh")
-        scene = {"Scene": "static", "Mesh/File": "hand.msh", "Mesh/Scale": "0.001",
+        scene = {"Scene": "static", "Mesh/File": "hand.msh", "Mesh/Scale": "0.01",
                  "Handles/Names": "base", "Handles/base/Select": "nodes base.txt",
                  "Loads/Gravity": "0, 0, -1000", "Material/region 7/Young's modulus": "2e6"}
         self.write("base.txt", "17\n3 101\n")
@@ -253,6 +258,100 @@ class Outputs(SceneTest):
         self.assertEqual(len(read_csv(output)), 2)
         self.assertIn("set Motion = 0; 0; t\n", (output / "parameters.prm").read_text())
         self.assertEqual((output / "original.prm").read_text(), prm(BAR))
+
+    def test_log(self):
+        self.write("scene.prm", prm(BAR))
+        run = self.call("scene.prm", "--output", "out")
+        self.assertEqual((run.status, run.stderr), (0, ""))
+        mark, date, *lines = (self.directory / "out/log.txt").read_text().splitlines()
+        self.assertEqual(mark, "exemplar: what the run has said")
+        self.assertRegex(date, r"^\d{4}-\d\d-\d\d \d\d:\d\d:\d\d UTC, exemplar \d")
+        self.assertEqual(lines, [line for line in run.stdout.splitlines() if not line.startswith("step ")])
+        self.assertIn("Body      2 x 1 x 1 m, 2000 kg; E 1e6 Pa, nu 0.45; rho g L / E 0.002", lines)
+
+        # the same with --quiet, which clears the one before; a resumed run adds to it
+        quiet = self.solve(BAR, "--quiet")
+        def words(text):
+            return re.sub(r"[0-9.]+", "0", text)
+        first = (quiet / "log.txt").read_text()
+        self.assertEqual(words(first), words("\n".join([mark, date, *lines, ""])))
+        self.solve(BAR, "--quiet", "--resume")
+        log = (quiet / "log.txt").read_text()
+        self.assertTrue(log.startswith(first))
+        self.assertEqual(log.count(mark), 1)
+        self.assertIn("Resumed   after step 2\n", log[len(first):])
+        self.assertEqual(log.count("Where the time went"), 2)
+
+    def test_log_of_a_failure(self):
+        failing = {**BAR, "Scene": "dynamic", "Time/Step": "0.1", "Time/End": "0.2", "Solver/Method": "fixed point",
+                   "Solver/Maximum iterations": "1", "Solver/Tolerance": "1e-12", "Loads/Gravity": "0, 0, -1"}
+        run = self.attempt(failing)
+        self.assertEqual(run.status, 2, run.stderr)
+        said = run.stderr.removeprefix("exemplar: ")
+        self.assertIn(said, (run.output / "log.txt").read_text())
+        self.assertEqual(read_summary(run.output)["warnings"], [])
+
+    def test_a_foreign_log_is_not_cleared(self):
+        output = self.solve(BAR)
+        (output / "log.txt").write_text("my notes\n")
+        for arguments in ([], ["--resume"]):
+            run = self.attempt(BAR, *arguments)
+            self.assertEqual(run.status, 1)
+            self.assertIn("holds log.txt, which was not written by exemplar", run.stderr)
+        self.assertEqual((output / "log.txt").read_text(), "my notes\n")
+
+    def test_wrong_units_are_warned_of(self):
+        pulled = {**BAR, "Loads/Gravity": None, "Handles/Names": "left, right", "Handles/right/Select": "boundary 2"}
+        motion = "Handles/right/Motion"
+        cases = (
+            ({**BAR, "Mesh/Box size": "400, 100, 100"}, ["The body is 400 m long.", "Mesh/Scale = 0.001"]),
+            ({**BAR, "Mesh/Box size": "0.001, 0.0002, 0.0002"}, ["only 0.001 m long", "Mesh/Scale"]),
+            ({**BAR, "Material/Density": "1"}, ["density of 1 kg/m^3", "water has 1000"]),
+            ({**BAR, "Material/Density": "7.85e6"}, ["7.85e+06 kg/m^3", "all metals"]),
+            ({**BAR, "Material/Young's modulus": "10"}, ["Young's modulus of 10 Pa", "1e6 are one MPa"]),
+            ({**BAR, "Loads/Gravity": "0, 0, -100"}, ["sag further than it is long (rho g L / E = 0.2;"]),
+            ({**BAR, "Loads/Gravity": "0, 0, -15"}, ["sag by some 30 % of its length (rho g L / E = 0.03;"]),
+            ({**pulled, motion: "0; 0; sin(90*t)"}, ["sin(90*t) goes up to 14.3 turns", "write 90*pi/180."]),
+            ({**pulled, motion: "300*t; 0; 0"}, ["150 m in a step, 61.2 times the size of the body (2.45 m)"]),
+            ({**pulled, motion: "100*t; 0; 0", "Time/Increments": "50"}, ["up to 100 m, 40.8 times"]),
+            (BAR, []),
+            ({**pulled, "Material/Density": "1", "Material/Young's modulus": "1"}, []),  # nothing depends on them
+            ({**pulled, motion: "0; 0; sin(90*pi/180*t)"}, []),
+            ({**BAR, "Scene": "dynamic", "Loads/Gravity": "0, 0, -100", "Time/End": "0.01"}, []),  # has no time to sag
+        )
+        for keys, words in cases:
+            with self.subTest(words=words):
+                self.write("scene.prm", prm(keys))
+                run = self.call("scene.prm", "--validate")
+                self.assertEqual(run.status, 0, run.stderr)
+                for word in words:
+                    self.assertIn(word, run.stderr)
+                if not words:
+                    self.assertEqual(run.stderr, "")
+
+    def test_warnings_are_kept(self):
+        run = self.attempt({**BAR, "Mesh/Box size": "400, 100, 100", "Material/Density": "1"})
+        self.assertEqual(run.status, 0, run.stderr)
+        warnings = [line.removeprefix("Warning: ") for line in run.stderr.splitlines()]
+        self.assertEqual(len(warnings), 2, run.stderr)
+        self.assertEqual(read_summary(run.output)["warnings"], warnings)
+        for line in run.stderr.splitlines():
+            self.assertIn(line + "\n", (run.output / "log.txt").read_text())
+
+    def test_a_bar_on_terminals_alone(self):
+        """A process of mpirun has what looks like a terminal, and is written to a file."""
+        self.write("scene.prm", prm(BAR))
+        for environment, is_bar in (({}, True), ({"OMPI_COMM_WORLD_SIZE": "1"}, False)):
+            ours, theirs = pty.openpty()
+            subprocess.run([EXEMPLAR, "scene.prm"], cwd=self.directory, stdout=theirs, check=True,
+                           env={**os.environ, **environment})
+            os.close(theirs)
+            shown = b""
+            with open(ours, "rb", buffering=0) as terminal, contextlib.suppress(OSError):  # the end of it
+                while part := terminal.read(4096):
+                    shown += part
+            self.assertIn(b"Where the time went", shown)
+            self.assertEqual(b"\x1b[K" in shown, is_bar)
 
     def test_quiet(self):
         self.write("scene.prm", prm(BAR))

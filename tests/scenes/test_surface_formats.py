@@ -194,8 +194,8 @@ class SurfaceFormats(SceneTest):
         self.solve(SCENE)
         output = self.solve({**SCENE, "Output/Formats": "vtu", "Mesh/Surface": None, "Time/End": "0.02"})
         self.assertEqual(sorted(file.name for file in output.iterdir()),
-                         ["animation.pvd", "checkpoint.bin", "final.msh", "frame_0000.vtu", "frame_0001.vtu", "original.prm",
-                          "parameters.prm", "statistics.csv", "summary.json"])
+                         ["animation.pvd", "checkpoint.bin", "final.msh", "frame_0000.vtu", "frame_0001.vtu", "log.txt",
+                          "original.prm", "parameters.prm", "statistics.csv", "summary.json"])
 
     def test_files_of_others_are_refused(self):
         output = self.solve(SCENE)

@@ -91,6 +91,13 @@ namespace Exemplar
       return handles[handle].name;
     }
 
+    /// Nodes of a handle in this process.
+    const std::vector<unsigned int> &
+    nodes(const unsigned int handle) const
+    {
+      return handles[handle].nodes;
+    }
+
     /// Sum over a handle's held degrees of freedom of a nodal field, by component.
     dealii::Tensor<1, 3>
     sum_over(unsigned int handle, const dealii::Vector<double> &field) const;

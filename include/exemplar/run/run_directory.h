@@ -95,6 +95,13 @@ namespace Exemplar
       return path / "summary.json";
     }
 
+    /// What the run has told its user.
+    std::filesystem::path
+    log() const
+    {
+      return path / "log.txt";
+    }
+
     std::filesystem::path
     final_pose() const
     {
@@ -129,6 +136,9 @@ namespace Exemplar
 
     /// The first line of parameters.prm: by it a directory is known as ours.
     static const std::string mark;
+
+    /// The first line of log.txt.
+    static const std::string log_mark;
 
   private:
     /// What a file of this name begins with if a run has written it, or has left it when it was

@@ -57,9 +57,9 @@ namespace Exemplar
     void
     add_step(const SolveReport &report);
 
-    /// Write final.msh, the animations, a checkpoint and the summary.
+    /// Write final.msh, the animations, a checkpoint and the summary, with all warnings of the run.
     void
-    finish(const std::string &status);
+    finish(const std::string &status, const std::vector<std::string> &warnings = {});
 
     const RunTotals &
     get_totals() const

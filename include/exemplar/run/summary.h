@@ -9,17 +9,19 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace Exemplar
 {
-  /// Write summary.json: the program, the scene's sizes, totals over all steps, the error in space
-  /// of the last if it is known, what was used and what was left out.
+  /// Write summary.json: the program, the scene's sizes, totals over all steps, the warnings of the
+  /// run, the error in space of the last step if it is known, what was used and what was left out.
   void
   write_summary(Problem                         &problem,
                 const RunTotals                 &totals,
                 const std::optional<SpaceError> &space_error,
                 const std::string               &mesh_sha256,
                 const std::string               &status,
+                const std::vector<std::string>  &warnings,
                 const std::filesystem::path     &file);
 } // namespace Exemplar
 

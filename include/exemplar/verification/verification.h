@@ -14,7 +14,9 @@ namespace Exemplar
 {
   /// Run the cases of these names, or all, and print a line for each number: PASS or FAIL,
   /// case (what), expected, got, tolerance. Returns the exit status: 1 if a number is off.
-  /// Throws UserError for an unknown name, before anything is run.
+  /// Throws UserError for an unknown name, before anything is run. Several processes must all call
+  /// it: the root computes the cases while the others wait, but those of bodies that they share
+  /// all compute together, and the status is the root's.
   int
   verify(const std::vector<std::string> &names);
 
@@ -50,6 +52,7 @@ namespace Exemplar
       std::string                               name;        ///< in kebab-case
       std::string                               description; ///< with the source of the numbers
       std::function<std::vector<Measurement>()> measure;     ///< may throw: the case has failed
+      bool is_shared = false; ///< all processes compute it together; the root's numbers count
     };
 
     // The cases by subject, each from a file of its own.
@@ -67,6 +70,10 @@ namespace Exemplar
     dynamic_cases();
     std::vector<Case>
     example_cases();
+
+    /// Of several processes alone.
+    std::vector<Case>
+    process_cases();
   } // namespace Verification
 } // namespace Exemplar
 

@@ -13,6 +13,10 @@
 
 namespace Exemplar::Verification
 {
+  /// All steps that are left; throws SolverFailure unless each succeeds.
+  State
+  solve_all_steps(Problem &problem);
+
   /// A problem from the text of a scene.
   class Scene
   {
@@ -22,7 +26,7 @@ namespace Exemplar::Verification
                    const std::vector<std::string> &overrides = {},
                    Inputs                          inputs    = {});
 
-    /// All steps; throws SolverFailure unless each succeeds.
+    /// As solve_all_steps().
     State
     solve();
 

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_body_measures_h
+#define exemplar_body_measures_h
+
+#include <array>
+#include <limits>
+
+namespace Exemplar
+{
+  struct Body;
+  class Exchange;
+
+  /// From the least to the greatest of some values.
+  struct Range
+  {
+    double least    = std::numeric_limits<double>::infinity();
+    double greatest = -std::numeric_limits<double>::infinity();
+
+    void
+    add(double value);
+
+    /// Of all processes, which must all call it.
+    Range
+    over(const Exchange &exchange) const;
+  };
+
+  /// What a user can compare with the body that was meant.
+  struct BodyMeasures
+  {
+    std::array<double, 3> size; ///< of the bounding box [m]
+    double                volume;
+    double                area;       ///< of the boundary [m^2]
+    double                mass;       ///< [kg]
+    Range                 young;      ///< Young's modulus of the cells [Pa]
+    Range                 poisson;    ///< Poisson's ratio of the cells
+    Range                 density;    ///< of the cells [kg/m^3]
+    double                soft_young; ///< harmonic mean of Young's modulus over the volume [Pa]
+
+    /// The greatest extent of the bounding box [m].
+    double
+    length() const;
+
+    /// Of long parts about how thick they are: exact for long square bars [m].
+    double
+    thickness() const
+    {
+      return 4. * volume / area;
+    }
+
+    /// How much weight there is for the stiffness: rho g / E [1/m], for an acceleration g [m/s^2].
+    double
+    weight_over_stiffness(double gravity) const
+    {
+      return mass / volume * gravity / soft_young;
+    }
+  };
+
+  /// Of the body at rest. All processes that share it must call this.
+  BodyMeasures
+  measure(const Body &body);
+} // namespace Exemplar
+
+#endif

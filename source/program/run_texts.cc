@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/environment.h>
+#include <exemplar/base/message_text.h>
+#include <exemplar/program/run_texts.h>
+#include <exemplar/run/body_measures.h>
+
+#include <cmath>
+#include <iomanip>
+#include <numeric>
+#include <regex>
+#include <sstream>
+
+namespace Exemplar
+{
+  namespace
+  {
+    std::string
+    mesh_text(const Problem &problem)
+    {
+      const Exchange    &exchange = problem.body.exchange();
+      const auto         n_nodes  = exchange.n_nodes(problem.body.fe_space.n_nodes());
+      const auto         n_free   = exchange.sum(problem.constraints.free_dofs.size());
+      std::ostringstream text;
+      text << "Mesh      " << printable(problem.body.mesh.get_name()) << ": "
+           << problem.body.mesh.whole().n_cells
+           << (problem.parameters.model.element == Element::P1 ? " cells, " : " quadratic cells, ")
+           << n_nodes << " nodes, " << static_cast<unsigned int>(n_free) << " of " << 3 * n_nodes
+           << " dofs free\n";
+      return text.str();
+    }
+
+    /// How mesh and poses became, if they are made of surfaces.
+    std::string
+    made_text(const MadeOfSurfaces *made)
+    {
+      std::string text;
+      if (made != nullptr)
+        for (const std::string &line : lines_of(*made))
+          text += "          " + message_text(line) + '\n';
+      return text;
+    }
+
+    /// "4000", "1e6"
+    std::string
+    plain(const double value)
+    {
+      std::ostringstream text;
+      text << std::setprecision(4) << value;
+      static const std::regex zeros("e\\+?(-?)0*");
+      return std::regex_replace(text.str(), zeros, "e$1");
+    }
+
+    std::string
+    range_text(const Range &range)
+    {
+      const std::string least = plain(range.least), greatest = plain(range.greatest);
+      return least == greatest ? least : least + " to " + greatest;
+    }
+
+    /// What shows a wrong unit.
+    std::string
+    body_text(const Problem &problem)
+    {
+      const BodyMeasures measures = measure(problem.body);
+      std::string text = "Body      " + plain(measures.size[0]) + " x " + plain(measures.size[1])
+                         + " x " + plain(measures.size[2]) + " m, " + plain(measures.mass)
+                         + " kg; E " + range_text(measures.young) + " Pa, nu "
+                         + range_text(measures.poisson);
+      const Loads *loads = problem.actions.loads.get();
+      if (loads != nullptr && loads->has_gravity())
+      {
+        const auto  &g       = problem.parameters.loads.gravity;
+        const double gravity = std::sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+        text += "; rho g L / E "
+                + plain(measures.weight_over_stiffness(gravity) * measures.length());
+      }
+      return text + '\n';
+    }
+
+    std::string
+    examples_text(const ExamplePoses *poses)
+    {
+      std::ostringstream text;
+      text << "Examples  ";
+      if (poses != nullptr)
+        text << poses->size() << ", importance " << poses->importance() << '\n';
+      else
+        text << "none\n";
+      return text.str();
+    }
+
+    std::string
+    solver_text(const Problem &problem)
+    {
+      const SolverParameters &solver      = problem.parameters.solver;
+      const BlasInfo          blas        = blas_info();
+      const unsigned int      n_processes = problem.body.exchange().n_processes();
+      std::ostringstream      text;
+      text << "Solver    " << method_name(solver.method) << ", "
+           << problem.system.bordered().traits().name << ", " << problem.time_axis.n_steps()
+           << " steps; ";
+      if (n_processes > 1)
+        text << n_processes << " processes of ";
+      text << solver.n_threads << (solver.n_threads == 1 ? " thread" : " threads") << "; BLAS "
+           << blas.library << ' ' << blas.core << '\n';
+      return text.str();
+    }
+
+    /// Cells of a body that one process solves faster than several, as doc/parallel.md has measured.
+    unsigned int
+    cells_of_one_process(const SceneKind scene)
+    {
+      return scene == SceneKind::dynamic ? 10000 : 50000;
+    }
+
+    std::string
+    hint_text(const Problem &problem)
+    {
+      const unsigned int bound = cells_of_one_process(problem.parameters.scene);
+      if (problem.body.exchange().n_processes() == 1 || problem.body.mesh.whole().n_cells >= bound)
+        return "";
+      return "Note      with fewer than " + std::to_string(bound)
+             + " cells one process is faster: start without mpirun\n";
+    }
+
+    std::string
+    times_text(const RunTotals &totals)
+    {
+      const PartSeconds &seconds = totals.seconds;
+      const double       total   = std::accumulate(seconds.begin(), seconds.end(), 0.);
+      std::ostringstream text;
+      text << "\nWhere the time went\n" << std::fixed;
+      for (unsigned int part = 0; part < n_parts; ++part)
+        text << "  " << std::left << std::setw(12) << part_names[part] << std::right << std::setw(9)
+             << std::setprecision(3) << seconds[part] << " s " << std::setw(5)
+             << std::setprecision(1) << 100. * seconds[part] / total << " %\n";
+      text << "  " << std::left << std::setw(12) << "total" << std::right << std::setw(9)
+           << std::setprecision(3) << total << " s\n"
+           << totals.iterations << " iterations, " << totals.factorizations << " factorisations\n";
+      return text.str();
+    }
+
+    std::string
+    errors_text(const SolverParameters &solver, const double residual, const SpaceError &space)
+    {
+      std::ostringstream text;
+      text << "Errors\n  steps       residual up to " << std::setprecision(2) << residual;
+      if (solver.method == Method::quasi_newton)
+        text << ", positions to " << solver.step_tolerance << " of a step";
+      text << "\n  space       " << std::fixed << std::setprecision(1);
+      if (!space.failure.empty())
+        text << "no estimate: " << space.failure;
+      else
+      {
+        text << "displacement " << 100. * space.displacement << " %, energy " << 100. * space.energy
+             << " %";
+        if (space.weights)
+          text << ", weights " << std::setprecision(3) << *space.weights;
+      }
+      text << '\n';
+      return text.str();
+    }
+  } // namespace
+
+  std::string
+  header_text(const Problem &problem)
+  {
+    return "Scene     " + printable(problem.parameters.name) + '\n' + mesh_text(problem)
+           + made_text(problem.body.made.get()) + body_text(problem)
+           + examples_text(problem.examples.poses.get()) + solver_text(problem) + "Output    "
+           + problem.parameters.output.directory + '\n' + hint_text(problem);
+  }
+
+  std::string
+  closing_text(const Problem &problem, const RunWriter &writer)
+  {
+    const RunTotals &totals = writer.get_totals();
+    std::string      text   = times_text(totals);
+    if (const auto &space = writer.get_space_error())
+      text += errors_text(problem.parameters.solver, totals.worst_residual, *space);
+    return text;
+  }
+
+  std::string
+  progress_text(const SolveReport &report)
+  {
+    std::ostringstream text;
+    text << report.iterations << (report.iterations == 1 ? " iteration" : " iterations")
+         << ", residual " << std::setprecision(2) << report.residual;
+    return text.str();
+  }
+
+  std::string
+  iteration_text(const Problem &problem, const SolveReport &report)
+  {
+    std::ostringstream line;
+    line << "step " << problem.state.step + 1 << ", iteration " << report.iterations
+         << std::scientific << std::setprecision(2) << ": residual " << report.residual;
+    if (!problem.state.multipliers.empty())
+      line << ", weights' " << report.kkt_residual;
+    if (report.step_length < 1.)
+      line << ", step halved to " << report.step_length;
+    if (report.convexity > 0.)
+      line << ", tangent convex by " << report.convexity;
+    line << '\n';
+    return line.str();
+  }
+} // namespace Exemplar

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/long_vectors.h>
+#include <exemplar/algebra/mpi_session.h>
+#include <exemplar/run/scene_file.h>
+#include <exemplar/run/shared_inputs.h>
+#include <exemplar/verification/verification.h>
+#include <exemplar/verification/verification_scene.h>
+
+#include <memory>
+
+// What several processes make of a body that they share: a closed form, and what the root finds
+// alone by another linear solver.
+
+namespace Exemplar::Verification
+{
+  namespace
+  {
+    const std::string bar = box({ { 4., 1., 1. } }, { { 16, 4, 4 } });
+
+    std::unique_ptr<Problem>
+    shared_problem(const std::string &text)
+    {
+      const SceneParameters parameters
+          = SceneFile("", text, std::vector<std::string>()).get_parameters();
+      return std::make_unique<Problem>(parameters, read_shared_inputs(parameters, MPI_COMM_WORLD));
+    }
+
+    /// The differences of positions, over the greatest displacement, and of weights.
+    std::vector<Measurement>
+    compare_with_one_process(const std::string &text)
+    {
+      const auto   problem   = shared_problem(text);
+      const State  together  = solve_all_steps(*problem);
+      const Vector positions = whole(problem->body.exchange(), together.positions);
+      if (!MpiSession::is_root())
+        return {};
+      Scene        scene(text);
+      const Vector rest    = scene.problem.body.fe_space.rest_positions();
+      const State  alone   = scene.solve();
+      const double way     = max_difference(alone.positions, rest);
+      double       weights = 0.;
+      for (unsigned int i = 0; i < alone.weights.size(); ++i)
+        weights = max_or_nan(weights, std::abs(together.weights[i] - alone.weights[i]));
+      return { { "positions, of the way", 0., max_difference(positions, alone.positions) / way,
+                 Comparison::absolute, 1e-8 },
+               { "weights", 0., weights, Comparison::absolute, 1e-8 } };
+    }
+
+    const std::string lifted_bar
+        = bar + section("Examples", set("Pose functions", bend(90., 4.)))
+          + named_sections("Handles",
+                           { { "left", set("Select", "boundary 1") },
+                             { "right", set("Select", "boundary 2") + set("Motion", "0; 0; t")
+                                            + set("Components", "z") } });
+
+    std::vector<Measurement>
+    shared_static()
+    {
+      return compare_with_one_process(set("Scene", "static") + lifted_bar
+                                      + section("Time", set("Increments", "2"))
+                                      + section("Solver", set("Tolerance", 1e-11)));
+    }
+
+    std::vector<Measurement>
+    shared_dynamics()
+    {
+      return compare_with_one_process(set("Scene", "dynamic") + lifted_bar
+                                      + section("Time", set("Step", 0.02) + set("End", 0.1))
+                                      + section("Solver", set("Method", "quasi newton")
+                                                              + set("Step tolerance", 1e-11)
+                                                              + set("Tolerance", 1e-11)));
+    }
+
+    /// Held ends that stretch the bar, whose sides are free to move along x alone: u = x / 10.
+    std::vector<Measurement>
+    shared_stretch()
+    {
+      const std::string along_x  = set("Components", "x") + set("Motion", "0.1*x; 0; 0");
+      const std::string across_x = set("Components", "y, z");
+      const auto        problem  = shared_problem(
+                  set("Scene", "static") + bar + section("Model", set("Dilatation", "cells"))
+                  + section("Material", set("Young's modulus", 1e6) + set("Poisson's ratio", 0.25))
+                  + named_sections("Handles", { { "left", set("Select", "boundary 1") + along_x },
+                                                { "right", set("Select", "boundary 2") + along_x },
+                                                { "all", set("Select", "box -1 -1 -1 5 2 2") + across_x } })
+                  + section("Time", set("Increments", "1")) + section("Solver", set("Tolerance", 1e-12)));
+      const State     state    = solve_all_steps(*problem);
+      const Exchange &exchange = problem->body.exchange();
+      const Vector   &rest     = problem->body.fe_space.rest_positions();
+      double          error    = 0.;
+      for (unsigned int dof = 0; dof < rest.size(); ++dof)
+        error = max_or_nan(error,
+                           std::abs(state.positions[dof] - rest[dof] * (dof % 3 == 0 ? 1.1 : 1.)));
+      error = exchange.max(error);
+      // V (lambda / 2 + mu) / 100 with lambda = mu = E / 2.5
+      return { { "u_x - x / 10", 0., error, Comparison::absolute, 1e-9 },
+               { "energy", 4. * 1.5 * 0.4e6 / 100., problem->evaluation.elastic.energy,
+                 Comparison::relative, 1e-10 } };
+    }
+  } // namespace
+
+  std::vector<Case>
+  process_cases()
+  {
+    return {
+      { "shared-stretch", "a stretched bar of all processes: closed form", shared_stretch, true },
+      { "shared-static", "a bar with an example, by all processes and by one", shared_static,
+        true },
+      { "shared-dynamics", "the same in motion, by quasi-Newton steps", shared_dynamics, true }
+    };
+  }
+} // namespace Exemplar::Verification
