@@ -2,6 +2,7 @@
 // Language: https://gmsh.info/doc/texinfo/gmsh.html, "Gmsh scripting language".
 #include <exemplar/base/digest.h>
 #include <exemplar/base/errors.h>
+#include <exemplar/base/missing_file.h>
 #include <exemplar/base/text_file.h>
 #include <exemplar/mesh/geo_script.h>
 
@@ -53,7 +54,8 @@ namespace Exemplar
       if (auto text = read_text_file(file, &reason))
         return *text;
       throw UserError("Mesh/File: " + file.string() + " cannot be opened (" + reason
-                      + "). Give a .msh or .geo file; relative names start from the .prm.");
+                      + "). Give a .msh or .geo file; relative names start from the .prm."
+                      + missing_file_remedy(file));
     }
 
     bool

@@ -12,7 +12,9 @@ namespace Exemplar
   MshFile
   MshReader::read()
   {
-    if (in.at_end() || in.begin_section() != "MeshFormat")
+    if (in.at_end())
+      in.fail("the file is empty. Save or copy the mesh again.");
+    if (in.begin_section() != "MeshFormat")
       in.fail("a gmsh .msh file begins with $MeshFormat, this one does not. For other formats: "
               "gmsh FILE -save -format msh22 -o NEW.msh");
     read_format();

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/base/message_text.h>
+#include <exemplar/base/missing_file.h>
 #include <exemplar/base/text_file.h>
+#include <exemplar/mesh/foreign_formats.h>
 #include <exemplar/mesh/msh_scanner.h>
 
 #include <charconv>
@@ -26,13 +28,19 @@ namespace Exemplar
       if (auto bytes = read_text_file(file, &reason))
         return std::move(*bytes);
       throw UserError(file.string() + ": cannot be opened (" + reason
-                      + "). Give the path of a gmsh .msh file.");
+                      + "). Give the path of a gmsh .msh file." + missing_file_remedy(file));
     }
   } // namespace
 
   MshScanner::MshScanner(const std::filesystem::path &path)
       : file(path), bytes(read_msh_bytes(path))
   {
+    if (const std::string mark = "\xEF\xBB\xBF"; bytes.compare(0, mark.size(), mark) == 0)
+      position = mark.size(); // that editors put before UTF-8
+    if (bytes.compare(position, 1, "$") == 0)
+      return;
+    if (const std::string remedy = remedy_of_mesh(file, bytes); !remedy.empty())
+      throw UserError(file.string() + " is no gmsh .msh file. " + remedy);
   }
 
   void
@@ -231,7 +239,10 @@ namespace Exemplar
     if (position == bytes.size())
       fail_at_end();
     fail("expected " + expected + ", found " + in_quotes(found)
-         + ". Is it a gmsh .msh file, copied whole and in binary mode? Save the mesh anew.");
+         + (section.empty() && counted.empty()
+                ? ". A gmsh .msh file of version 2.2 or 4.1 consists of such sections: save or "
+                  "convert the mesh by gmsh FILE -save -format msh22 -o NEW.msh."
+                : ". Is the file whole, and copied in binary mode? Save the mesh anew."));
   }
 
   void
