@@ -41,7 +41,7 @@ namespace Exemplar
     std::string
     near_name(const fs::path &file)
     {
-      constexpr std::size_t    most = 10000; // who has more files in a directory waits no longer
+      constexpr std::size_t    most = 2000; // who has more files in a directory waits no longer
       std::vector<std::string> names;
       std::error_code          ignored;
       const fs::path directory = file.has_parent_path() ? file.parent_path() : fs::path(".");

@@ -152,7 +152,7 @@ namespace Exemplar
     {
       const std::string number = trim(replaced(value, "%$", ""));
       if (const double percent = parse_number(number); std::isfinite(percent))
-        return value.back() == '%' || percent > 1. ? shortest_text(percent / 100.) : "";
+        return value.back() == '%' || percent >= 2. ? shortest_text(percent / 100.) : "";
       const std::vector<std::string> parts = split_trimmed(value, '/');
       return parts.size() == 2 ? short_text(parse_number(parts[0]) / parse_number(parts[1])) : "";
     }

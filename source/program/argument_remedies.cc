@@ -200,7 +200,7 @@ namespace Exemplar
         = "exemplar " + (line.command.empty() ? "" : line.command + " ") + "--help";
     if (!line.unknown.empty())
       message = unknown_option(line);
-    else if (!line.positional.empty())
+    else if (line.late_command || !line.positional.empty())
       message = wrong_word(line, names_of_commands(app));
     if (message.empty())
       message = in_own_words(error, line) + ".";

@@ -161,7 +161,7 @@ SCENES = [
 
     # handles and loads
     ("handles that hold everything", {**BAR, "Handles/left/Select": "box -9 -9 -9 9 9 9"},
-     ["hold every node", "Handles/NAME/Select"]),
+     ["hold every node", "Handles/left/Select smaller"]),
     ("duplicate handle name", {**BAR, "Handles/Names": "left, left"},
      ["Handles/Names", "'left' twice", "differ"]),
     ("empty handle name", {**BAR, "Handles/Names": "left,,right"},
