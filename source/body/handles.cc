@@ -24,8 +24,10 @@ namespace Exemplar
         else
           components.insert(3);
       if (components.empty() || components.count(3) == 1)
-        throw UserError(key + "/Components = '" + text
-                        + "' is not allowed. Allowed: some of x, y, z, separated by commas.");
+        throw UserError(
+            key + "/Components = '" + text
+            + "' is not allowed. Allowed: some of x, y, z, separated by commas, such as "
+              "'x, y'.");
       return { components.begin(), components.end() };
     }
 
@@ -318,6 +320,16 @@ namespace Exemplar
     dealii::Vector<double> moved = positions;
     move(time, moved);
     return fe_space.exchange().any(moved != positions);
+  }
+
+  unsigned int
+  Handles::n_nodes(const unsigned int handle) const
+  {
+    const Exchange &exchange = fe_space.exchange();
+    const auto     &nodes    = handles[handle].nodes;
+    const auto      n_owned  = std::count_if(
+              nodes.begin(), nodes.end(), [&](const unsigned int node) { return exchange.owns(node); });
+    return static_cast<unsigned int>(exchange.sum(static_cast<double>(n_owned)));
   }
 
   dealii::Tensor<1, 3>

@@ -18,7 +18,7 @@ namespace Exemplar
     keys.add("Scheme", scheme, schemes,
              "Time stepping of a dynamic scene. implicit euler: of first order, never gains energy "
              "from its steps; bdf2: of second order, for motion that is to be accurate.");
-    keys.add("Step", step, "Time step h [s] of a dynamic scene.", positive);
+    keys.add("Step", step, "The time step dt [s] of a dynamic scene, h on the pages.", positive);
     keys.add("End", end,
              "Time [s] at which a dynamic scene ends. If it is no whole number of steps, "
              "the last step is shorter.",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/digest.h>
 #include <exemplar/base/errors.h>
+#include <exemplar/base/missing_file.h>
 #include <exemplar/mesh/geo_script.h>
 #include <exemplar/mesh/geo_text.h>
 #include <exemplar/mesh/merged_formats.h>
@@ -213,7 +214,7 @@ namespace Exemplar
         catch (const std::runtime_error &error)
         {
           throw UserError(where + path.string() + " cannot be opened (" + error.what() + "). "
-                          + remedy);
+                          + remedy + missing_file_remedy(path));
         }
       }
 

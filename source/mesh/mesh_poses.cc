@@ -10,13 +10,15 @@ namespace Exemplar
   namespace
   {
     const char *const pose_remedy
-        = " A pose must be a final.msh that exemplar wrote for this same mesh.";
+        = " A pose must be a final.msh that exemplar wrote for this same mesh, or what exemplar "
+          "pose "
+          "makes of a posed surface on it; meshing the posed shape anew gives other nodes.";
 
     void
     compare_node_numbers(const MshFile &mesh, const MshFile &pose, const std::string &prefix)
     {
       if (pose.nodes.size() != mesh.nodes.size())
-        throw UserError(prefix + "has " + std::to_string(pose.nodes.size())
+        throw UserError(prefix + "it has " + std::to_string(pose.nodes.size())
                         + " nodes, the mesh has " + std::to_string(mesh.nodes.size()) + "."
                         + pose_remedy);
       for (std::size_t i = 0; i < mesh.nodes.size(); ++i)
@@ -52,7 +54,7 @@ namespace Exemplar
       const auto expected = tetrahedra_of(mesh);
       const auto found    = tetrahedra_of(pose);
       if (found.size() != expected.size())
-        throw UserError(prefix + "has " + std::to_string(found.size())
+        throw UserError(prefix + "it has " + std::to_string(found.size())
                         + " tetrahedra, the mesh has " + std::to_string(expected.size()) + "."
                         + pose_remedy);
       for (std::size_t i = 0; i < expected.size(); ++i)

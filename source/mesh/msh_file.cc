@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Format: https://gmsh.info/doc/texinfo/gmsh.html, "File formats".
 #include <exemplar/base/errors.h>
+#include <exemplar/base/missing_file.h>
 #include <exemplar/base/text_file.h>
 #include <exemplar/mesh/msh_node_index.h>
 #include <exemplar/mesh/msh_reader.h>
@@ -14,7 +15,9 @@ namespace Exemplar
   MshFile
   MshReader::read()
   {
-    if (in.at_end() || in.begin_section() != "MeshFormat")
+    if (in.at_end())
+      in.fail("the file is empty. Save or copy the mesh again.");
+    if (in.begin_section() != "MeshFormat")
       in.fail("a gmsh .msh file begins with $MeshFormat, this one does not. For other formats: "
               "gmsh FILE -save -format msh22 -o NEW.msh");
     read_format();
@@ -186,7 +189,7 @@ namespace Exemplar
     if (auto bytes = read_text_file(file, &reason))
       return read_msh_bytes(std::move(*bytes), file.string());
     throw UserError(file.string() + ": cannot be opened (" + reason
-                    + "). Give the path of a gmsh .msh file.");
+                    + "). Give the path of a gmsh .msh file." + missing_file_remedy(file));
   }
 
   MshFile

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/base/message_text.h>
+#include <exemplar/mesh/foreign_formats.h>
 #include <exemplar/mesh/msh_scanner.h>
 
 #include <charconv>
@@ -19,9 +20,15 @@ namespace Exemplar
     }
   } // namespace
 
-  MshScanner::MshScanner(std::string bytes, const std::string &name)
-      : file(name), bytes(std::move(bytes))
+  MshScanner::MshScanner(std::string all_bytes, const std::string &name)
+      : file(name), bytes(std::move(all_bytes))
   {
+    if (const std::string mark = "\xEF\xBB\xBF"; bytes.compare(0, mark.size(), mark) == 0)
+      position = mark.size(); // that editors put before UTF-8
+    if (bytes.compare(position, 1, "$") == 0)
+      return;
+    if (const std::string remedy = remedy_of_mesh(file, bytes); !remedy.empty())
+      throw UserError(file.string() + " is no gmsh .msh file. " + remedy);
   }
 
   void
@@ -220,7 +227,10 @@ namespace Exemplar
     if (position == bytes.size())
       fail_at_end();
     fail("expected " + expected + ", found " + in_quotes(found)
-         + ". Is it a gmsh .msh file, copied whole and in binary mode? Save the mesh anew.");
+         + (section.empty() && counted.empty()
+                ? ". A gmsh .msh file of version 2.2 or 4.1 consists of such sections: save or "
+                  "convert the mesh by gmsh FILE -save -format msh22 -o NEW.msh."
+                : ". Is the file whole, and copied in binary mode? Save the mesh anew."));
   }
 
   void

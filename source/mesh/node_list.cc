@@ -2,6 +2,7 @@
 // The binary format: https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html
 #include <exemplar/base/errors.h>
 #include <exemplar/base/message_text.h>
+#include <exemplar/base/missing_file.h>
 #include <exemplar/base/text_file.h>
 #include <exemplar/mesh/mesh_inputs.h>
 
@@ -20,6 +21,13 @@ namespace Exemplar
   {
     const std::string npy_magic = "\x93NUMPY";
 
+    /// Whether what should name a file lists numbers.
+    bool
+    is_list(const std::string &name)
+    {
+      return name.find_first_not_of("0123456789 ,") == std::string::npos;
+    }
+
     /// Reads a list of nodes; messages begin with `key`.
     class NodeListReader
     {
@@ -32,6 +40,7 @@ namespace Exemplar
       {
         for (unsigned int node = 0; node < mesh.node_numbers.size(); ++node)
           index[mesh.node_numbers[node]] = node;
+        least = *std::min_element(mesh.node_numbers.begin(), mesh.node_numbers.end());
       }
 
       std::vector<unsigned int>
@@ -39,7 +48,10 @@ namespace Exemplar
       {
         const auto bytes = read_text_file(file);
         if (!bytes)
-          throw UserError(key + ": the file of nodes " + file.string() + " cannot be read."
+          throw UserError(key + ": the file of nodes " + file.string() + " cannot be read"
+                          + (is_list(file.filename().string())
+                                 ? ". The numbers stand in a file; Select names the file."
+                                 : "." + missing_file_remedy(file))
                           + remedy);
         if (bytes->compare(0, npy_magic.size(), npy_magic) == 0)
           read_npy(*bytes);
@@ -59,7 +71,11 @@ namespace Exemplar
                                : index.end();
         if (found == index.end())
           throw UserError(key + ": " + in_quotes(word) + " in " + file.string()
-                          + " is no node number of " + mesh_name + "." + remedy);
+                          + " is no node number of " + mesh_name
+                          + (number == 0.
+                                 ? ", whose nodes are counted from " + std::to_string(least) + "."
+                                 : ".")
+                          + remedy);
         nodes.insert(found->second);
       }
 
@@ -178,6 +194,7 @@ namespace Exemplar
           = " List node numbers of the mesh file, separated by blanks, commas or line breaks; # "
             "begins a comment. Arrays of numpy.save() are read, too.";
       std::unordered_map<std::size_t, unsigned int> index;
+      std::size_t                                   least = 0; ///< of the mesh's node numbers
       std::set<unsigned int>                        nodes;
     };
   } // namespace

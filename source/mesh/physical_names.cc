@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/base/message_text.h>
+#include <exemplar/base/nearest_word.h>
 #include <exemplar/mesh/physical_names.h>
 
 #include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <set>
+#include <vector>
 
 namespace Exemplar
 {
@@ -19,6 +21,17 @@ namespace Exemplar
       return text.size() > 1 && text.front() == '"' && text.back() == '"'
                  ? text.substr(1, text.size() - 2)
                  : text;
+    }
+
+    std::string
+    suggestion(const MshFile &mesh, const int dimension, const std::string &wanted)
+    {
+      std::vector<std::string> names;
+      for (const auto &[group, name] : mesh.physical_names)
+        if (group.first == dimension)
+          names.push_back(name);
+      const std::string nearest = nearest_word(wanted, names);
+      return nearest.empty() ? "" : "Did you mean " + in_quotes(nearest) + "? ";
     }
 
     std::string
@@ -61,8 +74,9 @@ namespace Exemplar
     const std::string kind = dimension == 3 ? "Physical Volume" : "Physical Surface";
     if (found.empty())
       throw UserError(key + ": the mesh has no " + kind + " of the name " + in_quotes(wanted)
-                      + " (present: " + names_present(mesh, dimension)
-                      + "). Give one that name, or its number here.");
+                      + " (present: " + names_present(mesh, dimension) + "). "
+                      + suggestion(mesh, dimension, wanted)
+                      + "Give one that name, or its number here.");
     if (found.size() > 1)
       throw UserError(key + ": several of the mesh's " + kind + "s have the name "
                       + in_quotes(wanted) + ". Give a number here.");

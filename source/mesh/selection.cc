@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
+#include <exemplar/base/nearest_word.h>
 #include <exemplar/mesh/mesh.h>
 #include <exemplar/mesh/physical_names.h>
 #include <exemplar/mesh/selection.h>
@@ -43,14 +44,36 @@ namespace Exemplar
         values.push_back(value);
       if (!in.eof() || values.size() != n)
         throw UserError(key + "/Select = '" + words.kind + " " + words.rest + "': '" + words.kind
-                        + "' takes " + std::to_string(n) + " numbers. Allowed: " + forms + ".");
+                        + "' takes " + std::to_string(n) + " numbers"
+                        + (words.rest.find(',') == std::string::npos
+                               ? ""
+                               : ", separated by blanks, with points as decimal signs")
+                        + ". Allowed: " + forms + ".");
       return values;
+    }
+
+    /// What to say of a selection that is none.
+    std::string
+    remedy_of(const Words &words)
+    {
+      const std::string letters = words.kind.substr(
+          0, words.kind.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"));
+      if (letters == "x" || letters == "y" || letters == "z")
+        return " A part of space is selected by a box around it.";
+      const std::string kind = nearest_word(
+          letters, { "box", "sphere", "boundary", "region", "nodes", "vertex", "group", "map" });
+      if (kind.empty())
+        return "";
+      return " Did you mean '" + kind + "', followed by a blank?";
     }
 
     /// The id that a selection gives or names.
     unsigned int
     id_in(const Words &words, const int dimension, const Mesh &mesh, const std::string &key)
     {
+      if (words.rest.empty())
+        throw UserError(key + "/Select = '" + words.kind + "' does not say which " + words.kind
+                        + ". Write an id or a name behind it, such as '" + words.kind + " 1'.");
       return find_id(mesh.get_contents(), dimension, words.rest,
                      key + "/Select = '" + words.kind + " " + words.rest + "'");
     }
@@ -152,7 +175,8 @@ namespace Exemplar
         }
       std::ostringstream message;
       message << key << "/Select = '" << text << "' selects no node. The mesh " << mesh.get_name()
-              << " lies in the box " << low << "  " << high << "; enlarge or move the selection.";
+              << " lies in the box " << low << "  " << high
+              << " [m]; enlarge or move the selection.";
       throw UserError(message.str());
     }
   } // namespace
@@ -255,7 +279,8 @@ namespace Exemplar
     else if (words.kind.empty())
       throw UserError(key + "/Select is not set. Allowed: " + forms + ".");
     else
-      throw UserError(key + "/Select = '" + text + "' is not understood. Allowed: " + forms + ".");
+      throw UserError(key + "/Select = '" + text + "' is not understood." + remedy_of(words)
+                      + " Allowed: " + forms + ".");
 
     if (nodes.empty())
       fail_empty(mesh, key, text);

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/base/message_text.h>
+#include <exemplar/base/missing_file.h>
 #include <exemplar/base/text_file.h>
 #include <exemplar/prm/assignments.h>
 
 #include <algorithm>
 #include <cctype>
 #include <map>
+#include <regex>
 #include <sstream>
 
 // Scene files as text: what is assigned where.
@@ -46,11 +48,42 @@ namespace Exemplar
                  || std::isspace(static_cast<unsigned char>(line[word.size()])));
     }
 
+    /// What to say of a line that is none: how it is probably meant.
+    std::string
+    remedy_of_line(const std::string &line)
+    {
+      static const std::regex word("(set|subsection|end)\\b.*", std::regex::icase);
+      static const std::regex comment("(//|;|%|--|/\\*).*");
+      static const std::regex section("(?:section|\\[)\\s*(.+?)\\s*\\]?", std::regex::icase);
+      static const std::regex value("([^=:]+?)\\s*[:=]\\s*(.*)");
+      static const std::regex continued("[^=:]*[;,]|[-+.0-9(].*");
+      std::smatch             parts;
+      if (line.size() > 200) // no line of a person, and too much for regular expressions
+        return "";
+      if (std::regex_match(line, parts, word))
+        return parts[1] == "end" ? " Write 'end' alone."
+                                 : " These words are written in small letters.";
+      if (std::regex_match(line, comment))
+        return " A comment begins with #.";
+      if (starts_with_word(line, "include"))
+        return " Scenes do not include others: copy its lines, or give values by --set.";
+      if (std::regex_match(line, parts, section))
+        return " Did you mean 'subsection " + parts.str(1) + "', closed by a line 'end'?";
+      if (std::regex_match(line, parts, value))
+        return " Did you mean 'set " + parts.str(1) + " = " + parts.str(2) + "'?";
+      if (std::regex_match(line, continued))
+        return " Where it continues the line before, that one must end in a backslash.";
+      return "";
+    }
+
     /// Reads the text of a .prm line by line and keeps track of the subsection it is in.
     class AssignmentReader
     {
     public:
-      explicit AssignmentReader(const std::string &file) : file(file) {}
+      AssignmentReader(const std::string &file, const std::set<std::string> &sections)
+          : file(file), sections(sections)
+      {
+      }
 
       std::vector<Assignment>
       read(const std::string &text)
@@ -58,9 +91,13 @@ namespace Exemplar
         const std::string  mark = "\xEF\xBB\xBF"; // that editors put before UTF-8
         std::istringstream in(text.compare(0, mark.size(), mark) == 0 ? text.substr(mark.size())
                                                                       : text);
+        if (text.compare(0, 2, "\xFF\xFE") == 0 || text.compare(0, 2, "\xFE\xFF") == 0)
+          throw UserError(file + ": the text is saved as UTF-16. Save it as UTF-8.");
         for (std::string line; std::getline(in, line);)
         {
           ++line_number;
+          if (pending.empty())
+            indentation = std::min(line.find_first_not_of(" \t"), line.size());
           line = trim(line.substr(0, line.find('#')));
           if (!line.empty() && line.back() == '\\')
             pending += line.substr(0, line.size() - 1) + " ";
@@ -75,8 +112,7 @@ namespace Exemplar
         if (!pending.empty())
           fail("the file ends in a backslash, which joins a line to the next. Remove it.");
         if (!subsections.empty())
-          fail("the file ends within subsection '" + subsections.back()
-               + "'. Close it with a line 'end'.");
+          fail_unclosed();
         return std::move(assignments);
       }
 
@@ -99,19 +135,64 @@ namespace Exemplar
         if (const std::string what = what_is_no_text(line); !what.empty())
           fail(what);
         if (starts_with_word(line, "subsection"))
-          subsections.push_back(single_blanks(line.substr(10)));
+          begin_subsection(single_blanks(line.substr(10)));
         else if (line == "end")
-        {
-          if (subsections.empty())
-            fail("'end' without an open subsection. Remove the line.");
-          subsections.pop_back();
-        }
+          end_subsection();
         else if (starts_with_word(line, "set"))
           read_assignment(line.substr(3));
         else
           fail("'" + line
                + "' is not understood. A line is 'set KEY = VALUE', "
-                 "'subsection NAME', 'end' or a comment starting with #.");
+                 "'subsection NAME', 'end' or a comment starting with #."
+               + remedy_of_line(line));
+      }
+
+      void
+      begin_subsection(const std::string &name)
+      {
+        if (name.empty())
+          fail("the subsection has no name. Write 'subsection NAME'.");
+        // in files without indentation only the names tell
+        const bool is_outer = sections.count(name) > 0 || (!open.empty() && subsections[0] == name);
+        if (!open.empty()
+            && (indentation < open.back().indentation
+                || (indentation == open.back().indentation && (indentation > 0 || is_outer))))
+          suspect("subsection '" + name + "' begins");
+        subsections.push_back(name);
+        open.push_back({ line_number, indentation });
+      }
+
+      void
+      end_subsection()
+      {
+        if (subsections.empty())
+          fail("'end' without an open subsection. Remove the line.");
+        if (indentation < open.back().indentation)
+          suspect("an 'end' closes what stands further left");
+        subsections.pop_back();
+        open.pop_back();
+      }
+
+      /// Note that the innermost subsection should have been closed before this line.
+      void
+      suspect(const std::string &what)
+      {
+        if (!unclosed.empty())
+          return;
+        unclosed_line = open.back().line;
+        unclosed      = "subsection '" + subsections.back() + "' is not closed before line "
+                   + std::to_string(line_number) + ", where " + what
+                   + ". Write a line 'end' before that line.";
+      }
+
+      [[noreturn]] void
+      fail_unclosed()
+      {
+        line_number = unclosed.empty() ? open.back().line : unclosed_line;
+        fail(unclosed.empty() ? "subsection '" + subsections.back()
+                                    + "' is not closed before the file ends. Close it with a line "
+                                      "'end'."
+                              : unclosed);
       }
 
       void
@@ -119,7 +200,8 @@ namespace Exemplar
       {
         const auto equals = text.find('=');
         if (equals == std::string::npos)
-          fail("'set" + text + "' has no '='. Write 'set KEY = VALUE'.");
+          fail("'set" + text + "' has no '='. Write 'set KEY = VALUE'."
+               + (text.find(':') == std::string::npos ? "" : " A ':' does not stand for '='."));
         Assignment assignment{ subsections, single_blanks(text.substr(0, equals)),
                                trim(text.substr(equals + 1)), place() };
         const auto [first, is_new] = places.emplace(assignment.path(), place());
@@ -129,8 +211,20 @@ namespace Exemplar
         assignments.push_back(std::move(assignment));
       }
 
+      /// Where a subsection that is open began.
+      struct Beginning
+      {
+        unsigned int line;
+        std::size_t  indentation; ///< blanks before the line
+      };
+
       const std::string                  file;
+      const std::set<std::string>        sections;
       unsigned int                       line_number = 0;
+      std::size_t                        indentation = 0; ///< of the present line
+      std::vector<Beginning>             open;            ///< of each of `subsections`
+      std::string                        unclosed; ///< the first that looks as if it lacked its end
+      unsigned int                       unclosed_line = 0;
       std::string                        pending; ///< lines that ended in a backslash
       std::vector<std::string>           subsections;
       std::vector<Assignment>            assignments;
@@ -173,15 +267,19 @@ namespace Exemplar
   std::string
   read_prm(const std::filesystem::path &file)
   {
-    if (auto text = read_text_file(file))
+    std::string reason;
+    if (auto text = read_text_file(file, &reason))
       return std::move(*text);
-    throw UserError(file.string() + ": cannot be read. Give the name of an existing .prm file.");
+    throw UserError(file.string() + ": cannot be read (" + reason
+                    + "). Give the name of an existing .prm file." + missing_file_remedy(file));
   }
 
   std::vector<Assignment>
-  read_assignments(const std::string &prm_text, const std::string &file)
+  read_assignments(const std::string           &prm_text,
+                   const std::string           &file,
+                   const std::set<std::string> &sections)
   {
-    return AssignmentReader(file).read(prm_text);
+    return AssignmentReader(file, sections).read(prm_text);
   }
 
   Assignment

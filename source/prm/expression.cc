@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <regex>
+#include <utility>
 
 namespace Exemplar
 {
@@ -29,6 +30,69 @@ namespace Exemplar
       if (std::regex_replace(text, comparison, "").find('=') != std::string::npos)
         throw UserError(key + ": the formula '" + text
                         + "' holds a single '='. Write == to compare.");
+    }
+
+    /// Whether a comma stands outside of all parentheses, where functions have none.
+    bool
+    has_outer_comma(const std::string &text)
+    {
+      int depth = 0;
+      for (const char c : text)
+      {
+        depth += c == '(' ? 1 : c == ')' ? -1 : 0;
+        if (c == ',' && depth == 0)
+          return true;
+      }
+      return false;
+    }
+
+    /// muParser would take what is behind the last comma and leave out the rest.
+    void
+    check_no_outer_comma(const std::string &key, const std::string &text)
+    {
+      if (has_outer_comma(text))
+        throw UserError(key + ": the formula '" + text
+                        + "' holds a comma. The decimal sign is a point, as in 0.5, and formulas "
+                          "are separated by ';'.");
+    }
+
+    /// What to say of a wrong number of formulas.
+    std::string
+    remedy_of_number(const std::vector<std::string> &texts, const unsigned int n_components)
+    {
+      if (texts.size() == n_components + 1 && texts.back().empty())
+        return " Remove the ';' at the end.";
+      if (texts.size() == 1 && has_outer_comma(texts[0]))
+        return " Commas do not separate formulas.";
+      if (texts.size() < n_components && n_components == 3)
+        return " They are for x, y and z; write 0 where nothing is.";
+      return "";
+    }
+
+    /// What to say of a formula in the manner of other languages.
+    std::string
+    remedy_of_formula(const std::string &text)
+    {
+      const std::vector<std::pair<std::string, std::string>> habits
+          = { { "\\*\\*", "Powers are written x^2." },
+              { "\\b(np|numpy|math|std|Math)\\b", "Functions have no prefix: sin(t)." },
+              { "(^|[^a-zA-Z0-9_.])[0-9.]+ *(?![eE][-+0-9])[a-zA-Z(]",
+                "Products are written 2*t." },
+              { "\\bif *\\(", "A choice is written c ? a : b." },
+              { "\\bPI\\b|\\bPi\\b|M_PI", "The constant is written pi." },
+              { "\\btime\\b|\\bT\\b", "The time is t." },
+              { "\\b[XYZ]\\b", "Coordinates are x, y, z, in small letters." },
+              { "\\b(mod|fmod)\\b|%", "t modulo 1 is t - floor(t)." },
+              { "^[\\[({]|[\\])}]$", "No brackets stand around the formulas." },
+              { "\xE2\x88\x92|\xE2\x80\x93", "The sign of minus is -, not a dash." },
+              { "\xC2\xB2|\xC2\xB3", "Powers are written x^2." },
+              { "\xC2\xB7|\xC3\x97", "The sign of products is *." },
+              { "^$", "Write 0 where nothing is." } };
+      if (text.size() < 200)
+        for (const auto &[pattern, remedy] : habits)
+          if (std::regex_search(text, std::regex(pattern)))
+            return " " + remedy;
+      return "";
     }
 
     double
@@ -66,14 +130,17 @@ namespace Exemplar
     parsers->key   = key;
     parsers->texts = split_trimmed(text, ';');
     if (parsers->texts.size() != n_components)
-      throw UserError(key + " = '" + text + "' has " + std::to_string(parsers->texts.size())
-                      + " formulas, but needs " + std::to_string(n_components)
-                      + ", separated by ';'.");
+      throw UserError(
+          key + " = '" + text + "' has " + std::to_string(parsers->texts.size())
+          + (parsers->texts.size() == 1 ? " formula, but needs " : " formulas, but needs ")
+          + std::to_string(n_components) + ", separated by ';'."
+          + remedy_of_number(parsers->texts, n_components));
     parsers->parsers.resize(n_components);
     for (unsigned int i = 0; i < n_components; ++i)
     {
       mu::Parser &parser = parsers->parsers[i];
       check_no_assignment(key, parsers->texts[i]);
+      check_no_outer_comma(key, parsers->texts[i]);
       parser.DefineConst("pi", 3.14159265358979323846);
       parser.DefineFun("log", natural_logarithm);
       parser.DefineFun("floor", floor);
@@ -91,10 +158,14 @@ namespace Exemplar
         std::string names;
         for (const char variable : variables)
           names += std::string(names.empty() ? "" : ", ") + variable;
-        throw UserError(key + ": the formula '" + parsers->texts[i] + "' is not understood: "
-                        + error.GetMsg() + " Allowed are the variables " + names
-                        + ", the constant pi, + - * / ^, c ? a : b, and muParser's "
-                          "functions (sin, cos, sqrt, exp, log, min, max, ...).");
+        throw UserError(
+            key + ": the formula '" + parsers->texts[i]
+            + "' is not understood: " + std::regex_replace(error.GetMsg(), std::regex("[. ]*$"), "")
+            + "." + remedy_of_formula(parsers->texts[i])
+            + (variables.size() == 1 ? " Allowed are the variable " : " Allowed are the variables ")
+            + names
+            + ", the constant pi, + - * / ^, c ? a : b, and muParser's functions (sin, cos, "
+              "sqrt, exp, log, min, max, ...).");
       }
     }
   }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/prm/input_names.h>
 #include <exemplar/prm/key_table.h>
+#include <exemplar/prm/remedies.h>
 
 #include <deal.II/base/patterns.h>
 
 #include <algorithm>
 #include <memory>
-#include <numeric>
 #include <set>
 #include <sstream>
 
@@ -14,44 +14,6 @@ namespace Exemplar
 {
   namespace
   {
-    int
-    lower_case(const char c)
-    {
-      return std::tolower(static_cast<unsigned char>(c));
-    }
-
-    std::size_t
-    edit_distance(const std::string &a, const std::string &b)
-    {
-      std::vector<std::size_t> row(b.size() + 1);
-      std::iota(row.begin(), row.end(), 0);
-      for (std::size_t i = 1; i <= a.size(); ++i)
-      {
-        std::size_t diagonal = row[0]++;
-        for (std::size_t j = 1; j <= b.size(); ++j)
-        {
-          const std::size_t same = diagonal + (lower_case(a[i - 1]) != lower_case(b[j - 1]));
-          diagonal               = row[j];
-          row[j]                 = std::min({ same, row[j] + 1, row[j - 1] + 1 });
-        }
-      }
-      return row.back();
-    }
-
-    std::string
-    nearest_path(const std::string &path, const std::vector<DeclaredKey> &keys)
-    {
-      std::string best;
-      std::size_t best_distance = std::string::npos;
-      for (const DeclaredKey &key : keys)
-        if (const std::size_t distance = edit_distance(path, key.path()); distance < best_distance)
-        {
-          best          = key.path();
-          best_distance = distance;
-        }
-      return best;
-    }
-
     std::string
     bounds_in_words(const Bounds &bounds)
     {
@@ -274,6 +236,12 @@ namespace Exemplar
     return all;
   }
 
+  bool
+  KeyTable::declares(const std::string &path) const
+  {
+    return index_of(path) < entries.size();
+  }
+
   std::size_t
   KeyTable::index_of(const std::string &path) const
   {
@@ -305,17 +273,17 @@ namespace Exemplar
     {
       const std::size_t index = index_of(assignment.path());
       if (index == entries.size())
-        throw UnknownKey(assignment.place + ": there is no parameter '" + assignment.path()
-                         + "'. Did you mean '" + nearest_path(assignment.path(), keys())
-                         + "'? exemplar --print-parameters lists them all.");
+        throw UnknownKey(assignment.place + ": there is no parameter '" + assignment.path() + "'. "
+                         + remedy_of_key(assignment.path(), keys()));
       DeclaredKey      &key   = entries[index].declared;
       const std::string value = key.is_input_file
                                     ? absolute_files(assignment.value, key.is_list, directory)
                                     : assignment.value;
-      if (!entries[index].set(value))
+      if (!entries[index].set(value)) // a remedy may be tried on the variable: nobody reads it now
         throw UserError(assignment.place + ": " + key.path() + " = '" + value
                         + "' is not allowed. Allowed: " + key.allowed + ". Default: '"
-                        + key.default_value + "'.");
+                        + key.default_value + "'."
+                        + remedy_of_value(key, value, entries[index].set));
       key.value = value;
     }
   }

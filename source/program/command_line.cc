@@ -6,6 +6,7 @@
 #include <exemplar/base/standard_streams.h>
 #include <exemplar/base/version.h>
 #include <exemplar/mesh/mesh_parameters.h>
+#include <exemplar/program/argument_remedies.h>
 #include <exemplar/program/command_line.h>
 #include <exemplar/program/interrupt.h>
 #include <exemplar/program/mesh_command.h>
@@ -127,11 +128,11 @@ Exit status:
           .add_option("--surface", arguments.mesh.meshing.surface, "the surface (.obj .ply .stl)")
           ->required();
       add_number_option(command, "--cells", arguments.mesh.meshing.n_cells, least_n_cells,
-                        most_n_cells, "how many tetrahedra, about")
-          ->required();
-      command
-          .add_option("--output", arguments.mesh.output, "the mesh (.msh); a table (.csv) beside")
-          ->required();
+                        most_n_cells, "how many tetrahedra, about");
+      command.add_option("--output", arguments.mesh.output,
+                         "the mesh (.msh); a table (.csv) beside");
+      command.add_option("--list-faults", arguments.mesh.faults,
+                         "write a table of all bad faces and vertices (.csv) instead of a mesh");
       command.add_flag("--repair", arguments.mesh.meshing.repair,
                        "mend holes, turned and intersecting faces; wrap what cannot be mended");
       command.add_option("--materials", arguments.mesh.meshing.materials,
@@ -190,10 +191,23 @@ Exit status:
         throw UserError(command + " cannot be done by several processes. Call it without mpirun.");
     }
 
+    /// A mesh or a surface cannot be run.
+    void
+    require_scene(const std::filesystem::path &file)
+    {
+      const std::string extension = file.extension().string();
+      if (extension == ".msh" || extension == ".geo" || is_surface_file(file.string()))
+        throw UserError(file.string()
+                        + " is a mesh or a surface, not a scene. Write a scene (.prm) "
+                          "that names it, by 'set File = "
+                        + file.filename().string() + "' in subsection Mesh, and run that.");
+    }
+
     void
     do_scene(const Arguments &arguments)
     {
       const auto &file = arguments.run.scene_file;
+      require_scene(file);
       if (arguments.print)
       {
         print_parameters();
@@ -236,6 +250,10 @@ Exit status:
       const bool is_scene = !study_command && !verify_command && !mesh_command && !pose_command;
       if (is_scene && !arguments.print && arguments.run.scene_file.empty())
         throw CLI::RequiredError("SCENE");
+      if (mesh_command && mesh_command.count("--list-faults") == 0)
+        for (const std::string option : { "--cells", "--output" })
+          if (mesh_command.count(option) == 0)
+            throw CLI::RequiredError(option);
       if (study_command && !arguments.print_study && arguments.study.file.empty())
         throw CLI::RequiredError("STUDY");
     }
@@ -245,7 +263,7 @@ Exit status:
     }
     catch (const CLI::ParseError &error)
     {
-      throw UserError(std::string(error.what()) + ". exemplar --help lists what is allowed.");
+      throw UserError(message_of_arguments(app, error, { argv + 1, argv + argc }));
     }
     for (const CLI::App *command : { &study_command, &mesh_command, &pose_command })
       if (*command)
@@ -255,6 +273,9 @@ Exit status:
     if (arguments.run.resume && arguments.run.resume_from)
       throw UserError("--resume goes on from the last checkpoint, --resume-from from the step that "
                       "it names: give one of them.");
+    if (arguments.output.empty() && app.get_option("--output")->count() > 0)
+      throw UserError("--output is empty. Give the name of a directory; is a variable of the shell "
+                      "not set?");
     if (!arguments.output.empty())
       arguments.run.overrides.push_back("Output/Directory=" + arguments.output);
 

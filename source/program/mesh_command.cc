@@ -8,6 +8,7 @@
 #include <exemplar/program/mesh_command.h>
 #include <exemplar/run/output_directory.h>
 #include <exemplar/surface/mesh_making.h>
+#include <exemplar/surface/surface_faults.h>
 
 #include <algorithm>
 #include <iostream>
@@ -26,22 +27,31 @@ namespace Exemplar
       return fs::path(options.output).replace_extension(".csv");
     }
 
+    /// A file that may be written: anew, or again.
+    void
+    require_output(const OwnFile            &file,
+                   const MeshCommandOptions &options,
+                   const std::string        &option)
+    {
+      const fs::path    directory = fs::absolute(file.path).parent_path();
+      const std::string remedy    = " Give another name by " + option + ".";
+      if (!fs::is_directory(directory))
+        throw UserError(option + ": there is no directory " + directory.string()
+                        + ". Make it, or write elsewhere.");
+      require_writable(directory, remedy);
+      require_replaceable(file, { options.meshing.surface, options.meshing.materials }, remedy);
+    }
+
     void
     check_options(const MeshCommandOptions &options)
     {
       if (options.output.extension() != ".msh")
         throw UserError("--output: the mesh is written as .msh, found "
                         + in_quotes(options.output.string()) + ". Give a name that ends so.");
-      const fs::path directory = fs::absolute(options.output).parent_path();
-      if (!fs::is_directory(directory))
-        throw UserError("--output: there is no directory " + directory.string()
-                        + ". Make it, or write elsewhere.");
-      const std::string remedy = " Give another name by --output.";
-      require_writable(directory, remedy);
       for (const OwnFile &file :
            { OwnFile{ options.output, msh_beginning, msh_end(made_mesh_comment) },
              OwnFile{ table_of(options), header_of_numbers } })
-        require_replaceable(file, { options.meshing.surface, options.meshing.materials }, remedy);
+        require_output(file, options, "--output");
     }
 
     void
@@ -75,11 +85,33 @@ namespace Exemplar
                   << '\n';
       std::cout << "written to " << message_text(file.string()) << '\n';
     }
+
+    void
+    list_faults(const MeshCommandOptions &options)
+    {
+      if (options.faults.extension() != ".csv")
+        throw UserError("--list-faults: the table is written as .csv, found "
+                        + in_quotes(options.faults.string()) + ". Give a name that ends so.");
+      require_output({ options.faults, header_of_faults }, options, "--list-faults");
+      const std::string table = table_of_faults(options.meshing.surface);
+      AtomicFile        out(options.faults);
+      out.stream() << table;
+      out.commit();
+      if (!options.quiet)
+        std::cout << std::count(table.begin(), table.end(), '\n') - 1
+                  << " faces and vertices with faults, written to "
+                  << message_text(options.faults.string()) << '\n';
+    }
   } // namespace
 
   void
   run_mesh_command(const MeshCommandOptions &options)
   {
+    if (!options.faults.empty())
+    {
+      list_faults(options);
+      return require_printed();
+    }
     check_options(options);
     MeshingReport report = make_mesh_file(options.meshing, options.output);
     add_unit(report);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
+#include <exemplar/base/number_text.h>
 #include <exemplar/potential/inertia_term.h>
 #include <exemplar/potential/load_term.h>
 #include <exemplar/run/problem_parts.h>
@@ -48,6 +49,27 @@ namespace Exemplar
       return here;
     }
 
+    std::string
+    names_of_selections(const std::vector<HandleParameters> &handles)
+    {
+      std::string names;
+      for (const HandleParameters &handle : handles)
+        names += (names.empty() ? "Handles/" : " or Handles/") + handle.name + "/Select";
+      return names;
+    }
+
+    /// A sentence about each handle of one node; begins with a blank.
+    std::string
+    single_nodes(const Handles &handles)
+    {
+      std::string text;
+      for (unsigned int h = 0; h < handles.size(); ++h)
+        if (handles.n_nodes(h) == 1)
+          text += " Handle '" + handles.name(h)
+                  + "' holds a single node, about which the body can turn.";
+      return text;
+    }
+
     std::vector<unsigned int>
     held_dofs(const SceneParameters &parameters, const Body &body, const Constraints &constraints)
     {
@@ -59,7 +81,9 @@ namespace Exemplar
       if (!body.exchange().any(held.size() < body.fe_space.n_dofs()))
         throw UserError(parameters.name
                         + ": the handles hold every node, so there is nothing to solve. Make "
-                          "Handles/NAME/Select smaller.");
+                        + names_of_selections(parameters.handles)
+                        + " smaller; it counts in metres, in which the body is "
+                        + short_text(body.mesh.diameter()) + " large.");
       return held;
     }
 
@@ -228,8 +252,9 @@ namespace Exemplar
     if (n_free > 0)
       throw UserError(
           parameters.name + ": the handles leave " + std::to_string(n_free)
-          + " of 6 rigid motions free, so a static scene has no unique equilibrium. Add a "
-            "subsection of Handles that holds three nodes not on a line (a box, a sphere "
+          + " of 6 rigid motions free, so a static scene has no unique equilibrium."
+          + (handles == nullptr ? "" : single_nodes(*handles))
+          + " Add a subsection of Handles that holds three nodes not on a line (a box, a sphere "
             "or a boundary), or hold more Components.");
   }
 

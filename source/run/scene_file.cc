@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/mesh/map_name.h>
+#include <exemplar/run/named_subsections.h>
 #include <exemplar/run/scene_file.h>
 #include <exemplar/surface/numbered_files.h>
 
@@ -31,36 +32,14 @@ namespace Exemplar
       return assignment.subsections.size() > 1;
     }
 
-    void
-    check_names(const std::vector<std::string> &names, const std::string &section)
+    std::set<std::string>
+    sections_of(const std::vector<DeclaredKey> &keys)
     {
-      std::set<std::string> seen;
-      for (const std::string &name : names)
-      {
-        if (!seen.insert(name).second)
-          throw UserError(section + "/Names lists '" + name + "' twice. Names must differ.");
-        if (name.empty() || name.find_first_of("/\";|") != std::string::npos)
-          throw UserError(section + "/Names: '" + name
-                          + "' is no name. Use letters, digits, blanks, - and _.");
-      }
-    }
-
-    /// A subsection that Names does not list would be an unknown key without a hint.
-    void
-    check_listed(const std::vector<Assignment>  &assignments,
-                 const std::string              &section,
-                 const std::vector<std::string> &names)
-    {
-      std::string listed;
-      for (const std::string &name : names)
-        listed += (listed.empty() ? "" : ", ") + name;
-      for (const Assignment &a : assignments)
-        if (a.subsections[0] == section
-            && std::find(names.begin(), names.end(), a.subsections[1]) == names.end())
-          throw UnknownKey(a.place + ": subsection " + section + "/" + a.subsections[1]
-                           + " is not in " + section
-                           + "/Names (there: " + (listed.empty() ? "none" : listed)
-                           + "). Add it there, or remove the subsection.");
+      std::set<std::string> sections;
+      for (const DeclaredKey &key : keys)
+        if (!key.subsections.empty())
+          sections.insert(key.subsections[0]);
+      return sections;
     }
 
     /// The regions that have subsections of Material, by material id or by name.
@@ -159,7 +138,9 @@ namespace Exemplar
   {
     if (!file.empty())
       parameters.name = file.string();
-    std::vector<Assignment> assignments = read_assignments(text, parameters.name);
+    declare_sections();
+    std::vector<Assignment> assignments
+        = read_assignments(text, parameters.name, sections_of(keys.keys()));
     assignments.insert(assignments.end(), overrides.begin(), overrides.end());
 
     const auto first_named = std::stable_partition(
@@ -167,13 +148,19 @@ namespace Exemplar
     const std::vector<Assignment> named(first_named, assignments.end());
     assignments.erase(first_named, assignments.end());
 
-    declare_sections();
+    // refused when the named subsections are declared, so that their keys can be suggested, too
+    const auto first_unknown
+        = std::stable_partition(assignments.begin(), assignments.end(),
+                                [&](const Assignment &a) { return keys.declares(a.path()); });
+    const std::vector<Assignment> unknown(first_unknown, assignments.end());
+    assignments.erase(first_unknown, assignments.end());
     keys.apply(assignments, directory());
     check_names(handle_names, "Handles");
     check_names(load_names, "Loads");
     check_listed(named, "Handles", handle_names);
     check_listed(named, "Loads", load_names);
     declare_named_subsections(named);
+    keys.apply(unknown, directory());
     keys.apply(named, directory());
     if (find_assignment(assignments, "Scene") == nullptr) // after misspelt names of it
       throw UserError(parameters.name

@@ -67,8 +67,12 @@ namespace Exemplar
       return std::to_string(inverted.size()) + " cells are inverted at the end: element "
              + list_numbers(inverted)
              + (is_equilibrium ? ". The state is an equilibrium, but there may be one of less "
-                                 "energy: look at the frames, or take smaller steps."
-                               : ". Look at the frames, or take smaller steps.");
+                                 "energy: look at the frames, or take smaller steps ("
+                               : ". Look at the frames, or take smaller steps (")
+             + (problem.parameters.scene == SceneKind::dynamic
+                    ? "Time/Step"
+                    : "Time/Increments, now " + std::to_string(problem.parameters.time.increments))
+             + ").";
     }
 
     std::optional<std::string>

@@ -106,7 +106,8 @@ namespace Exemplar
           found == nullptr || found->value.empty())
         throw UserError(file.string() + ": " + key
                         + " is not set. A study has lines 'set Scene = FILE.prm' and 'set Vary = "
-                          "Section/Key: value value ...'.");
+                          "Section/Key: value value ...'. If it is a scene, run it by: exemplar "
+                        + file.string());
     KeyTable keys;
     Entries  entries;
     entries.declare(keys);
@@ -181,7 +182,12 @@ namespace Exemplar
 
   bool
   is_study(const std::filesystem::path &file)
+  try
   {
     return find_assignment(read_assignments(read_prm(file), file.string()), "Vary") != nullptr;
+  }
+  catch (const UserError &)
+  {
+    return false; // who reads it as a scene knows the sections, and says more
   }
 } // namespace Exemplar

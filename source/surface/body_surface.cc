@@ -111,10 +111,13 @@ namespace Exemplar
       throw UserError(file.string() + ": this is more than one body:" + list_lines(findings.faults)
                       + "\n  A scene has one. Join them where they were made, or mesh each alone.");
     if (!findings.faults.empty() && !options.repair)
-      throw UserError(file.string() + ": the surface does not bound a body:"
-                      + list_lines(findings.faults) + list_lines(findings.notes)
-                      + "\n  Mend it in the program that made it, or try " + options.repair_option
-                      + ". Vertices and faces are counted from 1.");
+      throw UserError(
+          file.string() + ": the surface does not bound a body:" + list_lines(findings.faults)
+          + list_lines(findings.notes) + "\n  Mend it in the program that made it, or try "
+          + options.repair_option
+          + ". Vertices and faces are counted from 1; for a table of all: exemplar mesh "
+            "--surface "
+          + file.string() + " --list-faults FAULTS.csv.");
     if (!findings.faults.empty())
     {
       append(body.notes, findings.faults);

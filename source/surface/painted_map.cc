@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/base/message_text.h>
+#include <exemplar/base/missing_file.h>
 #include <exemplar/base/number_text.h>
 #include <exemplar/base/text_file.h>
 #include <exemplar/surface/painted_map.h>
@@ -59,7 +60,8 @@ namespace Exemplar
         std::string reason;
         const auto  bytes = read_text_file(file, &reason);
         if (!bytes)
-          throw UserError(name + ": cannot be opened (" + reason + "). Give the path of a map.");
+          throw UserError(name + ": cannot be opened (" + reason + "). Give the path of a map."
+                          + missing_file_remedy(name));
         std::stringstream in(*bytes);
         std::string       text;
         while (std::getline(in, text))

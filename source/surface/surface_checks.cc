@@ -95,6 +95,28 @@ namespace Exemplar
         findings.faults.push_back(what + ": " + std::to_string(n) + " (" + where + ")");
       }
 
+      void
+      add_faces(const std::string &fault, const std::vector<unsigned int> &triangles)
+      {
+        for (const unsigned int t : triangles)
+          findings.elements.push_back(
+              { fault, true, checked.faces.empty() ? t : checked.faces[t] });
+      }
+
+      void
+      add_vertex(const std::string &fault, const unsigned int vertex)
+      {
+        findings.elements.push_back({ fault, false, vertex });
+      }
+
+      void
+      add_shell(const std::string &fault, const unsigned int shell)
+      {
+        for (unsigned int t = 0; t < findings.shells.size(); ++t)
+          if (findings.shells[t] == shell)
+            add_faces(fault, { t });
+      }
+
       const CheckedSurface           &checked;
       const TriangleSurface          &surface;
       const std::vector<TriangleSide> sides;
@@ -150,6 +172,7 @@ namespace Exemplar
           flat.push_back(t);
       }
       n_flat = flat.size();
+      add_faces("faces without area", flat);
       if (n_flat > 0)
         add_fault("faces without area", n_flat, face_numbers(flat));
     }
@@ -171,7 +194,11 @@ namespace Exemplar
         together.join(side.vertices[0], side.vertices[1]);
       std::map<unsigned int, std::size_t> n_edges; // of each hole, by its first vertex
       for (const TriangleSide &side : open)
+      {
         ++n_edges[together.root(side.vertices[0])];
+        for (const unsigned int vertex : side.vertices)
+          add_vertex("holes", vertex);
+      }
       const auto largest
           = std::max_element(n_edges.begin(), n_edges.end(),
                              [](const auto &a, const auto &b) { return a.second < b.second; });
@@ -195,6 +222,7 @@ namespace Exemplar
                       for (const TriangleSide *side = first; side != last; ++side)
                         triangles.push_back(side->triangle);
                     });
+      add_faces("edges of more than two faces", triangles);
       if (n_crowded > 0)
         add_fault("edges of more than two faces", n_crowded,
                   "the first at " + vertex_text(a_vertex) + "; " + face_numbers(triangles));
@@ -206,6 +234,7 @@ namespace Exemplar
       TriangleSurface turned_surface = surface;
       const auto      turned         = turn_to_majority(turned_surface);
       n_turned                       = turned.size();
+      add_faces("faces turned against their neighbours", turned);
       if (n_turned > 0)
         add_fault("faces turned against their neighbours", n_turned, face_numbers(turned));
       if (n_crowded > 0)
@@ -217,6 +246,7 @@ namespace Exemplar
                     {
                       if (last - first != 2 || first[0].forward != first[1].forward)
                         return;
+                      add_faces("one-sided", { first[0].triangle, first[1].triangle });
                       if (++n_turned == turned.size() + 1)
                         findings.faults.push_back("one-sided: the surface has no inside (at "
                                                   + vertex_text(first->vertices[0]) + ")");
@@ -246,7 +276,10 @@ namespace Exemplar
       std::vector<std::size_t> numbers;
       for (std::size_t i = 0; i < n_fans.size(); ++i)
         if (n_fans[i] > 1)
+        {
           numbers.push_back(i + 1);
+          add_vertex("vertices where the surface touches itself", static_cast<unsigned int>(i));
+        }
       if (!numbers.empty())
         add_fault("vertices where the surface touches itself", numbers.size(),
                   "vertices " + list_numbers(numbers) + "; the first at "
@@ -265,6 +298,7 @@ namespace Exemplar
       std::vector<unsigned int> triangles;
       for (const auto &[a, b] : pairs)
         triangles.insert(triangles.end(), { a, b });
+      add_faces("pairs of intersecting faces", triangles);
       add_fault("pairs of intersecting faces", pairs.size(),
                 "the first at " + vertex_text(surface.triangles[pairs[0].first][0]) + "; "
                     + face_numbers(triangles));
@@ -284,6 +318,8 @@ namespace Exemplar
           if (around[shell] == findings.n_shells)
           {
             const TriangleSurface part = shell_of(surface, findings.shells, shell);
+            if (!where.empty()) // those beside the first
+              add_shell("shells side by side", shell);
             where += (where.empty() ? "of " : ", ") + std::to_string(part.triangles.size())
                      + " triangles at " + place_text(part.vertices[part.triangles[0][0]]);
           }
@@ -292,7 +328,10 @@ namespace Exemplar
       for (unsigned int shell = 0; shell < findings.n_shells; ++shell)
         if (around[shell] == findings.n_shells
             && enclosed_volume(shell_of(surface, findings.shells, shell)) < 0.)
+        {
+          add_shell("inside out", shell);
           findings.faults.push_back("inside out: the faces of a shell point inwards, all of them");
+        }
     }
   } // namespace
 

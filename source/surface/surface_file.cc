@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/base/message_text.h>
+#include <exemplar/mesh/foreign_formats.h>
 #include <exemplar/mesh/mesh_parameters.h>
 #include <exemplar/surface/surface_formats.h>
 #include <exemplar/surface/surface_scanner.h>
@@ -27,8 +28,12 @@ namespace Exemplar
     {
       const std::string extension = lower_case(file.extension().string());
       if (!is_surface_file(file.string()))
+      {
+        const std::string remedy = remedy_of_surface(file);
         throw UserError(file.string() + ": a surface must be an .obj, .ply or .stl file, found "
-                        + in_quotes(extension) + ". Export it in one of these formats.");
+                        + in_quotes(extension) + ". "
+                        + (remedy.empty() ? "Export it in one of these formats." : remedy));
+      }
       SurfaceScanner in(file);
       if (extension == ".obj")
         return read_obj(in);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/base/message_text.h>
+#include <exemplar/base/missing_file.h>
 #include <exemplar/base/text_file.h>
 #include <exemplar/surface/surface_scanner.h>
 
@@ -32,6 +33,24 @@ namespace Exemplar
       const bool two = bytes.compare(end, 2, "\r\n") == 0;
       return std::min(end + (two ? 2 : 1), bytes.size());
     }
+    /// Without the byte order mark that editors put before UTF-8. Files that are no text hold bytes
+    /// that are 0.
+    std::string
+    without_mark(std::string bytes)
+    {
+      const std::string mark    = "\xEF\xBB\xBF";
+      const bool        is_text = bytes.substr(0, 100).find('\0') == std::string::npos;
+      if (is_text && bytes.compare(0, mark.size(), mark) == 0)
+        bytes.erase(0, mark.size());
+      return bytes;
+    }
+
+    /// Whether a text is saved with two bytes a character.
+    bool
+    is_utf16(const std::string &bytes)
+    {
+      return bytes.compare(0, 2, "\xFF\xFE") == 0 || bytes.compare(0, 2, "\xFE\xFF") == 0;
+    }
   } // namespace
 
   std::string
@@ -39,9 +58,10 @@ namespace Exemplar
   {
     std::string reason;
     if (auto bytes = read_text_file(file, &reason))
-      return std::move(*bytes);
+      return without_mark(std::move(*bytes));
     throw UserError(file.string() + ": cannot be opened (" + reason
-                    + "). Give the path of a surface: an .obj, .ply or .stl file.");
+                    + "). Give the path of a surface: an .obj, .ply or .stl file."
+                    + missing_file_remedy(file));
   }
 
   SurfaceScanner::SurfaceScanner(const std::filesystem::path &path)
@@ -49,6 +69,10 @@ namespace Exemplar
   {
     if (bytes.empty())
       throw UserError(file.string() + ": the file is empty. Save the surface anew.");
+    if (is_utf16(bytes) && file.extension() != ".stl") // binary ones may begin with any bytes
+      throw UserError(file.string()
+                      + ": the file is saved as UTF-16. Save it as UTF-8 or ASCII, or export the "
+                        "surface anew.");
   }
 
   bool

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/algebra/mpi_session.h>
 #include <exemplar/base/errors.h>
+#include <exemplar/base/nearest_word.h>
 #include <exemplar/verification/verification.h>
 
 #include <algorithm>
@@ -60,10 +61,13 @@ namespace Exemplar
                                           [&](const Case &one) { return one.name == name; });
           if (found == all.end())
           {
-            std::string allowed;
+            std::vector<std::string> names;
             for (const Case &one : all)
-              allowed += (allowed.empty() ? "" : ", ") + one.name;
-            throw UserError("verify: there is no case '" + name + "'. Allowed: " + allowed + ".");
+              names.push_back(one.name);
+            const std::string nearest = nearest_word(name, names);
+            throw UserError("verify: there is no case '" + name + "'."
+                            + (nearest.empty() ? "" : " Did you mean '" + nearest + "'?")
+                            + " exemplar verify --list names them all.");
           }
           selected.push_back(*found);
         }

@@ -29,7 +29,7 @@ SCENES = [
     ("duplicate key", prm(BAR) + "subsection Mesh\nset Generator = box\nend\n",
      [f"scene.prm:{LINES + 2}:", "Mesh/Generator is set twice", "scene.prm:3", "Keep one"]),
     ("unterminated subsection", prm(BAR) + "subsection Solver\nset Method = one pass\n",
-     [f"scene.prm:{LINES + 2}:", "subsection 'Solver'", "'end'"]),
+     [f"scene.prm:{LINES + 1}:", "subsection 'Solver'", "'end'"]),
     ("one 'end' too many", prm(BAR) + "end\n", [f"scene.prm:{LINES + 1}:", "'end'", "Remove"]),
     ("line without =", prm(BAR) + "set Scene\n",
      [f"scene.prm:{LINES + 1}:", "'='", "set KEY = VALUE"]),
@@ -102,7 +102,7 @@ SCENES = [
     ("truncated mesh", {**FILE, "Mesh/File": "truncated.msh"},
      ["/truncated.msh", "within section $Elements", "truncated", "Copy it again"]),
     ("mesh is no .msh", {**FILE, "Mesh/File": "scene.prm"},
-     ["/scene.prm", "expected a section", "'set'", ".msh"]),
+     ["/scene.prm", "no gmsh .msh file", "a scene"]),
     ("missing .geo", {**FILE, "Mesh/File": "absent.geo"}, ["/absent.geo", "cannot be opened"]),
     ("Box cells = 0", {**BAR, "Mesh/Box cells": "2, 0, 1"},
      ["Mesh/Box cells = '2, 0, 1'", "three integers >= 1 separated by commas"]),
@@ -116,7 +116,7 @@ SCENES = [
     # examples
     ("missing pose", {**BAR, "Examples/Poses": "absent.msh"}, ["/absent.msh", "cannot be opened"]),
     ("pose is no .msh", {**BAR, "Examples/Poses": "scene.prm"},
-     ["/scene.prm", "expected a section", "'set'", ".msh"]),
+     ["/scene.prm", "no gmsh .msh file", "a scene"]),
     ("pose is a directory", {**BAR, "Examples/Poses": "a directory"},
      ["/a directory", "directory"]),
     ("pose with fewer nodes", {**BAR, "Examples/Poses": "small.msh"},
@@ -161,7 +161,7 @@ SCENES = [
 
     # handles and loads
     ("handles that hold everything", {**BAR, "Handles/left/Select": "box -9 -9 -9 9 9 9"},
-     ["hold every node", "Handles/NAME/Select"]),
+     ["hold every node", "Handles/left/Select smaller"]),
     ("duplicate handle name", {**BAR, "Handles/Names": "left, left"},
      ["Handles/Names", "'left' twice", "differ"]),
     ("empty handle name", {**BAR, "Handles/Names": "left,,right"},
@@ -259,7 +259,7 @@ SCENES = [
     ("control character in a value", {**BAR, "Material/Density": "1\x1b[2J0"},
      ["scene.prm:", "'\\x1b' is no text", "UTF-8"]),
     ("NUL in a name", {**BAR, "Handles/Names": "le\0ft"}, ["scene.prm:", "'\\x00' is no text"]),
-    ("key of 300 kB", {**BAR, "x" * 300000: "1"}, ["scene.prm:", "there is no parameter 'xxx", "[...]", "Did you"]),
+    ("key of 300 kB", {**BAR, "x" * 300000: "1"}, ["scene.prm:", "there is no parameter 'xxx", "[...]", "--print-parameters"]),
 
     # what cannot be computed with
     ("scale in other units by far", {**INTERPOLATION, "Mesh/Scale": "1e78"}, ["node", "1e50 m", "Mesh/Scale"]),

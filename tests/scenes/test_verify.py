@@ -47,7 +47,7 @@ class Verify(SceneTest):
         for arguments in (["scene.prm", "verify"], ["--quiet", "verify"]):
             run = self.call(*arguments)
             self.assertEqual((run.status, run.stdout), (1, ""))
-            self.assertIn("verify excludes", run.stderr)
+            self.assertIn("The command stands first", run.stderr)
 
 
 if __name__ == "__main__":

@@ -85,6 +85,10 @@ namespace Exemplar
       return handles.size();
     }
 
+    /// Of the whole body, each once.
+    unsigned int
+    n_nodes(unsigned int handle) const;
+
     const std::string &
     name(const unsigned int handle) const
     {

@@ -3,6 +3,7 @@
 #define exemplar_assignments_h
 
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -34,9 +35,12 @@ namespace Exemplar
   read_prm(const std::filesystem::path &file);
 
   /// All assignments in the text of a .prm file in order, checked for syntax only: `subsection`
-  /// and `end` match, no key is set twice. Throws UserError with file and line.
+  /// and `end` match, no key is set twice. Throws UserError with file and line. `sections` are
+  /// names of subsections that lie in no other: they tell which one lacks its `end`.
   std::vector<Assignment>
-  read_assignments(const std::string &prm_text, const std::string &file);
+  read_assignments(const std::string           &prm_text,
+                   const std::string           &file,
+                   const std::set<std::string> &sections = {});
 
   /// "Section/Subsection/Key=value"; `place` is the assignment's.
   Assignment

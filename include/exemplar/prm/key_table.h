@@ -150,6 +150,10 @@ namespace Exemplar
     std::vector<DeclaredKey>
     keys() const;
 
+    /// Whether there is a key of this path ("Section/Key").
+    bool
+    declares(const std::string &path) const;
+
     /// The text of a key that there is, by "Section/Key".
     const std::string &
     get(const std::string &path) const;
@@ -160,7 +164,7 @@ namespace Exemplar
 
     /// Set values; input files become absolute, relative ones starting from `directory`; if that
     /// is empty, they stay. Throws UnknownKey for an undeclared key (with the nearest declared
-    /// one) and UserError for a value that is not allowed.
+    /// ones) and UserError for a value that is not allowed.
     void
     apply(const std::vector<Assignment> &assignments, const std::filesystem::path &directory);
 

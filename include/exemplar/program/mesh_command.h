@@ -12,10 +12,12 @@ namespace Exemplar
     SurfaceMeshingOptions meshing;
     std::filesystem::path output; ///< .msh; the table goes beside it, .csv
     bool                  quiet = false;
+    std::filesystem::path faults; ///< .csv; if it is given, they are listed and no mesh is made
   };
 
   /// Make a mesh inside a surface, write it and its table, and print the table. Nothing is written
   /// if anything fails. Throws UserError, SolverFailure as mesh_surface() does.
+  /// Or write a table of the surface's faults, if `faults` is given.
   void
   run_mesh_command(const MeshCommandOptions &options);
 } // namespace Exemplar

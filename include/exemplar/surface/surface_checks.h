@@ -13,11 +13,21 @@ namespace Exemplar
     std::vector<unsigned int> faces; ///< of each triangle, from 0; empty: the triangles are faces
   };
 
+  /// A face or vertex of the file that is part of a fault.
+  struct FaultyElement
+  {
+    std::string  fault; ///< as in SurfaceFindings::faults
+    bool         is_face;
+    unsigned int index; ///< in the file, from 0
+  };
+
   /// What is wrong with a surface that should bound a body.
   struct SurfaceFindings
   {
     /// A line each of what forbids cells inside: what, how many, where.
     std::vector<std::string> faults;
+    /// All of their faces, or of their vertices where these tell more; some more than once.
+    std::vector<FaultyElement> elements;
     /// Whether all that is wrong is that there are several bodies, which no repair joins.
     bool several_bodies = false;
     /// A line each of what is harmless: vertices that no face uses, or of equal places.

@@ -58,7 +58,7 @@ namespace Exemplar::Testing
       EXPECT_EQ(error_with([](auto &p) { p.nodes[0] = { 9., 9., 9. }; }), "");
       EXPECT_EQ(error_with([](auto &p) { p.elements.erase(p.elements.begin()); }), "");
       expect_contains(error_with([](auto &p) { add_node(p, {}); }),
-                      "pose.msh is no pose of bar.msh: has 6 nodes, the mesh has 5.");
+                      "pose.msh is no pose of bar.msh: it has 6 nodes, the mesh has 5.");
       expect_contains(error_with([](auto &p) { p.node_numbers[3] = 99; }),
                       "the node at position 4 has the number 99, in the mesh 13.");
       expect_contains(error_with([](auto &p) { p.elements.pop_back(); }),

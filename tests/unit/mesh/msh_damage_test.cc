@@ -108,9 +108,9 @@ namespace Exemplar::Testing
       auto       binary = version_2(two_tetrahedra_with_gaps(), true);
       expect_contains(error_of(replaced(file, "2.2 0", "4 0")), "MSH version 4 is not supported");
       expect_contains(error_of(replaced(file, "0 8", "0 4")), "data size 8, found 0 and 4");
-      expect_contains(error_of("solid cube\n"), "'solid'");
+      expect_contains(error_of("solid cube\n"), "an STL surface");
       expect_contains(error_of("$NOD\n1\n"), "begins with $MeshFormat");
-      expect_contains(error_of(""), "begins with $MeshFormat");
+      expect_contains(error_of(""), "the file is empty");
       std::swap(binary[binary.find("1 8\n") + 4], binary[binary.find("1 8\n") + 7]);
       expect_contains(error_of(binary), "byte order");
       expect_contains(error_of(file + "$Nodes\n0\n$EndNodes\n"), "twice");

@@ -173,7 +173,7 @@ namespace Exemplar::Testing
       write_msh(other, directory / "stretched.msh");
       expect_contains(refusal([&] { read_inputs(scene); }),
                       "Handles/right/Follow pose: " + (directory / "stretched.msh").string()
-                          + " is no pose of " + scene.mesh.file + ": has 16 nodes");
+                          + " is no pose of " + scene.mesh.file + ": it has 16 nodes");
     }
 
     TEST_F(InputsTest, ArraysThatDoNotFitAreRefused)

@@ -55,6 +55,14 @@ namespace Exemplar::Testing
       EXPECT_THROW(Expression("key", "log(t-1)", "t", 1).values({}, 0.5), SolverFailure);
     }
 
+    TEST(Expression, CommasStandInFunctionsOnly)
+    {
+      // muParser would take 0,5*t for 5*t
+      const std::string message = message_of([] { Expression("key", "0,5*t", "t", 1); });
+      EXPECT_NE(message.find("'0,5*t' holds a comma"), std::string::npos) << message;
+      EXPECT_DOUBLE_EQ(Expression("key", "max(2, min(t, 3))", "t", 1).values({}, 2.5)[0], 2.5);
+    }
+
     TEST(TimeAxis, WholeAndShorterSteps)
     {
       TimeParameters parameters;

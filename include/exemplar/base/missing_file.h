@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_missing_file_h
+#define exemplar_missing_file_h
+
+#include <filesystem>
+#include <string>
+
+namespace Exemplar
+{
+  /// What may be wrong with the name of a file that cannot be opened: quotes, ~, a pattern,
+  /// several names in one, a directory that there is not, or a name that is nearly that of a file
+  /// beside. One sentence that begins with a blank, or nothing.
+  std::string
+  missing_file_remedy(const std::filesystem::path &file);
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_surface_faults_h
+#define exemplar_surface_faults_h
+
+#include <filesystem>
+#include <string>
+
+namespace Exemplar
+{
+  /// The first line of the table, by which it is known.
+  extern const std::string header_of_faults;
+
+  /// Check a surface, in a process of its own, and return all that forbids cells inside as a table
+  /// in CSV: a row each face or vertex of a fault, with its number in the file from 1 and from 0, and
+  /// its place in the file's unit. Throws UserError for what is no surface.
+  std::string
+  table_of_faults(const std::filesystem::path &surface);
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/missing_file.h>
+#include <exemplar/base/nearest_word.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace Exemplar
+{
+  namespace fs = std::filesystem;
+
+  namespace
+  {
+    bool
+    holds(const std::string &text, const char *const part)
+    {
+      return text.find(part) != std::string::npos;
+    }
+
+    /// Whether a blank follows an ending, as in "a.msh b.msh".
+    bool
+    is_list_by_blanks(const std::string &name)
+    {
+      const std::size_t point = name.find('.');
+      return point != std::string::npos && holds(name.substr(point), " ");
+    }
+
+    /// The first directory on the way to a file that there is not; empty if all are there.
+    fs::path
+    missing_directory(const fs::path &file)
+    {
+      fs::path        missing;
+      std::error_code ignored;
+      for (fs::path d = file.parent_path(); !d.empty() && !fs::exists(d, ignored);
+           d          = d.parent_path())
+        missing = d;
+      return missing;
+    }
+
+    /// The name in a directory that is nearest to a name; empty if none is near.
+    std::string
+    near_name(const fs::path &file)
+    {
+      constexpr std::size_t    most = 2000; // who has more files in a directory waits no longer
+      std::vector<std::string> names;
+      std::error_code          ignored;
+      const fs::path directory = file.has_parent_path() ? file.parent_path() : fs::path(".");
+      for (fs::directory_iterator entry(directory, ignored), end;
+           entry != end && names.size() < most; entry.increment(ignored))
+        names.push_back(entry->path().filename().string());
+      std::sort(names.begin(), names.end()); // directories have no order of their own
+      return nearest_word(file.filename().string(), names);
+    }
+  } // namespace
+
+  std::string
+  missing_file_remedy(const fs::path &file)
+  {
+    const std::string name = file.string();
+    std::error_code   ignored;
+    if (fs::exists(file, ignored))
+      return "";
+    if (name.find_first_of("\"'") != std::string::npos)
+      return " Names of files are written without quotes.";
+    if (holds(name, "/~") || name[0] == '~' || holds(name, "$"))
+      return " Neither ~ nor $ is replaced here: write the path in full.";
+    if (holds(name, "\\"))
+      return " Directories are separated by /, not by \\.";
+    if (name.find_first_of("*?") != std::string::npos)
+      return " Patterns are not replaced here: write all names, separated by commas.";
+    if (holds(name, ";") || is_list_by_blanks(file.filename().string()))
+      return " Names of files are separated by commas.";
+    if (const fs::path directory = missing_directory(file); !directory.empty())
+      return " There is no directory " + directory.string() + ".";
+    if (const std::string near = near_name(file); !near.empty())
+      return " Did you mean " + near + "?";
+    return "";
+  }
+} // namespace Exemplar

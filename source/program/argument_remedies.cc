@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/message_text.h>
+#include <exemplar/base/nearest_word.h>
+#include <exemplar/program/argument_remedies.h>
+
+#include <CLI/CLI.hpp>
+
+#include <filesystem>
+
+namespace Exemplar
+{
+  namespace
+  {
+    using Words = std::vector<std::string>;
+
+    Words
+    names_of_commands(const CLI::App &app)
+    {
+      Words names;
+      for (const CLI::App *command : app.get_subcommands([](const CLI::App *) { return true; }))
+        names.push_back(command->get_name());
+      return names;
+    }
+
+    /// How a command is called.
+    std::string
+    usage(const std::string &command)
+    {
+      if (command == "mesh")
+        return "exemplar mesh --surface FILE.obj --cells N --output FILE.msh";
+      if (command == "pose")
+        return "exemplar pose --mesh FILE.msh --rest FILE.obj --pose FILE.obj --output DIRECTORY";
+      if (command == "study")
+        return "exemplar study STUDY.prm";
+      return command.empty() ? "exemplar SCENE.prm" : "exemplar " + command;
+    }
+
+    /// The words of a command line, each as what it is.
+    struct Sorted
+    {
+      std::string command;              ///< empty: a scene is run
+      Words       unknown;              ///< options that the command does not have
+      Words       positional;           ///< what belongs to no option
+      Words       options;              ///< those that the command has
+      bool        late_command = false; ///< the command does not stand first
+      bool        split_set    = false; ///< a --set has no '=': a blank has divided it
+    };
+
+    bool
+    is_option(const std::string &word)
+    {
+      return word.size() > 1 && word[0] == '-'
+             && word.find_first_not_of("-+.0123456789eE") != std::string::npos;
+    }
+
+    const CLI::Option *
+    find_option(const CLI::App &app, const std::string &name)
+    {
+      for (const CLI::Option *option : app.get_options())
+        if (option->check_name(name))
+          return option;
+      return nullptr;
+    }
+
+    Sorted
+    sorted(const CLI::App &app, const Words &words)
+    {
+      Sorted          result;
+      const Words     commands = names_of_commands(app);
+      const CLI::App *present  = &app;
+      for (std::size_t i = 0; i < words.size(); ++i)
+      {
+        const std::string       &word   = words[i];
+        const std::string        name   = word.substr(0, word.find('='));
+        const CLI::Option *const option = is_option(word) ? find_option(*present, name) : nullptr;
+        if (is_option(word) && option == nullptr)
+        {
+          result.unknown.push_back(name);
+          while (i + 1 < words.size() && !is_option(words[i + 1]))
+            ++i; // its values
+        }
+        else if (option != nullptr)
+        {
+          std::size_t n_values
+              = name == word ? static_cast<std::size_t>(option->get_items_expected_max()) : 0;
+          if (!option->get_allow_extra_args())
+            n_values = std::min<std::size_t>(n_values, 1);
+          for (; n_values > 0 && i + 1 < words.size() && !is_option(words[i + 1]); --n_values)
+            ++i;
+          result.split_set
+              = result.split_set
+                || (name == "--set"
+                    && words[i].find('=', words[i] == word ? 6 : 0) == std::string::npos);
+        }
+        else if (result.command.empty() && std::count(commands.begin(), commands.end(), word) > 0)
+        {
+          result.command      = word;
+          result.late_command = i > 0;
+          present             = app.get_subcommand(word);
+        }
+        else
+          result.positional.push_back(word);
+      }
+      for (const CLI::Option *option : present->get_options())
+        for (const std::string &name : option->get_lnames())
+          result.options.push_back("--" + name);
+      return result;
+    }
+
+    std::string
+    suggested_option(const std::string &unknown, const Words &options)
+    {
+      const std::string nearest = nearest_word(unknown, options);
+      if (!nearest.empty())
+        return nearest;
+      const std::string beginning = unknown.substr(unknown.find_first_not_of('-'));
+      for (const std::string &option : options) // -o for --output
+        if (option.compare(2, beginning.size(), beginning) == 0)
+          return option;
+      return "";
+    }
+
+    std::string
+    unknown_option(const Sorted &line)
+    {
+      const std::string &unknown = line.unknown.front();
+      const std::string  nearest = suggested_option(unknown, line.options);
+      std::string        message = "exemplar" + (line.command.empty() ? "" : " " + line.command)
+                            + " has no option " + in_quotes(unknown) + ".";
+      if (!nearest.empty())
+        message += " Did you mean '" + nearest + "'?";
+      else if (line.command.empty())
+        message += " Values of a scene are given by --set Section/Key=value.";
+      return message;
+    }
+
+    /// Of two words where one scene should be.
+    std::string
+    second_scene(const Sorted &line, const Words &commands)
+    {
+      const std::string &first = line.positional[0], &second = line.positional[1];
+      if (line.split_set)
+        return in_quotes(second)
+               + " stands alone. A value with blanks needs quotes, and no blanks around the '=': "
+                 "--set \"Section/Key=value\".";
+      if (second.find('=') != std::string::npos)
+        return in_quotes(second) + " stands alone. Values of a scene are given by --set "
+               + in_quotes(second) + ".";
+      if (first.find('.') == std::string::npos && !std::filesystem::exists(first))
+      {
+        const std::string nearest = nearest_word(first, commands);
+        return "There is no command " + in_quotes(first) + "."
+               + (nearest.empty() ? " A scene is run without one: exemplar " + second + "."
+                                  : " Did you mean '" + nearest + "'?");
+      }
+      return "Two scenes are given, " + in_quotes(first) + " and " + in_quotes(second)
+             + ". A run has one; exemplar study runs one with many settings.";
+    }
+
+    std::string
+    wrong_word(const Sorted &line, const Words &commands)
+    {
+      if (line.late_command)
+        return "The command stands first, its options behind it: exemplar " + line.command + " ...";
+      const std::string &word = line.positional.back();
+      if (line.command.empty())
+        return line.positional.size() > 1 ? second_scene(line, commands) : "";
+      if (line.command == "study")
+        return line.positional.size() > 1
+                   ? "Two studies are given; " + in_quotes(word) + " is one too many."
+                   : "";
+      return line.command == "verify"
+                 ? ""
+                 : in_quotes(word) + " stands without an option. Write: " + usage(line.command);
+    }
+
+    /// CLI11's words, where they are not those of this program.
+    std::string
+    in_own_words(const CLI::ParseError &error, const Sorted &line)
+    {
+      const std::string what  = error.what();
+      const std::string begin = "Could not convert: ";
+      if (what.rfind(begin, 0) == 0)
+        return what.substr(begin.size()) + " is not understood. A whole number is needed, with all "
+               + "its digits and nothing else";
+      if (what.find("At Most 1 required") != std::string::npos)
+        return what.substr(0, what.find(':')) + " is given twice. Give it once";
+      if (dynamic_cast<const CLI::RequiredError *>(&error) != nullptr)
+        return what + ": " + usage(line.command);
+      return what;
+    }
+  } // namespace
+
+  std::string
+  message_of_arguments(const CLI::App &app, const CLI::ParseError &error, const Words &words)
+  {
+    const Sorted      line = sorted(app, words);
+    std::string       message;
+    const std::string help
+        = "exemplar " + (line.command.empty() ? "" : line.command + " ") + "--help";
+    if (!line.unknown.empty())
+      message = unknown_option(line);
+    else if (line.late_command || !line.positional.empty())
+      message = wrong_word(line, names_of_commands(app));
+    if (message.empty())
+      message = in_own_words(error, line) + ".";
+    return message + " " + help + " lists what is allowed.";
+  }
+} // namespace Exemplar

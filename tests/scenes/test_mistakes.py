@@ -1,0 +1,307 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Mistakes that people make, and the remedy that the message must hold; nothing is written."""
+
+import csv
+import unittest
+
+from bad_inputs import DYNAMIC, FILE, BadInputTest
+from exemplar_runner import BAR, SceneTest, prm
+from surfaces import cube, joined, write_obj
+
+FREE = {**BAR, "Examples/Pose functions": "1.1*x; y; z"}
+TWO = {**BAR, "Handles/Names": "left, right", "Handles/right/Select": "boundary 2", "Handles/right/Motion": "0; 0; t"}
+LOADED = {**BAR, "Loads/Names": "tip", "Loads/tip/Select": "boundary 2", "Loads/tip/Force": "0; 0; -1"}
+INDENTED = """set Scene = static
+subsection Mesh
+  set Generator = box
+  set Box size = 2, 1, 1
+  set Box cells = 2, 1, 1
+end
+subsection Examples
+  set Pose functions = 1.1*x; y; z
+end
+subsection Handles
+  set Names = left
+  subsection left
+    set Select = boundary 1
+  end
+end
+"""
+
+
+def without_line(number):
+    lines = INDENTED.splitlines()
+    return "\n".join(lines[:number - 1] + lines[number:]) + "\n"
+
+
+def left(**keys):
+    return {**BAR, **{f"Handles/left/{key}": value for key, value in keys.items()}}
+
+
+# name: (scene, words of the message)
+SCENES = {
+    # values
+    "decimal comma": ({**FREE, "Examples/Importance": "0,3"}, ["decimal sign is a point", "Did you mean '0.3'"]),
+    "decimal commas in a list": ({**BAR, "Mesh/Box size": "2,5, 1,0, 1,0"}, ["decimal sign is a point", "'2.5, 1.0, 1.0'"]),
+    "list by blanks": ({**BAR, "Loads/Gravity": "0 0 -9.81"}, ["by commas", "'0, 0, -9.81'"]),
+    "list by semicolons": ({**BAR, "Loads/Gravity": "0; 0; -9.81"}, ["by commas", "'0, 0, -9.81'"]),
+    "list in brackets": ({**BAR, "Loads/Gravity": "[0, 0, -9.81]"}, ["brackets", "'0, 0, -9.81'"]),
+    "one number for three": ({**BAR, "Loads/Gravity": "-9.81"}, ["three numbers", "gravity [m/s^2]"]),
+    "cells by x": ({**BAR, "Mesh/Box cells": "16x4x4"}, ["by commas", "'16, 4, 4'"]),
+    "unit behind a number": ({**BAR, "Material/Young's modulus": "210 GPa"}, ["without its unit", "E [Pa]"]),
+    "milliseconds": ({**DYNAMIC, "Time/Step": "10 ms"}, ["without its unit", "dt [s]"]),
+    "fraction": ({**DYNAMIC, "Time/Step": "1/25"}, ["No formula", "'0.04'"]),
+    "negative step": ({**DYNAMIC, "Time/Step": "-0.01"}, ["cannot be negative", "'0.01'"]),
+    "negative density": ({**BAR, "Material/Density": "-1000"}, ["cannot be negative", "'1000'"]),
+    "percent": ({**FREE, "Examples/Importance": "50%"}, ["share of 1", "'0.5'"]),
+    "Poisson's ratio in percent": ({**BAR, "Material/Poisson's ratio": "49"}, ["share of 1", "'0.49'"]),
+    "integer as a power": ({**BAR, "Time/Increments": "1e2"}, ["all digits", "'100'"]),
+    "semicolon behind a value": ({**BAR, "Material/Density": "1000;"}, ["No sign ends a line", "'1000'"]),
+    "comment of C++ behind a value": ({**BAR, "Material/Density": "1000 // kg"}, ["comment begins with #", "'1000'"]),
+    "capital": ({**BAR, "Scene": "Static"}, ["Did you mean 'static'"]),
+    "quotes": ({**BAR, "Scene": '"static"'}, ["no quotes", "'static'"]),
+    "yes for true": ({**FREE, "Examples/Include rest pose": "yes"}, ["Did you mean 'true'"]),
+    "formats by blanks": ({**BAR, "Output/Formats": "vtu ply"}, ["by commas", "'vtu, ply'"]),
+    "format misspelt": ({**BAR, "Output/Formats": "vtk"}, ["Did you mean 'vtu'"]),
+    # keys
+    "symbol for a key": ({**BAR, "Material/nu": ".3"}, ["Did you mean 'Material/Poisson's ratio'"]),
+    "other apostrophe": ({**BAR, "Material/Young’s modulus": "1e6"}, ["Did you mean 'Material/Young's modulus'"]),
+    "key of another section": ({**DYNAMIC, "Solver/Step": ".1"}, ["Did you mean 'Time/Step'"]),
+    "old key": ({**BAR, "Output/Format": "vtu"}, ["Did you mean 'Output/Formats'"]),
+    "key that is far from all": ({**LOADED, "Loads/tip/Pressure": "5"}, ["Loads/tip has the keys Select, Force"]),
+    "handle outside of Handles": ({**BAR, "left/Motion": "0; 0; t"}, ["Did you mean 'Handles/left/Motion'"]),
+    "section misspelt": ({**BAR, "Handle/left/Motion": "0; 0; t"}, ["Did you mean 'Handles/left/Motion'"]),
+    # names
+    "names by blanks": ({**TWO, "Handles/Names": "left right"}, ["by commas: set Names = left, right."]),
+    "names of loads by blanks": ({**LOADED, "Loads/Names": "tip top"}, ["by commas: set Names = tip, top."]),
+    "names by semicolons": ({**TWO, "Handles/Names": "left; right"}, ["Names are separated by commas"]),
+    "names in quotes": ({**TWO, "Handles/Names": '"left", "right"'}, ["without quotes"]),
+    "name with a capital": ({**TWO, "Handles/Names": "Left, right"}, ["Did you mean Handles/Left?"]),
+    # lines
+    "inner end is missing": (without_line(14), ["scene.prm:12: subsection 'left' is not closed before line 14"]),
+    "end of Mesh is missing": (without_line(6), ["scene.prm:2: subsection 'Mesh' is not closed before line 6", "'Examples' begins"]),
+    "end of Examples is missing": (without_line(9), ["scene.prm:7: subsection 'Examples' is not closed before line 9"]),
+    "last end is missing": (without_line(15), ["scene.prm:10: subsection 'Handles' is not closed before the file ends"]),
+    "end is missing without indentation": (prm(TWO).replace("end\nend\nsubsection Loads", "end\nsubsection Loads"),
+                                           ["'Handles' is not closed before line", "'Loads' begins"]),
+    "no set": (prm(BAR) + "Density = 1000\n", ["Did you mean 'set Density = 1000'"]),
+    "YAML": (prm(BAR) + "Density: 1000\n", ["Did you mean 'set Density = 1000'"]),
+    "set with a colon": (prm(BAR) + "set Density: 1000\n", ["':' does not stand for '='"]),
+    "comment of C++": (prm(BAR) + "// bar\n", ["comment begins with #"]),
+    "section in brackets": ("[Mesh]\n", ["Did you mean 'subsection Mesh'"]),
+    "section": ("section Mesh\n", ["Did you mean 'subsection Mesh'"]),
+    "end with a name": ("subsection Mesh\nend subsection\n", ["Write 'end' alone"]),
+    "END": ("subsection Mesh\nEND\n", ["small letters"]),
+    "include": ("include other.prm\n", ["--set"]),
+    "value over two lines": ("set Scene = static\n0; 0;\n", ["backslash"]),
+    "UTF-16": (prm(BAR).encode("utf-16"), ["saved as UTF-16", "UTF-8"]),
+    # formulas
+    "semicolon at the end": (left(Motion="0; 0; t;"), ["4 formulas", "Remove the ';' at the end"]),
+    "formulas by commas": (left(Motion="0, 0, t"), ["1 formula,", "Commas do not separate"]),
+    "one formula": (left(Motion="t"), ["for x, y and z"]),
+    "decimal comma in a formula": (left(Motion="0,5*t; 0; 0"), ["'0,5*t' holds a comma", "decimal sign is a point"]),
+    "power of Python": (left(Motion="t**2; 0; 0"), ["written x^2"]),
+    "numpy": (left(Motion="np.sin(t); 0; 0"), ["no prefix"]),
+    "product without a sign": (left(Motion="2t; 0; 0"), ["written 2*t"]),
+    "capital T": (left(Motion="T; 0; 0"), ["time is t"]),
+    "Pi": (left(Motion="Pi*t; 0; 0"), ["written pi"]),
+    "if": (left(Motion="if(t>.5, 1, 0); 0; 0"), ["c ? a : b"]),
+    "modulo": (left(Motion="mod(t, 1); 0; 0"), ["t - floor(t)"]),
+    "brackets around formulas": (left(Motion="(0; 0; t)"), ["No brackets"]),
+    "empty formula": (left(Motion="0;; t"), ["Write 0"]),
+    "minus of a typesetter": (left(Motion="0; 0; −t"), ["minus is -"]),
+    # selections
+    "box by commas": (left(Select="box 0, -1, -1, .1, 1, 1"), ["6 numbers", "separated by blanks"]),
+    "box in brackets": (left(Select="box(0,-1,-1,.1,1,1)"), ["Did you mean 'box'"]),
+    "kind with a capital": (left(Select="Boundary 1"), ["Did you mean 'boundary'"]),
+    "inequality": (left(Select="x < .1"), ["selected by a box"]),
+    "no id": (left(Select="boundary"), ["does not say which boundary"]),
+    "name of a boundary misspelt": (left(Select="boundary X-"), ["Did you mean 'x-'"]),
+    "nodes in the scene": (left(Select="nodes 1 2 3"), ["stand in a file"]),
+    "nodes from 0": (left(Select="nodes from0.txt"), ["'0' in", "counted from 1"]),
+    "box in millimetres": (left(Select="box -1 -600 -600 3000 600 600"), ["every node", "Handles/left/Select smaller", "metres"]),
+    "handle of one node": (left(Select="sphere 0 -.5 -.5 .1"), ["3 of 6", "Handle 'left' holds a single node"]),
+    # files
+    "missing mesh": ({**FILE, "Mesh/File": "baar.msh"}, ["/baar.msh", "Did you mean bar.msh?"]),
+    "capital in a file": ({**FILE, "Mesh/File": "Bar.msh"}, ["Did you mean bar.msh?"]),
+    "quoted file": ({**FILE, "Mesh/File": '"bar.msh"'}, ["without quotes"]),
+    "home directory": ({**FILE, "Mesh/File": "~/bar.msh"}, ["Neither ~ nor $"]),
+    "backslash": ({**FILE, "Mesh/File": "C:\\meshes\\bar.msh"}, ["separated by /"]),
+    "missing directory": ({**FILE, "Mesh/File": "meshes/bar.msh"}, ["There is no directory", "/meshes."]),
+    "poses by blanks": ({**FILE, "Mesh/File": "bar.msh", "Examples/Poses": "bar.msh other.msh"}, ["by commas"]),
+    "poses by a pattern": ({**FILE, "Mesh/File": "bar.msh", "Examples/Poses": "b*.msh"}, ["Patterns are not replaced"]),
+    "pose of another mesh": ({**BAR, "Examples/Poses": "small.msh"}, ["8 nodes, the mesh has 12", "exemplar pose"]),
+}
+
+# name, beginning of the file, words of the message where it is Mesh/File, and where it is a surface
+FOREIGN = [
+    ("a.vtk", "# vtk DataFile Version 3.0\n", "gmsh a.vtk -save -format msh22 -o a.msh", "not a surface"),
+    ("a.inp", "*HEADING\n", "meshio convert a.inp a.msh --output-format gmsh22", "not a surface"),
+    ("a.vtu", "<?xml", "final.msh", "not a surface"),
+    ("a.ele", "1 4 0\n", "meshio convert a.ele", "not a surface"),
+    ("a.node", "1 3 0\n", "meshio convert a.node", "not a surface"),
+    ("a.mesh", "MeshVersionFormatted 2\n", "gmsh a.mesh -save", "not a surface"),
+    ("a.xdmf", "<Xdmf/>", "meshio convert a.xdmf", "not a surface"),
+    ("a.bdf", "GRID\n", "gmsh a.bdf -save", "not a surface"),
+    ("a.unv", "    -1\n", "gmsh a.unv -save", "not a surface"),
+    ("a.med", "HDF", "meshio convert a.med", "not a surface"),
+    ("a.step", "ISO-10303-21;\n", "gmsh -3 a.step", "gmsh -2 a.step -o a.stl"),
+    ("a.blend", "BLENDER-v300", "Wavefront", "Wavefront"),
+    ("a.fbx", "Kaydara FBX Binary", "Export the object", "Export the object"),
+    ("a.abc", "Ogawa", "Export the object", "Export the object"),
+    ("a.glb", "glTF", "Export the object", "Export the object"),
+    ("a.usdc", "PXR-USDC", "Export the object", "Export the object"),
+    ("a.off", "OFF\n", "Export the object", "Export the object"),
+    ("a.msh.gz", "\x1f\x8b", "Unpack", "Unpack"),
+    ("A.GEO", "Box(1)={0,0,0,1,1,1};\n", "ends in .geo", "gmsh -2"),
+    ("vtk.msh", "# vtk DataFile Version 3.0\n", "Call it vtk.vtk. Convert it: gmsh vtk.vtk", "not a surface"),
+    ("stl.msh", "solid bar\n", "exemplar mesh", "not a surface"),
+    ("fluent.msh", "(0 \"Fluent\")\n", "meshio convert fluent.msh fluent_2.msh", "not a surface"),
+    ("lfs.msh", "version https://git-lfs.github.com/spec/v1\n", "git lfs pull", "not a surface"),
+    ("page.msh", "<!DOCTYPE html>\n", "a web page", "not a surface"),
+    ("empty.msh", "", "the file is empty", "not a surface"),
+]
+
+MESH = ["mesh", "--surface", "cube.obj"]
+
+# arguments (with a good scene.prm beside), words of the message
+COMMANDS = [
+    (["scene.prm", "--set", "Importance=.3"], ["'Examples/Importance'"]),
+    (["scene.prm", "--set", "importance=.3"], ["'Examples/Importance'"]),
+    (["scene.prm", "--set", "Examples.Importance=.3"], ["separated by '/'", "'Examples/Importance'"]),
+    (["scene.prm", "--set", "Examples/Importance=0,3"], ["--set", "'0.3'"]),
+    (["scene.prm", "--set", "Material/YoungsModulus=1"], ["'Material/Young's modulus'"]),
+    (["scene.prm", "--set", "E=1"], ["'Material/Young's modulus'"]),
+    (["scene.prm", "--set", "dt=.1"], ["'Time/Step'"]),
+    (["scene.prm", "--set", "Names=a"], ["'Handles/Names' or 'Loads/Names'"]),
+    (["scene.prm", "--set", "right/Motion=t"], ["'Handles/right/Motion'"]),
+    (["scene.prm", "--set", "Handles.right.Motion=t"], ["'Handles/right/Motion'"]),
+    (["scene.prm", "--set", "Handles/Right/Motion=t"], ["Did you mean Handles/right?"]),
+    (["scene.prm", "--set", "Material/Gravity=1"], ["'Loads/Gravity'"]),
+    (["scene.prm", "--set", "Examples=.3"], ["Section Examples has the keys Poses"]),
+    (["scene.prm", "--set", "Qwertz/Asdf=.3"], ["--print-parameters lists them"]),
+    (["scene.prm", "--set", "Examples/Importance", "=", ".3"], ["no blanks around the '='"]),
+    (["scene.prm", "--set", "Material/Young's", "modulus=1e5"], ["needs quotes"]),
+    (["scene.prm", "Examples/Importance=.3"], ["given by --set 'Examples/Importance=.3'"]),
+    (["scene.prm", "--outptu", "out"], ["no option '--outptu'", "Did you mean '--output'"]),
+    (["scene.prm", "--ouput=out"], ["no option '--ouput'", "Did you mean '--output'"]),
+    (["scene.prm", "-o", "out"], ["no option '-o'", "Did you mean '--output'"]),
+    (["scene.prm", "--Importance", ".3"], ["no option '--Importance'", "--set"]),
+    (["scene.prm", "--output", ""], ["--output is empty"]),
+    (["scene.prm", "--output", "a", "--output", "b"], ["--output is given twice"]),
+    (["scene.prm", "other.prm"], ["Two scenes are given", "'other.prm'"]),
+    (["run", "scene.prm"], ["no command 'run'", "exemplar scene.prm"]),
+    (["stduy", "scene.prm"], ["no command 'stduy'", "Did you mean 'study'"]),
+    (["study.prm", "study"], ["The command stands first"]),
+    (["Scene.prm"], ["Did you mean scene.prm?"]),
+    (["bar.msh"], ["a mesh or a surface, not a scene", "set File = bar.msh"]),
+    (["study", "scene.prm"], ["Vary is not set", "exemplar scene.prm"]),
+    (["study", "study.prm", "--outptu", "x"], ["exemplar study has no option '--outptu'", "'--output'"]),
+    (["verify", "--lits"], ["exemplar verify has no option '--lits'", "'--list'"]),
+    (["verify", "patchh"], ["Did you mean 'patch'", "--list"]),
+    ([*MESH, "--cell", "100", "--output", "m.msh"], ["exemplar mesh has no option '--cell'", "'--cells'"]),
+    ([*MESH, "--cells", "100", "-o", "m.msh"], ["no option '-o'", "'--output'"]),
+    ([*MESH, "--cells", "1e4", "--output", "m.msh"], ["--cells = 1e4", "whole number"]),
+    ([*MESH, "--cells", "100"], ["--output is required", "exemplar mesh --surface"]),
+    (["mesh", "cube.obj", "m.msh"], ["stands without an option", "exemplar mesh --surface"]),
+    (["pose", "--mesh", "bar.msh", "--rest", "cube.obj", "--poses", "cube.obj", "--output", "p"], ["'--poses'", "Did you mean '--pose'"]),
+]
+
+
+class Mistakes(BadInputTest):
+    def setUp(self):
+        super().setUp()
+        self.write("from0.txt", "0\n1\n2\n")
+        write_obj(self.directory / "cube.obj", *cube())
+
+    def test_scenes(self):
+        for name, (scene, words) in SCENES.items():
+            with self.subTest(name):
+                text = prm(scene) if isinstance(scene, dict) else scene
+                (self.directory / "scene.prm").write_bytes(text if isinstance(text, bytes) else text.encode())
+                self.check(self.call("scene.prm", "--output", "out"), words, self.tree())
+
+    def test_files_of_other_programs(self):
+        for name, begin, of_mesh, of_surface in FOREIGN:
+            with self.subTest(name):
+                self.write(name, begin)
+                self.write("scene.prm", prm({**FILE, "Mesh/File": name}))
+                before = self.tree()
+                self.check(self.call("scene.prm", "--output", "out"), [name, of_mesh], before)
+                self.check(self.call("mesh", "--surface", name, "--cells", "100", "--output", "m.msh"), [name, of_surface], before)
+
+    def test_commands(self):
+        self.write("scene.prm", prm({**TWO, "Examples/Pose functions": "1.1*x; y; z"}))
+        self.write("study.prm", prm({"Scene": "scene.prm", "Vary": "Time/Increments: 1 2"}))
+        before = self.tree()
+        for arguments, words in COMMANDS:
+            with self.subTest(arguments):
+                self.check(self.call(*arguments), words, before)
+
+    def test_names_may_hold_blanks(self):
+        self.write("scene.prm", prm({**BAR, "Handles/Names": "left paw", "Handles/left/Select": None, "Handles/left paw/Select": "boundary 1"}))
+        self.assertEqual(self.call("scene.prm", "--validate").status, 0)
+
+
+class Surfaces(SceneTest):
+    def mesh(self, surface, *arguments):
+        return self.call("mesh", "--surface", surface, *arguments)
+
+    def test_byte_order_mark(self):
+        vertices, faces = cube()
+        write_obj(self.directory / "cube.obj", vertices, faces)
+        (self.directory / "marked.obj").write_bytes(b"\xef\xbb\xbf" + (self.directory / "cube.obj").read_bytes())
+        for name in ("cube", "marked"):
+            run = self.mesh(f"{name}.obj", "--cells", "50", "--output", f"{name}.msh")
+            self.assertEqual(run.status, 0, run.stderr)
+        self.assertEqual((self.directory / "cube.msh").read_bytes(), (self.directory / "marked.msh").read_bytes())
+        (self.directory / "wide.obj").write_bytes((self.directory / "cube.obj").read_text().encode("utf-16"))
+        self.assertIn("saved as UTF-16", self.mesh("wide.obj", "--cells", "50", "--output", "wide.msh").stderr)
+
+    def faults(self, name, vertices, faces):
+        """What the message says of a surface, and the rows of the table that it names."""
+        write_obj(self.directory / f"{name}.obj", vertices, faces)
+        refused = self.mesh(f"{name}.obj", "--cells", "100", "--output", "m.msh")
+        self.assertEqual(refused.status, 1)
+        run = self.mesh(f"{name}.obj", "--list-faults", "faults.csv")
+        self.assertEqual((run.status, run.stderr), (0, ""))
+        with open(self.directory / "faults.csv", newline="") as file:
+            return refused.stderr, list(csv.DictReader(file))
+
+    def test_all_bad_faces_are_listed(self):
+        pairs = [joined(cube((3 * i, 0, 0)), cube((3 * i + .5, .5, .5))) for i in range(8)]
+        said, rows = self.faults("crossing", *joined(*pairs))
+        self.assertIn(" more)", said)
+        self.assertIn("--surface crossing.obj --list-faults", said)
+        self.assertEqual({row["fault"] for row in rows}, {"pairs of intersecting faces"})
+        faces = [int(row["number"]) for row in rows]
+        self.assertEqual(len(set(faces)), len(faces))
+        self.assertEqual(f"and {len(faces) - 5} more)" in said, True, said)
+        self.assertTrue(all(int(row["index"]) == int(row["number"]) - 1 and row["element"] == "face" for row in rows))
+
+    def test_a_hole_is_listed_by_its_vertices(self):
+        vertices, faces = cube()
+        _, rows = self.faults("open", vertices, faces[:-1])
+        self.assertEqual({int(row["index"]) for row in rows}, set(faces[-1]))
+        for row in rows:
+            self.assertEqual(tuple(float(row[c]) for c in "xyz"), tuple(vertices[int(row["index"])]))
+
+    def test_faces_are_those_of_the_file(self):
+        vertices, faces = cube()
+        _, rows = self.faults("turned", vertices, [face[::-1] if i == 4 else face for i, face in enumerate(faces)])
+        self.assertEqual([(row["fault"], row["number"]) for row in rows], [("faces turned against their neighbours", "5")])
+
+    def test_table_elsewhere(self):
+        write_obj(self.directory / "cube.obj", *cube())
+        before = sorted(self.directory.iterdir())
+        for arguments, words in ((["--list-faults", "faults.txt"], ".csv"), (["--list-faults", "absent/faults.csv"], "no directory")):
+            run = self.mesh("cube.obj", *arguments)
+            self.assertEqual(run.status, 1)
+            self.assertIn(words, run.stderr)
+        self.assertEqual(sorted(self.directory.iterdir()), before)
+        self.assertEqual(self.mesh("cube.obj", "--list-faults", "none.csv").status, 0)
+        self.assertEqual((self.directory / "none.csv").read_text().count("\n"), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
