@@ -109,10 +109,13 @@ namespace Exemplar
       void
       vmult(SharedVector &image, const SharedVector &vector) const
       {
-        Epetra_Vector result = view(map, image);
         if (map.NumMyElements() == 0)
           image = 0.;
-        multiply(view(map, vector), result);
+        {
+          const TrilinosLock lock; // Epetra's product starts a timer of the process
+          Epetra_Vector      result = view(map, image);
+          multiply(view(map, vector), result);
+        }
         check_curvature(vector, image);
       }
 
@@ -266,11 +269,8 @@ namespace Exemplar
       throw SolverFailure("The forces are not finite numbers.");
     const auto multiply
         = [this](const Epetra_Vector &x, Epetra_Vector &y) { matrix->Multiply(false, x, y); };
-    const auto cycle = [this](const Epetra_Vector &x, Epetra_Vector &y)
-    {
-      const TrilinosLock lock;
-      multigrid->ApplyInverse(x, y);
-    };
+    const auto cycle
+        = [this](const Epetra_Vector &x, Epetra_Vector &y) { multigrid->ApplyInverse(x, y); };
     dealii::SolverControl                       control(max_iterations, tolerance * norm);
     dealii::PrimitiveVectorMemory<SharedVector> memory;
     try
