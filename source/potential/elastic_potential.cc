@@ -284,7 +284,7 @@ namespace Exemplar
       sums.stress_square += add_dilatation(cell_task, positions, weights, result);
     gather_forces(result);
     if (dilatation != nullptr)
-      dilatation->stretch_guard().add_forces(cells, result.gradient);
+      dilatation->add_forces_of_few_cells(cells, result.gradient);
     sum_over_processes(parts.fe_space.exchange(), result, sums.stress_square);
     if (!has_unknown_weights())
       return;
@@ -318,7 +318,7 @@ namespace Exemplar
     cells.loops().weight_linear_term(cell_task, 0, cell_task.cells.n_batches(), weight_sums.data());
     std::vector<double> linear_term = sum_of_lanes(weight_sums);
     if (dilatation != nullptr)
-      dilatation->add_linear_term(linear_term);
+      dilatation->add_linear_term(cells, positions, linear_term);
     parts.fe_space.exchange().sum(linear_term);
     return linear_term;
   }

@@ -4,18 +4,32 @@
 
 #include <deal.II/base/memory_consumption.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace Exemplar
 {
+  namespace
+  {
+    /// tr S - 3, continued in thin cells, of a strain S - I.
+    double
+    past_trace(const Matrix3<double> &strain)
+    {
+      Matrix3<double> S = strain;
+      for (int i = 0; i < 3; ++i)
+        S[i][i] += 1.;
+      return trace(strain) + ThinCells::trace_supplement(S);
+    }
+  } // namespace
+
   PatchDilatation::PatchDilatation(const Patches          &patches,
                                    const ExamplePoses     *examples,
                                    const FESpace          &fe_space,
                                    const Material         &material,
                                    const SymmetricPattern &pattern,
                                    const FreeDofs         &free_dofs)
-      : patches(patches), examples(examples), free_dofs(free_dofs),
-        scatter(patches, fe_space, pattern, free_dofs),
+      : patches(patches), examples(examples), fe_space(fe_space), free_dofs(free_dofs),
+        scatter(patches, fe_space, pattern, free_dofs), thin(fe_space),
         guard(patches, fe_space, material, examples), fractions(fe_space.n_points()),
         means(patches.size(), 0.), mean_squares(patches.size(), 0.),
         traces(batched_size(fractions.size(), 1)), squares(traces.size()), pressures(traces.size()),
@@ -45,15 +59,16 @@ namespace Exemplar
     for (unsigned int point = 0; point < fractions.size(); ++point)
     {
       const unsigned int patch = patches.of_point(point);
-      past_means[patch] += fractions[point] * trace(damping.past_strain(point));
+      past_means[patch] += fractions[point] * past_trace(damping.past_strain(point));
       if (damping.factor(point) == 0.)
         damping_factors[patch] = 0.;
     }
   }
 
   void
-  PatchDilatation::find_means()
+  PatchDilatation::find_means(const CellField &cells, const Vector &positions)
   {
+    thin.find(cells, positions, traces.data(), squares.data());
     std::fill(means.begin(), means.end(), 0.);
     std::fill(mean_squares.begin(), mean_squares.end(), 0.);
     for (unsigned int point = 0; point < fractions.size(); ++point)
@@ -80,7 +95,7 @@ namespace Exemplar
                           const Vector              &positions,
                           const std::vector<double> &weights)
   {
-    find_means();
+    find_means(cells, positions);
     guard.find(cells, positions, traces.data(), means, mean_squares);
     find_pressures(weights);
   }
@@ -144,9 +159,11 @@ namespace Exemplar
   }
 
   void
-  PatchDilatation::add_linear_term(std::vector<double> &linear_term)
+  PatchDilatation::add_linear_term(const CellField     &cells,
+                                   const Vector        &positions,
+                                   std::vector<double> &linear_term)
   {
-    find_means();
+    find_means(cells, positions);
     for (unsigned int patch = 0; patch < patches.size(); ++patch)
       for (unsigned int weight = 0; weight < linear_term.size(); ++weight)
         linear_term[weight] += examples->importance() * stiffness(patch) * means[patch]
@@ -161,6 +178,60 @@ namespace Exemplar
   }
 
   void
+  PatchDilatation::find_gradient(const unsigned int   patch,
+                                 const CellField     &cells,
+                                 std::vector<double> &b) const
+  {
+    scatter.gradient(patch, cells, b);
+    if (thin.empty())
+      return;
+    const unsigned int *places = scatter.places(patch);
+    for (const unsigned int point : patches.points(patch))
+    {
+      const auto gradients = fe_space.gradients(point);
+      if (thin.has(point))
+      {
+        const Matrix3<double> by_F = cells.rotation(point) * thin.trace_gradient(point);
+        for (unsigned int a = 0; a < gradients.size(); ++a)
+        {
+          const Vector3<double> of_node = by_F * gradients[a];
+          for (unsigned int c = 0; c < 3; ++c)
+            b[3 * places[a] + c] += fractions[point] * of_node[c];
+        }
+      }
+      places += gradients.size();
+    }
+  }
+
+  bool
+  PatchDilatation::is_special(const unsigned int patch) const
+  {
+    const std::vector<unsigned int> &points = patches.points(patch);
+    return guard.acts_in(patch)
+           || (!thin.empty()
+               && std::any_of(points.begin(), points.end(),
+                              [&](const unsigned int point) { return thin.has(point); }));
+  }
+
+  void
+  PatchDilatation::add_special_tangent(const unsigned int          patch,
+                                       const CellField            &cells,
+                                       const Tangent               tangent,
+                                       const std::vector<double>  &b,
+                                       dealii::FullMatrix<double> &matrix) const
+  {
+    if (guard.acts_in(patch))
+      guard.add_tangent(patch, cells, scatter, thin, tangent, b, matrix);
+    const unsigned int *places = scatter.places(patch);
+    for (const unsigned int point : patches.points(patch))
+    {
+      if (tangent == Tangent::exact && thin.has(point))
+        thin.add_tangent(point, cells.rotation(point), pressures[point], places, matrix);
+      places += fe_space.gradients(point).size();
+    }
+  }
+
+  void
   PatchDilatation::add_tangent(const CellField     &cells,
                                const Tangent        tangent,
                                std::vector<double> &values) const
@@ -168,11 +239,13 @@ namespace Exemplar
     std::vector<double> b;
     for (unsigned int patch = 0; patch < patches.size(); ++patch)
     {
-      scatter.gradient(patch, cells, b);
+      find_gradient(patch, cells, b);
       scatter.add_square(patch, tangent_factor(patch, tangent), b, values);
-      guard.for_each_product(patch, cells, scatter, tangent, b,
-                             [&](const std::vector<double> &u, const std::vector<double> &v)
-                             { scatter.add_product(patch, u, v, values); });
+      if (!is_special(patch))
+        continue;
+      dealii::FullMatrix<double> matrix(b.size());
+      add_special_tangent(patch, cells, tangent, b, matrix);
+      scatter.add_matrix(patch, matrix, values);
     }
   }
 
@@ -182,7 +255,7 @@ namespace Exemplar
     std::vector<double> b;
     for (unsigned int patch = 0; patch < patches.size(); ++patch)
     {
-      scatter.gradient(patch, cells, b);
+      find_gradient(patch, cells, b);
       for (unsigned int weight = 0; weight < examples->n_weights(); ++weight)
         if (examples->is_strained(weight))
           scatter.add_column(
@@ -212,15 +285,19 @@ namespace Exemplar
         for (std::size_t i = 0; i < forces.size(); ++i)
           result.gradient[3 * nodes[i / 3] + i % 3] += factor * forces[i];
       };
-      scatter.gradient(patch, cells, b);
+      find_gradient(patch, cells, b);
       const double change = dot(b, u_of_patch.data());
       add(tangent_factor(patch, tangent) * change, b);
-      guard.for_each_product(patch, cells, scatter, tangent, b,
-                             [&](const std::vector<double> &u, const std::vector<double> &v)
-                             {
-                               add(dot(u, u_of_patch.data()), v);
-                               add(dot(v, u_of_patch.data()), u);
-                             });
+      if (is_special(patch))
+      {
+        dealii::FullMatrix<double> matrix(b.size());
+        add_special_tangent(patch, cells, tangent, b, matrix);
+        std::vector<double> forces(b.size(), 0.);
+        for (std::size_t i = 0; i < b.size(); ++i)
+          for (std::size_t j = 0; j < b.size(); ++j)
+            forces[i] += matrix(i, j) * u_of_patch[j];
+        add(1., forces);
+      }
       for (unsigned int weight = 0; weight < result.weight_gradient.size(); ++weight)
         result.weight_gradient[weight] -= examples->importance() * stiffness(patch) * change
                                           * examples->patch_dilatation(patch, weight);

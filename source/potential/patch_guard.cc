@@ -44,12 +44,29 @@ namespace Exemplar
       return state;
     }
 
-    std::vector<double>
-    scaled(const double factor, std::vector<double> values)
+    /// Add factor (u v^T + v u^T) / 2.
+    void
+    add_product(const double                factor,
+                const std::vector<double>  &u,
+                const std::vector<double>  &v,
+                dealii::FullMatrix<double> &matrix)
     {
-      for (double &value : values)
-        value *= factor;
-      return values;
+      if (factor == 0.)
+        return;
+      for (std::size_t i = 0; i < u.size(); ++i)
+        for (std::size_t j = 0; j < u.size(); ++j)
+          matrix(i, j) += 0.5 * factor * (u[i] * v[j] + v[i] * u[j]);
+    }
+
+    /// Add vectors over the nodes of a cell to one over the nodes of its patch.
+    void
+    add_at(const unsigned int        *places,
+           const std::vector<double> &of_cell,
+           const double               factor,
+           std::vector<double>       &of_patch)
+    {
+      for (std::size_t i = 0; i < of_cell.size(); ++i)
+        of_patch[3 * places[i / 3] + i % 3] += factor * of_cell[i];
     }
   } // namespace
 
@@ -158,120 +175,124 @@ namespace Exemplar
     return 2. * of_patch.first * of_patch.sum / patches.volume(patch);
   }
 
+  Matrix3<double>
+  PatchGuard::guard_force(const CorotationalCell<double> &guarded)
+  {
+    return guarded.is_stretched() ? guarded.stretch().force() : Matrix3<double>{};
+  }
+
+  void
+  PatchGuard::find_forces(const unsigned int     point,
+                          const Matrix3<double> &P,
+                          std::vector<double>   &forces) const
+  {
+    forces.clear();
+    for (const Vector3<double> &g : fe_space.gradients(point))
+    {
+      const Vector3<double> force = P * g;
+      for (unsigned int c = 0; c < 3; ++c)
+        forces.push_back(fe_space.volume(point) * force[c]);
+    }
+  }
+
   void
   PatchGuard::add_forces(const CellField &cells, Vector &gradient) const
   {
+    std::vector<double> forces;
     for (const auto &[point, at] : points)
     {
-      const unsigned int     patch      = patches.of_point(point);
-      const Stretched       &of_patch   = stretched.at(patch);
-      const CorotationalCell guarded    = with_guard(at.state, *at.C);
-      const Matrix3<double>  P_of_guard = guarded.is_stretched()
-                                              ? cells.rotation(point) * guarded.stretch().force()
-                                              : Matrix3<double>{};
-      const Matrix3<double>  P
-          = combine(of_patch.beta, P_of_guard, by_gradient(patch, of_patch), at.F);
+      const unsigned int    patch    = patches.of_point(point);
+      const Stretched      &of_patch = stretched.at(patch);
+      const Matrix3<double> P_of_guard
+          = cells.rotation(point) * guard_force(with_guard(at.state, *at.C));
+      find_forces(point, combine(of_patch.beta, P_of_guard, by_gradient(patch, of_patch), at.F),
+                  forces);
       const auto nodes = fe_space.nodes(fe_space.cell_of(point));
-      for (unsigned int a = 0; a < nodes.size(); ++a)
-      {
-        const Vector3<double> force = P * fe_space.gradients(point)[a];
-        for (unsigned int c = 0; c < 3; ++c)
-          gradient[3 * nodes[a] + c] += fe_space.volume(point) * force[c];
-      }
+      for (std::size_t i = 0; i < forces.size(); ++i)
+        gradient[3 * nodes[i / 3] + i % 3] += forces[i];
     }
   }
 
   void
-  PatchGuard::add_forces(const PatchScatter    &scatter,
-                         const unsigned int     patch,
-                         const unsigned int     point,
-                         const Matrix3<double> &P,
-                         std::vector<double>   &forces) const
+  PatchGuard::add_tangent(const unsigned int          patch,
+                          const CellField            &cells,
+                          const PatchScatter         &scatter,
+                          const ThinCells            &thin,
+                          const Tangent               tangent,
+                          const std::vector<double>  &b,
+                          dealii::FullMatrix<double> &matrix) const
   {
-    const std::vector<unsigned int> &all   = scatter.nodes(patch);
-    const auto                       nodes = fe_space.nodes(fe_space.cell_of(point));
-    for (unsigned int a = 0; a < nodes.size(); ++a)
-    {
-      const auto place = std::lower_bound(all.begin(), all.end(), nodes[a]) - all.begin();
-      const Vector3<double> force = P * fe_space.gradients(point)[a];
-      for (unsigned int c = 0; c < 3; ++c)
-        forces[3 * place + c] += fe_space.volume(point) * force[c];
-    }
-  }
-
-  void
-  PatchGuard::for_each_product(const unsigned int         patch,
-                               const CellField           &cells,
-                               const PatchScatter        &scatter,
-                               const Tangent              tangent,
-                               const std::vector<double> &b,
-                               const ProductAdder        &add) const
-  {
-    const auto found = stretched.find(patch);
-    if (found == stretched.end())
-      return;
-    const Stretched    &of_patch = found->second;
+    const Stretched    &of_patch = stretched.at(patch);
     const double        lambda = patches.lambda(patch), volume = patches.volume(patch);
-    const bool          is_exact = tangent == Tangent::exact;
-    std::vector<double> by_x_of_m(b.size(), 0.), by_x_of_sum(b.size(), 0.);
+    std::vector<double> by_x_of_square(b.size(), 0.), by_x_of_sum(b.size(), 0.), forces;
+    const unsigned int *places = scatter.places(patch);
     for (const unsigned int point : patches.points(patch))
     {
-      const Point           &at = points.at(point);
-      const Matrix3<double> &R  = cells.rotation(point);
-      std::vector<double>    u(b.size(), 0.);
-      add_forces(scatter, patch, point, R, u);
-      add(u, scaled(0.5 * lambda * of_patch.beta / fe_space.volume(point), u));
-      add_forces(scatter, patch, point, combine(2. / volume, at.F, 0., at.F), by_x_of_m);
-      add_forces(scatter, patch, point, combine(lambda * at.excess, R, 0., R), by_x_of_sum);
-
-      const CorotationalCell guarded   = with_guard(at.state, *at.C);
-      const bool             has_guard = is_exact && guarded.is_stretched();
-      if (has_guard)
-        add_forces(scatter, patch, point, R * guarded.stretch().force(), by_x_of_sum);
-      if (has_guard || of_patch.first > 0.)
-        add_point_products(
-            scatter, patch, point,
-            [&](const Matrix3<double> &dF)
-            {
-              const Matrix3<double> M = transpose_times(R, dF);
-              Matrix3<double>       of_guard{};
-              if (has_guard)
-                of_guard = R * combine(1., guarded.response(M), -1., at.state.response(M));
-              return combine(of_patch.beta, of_guard, by_gradient(patch, of_patch), dF);
-            },
-            add);
+      const Point           &at       = points.at(point);
+      const Matrix3<double> &R        = cells.rotation(point);
+      Matrix3<double>        of_trace = thin.trace_gradient(point);
+      for (int i = 0; i < 3; ++i)
+        of_trace[i][i] += 1.;
+      add_point_tangent(point, R, R * of_trace, tangent, places, matrix);
+      find_forces(point, at.F, forces);
+      add_at(places, forces, 2. / volume, by_x_of_square);
+      const Matrix3<double> of_W
+          = combine(1., guard_force(with_guard(at.state, *at.C)), lambda * at.excess, of_trace);
+      find_forces(point, R * of_W, forces);
+      add_at(places, forces, 1., by_x_of_sum);
+      places += forces.size() / 3;
     }
-    add(b, scaled(-0.5 * lambda * of_patch.beta * volume, b));
-    std::vector<double> v
-        = scaled(0.5 * of_patch.sum * (is_exact ? of_patch.second : std::max(of_patch.second, 0.)),
-                 by_x_of_m);
-    if (is_exact)
-      for (std::size_t i = 0; i < v.size(); ++i)
-        v[i] += of_patch.first * by_x_of_sum[i];
-    add(by_x_of_m, v);
+    add_product(-lambda * of_patch.beta * volume, b, b, matrix);
+    add_patch_tangent(of_patch, tangent, by_x_of_square, by_x_of_sum, matrix);
   }
 
-  template <typename Response>
   void
-  PatchGuard::add_point_products(const PatchScatter &scatter,
-                                 const unsigned int  patch,
-                                 const unsigned int  point,
-                                 const Response     &response,
-                                 const ProductAdder &add) const
+  PatchGuard::add_point_tangent(const unsigned int          point,
+                                const Matrix3<double>      &R,
+                                const Matrix3<double>      &by_F_of_trace,
+                                const Tangent               tangent,
+                                const unsigned int         *places,
+                                dealii::FullMatrix<double> &matrix) const
   {
-    const std::vector<unsigned int> &all   = scatter.nodes(patch);
-    const auto                       nodes = fe_space.nodes(fe_space.cell_of(point));
-    for (unsigned int a = 0; a < nodes.size(); ++a)
-      for (unsigned int c = 0; c < 3; ++c)
+    const Point           &at        = points.at(point);
+    const unsigned int     patch     = patches.of_point(point);
+    const Stretched       &of_patch  = stretched.at(patch);
+    const CorotationalCell guarded   = with_guard(at.state, *at.C);
+    const bool             has_guard = tangent == Tangent::exact && guarded.is_stretched();
+    const double           of_F      = by_gradient(patch, of_patch);
+    const double        of_trace  = patches.lambda(patch) * of_patch.beta / fe_space.volume(point);
+    const auto          gradients = fe_space.gradients(point);
+    std::vector<double> u, column;
+    find_forces(point, by_F_of_trace, u);
+    for (unsigned int j = 0; j < u.size(); ++j)
+    {
+      Matrix3<double> dF{};
+      for (int l = 0; l < 3; ++l)
+        dF[j % 3][l] = gradients[j / 3][l];
+      Matrix3<double> of_guard{};
+      if (has_guard)
       {
-        Matrix3<double> dF{};
-        for (int l = 0; l < 3; ++l)
-          dF[c][l] = fe_space.gradients(point)[a][l];
-        std::vector<double> unit(3 * all.size(), 0.), column(3 * all.size(), 0.);
-        const auto place    = std::lower_bound(all.begin(), all.end(), nodes[a]) - all.begin();
-        unit[3 * place + c] = 0.5;
-        add_forces(scatter, patch, point, response(dF), column);
-        add(unit, column);
+        const Matrix3<double> M = transpose_times(R, dF);
+        of_guard                = R * combine(1., guarded.response(M), -1., at.state.response(M));
       }
+      find_forces(point, combine(of_patch.beta, of_guard, of_F, dF), column);
+      for (unsigned int i = 0; i < u.size(); ++i)
+        matrix(3 * places[i / 3] + i % 3, 3 * places[j / 3] + j % 3)
+            += of_trace * u[i] * u[j] + column[i];
+    }
+  }
+
+  void
+  PatchGuard::add_patch_tangent(const Stretched            &of_patch,
+                                const Tangent               tangent,
+                                const std::vector<double>  &by_x_of_square,
+                                const std::vector<double>  &by_x_of_sum,
+                                dealii::FullMatrix<double> &matrix) const
+  {
+    const bool   is_exact = tangent == Tangent::exact;
+    const double second   = is_exact ? of_patch.second : std::max(of_patch.second, 0.);
+    add_product(of_patch.sum * second, by_x_of_square, by_x_of_square, matrix);
+    if (is_exact)
+      add_product(2. * of_patch.first, by_x_of_square, by_x_of_sum, matrix);
   }
 } // namespace Exemplar

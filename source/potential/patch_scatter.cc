@@ -151,16 +151,14 @@ namespace Exemplar
   }
 
   void
-  PatchScatter::add_product(const unsigned int         patch,
-                            const std::vector<double> &u,
-                            const std::vector<double> &v,
-                            std::vector<double>       &values) const
+  PatchScatter::add_matrix(const unsigned int                patch,
+                           const dealii::FullMatrix<double> &matrix,
+                           std::vector<double>              &values) const
   {
-    const std::vector<double> free_u = free_part(layouts[patch], u),
-                              free_v = free_part(layouts[patch], v);
+    const std::vector<unsigned int> &free = layouts[patch].free_dofs;
     for_each_value(layouts[patch], values,
                    [&](const unsigned int i, const unsigned int j, double &value)
-                   { value += free_u[j] * free_v[i] + free_v[j] * free_u[i]; });
+                   { value += matrix(free[i], free[j]); });
   }
 
   void

@@ -258,16 +258,36 @@ namespace Exemplar
       return P;
     }
 
-    /// R^T dP for R^T dF = M, Eq. (18); symmetric in M. In guarded cells the derivative of
-    /// the guard is left out and denominators are bounded.
+    const Matrix3<Number> &
+    stretch_factor() const
+    {
+      return S;
+    }
+
+    /// (s_1+s_2)(s_2+s_3)(s_3+s_1).
+    const Number &
+    product_of_sums() const
+    {
+      return product;
+    }
+
+    /// Omega = R^T dR of Eq. (18) for R^T dF = M.
     Matrix3<Number>
-    response(const Matrix3<Number> &M) const
+    turn(const Matrix3<Number> &M) const
     {
       Matrix3<Number> difference;
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
           difference[i][j] = M[i][j] - M[j][i];
-      const Matrix3<Number> Omega = skew_matrix(B_inverse * axial_vector(difference));
+      return skew_matrix(B_inverse * axial_vector(difference));
+    }
+
+    /// R^T dP for R^T dF = M, Eq. (18); symmetric in M. In guarded cells the derivative of
+    /// the guard is left out and denominators are bounded.
+    Matrix3<Number>
+    response(const Matrix3<Number> &M) const
+    {
+      const Matrix3<Number> Omega = turn(M);
       const Matrix3<Number> dS    = symmetric_part(combine(Number(1.), M, Number(-1.), Omega * S));
       const Matrix3<Number> dT    = stress(material, dS);
       const Matrix3<Number> right

@@ -50,6 +50,55 @@ namespace Exemplar
     return dD;
   }
 
+  /// y = p / |F|^2 is 8/3 at rest and about s_2 + s_3 where that vanishes. r of Eq. (24) and its
+  /// derivatives by y, for y < y_0.
+  template <typename Number>
+  struct NearKink
+  {
+    static constexpr double y_0 = 0.4;
+
+    NearKink() = default;
+
+    explicit NearKink(const Number &y)
+    {
+      const Number z = Number(1.) - y / Number(y_0);
+      value          = Number(y_0 / 3.) * z * z * z;
+      first          = -z * z;
+      second         = Number(2. / y_0) * z;
+    }
+
+    Number value, first, second;
+  };
+
+  /// dy/dS, where u = |F|^2.
+  template <typename Number>
+  Matrix3<Number>
+  y_derivative_of(const Matrix3<Number> &S, const Number &y, const Number &u)
+  {
+    return combine(Number(1.) / u, p_derivative(S), Number(-2.) * y / u, S);
+  }
+
+  /// The change of y_derivative_of() = (dp/dS - 2 y S) / |F|^2 with S.
+  template <typename Number>
+  Matrix3<Number>
+  y_second_derivative(const Matrix3<Number> &S,
+                      const Number          &y,
+                      const Number          &norm,
+                      const Matrix3<Number> &y_derivative,
+                      const Matrix3<Number> &dS)
+  {
+    const Number          d_norm = contract(S, dS) / norm;
+    const Number          dy     = contract(y_derivative, dS);
+    const Matrix3<Number> dD     = p_second_derivative(S, dS);
+    Matrix3<Number>       change;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        change[i][j] = ((dD[i][j] - Number(2.) * (dy * S[i][j] + y * dS[i][j])) / norm
+                        - Number(2.) * d_norm * y_derivative[i][j])
+                       / norm;
+    return change;
+  }
+
   template <typename Number>
   class StretchGuard
   {
@@ -78,11 +127,8 @@ namespace Exemplar
       q[1] = keep(select(is_beyond, Number(4.), Number(2.) * rise / kink.margin)) * kink.by_norm;
       q[2] = keep(select(is_beyond, Number(0.), Number(2.) / kink.margin)) * kink.by_norm
              * kink.by_norm;
-      const Number z = Number(1.) - y / Number(y_0);
-      r[0]           = Number(y_0 / 3.) * z * z * z;
-      r[1]           = -z * z;
-      r[2]           = Number(2. / y_0) * z;
-      y_derivative   = combine(Number(1.) / u, p_derivative(S), Number(-2.) * y / u, S);
+      r            = NearKink<Number>(y);
+      y_derivative = y_derivative_of(S, y, u);
     }
 
     /// Whether y is below its bound in some lane.
@@ -105,50 +151,44 @@ namespace Exemplar
     Number
     energy() const
     {
-      return q[0] * r[0];
+      return q[0] * r.value;
     }
 
     /// R^T dG/dF, where it acts.
     Matrix3<Number>
     force() const
     {
-      return combine(q[1] * r[0] / norm, S, q[0] * r[1], y_derivative);
+      return combine(q[1] * r.value / norm, S, q[0] * r.first, y_derivative);
     }
 
     /// The change of force() with S, where it acts.
     Matrix3<Number>
     response(const Matrix3<Number> &dS) const
     {
-      const Number d_norm = contract(S, dS) / norm;
-      const Number dy     = contract(y_derivative, dS);
-      // of y_derivative = (dp/dS - 2 y S) / |F|^2
-      const Matrix3<Number> dD = p_second_derivative(S, dS);
-      Matrix3<Number>       d_derivative;
-      for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-          d_derivative[i][j] = ((dD[i][j] - Number(2.) * (dy * S[i][j] + y * dS[i][j])) / norm
-                                - Number(2.) * d_norm * y_derivative[i][j])
-                               / norm;
-      const Number          a  = q[1] * r[0] / norm; // force() is a S + b y_derivative
-      const Number          b  = q[0] * r[1];
-      const Number          da = (q[2] * r[0] * d_norm + q[1] * r[1] * dy - a * d_norm) / norm;
-      const Number          db = q[1] * r[1] * d_norm + q[0] * r[2] * dy;
+      const Number          d_norm       = contract(S, dS) / norm;
+      const Number          dy           = contract(y_derivative, dS);
+      const Matrix3<Number> d_derivative = y_second_derivative(S, y, norm, y_derivative, dS);
+      const Number          a            = q[1] * r.value / norm; // force() is a S + b y_derivative
+      const Number          b            = q[0] * r.first;
+      const Number da = (q[2] * r.value * d_norm + q[1] * r.first * dy - a * d_norm) / norm;
+      const Number db = q[1] * r.first * d_norm + q[0] * r.second * dy;
       const Matrix3<Number> of_factors = combine(da, S, db, y_derivative);
       const Matrix3<Number> of_vectors = combine(a, dS, b, d_derivative);
       return combine(Number(1.), of_factors, Number(1.), of_vectors);
     }
 
   private:
-    static constexpr double y_0 = 0.4; ///< of 8/3 at rest
+    static constexpr double y_0 = NearKink<Number>::y_0;
 
     using Mask = decltype(Number() < Number());
 
-    Mask            is_acting = Number(0.) > Number(0.);
-    Matrix3<Number> S;
-    Number          norm; ///< |F|
-    Number          y;
-    Number          q[3], r[3];   ///< 4 q and its derivatives by |F|; r and its derivatives by y
-    Matrix3<Number> y_derivative; ///< by S
+    Mask             is_acting = Number(0.) > Number(0.);
+    Matrix3<Number>  S;
+    Number           norm; ///< |F|
+    Number           y;
+    Number           q[3]; ///< 4 q and its derivatives by |F|
+    NearKink<Number> r;
+    Matrix3<Number>  y_derivative; ///< by S
   };
 } // namespace Exemplar
 

@@ -48,20 +48,30 @@ namespace Exemplar
     void
     add_energies(const std::vector<double> &weights, ElasticEvaluation &result) const;
 
-    /// After update(): the guard of strongly stretched cells, whose forces loops do not add.
+    /// After update(): the guard of strongly stretched cells.
     const PatchGuard &
     stretch_guard() const
     {
       return guard;
     }
 
+    /// After update(): add the forces that loops do not add, by degree of freedom [N].
+    void
+    add_forces_of_few_cells(const CellField &cells, Vector &gradient) const
+    {
+      guard.add_forces(cells, gradient);
+      thin.add_forces(cells, pressures.data(), gradient);
+    }
+
     /// After update(): sum V (|C:e| + eta |C:E(w)|)^2 of the volume part.
     double
     stress_square() const;
 
-    /// Add its part of c_i with dPsi/dw = H w - c, from tr(e) of the points [J].
+    /// Add its part of c_i with dPsi/dw = H w - c, from tr(e) of the points at these positions [J].
     void
-    add_linear_term(std::vector<double> &linear_term);
+    add_linear_term(const CellField     &cells,
+                    const Vector        &positions,
+                    std::vector<double> &linear_term);
 
     /// After update(), in a point [Pa]: with examples and damping.
     double
@@ -106,7 +116,23 @@ namespace Exemplar
 
   private:
     void
-    find_means();
+    find_means(const CellField &cells, const Vector &positions);
+
+    /// b = dtheta_p/dx of Eq. (25), three numbers for each node of a patch [1/m].
+    void
+    find_gradient(unsigned int patch, const CellField &cells, std::vector<double> &b) const;
+
+    /// Whether a patch has a tangent beside that of Eq. (25), with thin or strongly stretched cells.
+    bool
+    is_special(unsigned int patch) const;
+
+    /// Add it to `matrix` over the nodes of the patch.
+    void
+    add_special_tangent(unsigned int                patch,
+                        const CellField            &cells,
+                        Tangent                     tangent,
+                        const std::vector<double>  &b,
+                        dealii::FullMatrix<double> &matrix) const;
 
     void
     find_pressures(const std::vector<double> &weights);
@@ -135,8 +161,10 @@ namespace Exemplar
 
     const Patches      &patches;
     const ExamplePoses *examples;
+    const FESpace      &fe_space;
     const FreeDofs     &free_dofs;
     const PatchScatter  scatter;
+    ThinCells           thin;
     PatchGuard          guard;
     std::vector<double> fractions;          ///< of each point in the volume of its patch
     std::vector<double> means;              ///< theta_p

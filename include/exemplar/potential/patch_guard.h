@@ -6,8 +6,10 @@
 #include <exemplar/kernels/corotational_cell.h>
 #include <exemplar/potential/evaluation.h>
 #include <exemplar/potential/patch_scatter.h>
+#include <exemplar/potential/thin_cells.h>
 
-#include <functional>
+#include <deal.II/lac/full_matrix.h>
+
 #include <map>
 #include <vector>
 
@@ -47,11 +49,11 @@ namespace Exemplar
     double
     energy() const;
 
-    /// Add beta lambda_p (tr(e) - theta_p) to the pressures of the points [Pa].
+    /// Add to the pressures of the points [Pa].
     void
     add_pressures(double *pressures) const;
 
-    /// What it adds to the pressure of a point [Pa].
+    /// What it adds to the pressure of a point: beta lambda_p (tr(e) - theta_p) [Pa].
     double
     pressure(unsigned int point) const;
 
@@ -59,19 +61,24 @@ namespace Exemplar
     void
     add_forces(const CellField &cells, Vector &gradient) const;
 
-    using ProductAdder
-        = std::function<void(const std::vector<double> &, const std::vector<double> &)>;
+    /// Whether it adds to the energy of a patch.
+    bool
+    acts_in(unsigned int patch) const
+    {
+      return stretched.count(patch) > 0;
+    }
 
-    /// Call add(u, v) for vectors over the nodes of a patch, three numbers each, so that the sum of
-    /// u v^T + v u^T is what it adds to the tangent beside that which turning R does with the
-    /// pressures. `b` is dtheta_p/dx. A convex tangent lacks what may make it indefinite.
+    /// Add what it adds to the tangent of a patch, beside that which turning R does with the
+    /// pressures, to `matrix` over the nodes of the patch, three rows each. `b` is dtheta_p/dx.
+    /// A convex tangent lacks what may make it indefinite. Requires acts_in().
     void
-    for_each_product(unsigned int               patch,
-                     const CellField           &cells,
-                     const PatchScatter        &scatter,
-                     Tangent                    tangent,
-                     const std::vector<double> &b,
-                     const ProductAdder        &add) const;
+    add_tangent(unsigned int                patch,
+                const CellField            &cells,
+                const PatchScatter         &scatter,
+                const ThinCells            &thin,
+                Tangent                     tangent,
+                const std::vector<double>  &b,
+                dealii::FullMatrix<double> &matrix) const;
 
     /// Whether G may act at a point.
     bool
@@ -94,10 +101,6 @@ namespace Exemplar
       double                      W;     ///< [J/m^3]
     };
 
-    /// The factor of F in the derivative of beta by the F of a point, times sum V W / V_c [Pa].
-    double
-    by_gradient(unsigned int patch, const Stretched &of_patch) const;
-
     Point
     point_at(const CellField &cells,
              const Vector    &positions,
@@ -105,22 +108,35 @@ namespace Exemplar
              double           lambda,
              double           excess) const;
 
-    /// The nodal forces of P at a point over the nodes of its patch.
-    void
-    add_forces(const PatchScatter    &scatter,
-               unsigned int           patch,
-               unsigned int           point,
-               const Matrix3<double> &P,
-               std::vector<double>   &forces) const;
+    /// The factor of F in the derivative of beta by the F of a point, times sum V W / V_c [Pa].
+    double
+    by_gradient(unsigned int patch, const Stretched &of_patch) const;
 
-    /// The part of a point's own tangent, P as a function of dF.
-    template <typename Response>
+    /// R^T dG/dF at a point, where its guard acts.
+    static Matrix3<double>
+    guard_force(const CorotationalCell<double> &guarded);
+
+    /// The nodal forces of P at a point, three numbers a node of its cell.
     void
-    add_point_products(const PatchScatter &scatter,
-                       unsigned int        patch,
-                       unsigned int        point,
-                       const Response     &response,
-                       const ProductAdder &add) const;
+    find_forces(unsigned int point, const Matrix3<double> &P, std::vector<double> &forces) const;
+
+    /// The part of the tangent that couples the nodes of one cell.
+    void
+    add_point_tangent(unsigned int                point,
+                      const Matrix3<double>      &R,
+                      const Matrix3<double>      &by_F_of_trace,
+                      Tangent                     tangent,
+                      const unsigned int         *places,
+                      dealii::FullMatrix<double> &matrix) const;
+
+    /// The part that couples all nodes of the patch: the second derivatives of beta, and those by it
+    /// and by sum V W, from the derivatives of m_p and sum V W by the positions.
+    void
+    add_patch_tangent(const Stretched            &of_patch,
+                      Tangent                     tangent,
+                      const std::vector<double>  &by_x_of_square,
+                      const std::vector<double>  &by_x_of_sum,
+                      dealii::FullMatrix<double> &matrix) const;
 
     const Patches                    &patches;
     const FESpace                    &fe_space;

@@ -7,6 +7,8 @@
 #include <exemplar/body/patches.h>
 #include <exemplar/potential/cell_field.h>
 
+#include <deal.II/lac/full_matrix.h>
+
 #include <utility>
 #include <vector>
 
@@ -39,6 +41,13 @@ namespace Exemplar
       return layouts[patch].nodes;
     }
 
+    /// The places among nodes() of the nodes of each point's cell, point by point.
+    const unsigned int *
+    places(const unsigned int patch) const
+    {
+      return layouts[patch].places.data();
+    }
+
     /// Whether some of their degrees of freedom are held.
     bool
     is_beside_held(const unsigned int patch) const
@@ -53,12 +62,11 @@ namespace Exemplar
                const std::vector<double> &u,
                std::vector<double>       &values) const;
 
-    /// Add u v^T + v u^T to the values on the pattern.
+    /// Add a symmetric matrix over nodes(), three rows each, to the values on the pattern.
     void
-    add_product(unsigned int               patch,
-                const std::vector<double> &u,
-                const std::vector<double> &v,
-                std::vector<double>       &values) const;
+    add_matrix(unsigned int                      patch,
+               const dealii::FullMatrix<double> &matrix,
+               std::vector<double>              &values) const;
 
     /// Add factor b to a column by free degree of freedom.
     void

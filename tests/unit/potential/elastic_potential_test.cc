@@ -290,7 +290,9 @@ namespace Exemplar::Testing
       const Examples       none;
       const FreeDofs       free_dofs(body.fe_space.n_dofs(), { 0, 4, 8, 30 });
       BodyPotential        elastic(body, ModelParameters(), none, free_dofs);
-      for (Vector positions : { drawn(body, 2.2, 0.6), drawn(body, 5., 0.15) })
+      // long cells, a patch that pulls, both, and beyond
+      for (Vector positions : { drawn(body, 2.3, 0.43), drawn(body, 1.08, 1.08),
+                                drawn(body, 2.3, 0.47), drawn(body, 5., 0.15) })
       {
         const auto evaluate = [&]
         {
