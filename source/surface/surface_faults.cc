@@ -34,17 +34,15 @@ namespace Exemplar
     row_of(const FaultyElement &element, const SurfaceMesh &surface)
     {
       const SurfaceMesh::Vertex place = place_of(element, surface);
-      return { { "fault", element.fault },
-               { "element", element.is_face ? "face" : "vertex" },
-               { "number", std::to_string(element.index + 1) },
-               { "index", std::to_string(element.index) },
-               { "x", shortest_text(place[0]) },
-               { "y", shortest_text(place[1]) },
-               { "z", shortest_text(place[2]) } };
+      return { { "", element.fault },
+               { "", element.is_face ? "face" : "vertex" },
+               { "", std::to_string(element.index + 1) },
+               { "", std::to_string(element.index) },
+               { "", shortest_text(place[0]) },
+               { "", shortest_text(place[1]) },
+               { "", shortest_text(place[2]) } };
     }
   } // namespace
-
-  const std::string header_of_faults = "fault,element,number,index,x,y,z\n";
 
   std::string
   table_of_faults(const std::filesystem::path &file)
@@ -56,7 +54,7 @@ namespace Exemplar
       CheckedSurface    checked;
       checked.surface = triangulate(surface, &checked.faces);
       std::ostringstream table;
-      write_csv_header(table, row_of({ "", false, 0 }, surface));
+      table << header_of_faults;
       std::set<std::tuple<std::string, bool, unsigned int>> written;
       for (const FaultyElement &element : check_surface(checked).elements)
         if (written.emplace(element.fault, element.is_face, element.index).second)

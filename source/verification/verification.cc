@@ -61,10 +61,10 @@ namespace Exemplar
                                           [&](const Case &one) { return one.name == name; });
           if (found == all.end())
           {
-            std::vector<std::string> names;
+            std::vector<std::string> known;
             for (const Case &one : all)
-              names.push_back(one.name);
-            const std::string nearest = nearest_word(name, names);
+              known.push_back(one.name);
+            const std::string nearest = nearest_word(name, known);
             throw UserError("verify: there is no case '" + name + "'."
                             + (nearest.empty() ? "" : " Did you mean '" + nearest + "'?")
                             + " exemplar verify --list names them all.");

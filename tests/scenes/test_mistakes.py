@@ -2,11 +2,16 @@
 """Mistakes that people make, and the remedy that the message must hold; nothing is written."""
 
 import csv
+import os
+import sys
 import unittest
 
 from bad_inputs import DYNAMIC, FILE, BadInputTest
-from exemplar_runner import BAR, SceneTest, prm
+from exemplar_runner import BAR, EXEMPLAR, REPOSITORY, Run, SceneTest, prm
 from surfaces import cube, joined, write_obj
+
+sys.path.append(str(REPOSITORY / "tests/fuzz"))
+from fork_server import ForkServer
 
 FREE = {**BAR, "Examples/Pose functions": "1.1*x; y; z"}
 TWO = {**BAR, "Handles/Names": "left, right", "Handles/right/Select": "boundary 2", "Handles/right/Motion": "0; 0; t"}
@@ -201,7 +206,7 @@ COMMANDS = [
     (["verify", "patchh"], ["Did you mean 'patch'", "--list"]),
     ([*MESH, "--cell", "100", "--output", "m.msh"], ["exemplar mesh has no option '--cell'", "'--cells'"]),
     ([*MESH, "--cells", "100", "-o", "m.msh"], ["no option '-o'", "'--output'"]),
-    ([*MESH, "--cells", "1e4", "--output", "m.msh"], ["--cells = 1e4", "whole number"]),
+    ([*MESH, "--cells", "1e4", "--output", "m.msh"], ["--cells", "'1e4'", "whole number"]),
     ([*MESH, "--cells", "100"], ["--output is required", "exemplar mesh --surface"]),
     (["mesh", "cube.obj", "m.msh"], ["stands without an option", "exemplar mesh --surface"]),
     (["pose", "--mesh", "bar.msh", "--rest", "cube.obj", "--poses", "cube.obj", "--output", "p"], ["'--poses'", "Did you mean '--pose'"]),
@@ -209,6 +214,21 @@ COMMANDS = [
 
 
 class Mistakes(BadInputTest):
+    """FORK_SERVER names the library of fork_server.cc, with which the program need not be linked anew for each of many runs."""
+
+    @classmethod
+    def setUpClass(cls):
+        library = os.environ.get("FORK_SERVER")
+        cls.server = ForkServer(EXEMPLAR, library) if library else None
+        if cls.server:
+            cls.addClassCleanup(cls.server.close)
+
+    def call(self, *arguments, **environment):
+        if self.server is None or "" in arguments or environment:
+            return super().call(*arguments, **environment)
+        status, stdout, stderr = self.server.run(arguments, self.directory, {}, None, 1 << 30, 60)
+        return Run(status, stdout.decode(), stderr.decode(), None)
+
     def setUp(self):
         super().setUp()
         self.write("from0.txt", "0\n1\n2\n")

@@ -7,8 +7,8 @@
 
 namespace Exemplar
 {
-  /// The first line of the table, by which it is known.
-  extern const std::string header_of_faults;
+  /// The first line of table_of_faults().
+  inline const char *const header_of_faults = "fault,element,number,index,x,y,z\n";
 
   /// Check a surface, in a process of its own, and return all that forbids cells inside as a table
   /// in CSV: a row each face or vertex of a fault, with its number in the file from 1 and from 0, and

@@ -78,8 +78,8 @@ namespace Exemplar::Testing
       expect_contains(error_in_copy<SolverFailure>(
                           []() -> std::string
                           {
-                            for (volatile int i = 0;; i = 0)
-                              ;
+                            for (;;)
+                              pause();
                           },
                           0.),
                       "The work did not come to an end within 0 s and was ended. Try less.");

@@ -109,8 +109,8 @@ namespace Exemplar::Testing
       EXPECT_EQ(refusal("Merge 'part.stl';"), "");
       EXPECT_NE(refusal("Include 'part.stl';"), "");
       expect_contains(refusal("\nMerge 'absent.geo';"), "script.geo:2: ");
-      for (const std::string name : { std::string("script.geo"),
-                                      "../" + directory.filename().string() + "/script.geo" })
+      for (const std::string &name : { std::string("script.geo"),
+                                       "../" + directory.filename().string() + "/script.geo" })
         expect_contains(refusal("If (0)\nInclude '" + name + "';\nEndIf"), "includes itself");
       write_file("twice.geo", "Include 'twice_0.geo';");
       write_file("twice_14.geo", "");
