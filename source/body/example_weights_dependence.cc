@@ -4,13 +4,26 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/body/example_weights.h>
 
-#include <limits>
 #include <sstream>
 
 // Examples that are combinations of others: their weights are not determined.
 
 namespace Exemplar
 {
+  namespace
+  {
+    /// In words that follow "which".
+    std::string
+    condition_of(const dealii::FullMatrix<double> &gram, const double least_pivot)
+    {
+      if (!(least_pivot > 0.))
+        return "is singular";
+      std::ostringstream text;
+      text << "has the condition number " << condition_number(gram);
+      return text.str();
+    }
+  } // namespace
+
   void
   ExampleWeights::check_independence(const double unit_energy, const bool has_ridge)
   {
@@ -31,13 +44,10 @@ namespace Exemplar
                       + " is an affine combination of the examples before it, so their weights "
                         "are not determined. Remove it from Examples/Poses or Examples/Pose "
                         "functions, or set Examples/Weight penalty to auto.");
-    const double       condition = least.ratio > 0. ? condition_number(differences)
-                                                    : std::numeric_limits<double>::infinity();
     std::ostringstream text;
     text << which << " is " << (least.ratio < 1e-12 ? "" : "nearly ")
-         << "an affine combination of the examples before it (condition number of their Gram "
-            "matrix: "
-         << condition << "). "
+         << "an affine combination of the examples before it (their Gram matrix "
+         << condition_of(differences, least.ratio) << "). "
          << (has_ridge ? "The weight penalty decides between them; remove the example if it is there "
                        "by mistake."
                      : "Their weights are sensitive; remove the example, or set Examples/Weight "

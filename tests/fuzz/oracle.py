@@ -32,7 +32,7 @@ MARK = b"# exemplar: all parameters in force"
 PRECIOUS = b"precious"  # how files begin that the program has not written
 LONGEST_MESSAGE = 4000  # characters
 LARGEST_FILE = 200 << 20  # bytes
-ALWAYS = ("parameters.prm", "original.prm", "statistics.csv", "summary.json", "final.msh", "checkpoint.bin", "log.txt")
+ALWAYS = ("parameters.prm", "original.prm", "statistics.csv", "summary.json", "final.msh", "log.txt", "checkpoint.bin")
 
 
 def limit_resources(memory, file_size=LARGEST_FILE):

@@ -154,7 +154,7 @@ class Threads(SceneTest):
                 self.assertEqual((done.returncode, done.stdout), (2, ""))
                 self.assertEqual({file.name for file in (self.directory / "out").iterdir()},
                                  {frame(0), "statistics.csv", "original.prm", "parameters.prm",
-                                  "checkpoint.bin"})
+                                  "checkpoint.bin", "log.txt"})
 
     def check_frames_up_to(self, step, output, whole):
         self.assertEqual(frames(output), [frame(i) for i in range(step + 1)])

@@ -59,7 +59,7 @@ namespace Exemplar::Testing
       const auto all = warnings("1.1*x; y; z | 1.1*x; y; 1.000001*z");
       ASSERT_EQ(all.size(), 1u);
       EXPECT_NE(all[0].find("nearly an affine combination"), std::string::npos) << all[0];
-      const double number = std::stod(all[0].substr(all[0].find("matrix: ") + 8));
+      const double number = std::stod(all[0].substr(all[0].find("condition number ") + 17));
       // nu = .45: C in units of mu: lambda = 9 mu; |e_xx|^2 = 11, e_xx:C:e_zz = 9
       const double d = 1e-5, n = 11., m = 9.; // d relative to 0.1
       const double sine_squared = d * d * (n * n - m * m) / (n * n);

@@ -338,7 +338,7 @@ namespace Exemplar::Testing
       const FreeDofs free_dofs(body.fe_space.n_dofs(), {});
       BodyPotential  elastic(body, ModelParameters(), none, free_dofs),
           cellwise(of_cells, ModelParameters(), none, free_dofs);
-      const Vector      positions = drawn(body, 5., 0.15);
+      const Vector      positions = drawn(body, 5., 0.3); // no cell is thin
       ElasticEvaluation evaluation, expected;
       elastic.update_rotations(positions);
       elastic.evaluate(positions, {}, evaluation);
