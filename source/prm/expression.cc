@@ -60,6 +60,8 @@ namespace Exemplar
     std::string
     remedy_of_number(const std::vector<std::string> &texts, const unsigned int n_components)
     {
+      if (texts.empty())
+        return " Is there a ';' or '|' too many?";
       if (texts.size() == n_components + 1 && texts.back().empty())
         return " Remove the ';' at the end.";
       if (texts.size() == 1 && has_outer_comma(texts[0]))
@@ -162,7 +164,7 @@ namespace Exemplar
             key + ": the formula '" + parsers->texts[i]
             + "' is not understood: " + std::regex_replace(error.GetMsg(), std::regex("[. ]*$"), "")
             + "." + remedy_of_formula(parsers->texts[i])
-            + (variables.size() == 1 ? " Allowed are the variable " : " Allowed are the variables ")
+            + (variables.size() == 1 ? " Allowed: the variable " : " Allowed: the variables ")
             + names
             + ", the constant pi, + - * / ^, c ? a : b, and muParser's functions (sin, cos, "
               "sqrt, exp, log, min, max, ...).");

@@ -125,7 +125,7 @@ namespace Exemplar
     {
       const std::string &unknown = line.unknown.front();
       const std::string  nearest = suggested_option(unknown, line.options);
-      std::string        message = "exemplar" + (line.command.empty() ? "" : " " + line.command)
+      std::string        message = (line.command.empty() ? "A run" : "exemplar " + line.command)
                             + " has no option " + in_quotes(unknown) + ".";
       if (!nearest.empty())
         message += " Did you mean '" + nearest + "'?";
@@ -134,9 +134,23 @@ namespace Exemplar
       return message;
     }
 
+    /// What to say if the first word is neither a scene nor a command; empty if it is one.
+    std::string
+    unknown_command(const Sorted &line, const Words &commands)
+    {
+      const std::string first = line.positional.empty() ? "" : line.positional[0];
+      if (!line.command.empty() || first.empty() || first.find('.') != std::string::npos
+          || std::filesystem::exists(first))
+        return "";
+      const std::string nearest = nearest_word(first, commands);
+      return "There is no command " + in_quotes(first) + "."
+             + (nearest.empty() ? " A scene is run without one: exemplar SCENE.prm."
+                                : " Did you mean '" + nearest + "'?");
+    }
+
     /// Of two words where one scene should be.
     std::string
-    second_scene(const Sorted &line, const Words &commands)
+    second_scene(const Sorted &line)
     {
       const std::string &first = line.positional[0], &second = line.positional[1];
       if (line.split_set)
@@ -146,32 +160,25 @@ namespace Exemplar
       if (second.find('=') != std::string::npos)
         return in_quotes(second) + " stands alone. Values of a scene are given by --set "
                + in_quotes(second) + ".";
-      if (first.find('.') == std::string::npos && !std::filesystem::exists(first))
-      {
-        const std::string nearest = nearest_word(first, commands);
-        return "There is no command " + in_quotes(first) + "."
-               + (nearest.empty() ? " A scene is run without one: exemplar " + second + "."
-                                  : " Did you mean '" + nearest + "'?");
-      }
       return "Two scenes are given, " + in_quotes(first) + " and " + in_quotes(second)
              + ". A run has one; exemplar study runs one with many settings.";
     }
 
     std::string
-    wrong_word(const Sorted &line, const Words &commands)
+    wrong_word(const Sorted &line)
     {
       if (line.late_command)
         return "The command stands first, its options behind it: exemplar " + line.command + " ...";
       const std::string &word = line.positional.back();
       if (line.command.empty())
-        return line.positional.size() > 1 ? second_scene(line, commands) : "";
+        return line.positional.size() > 1 ? second_scene(line) : "";
       if (line.command == "study")
         return line.positional.size() > 1
                    ? "Two studies are given; " + in_quotes(word) + " is one too many."
                    : "";
-      return line.command == "verify"
-                 ? ""
-                 : in_quotes(word) + " stands without an option. Write: " + usage(line.command);
+      return line.command == "verify" ? ""
+                                      : in_quotes(word) + " stands without an option. Write: "
+                                            + usage(line.command) + ".";
     }
 
     /// CLI11's words, where they are not those of this program.
@@ -194,14 +201,14 @@ namespace Exemplar
   std::string
   message_of_arguments(const CLI::App &app, const CLI::ParseError &error, const Words &words)
   {
-    const Sorted      line = sorted(app, words);
-    std::string       message;
+    const Sorted      line    = sorted(app, words);
+    std::string       message = unknown_command(line, names_of_commands(app));
     const std::string help
         = "exemplar " + (line.command.empty() ? "" : line.command + " ") + "--help";
-    if (!line.unknown.empty())
+    if (message.empty() && !line.unknown.empty())
       message = unknown_option(line);
-    else if (line.late_command || !line.positional.empty())
-      message = wrong_word(line, names_of_commands(app));
+    else if (message.empty() && (line.late_command || !line.positional.empty()))
+      message = wrong_word(line);
     if (message.empty())
       message = in_own_words(error, line) + ".";
     return message + " " + help + " lists what is allowed.";

@@ -229,7 +229,7 @@ def faults_of_files(ended, before, after):
         inside = {name for name in after if name.startswith(os.fsencode(output))}
         if inside & new:
             faults += faults_of_numbers(output)
-            kept = ALWAYS[:-1] if output.parent.name == "runs" else ALWAYS  # a study's runs leave no checkpoint
+            kept = [name for name in ALWAYS if name != "checkpoint.bin" or output.parent.name != "runs"]  # a study's runs leave no checkpoint
             faults += [f"{name} is missing" for name in kept if not (output / name).exists()]
             faults += [f"{os.fsdecode(name)} is left" for name in inside & new if name.endswith(b".tmp")]
         covered |= inside | with_parents(os.fsencode(output))

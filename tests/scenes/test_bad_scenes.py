@@ -231,7 +231,7 @@ SCENES = [
      ["Handles/left/Progress = 't^2'", "no Handles/left/Follow pose", "remove Progress"]),
     ("progress that depends on x",
      {**BAR, "Handles/left/Follow pose": "bar.msh", "Handles/left/Progress": "x*t"},
-     ["Handles/left/Progress", "'x*t'", "variable t"]),
+     ["Handles/left/Progress", "'x*t'", "the variable t"]),
     ("progress that gives inf",
      {**BAR, "Handles/left/Follow pose": "bar.msh", "Handles/left/Progress": "1/t"},
      ["Handles/left/Progress", "'1/t'", "not finite at t = 0"]),
@@ -253,7 +253,7 @@ SCENES = [
     ("load that gives inf", {**LOADED, "Loads/tip/Force": "1/t; 0; 0"},
      ["Loads/tip/Force", "'1/t'", "not finite at t = 0"]),
     ("load on x", {**LOADED, "Loads/tip/Force": "x; 0; 0"},
-     ["Loads/tip/Force", "'x'", "variable t"]),
+     ["Loads/tip/Force", "'x'", "the variable t"]),
 
     # bytes that are no text
     ("control character in a value", {**BAR, "Material/Density": "1\x1b[2J0"},

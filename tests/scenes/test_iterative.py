@@ -73,7 +73,7 @@ class Iterative(SceneTest):
                 for solver in ("cholesky", "iterative")]
         for run in runs:
             self.assertEqual(run.status, 2)
-            self.assertRegex(run.stderr, r"^exemplar: Step 1 .*\n$")
+            self.assertRegex(run.stderr, r"^Warning: Handles move by .*\nexemplar: Step 1 .*\n$")
 
 
 class LinearSolvers(SceneTest):

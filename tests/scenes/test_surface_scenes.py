@@ -152,7 +152,7 @@ class SurfaceScenes(SceneTest):
             self.assertEqual(process.wait(timeout=60), 130)
             self.assertEqual(process.stderr.read().count("Interrupted"), 1)
         for child in children.stdout.split():
-            self.assertNotEqual(subprocess.run(["/usr/bin/pgrep", "-g", child], check=False).returncode, 0)
+            self.assertNotEqual(subprocess.run(["/usr/bin/pgrep", "-r", "D,R,S", "-g", child], check=False).returncode, 0)
         self.assertFalse((self.directory / "out").exists())
 
     def test_what_is_missing_is_said(self):

@@ -32,7 +32,7 @@ class Verify(SceneTest):
         run = self.call("verify", "uniform-scale", "uniform-scal")
         self.assertEqual((run.status, run.stdout), (1, ""))
         self.assertIn("'uniform-scal'", run.stderr)
-        self.assertIn("uniaxial, uniform-scale, simple-shear", run.stderr)
+        self.assertIn("Did you mean 'uniform-scale'?", run.stderr)
 
     def test_list_names_every_case_once(self):
         run = self.call("verify", "--list")
