@@ -4,6 +4,22 @@
 
 namespace Exemplar
 {
+  namespace
+  {
+    const EnumTable<LoadRamp> ramps
+        = { { LoadRamp::none, "none" }, { LoadRamp::increments, "increments" } };
+  } // namespace
+
+  void
+  LoadsParameters::declare(KeyTable &keys)
+  {
+    keys.add("Gravity", gravity, "Acceleration of gravity [m/s^2].");
+    keys.add("Ramp", ramp, ramps,
+             "none: gravity acts in full from the start, and forces are what their formulas say. "
+             "increments, in static scenes: both are multiplied by t, which goes from 0 to 1 in "
+             "Time/Increments.");
+  }
+
   void
   LoadParameters::declare(KeyTable &keys)
   {

@@ -134,14 +134,16 @@ namespace Exemplar
     }
   } // namespace
 
-  Loads::Loads(const dealii::Tensor<1, 3>        &gravity,
-               const std::vector<LoadParameters> &parameters,
-               const Mesh                        &mesh,
-               const FESpace                     &fe_space,
-               const Material                    &material,
-               const NamedNodes                  &named_nodes,
-               const MassMatrix                   mass_matrix)
+  Loads::Loads(const LoadsParameters &parameters,
+               const Mesh            &mesh,
+               const FESpace         &fe_space,
+               const Material        &material,
+               const NamedNodes      &named_nodes,
+               const MassMatrix       mass_matrix)
+      : ramp(parameters.ramp)
   {
+    const dealii::Tensor<1, 3> gravity(
+        { parameters.gravity[0], parameters.gravity[1], parameters.gravity[2] });
     const std::vector<double> masses
         = nodal_masses(fe_space, material, rule(mass_matrix == MassMatrix::consistent));
     if (const double total = std::accumulate(masses.begin(), masses.end(), 0.);
@@ -155,7 +157,7 @@ namespace Exemplar
         for (unsigned int c = 0; c < 3; ++c)
           gravity_force[3 * node + c] = masses[node] * gravity[c];
     }
-    for (const LoadParameters &p : parameters)
+    for (const LoadParameters &p : parameters.named)
     {
       const std::string         key      = "Loads/" + p.name;
       const auto                vertices = p.select.nodes(mesh, key, named_nodes);
@@ -185,10 +187,11 @@ namespace Exemplar
   void
   Loads::named_loads(const double time, dealii::Vector<double> &force) const
   {
-    force = 0.;
+    force               = 0.;
+    const double factor = ramp_factor(time);
     for (const Load &load : loads)
     {
-      const dealii::Tensor<1, 3> total = load.force.vector(dealii::Point<3>(), time);
+      const dealii::Tensor<1, 3> total = factor * load.force.vector(dealii::Point<3>(), time);
       for (unsigned int i = 0; i < load.nodes.size(); ++i)
         for (unsigned int c = 0; c < 3; ++c)
           force[3 * load.nodes[i] + c] += load.shares[i] * total[c];

@@ -17,7 +17,7 @@ namespace Exemplar
     if (loads.has_named_loads())
       loads.named_loads(time, force);
     if (loads.has_gravity())
-      force += loads.gravity();
+      force.add(loads.ramp_factor(time), loads.gravity());
     force_norms.reinit(force.size() / 3);
     for (unsigned int node = 0; node < force_norms.size(); ++node)
       force_norms[node] = std::hypot(force[3 * node], force[3 * node + 1], force[3 * node + 2]);
@@ -26,6 +26,8 @@ namespace Exemplar
   bool
   LoadTerm::differs(const double time, const double other_time) const
   {
+    if (loads.has_gravity() && loads.ramp_factor(time) != loads.ramp_factor(other_time))
+      return true;
     Vector here(rest_positions.size()), there(rest_positions.size());
     loads.named_loads(time, here);
     loads.named_loads(other_time, there);

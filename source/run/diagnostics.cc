@@ -52,7 +52,8 @@ namespace Exemplar
       work.handles = exchange.sum(own);
     }
     if (loads != nullptr && loads->has_gravity())
-      work.gravity += exchange.product(loads->gravity(), displacement);
+      work.gravity += loads->ramp_factor(state.time)
+                      * exchange.product(loads->gravity(), displacement);
     if (loads != nullptr && loads->has_named_loads())
     {
       Vector force(displacement.size());

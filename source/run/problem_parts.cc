@@ -92,10 +92,8 @@ namespace Exemplar
     {
       if (parameters.loads.empty())
         return nullptr;
-      const auto &[x, y, z] = parameters.loads.gravity;
-      return std::make_unique<Loads>(dealii::Tensor<1, 3>({ x, y, z }), parameters.loads.named,
-                                     body.mesh, body.fe_space, body.material, inputs.nodes,
-                                     parameters.material.mass_matrix);
+      return std::make_unique<Loads>(parameters.loads, body.mesh, body.fe_space, body.material,
+                                     inputs.nodes, parameters.material.mass_matrix);
     }
 
     /// Whether steps descend on one energy, the same before and after a step.

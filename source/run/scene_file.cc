@@ -199,9 +199,7 @@ namespace Exemplar
                    "Names of the handles, separated by commas; each has a subsection.");
     keys.leave_subsection();
     keys.enter_subsection("Loads");
-    keys.add("Gravity", parameters.loads.gravity,
-             "Acceleration of gravity [m/s^2]. It acts in full from the start, also in a static "
-             "scene; a weight that grows is a force of Loads/Names on a region.");
+    parameters.loads.declare(keys);
     keys.add_names("Names", load_names,
                    "Names of dead forces, separated by commas; each has a subsection.");
     keys.leave_subsection();

@@ -35,6 +35,9 @@ namespace Exemplar
     material.check();
     examples.check();
     initial.check();
+    if (loads.ramp == LoadRamp::increments && scene != SceneKind::statics)
+      throw UserError("Loads/Ramp = increments lets loads grow with the increments of a static scene, "
+                      "but this scene has none. Set Loads/Ramp = none, and a Force that grows with t.");
     check_solver();
     check_surface();
     if (output.final_pose == FinalTetrahedra::quadratic && model.element != Element::P2)

@@ -252,6 +252,8 @@ SCENES = [
      ["Loads/tip/Select = 'box 5 5 5 6 6 6'", "selects no node"]),
     ("load that gives inf", {**LOADED, "Loads/tip/Force": "1/t; 0; 0"},
      ["Loads/tip/Force", "'1/t'", "not finite at t = 0"]),
+    ("loads that grow with increments that there are not", {**LOADED, "Scene": "dynamic", "Loads/Ramp": "increments"},
+     ["Loads/Ramp = increments", "static"]),
     ("load on x", {**LOADED, "Loads/tip/Force": "x; 0; 0"},
      ["Loads/tip/Force", "'x'", "the variable t"]),
 

@@ -125,6 +125,19 @@ class Physics(SceneTest):
         self.assertGreater(row["energy_elastic"], 0.)
         self.assertLess(row["min_det_F"], 1.)  # it is compressed
 
+    def test_loads_that_grow_with_the_increments(self):
+        loads = {"Loads/Gravity": f"0, 0, {-20 * G}", "Loads/Names": "pull", "Loads/pull/Select": "boundary 2",
+                 "Loads/pull/Force": "1000; 0; 0"}
+        half = {"Loads/Gravity": f"0, 0, {-10 * G}", "Loads/pull/Force": "500; 0; 0"}
+        rows = read_csv(self.solve({**STATIC, **loads, "Loads/Ramp": "increments", "Time/Increments": "4"}))
+        for row, scene in ((rows[2], {**loads, **half}), (rows[4], loads)):
+            at_once = self.last_row({**STATIC, **scene})
+            for column in ("energy_elastic", "reaction_z-_z", "reaction_x-_x", "min_det_F"):
+                self.assertAlmostEqual(row[column], at_once[column], delta=1e-7 * abs(at_once[column]))
+        # forces at the ends of four steps, of a body that is nearly linear: (1 + 2 + 3 + 4) / 16 of all at once
+        self.assertAlmostEqual(rows[4]["work_gravity"] / at_once["work_gravity"], 10 / 16, delta=0.01)
+        self.assertAlmostEqual(rows[4]["work_loads"] / at_once["work_loads"], 10 / 16, delta=0.01)
+
     def test_dead_force(self):
         # shared by area it strains the block evenly
         row = self.last_row({**STATIC, "Loads/Names": "pull", "Loads/pull/Select": "boundary 2",

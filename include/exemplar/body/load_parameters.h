@@ -23,11 +23,22 @@ namespace Exemplar
     declare(KeyTable &keys);
   };
 
+  /// Values of Loads/Ramp: how loads come in.
+  enum class LoadRamp
+  {
+    none,
+    increments
+  };
+
   /// Section Loads.
   struct LoadsParameters
   {
+    LoadRamp                    ramp = LoadRamp::none;
     std::array<double, 3>       gravity{}; ///< acceleration [m/s^2]
     std::vector<LoadParameters> named;
+
+    void
+    declare(KeyTable &keys);
 
     bool
     has_gravity() const

@@ -20,13 +20,12 @@ namespace Exemplar
   public:
     /// The files of nodes are among `nodes`. Gravity acts on the masses of `mass_matrix`. Throws
     /// UserError for a load that selects nothing or that is not understood.
-    Loads(const dealii::Tensor<1, 3>        &gravity,
-          const std::vector<LoadParameters> &parameters,
-          const Mesh                        &mesh,
-          const FESpace                     &fe_space,
-          const Material                    &material,
-          const NamedNodes                  &nodes       = {},
-          MassMatrix                         mass_matrix = MassMatrix::consistent);
+    Loads(const LoadsParameters &parameters,
+          const Mesh            &mesh,
+          const FESpace         &fe_space,
+          const Material        &material,
+          const NamedNodes      &nodes       = {},
+          MassMatrix             mass_matrix = MassMatrix::consistent);
 
     bool
     has_gravity() const
@@ -40,14 +39,21 @@ namespace Exemplar
       return !loads.empty();
     }
 
-    /// Nodal forces of gravity [N]; empty without gravity.
+    /// What multiplies all loads at time t: with Ramp = increments t, which goes from 0 to 1, else 1.
+    double
+    ramp_factor(const double time) const
+    {
+      return ramp == LoadRamp::increments ? time : 1.;
+    }
+
+    /// Nodal forces of gravity in full [N]; empty without gravity.
     const dealii::Vector<double> &
     gravity() const
     {
       return gravity_force;
     }
 
-    /// Sum of the nodal forces of the named loads at time t [s] into `force` [N].
+    /// Sum of the nodal forces of the named loads at time t [s], ramp included, into `force` [N].
     void
     named_loads(double time, dealii::Vector<double> &force) const;
 
@@ -59,6 +65,7 @@ namespace Exemplar
       Expression                force;
     };
 
+    const LoadRamp         ramp;
     dealii::Vector<double> gravity_force;
     std::vector<Load>      loads;
   };
