@@ -126,9 +126,9 @@ class Physics(SceneTest):
         self.assertLess(row["min_det_F"], 1.)  # it is compressed
 
     def test_loads_that_grow_with_the_increments(self):
-        loads = {"Loads/Gravity": f"0, 0, {-20 * G}", "Loads/Names": "pull", "Loads/pull/Select": "boundary 2",
+        loads = {"Loads/Gravity": f"0, 0, {-G}", "Loads/Names": "pull", "Loads/pull/Select": "boundary 2",
                  "Loads/pull/Force": "1000; 0; 0"}
-        half = {"Loads/Gravity": f"0, 0, {-10 * G}", "Loads/pull/Force": "500; 0; 0"}
+        half = {"Loads/Gravity": f"0, 0, {-G / 2}", "Loads/pull/Force": "500; 0; 0"}
         rows = read_csv(self.solve({**STATIC, **loads, "Loads/Ramp": "increments", "Time/Increments": "4"}))
         for row, scene in ((rows[2], {**loads, **half}), (rows[4], loads)):
             at_once = self.last_row({**STATIC, **scene})
