@@ -328,10 +328,15 @@ class BadSurfaces(SceneTest):
         self.refused(self.mesh("rest.obj", "--materials", "made.csv"), ["made.csv: is to be written, but is the input"])
 
     def test_where_nothing_can_be_kept(self):
+        """The run goes on; it only says so."""
         self.write("file", "")
-        for cache, words in ((str(self.directory / "file"), ["file/exemplar: cannot be written", "XDG_CACHE_HOME"]),):
-            self.environment["XDG_CACHE_HOME"] = cache
-            self.refused(self.scene({}), words)
+        for cache in (str(self.directory / "file"), "relative"):
+            with self.subTest(cache):
+                run = self.call(*self.scene({}, "--validate"), XDG_CACHE_HOME=cache, HOME="relative")
+                self.assertEqual(run.status, 0, run.stderr)
+                self.assertIn("are not kept", run.stderr)
+                self.assertIn("Set XDG_CACHE_HOME", run.stderr)
+                self.assertFalse((self.directory / "relative").exists())
 
     def test_odd_surfaces_that_do(self):
         """Polygons, surfaces with unused vertices, capitals in the name, groups that are no words."""
