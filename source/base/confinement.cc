@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/confinement.h>
+#include <exemplar/base/descriptor.h>
 
 #include <fcntl.h>
 #include <linux/landlock.h>
@@ -104,22 +105,6 @@ namespace Exemplar
       seccomp_rule_add(filter.get(), SCMP_ACT_ERRNO(ENOSYS), SCMP_SYS(clone3), 0);
       return seccomp_load(filter.get()) == 0;
     }
-
-    /// An open file, closed at the end.
-    struct Descriptor
-    {
-      explicit Descriptor(const long number) : number(static_cast<int>(number)) {}
-      Descriptor(const Descriptor &) = delete;
-      Descriptor &
-      operator=(const Descriptor &)
-          = delete;
-      ~Descriptor()
-      {
-        if (number >= 0)
-          close(number);
-      }
-      const int number;
-    };
 
     constexpr std::uint64_t read_file      = LANDLOCK_ACCESS_FS_READ_FILE;
     constexpr std::uint64_t read_directory = LANDLOCK_ACCESS_FS_READ_DIR;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/descriptor.h>
 #include <exemplar/base/digest.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/base/missing_file.h>
@@ -27,24 +28,6 @@ namespace Exemplar
     /// A file by what it is, not by a path that leads to it.
     using FileIdentity = std::pair<dev_t, ino_t>;
 
-    struct OpenScript
-    {
-      explicit OpenScript(const fs::path &path)
-          : descriptor(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK))
-      {
-      }
-      OpenScript(const OpenScript &) = delete;
-      OpenScript &
-      operator=(const OpenScript &)
-          = delete;
-      ~OpenScript()
-      {
-        if (descriptor >= 0)
-          close(descriptor);
-      }
-      const int descriptor;
-    };
-
     /// Reads each file once, so that all see the same bytes.
     class FilesRead
     {
@@ -53,16 +36,16 @@ namespace Exemplar
       FileIdentity
       read(const fs::path &path)
       {
-        const OpenScript file(path);
+        const Descriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
         struct stat      status;
-        if (file.descriptor < 0 || fstat(file.descriptor, &status) != 0)
+        if (file.number < 0 || fstat(file.number, &status) != 0)
           throw std::runtime_error(std::strerror(errno));
         if (!S_ISREG(status.st_mode))
           throw std::runtime_error(S_ISDIR(status.st_mode) ? "is it a directory?"
                                                            : "it is a device");
         const FileIdentity identity(status.st_dev, status.st_ino);
         if (bytes.count(identity) == 0)
-          bytes[identity] = all_of(file.descriptor);
+          bytes[identity] = all_of(file.number);
         return identity;
       }
 
