@@ -20,8 +20,8 @@ from scene_runs import NEWTON, PROGRAM, TOP, paper_scene, print_table, read_vtu,
 
 DIRECTION = (0.35, -1, 0.32)
 # name in the picture, and what of space it shows
-SCENES = {"fig2a_cat": ("2a", ((-0.10, -0.05, 0.92), DIRECTION, 1.22)),
-          "fig2c_cat": ("2c", ((-0.12, -0.05, 0.60), DIRECTION, 0.85))}
+SCENES = {"fig2a_cat": ("2a", ((-0.22, -0.05, 0.98), DIRECTION, 1.46)),
+          "fig2c_cat": ("2c", ((-0.06, -0.05, 0.62), DIRECTION, 0.98))}
 IMPORTANCE, INCREMENTS, TOLERANCE = 0.9, 10, 1e-8
 FULL_COLOUR = 0.05  # body lengths
 MODELS = {

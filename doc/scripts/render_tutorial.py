@@ -12,18 +12,19 @@ import csv
 import itertools
 import math
 import os
-import subprocess
 import sys
 from pathlib import Path
 
 import vtk
 
+import plots
 import render_figures
+from plots import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, VERMILION, smooth
 from render_figures import PLAIN, WITH, WITHOUT, Picture, actor_of, animal, body, run, surface_of
 from scene_runs import read_msh
 
 STUDIES = "doc/studies"
-GREEN, WALL = (0.62, 0.80, 0.62), (0.45, 0.45, 0.45)
+PALE_GREEN, WALL = (0.62, 0.80, 0.62), (0.45, 0.45, 0.45)
 render_figures.RUNS, render_figures.FIGURES = "output/tutorial", "doc/tutorial/figures"
 
 
@@ -33,13 +34,7 @@ def rows_of(study, **wanted):
 
 
 def plot(name, settings, *lines):
-    """An svg by gnuplot; lines are (title, style, [(x, y), ...])."""
-    data = "".join("$line%d << EOD\n%s\nEOD\n" % (i, "\n".join("%.9g %.9g" % point for point in points))
-                   for i, (title, style, points) in enumerate(lines))
-    curves = ", ".join("$line%d with %s title '%s'" % (i, style, title) for i, (title, style, points) in enumerate(lines))
-    head = "set terminal svg size 640,480 dynamic background rgb 'white'\nset output '%s/%s'\nset grid\n"
-    script = head % (render_figures.FIGURES, name) + settings + "\n" + data + "plot " + curves + "\n"
-    subprocess.run(["gnuplot"], input=script, text=True, check=True)
+    plots.plot("%s/%s" % (render_figures.FIGURES, name), settings, lines)
 
 
 def grid_of(frame):
@@ -89,10 +84,10 @@ def heavy_elastica(load):
 
 def step1(program):
     """The bar under its weight with three strains, and where its tip goes."""
-    picture = Picture(1500, 990)
+    picture = Picture(1500, 1050)
     scene = "prm/tutorial/step1_bar.prm"
-    strains = [("linear", WITHOUT, "#3d76a8"), ("corotational", WITH, "#d97a1e"), ("green", GREEN, "#3f8f3f")]
-    places = [(40000, 0, 360, -1.3, 2.77), (80000, 360, 630, -3.3, 4.85)]  # both with 65 pixels a metre
+    strains = [("linear", WITHOUT, BLUE), ("corotational", WITH, VERMILION), ("green", PALE_GREEN, GREEN)]
+    places = [(40000, 0, 390, -1.07, 3.0), (80000, 390, 660, -3.07, 5.08)]  # both with 65 pixels a metre
     for force, top, height, centre, scale in places:
         for c, (strain, colour, _) in enumerate(strains):
             frames = run(program, scene, "step1_%s_%s" % (strain, force), "Model/Strain=" + strain,
@@ -110,15 +105,15 @@ def step1(program):
                      "Loads/weight/Force=0; 0; -160000*t", "Time/Increments=64")
         tip = grid_of(frames[0]).FindPoint(4, 0, 0)
         places = [grid_of(frame).GetPoint(tip) for frame in frames]
-        style = "%s lw 2 lc rgb '%s'" % ("points pt 7 ps 0.5" if strain == "green" else "lines", colour)
+        style = "points pt 7 ps 0.5 lc rgb '%s'" % colour if strain == "green" else smooth(colour)
         paths.append((strain, style, [(x, z) for x, _, z in places]))
     # q L^3 / (E I) with E I = 1e6 / 12, q from 0 to 40000 N/m
     elastica = [tuple(4 * x for x in heavy_elastica(0.768 * gravity / 5)) for gravity in range(201)]
     circle = [(4 * math.cos(a * math.pi / 200), -4 * math.sin(a * math.pi / 200)) for a in range(101)]
-    plot("step1_tip.svg", "set size ratio -1\nset xrange [0:7]\nset yrange [-7:0]\nset key bottom right\n"
+    plot("step1_tip.svg", "set size ratio -1\nset xrange [0:4.5]\nset yrange [-4.5:0]\n"
          "set xlabel 'x of the tip [m]'\nset ylabel 'z of the tip [m]'",
-         ("4 m from the wall", "lines dt 3 lc rgb 'gray40'", circle),
-         ("beam that cannot stretch", "lines lw 2 lc rgb 'black'", elastica),
+         ("4 m from the wall", smooth(GREY, 3), circle),
+         ("beam that cannot stretch", smooth(BLACK), elastica),
          *paths)
 
 
@@ -157,7 +152,7 @@ def step2(program):
             shapes.append((surface_of(frame), volume(frame)))
         shapes.append(blend(newton[0], newton[-1], t))
         for r, (word, (surface, size)) in enumerate(zip(("strains", "one pass", "positions"), shapes)):
-            colour = PLAIN if r != 1 and c in (0, parts - 1) else (WITH, GREEN, WITHOUT)[r]
+            colour = PLAIN if r != 1 and c in (0, parts - 1) else (WITH, PALE_GREEN, WITHOUT)[r]
             picture.panel((260 * c, 230 * r, 260, 230), [body(surface, colour, 30)], view,
                           "%s, t = %g: %.2f" % (word, t, size / volume(newton[0])), 18)
     picture.write("step2_strip.png")
@@ -165,8 +160,8 @@ def step2(program):
     run(program, scene, "step2_exact", "Solver/Tolerance=1e-12", "Output/Every=0")
     right = lengths("output/tutorial/step2_exact")
     curves = []
-    for method, gradient, colour in (("one pass", "frozen", "#3f8f3f"), ("fixed point", "frozen", "#3d76a8"),
-                                     ("newton", "consistent", "#d97a1e")):
+    for method, gradient, colour in (("one pass", "frozen", GREEN), ("fixed point", "frozen", BLUE),
+                                     ("newton", "consistent", VERMILION)):
         points = []
         for increments in (1, 2, 5, 10, 20, 40, 80):
             name = "step2_%s_%d" % (method.replace(" ", "_"), increments)
@@ -174,9 +169,9 @@ def step2(program):
                 "Time/Increments=%d" % increments)
             errors = [abs(a / b - 1) for a, b in zip(lengths("output/tutorial/" + name), right)]
             points.append((increments, max(errors)))
-        curves.append((method, "linespoints lw 2 pt 7 ps 0.7 lc rgb '%s'" % colour, points))
-    plot("step2_error.svg", "set logscale\nset format y '10^{%T}'\nset xrange [0.9:100]\nset yrange [1e-12:10]\n"
-         "set xtics (1, 2, 5, 10, 20, 40, 80)\nset key at graph 0.98, 0.75\nset xlabel 'increments'\n"
+        curves.append((method, plots.line(plots.PALETTE.index(colour)), points))
+    plot("step2_error.svg", "set termoption enhanced\nset logscale\nset format y '10^{%T}'\nset xrange [0.9:100]\nset yrange [1e-16:10]\n"
+         "set xtics (1, 2, 5, 10, 20, 40, 80)\nset xlabel 'increments'\n"
          "set ylabel 'greatest relative error of an edge at the end'", *curves)
 
 
@@ -192,18 +187,18 @@ def step3(program):
         picture.panel((400 * c, 0, 400, 400), actors, view, text, 26)
     picture.write("step3_cat.png")
 
-    ways = [("simplex", "auto", "scaled", "#d97a1e"), ("free", "auto", "scaled", "#3d76a8"), ("free", "0", "scaled", "#7a3d99"),
-            ("simplex", "auto", "blended", "#3f8f3f"), ("simplex", "auto", "mixed", "#b0306a")]
+    ways = [("simplex", "auto", "scaled", VERMILION), ("free", "auto", "scaled", BLUE), ("free", "0", "scaled", PURPLE),
+            ("simplex", "auto", "blended", GREEN), ("simplex", "auto", "mixed", ORANGE)]
     for name, column, settings in (
-            ("step3_weights.svg", "weight_1", "set yrange [0:3]\nset key top right\nset ylabel 'weight of the arch'"),
-            ("step3_back.svg", "probe_z", "set yrange [0:0.2]\nset key bottom right\nset ylabel 'rise of the back [m]'")):
+            ("step3_weights.svg", "weight_1", "set yrange [0:3]\nset ylabel 'weight of the arch'"),
+            ("step3_back.svg", "probe_z", "set yrange [0:0.2]\nset ylabel 'rise of the back [m]'")):
         lines = []
         for weights, ridge, energy, colour in ways:
             rows = rows_of("step3_importance", **{"Examples/Weights": weights, "Examples/Weight penalty": ridge,
                                                   "Examples/Energy": energy})
             points = [(float(row["Examples/Importance"]), float(row[column])) for row in rows if row[column]]
             lines.append(("%s, %s, ridge %s" % (weights, energy, ridge),
-                          "linespoints lw 2 pt 7 ps 0.7 lc rgb '%s'" % colour, points))
+                          plots.line(plots.PALETTE.index(colour)), points))
         plot(name, "set xrange [0:1.05]\nset xlabel 'importance'\n" + settings, *lines)
 
 
@@ -225,15 +220,15 @@ def step4(program):
 
     lines = []
     for title, style, settings in (
-            ("without mass: the pose", "lines dt 3 lw 2 lc rgb 'black'", ["Material/Density=1e-6", "Time/Stiffness damping=0"]),
-            ("no damping", "lines lw 2 lc rgb '#3d76a8'", ["Time/Stiffness damping=0"]),
-            ("stiffness 0.1 s", "lines lw 2 lc rgb '#d97a1e'", []),
-            ("stiffness 0.5 s", "lines lw 2 lc rgb '#3f8f3f'", ["Time/Stiffness damping=0.5"]),
-            ("mass 3 / s", "lines lw 2 lc rgb '#7a3d99'", ["Time/Stiffness damping=0", "Time/Mass damping=3"])):
+            ("without mass: the pose", smooth(BLACK, 3), ["Material/Density=1e-6", "Time/Stiffness damping=0"]),
+            ("no damping", smooth(BLUE), ["Time/Stiffness damping=0"]),
+            ("stiffness 0.1 s", smooth(VERMILION), []),
+            ("stiffness 0.5 s", smooth(GREEN), ["Time/Stiffness damping=0.5"]),
+            ("mass 3 / s", smooth(PURPLE), ["Time/Stiffness damping=0", "Time/Mass damping=3"])):
         frames = run(program, scene, "step4_" + title.replace(" ", "_").replace("/", "").replace(":", ""), *settings)
         muzzle = grid_of(frames[0]).FindPoint(0.94, 0, 1.08)
         lines.append((title, style, [(0.04 * i, grid_of(frame).GetPoint(muzzle)[2]) for i, frame in enumerate(frames)]))
-    plot("step4_muzzle.svg", "set xlabel 't [s]'\nset ylabel 'height of the muzzle [m]'\nset key top center\n"
+    plot("step4_muzzle.svg", "set xlabel 't [s]'\nset ylabel 'height of the muzzle [m]'\n"
          "set yrange [0:1.9]", *lines)
 
 
@@ -273,9 +268,9 @@ def step6(program):
 
     with open("output/tutorial/step6/run/statistics.csv", newline="") as file:
         rows = list(csv.DictReader(file))
-    lines = [(title, "lines lw 2 lc rgb '%s'" % colour, [(float(row["time"]), float(row["weight_%d" % i])) for row in rows])
-             for i, (title, colour) in enumerate((("rest", "gray40"), ("crouch", "#d97a1e"), ("reach", "#3d76a8")))]
-    plot("step6_weights.svg", "set xlabel 't [s]'\nset ylabel 'weight'\nset yrange [0:1]\nset key center right", *lines)
+    lines = [(title, smooth(colour), [(float(row["time"]), float(row["weight_%d" % i])) for row in rows])
+             for i, (title, colour) in enumerate((("rest", GREY), ("crouch", VERMILION), ("reach", BLUE)))]
+    plot("step6_weights.svg", "set xlabel 't [s]'\nset ylabel 'weight'\nset yrange [0:1]", *lines)
 
 
 def main():

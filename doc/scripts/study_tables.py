@@ -6,7 +6,8 @@ Usage: python3 doc/scripts/study_tables.py             exit 1 if a table of a pa
        python3 doc/scripts/study_tables.py --write     put the tables into the pages
        python3 doc/scripts/study_tables.py --run NAME...
                                                run the studies NAME.prm of prm/studies and prm/tutorial (all, if none is
-                                               named), keep study.csv and study.svg here; on a quiet machine, two hours
+                                               named) and keep study.csv here; on a quiet machine, two hours
+doc/scripts/draw_plots.py draws the plots of the same files.
 
 A page says itself which table it wants, in a comment before it; a table ends with <!-- end table -->:
 
@@ -233,34 +234,6 @@ def dial(name, *_):
     return markdown(["drag", "energy", *(f"η = {eta:g}" for eta in importances[1:-1]), "least quarter"], body)
 
 
-def draw_space(names):
-    """doc/figures/space.svg: error against seconds, a row a body, a column a ratio of Poisson, with the Pareto fronts."""
-    nus = ("0.3", "0.45", "0.49", "0.499")
-    script = [f"set terminal svg noenhanced size 1240,{300 * len(names)} font 'sans-serif,12' background 'white'",
-              "set output 'space.svg'", f"set multiplot layout {len(names)},{len(nus)}", "set logscale xy", "set format '1e%L'",
-              "set grid", "unset mxtics", "unset mytics", "set yrange [2e-4:1]"]
-    for name in names:
-        runs = list(space_runs(name))
-        for nu in nus:
-            plots, every = [], []
-            for i, element in enumerate(ELEMENTS.values()):
-                points = [(run[4], max(abs(run[3] - 1), 2e-4)) for run in runs if run[1:3] == (element, nu)]
-                if points:
-                    script += [f"$e{i} << EOD", *(f"{x:g} {y:g}" for x, y in points), "EOD"]
-                    plots.append(f"$e{i} with linespoints lw 2 pt 7 ps 0.6 lc {i + 1} title '{element}'")
-                    every += points
-            front = []
-            for x, y in sorted(every):
-                if not front or y < front[-1][1]:
-                    front.append((x, y))
-            script += ["$front << EOD", *(f"{x:g} {y:g}" for x, y in front), "EOD"]
-            plots.append("$front with points pt 6 ps 1.5 lw 2 lc 'black' title 'Pareto front'")
-            key = "set key bottom left Left reverse samplen 1" if (name, nu) == (names[0], nus[-1]) else "set nokey"
-            script += [key, f"set title '{name.split('_')[1]}, nu = {nu}'", "set xlabel 'seconds'",
-                       "set ylabel 'error of the deflection'", "plot " + ", ".join(plots)]
-    subprocess.run(["gnuplot"], input="\n".join(script) + "\n", text=True, check=True, cwd=FIGURES)
-
-
 def element_of(row):
     return ELEMENTS[row["Model/Element"], row["Model/Dilatation"]]
 
@@ -324,8 +297,6 @@ def run(name):
     output = TOP / "output/studies" / name
     subprocess.run([program, "study", str(STUDIES[name]), "--quiet", "--output", str(output)], check=True)
     shutil.copy(output / "study.csv", FILES / f"{name}.csv")
-    if (output / "study.svg").exists() and any(f"figures/{name}.svg" in page.read_text() for page in PAGES):
-        shutil.copy(output / "study.svg", FIGURES / f"{name}.svg")
 
 
 def main():
@@ -333,9 +304,6 @@ def main():
         for name in sys.argv[2:] or STUDIES:
             print(name, file=sys.stderr, flush=True)
             run(name)
-        bodies = [name for name in STUDIES if name.startswith("space_") and (FILES / f"{name}.csv").exists()]
-        if any(name in bodies for name in sys.argv[2:] or STUDIES):
-            draw_space(bodies)
         return
     missing = [name for name in STUDIES if not (FILES / f"{name}.csv").exists()]
     if missing:

@@ -5,6 +5,7 @@
 #include <exemplar/study/study_plot.h>
 
 #include <algorithm>
+#include <array>
 
 namespace Exemplar
 {
@@ -42,26 +43,69 @@ namespace Exemplar
       out << "EOD\n";
     }
 
+    /// Colours that the colour-blind can tell apart and that are not faint on white; the same as in
+    /// doc/scripts/plots.py.
+    const std::array palette = { "#0072b2", "#d55e00", "#009e73", "#aa4499",
+                                 "#e69f00", "#56b4e9", "#000000", "#777777" };
+    /// gnuplot's disc, square, triangles up and down, diamond.
+    const std::array marks = { 7, 5, 9, 11, 13 };
+
+    /// The place of a value among those seen; a new one comes last.
+    template <typename T>
+    std::size_t
+    place_of(const T &value, std::vector<T> &seen)
+    {
+      const auto found = std::find(seen.begin(), seen.end(), value);
+      if (found == seen.end())
+        seen.push_back(value);
+      return std::find(seen.begin(), seen.end(), value) - seen.begin();
+    }
+
+    /// Styles of lines: the last axis chooses the colour, the others together dash and mark.
+    class LineStyles
+    {
+    public:
+      std::string
+      operator()(std::vector<unsigned int> choice)
+      {
+        std::size_t colour = 0;
+        if (!choice.empty())
+        {
+          colour = place_of(choice.back(), colours);
+          choice.pop_back();
+        }
+        const std::size_t variant = place_of(choice, variants);
+        return "linespoints lw 2 dt " + std::to_string(1 + variant) + " pt "
+               + std::to_string(marks[variant % marks.size()]) + " ps 0.8 lc rgb '"
+               + palette[colour % palette.size()] + "'";
+      }
+
+    private:
+      std::vector<unsigned int>              colours;
+      std::vector<std::vector<unsigned int>> variants;
+    };
+
     void
     write_script(std::ostream &out, const std::vector<StudyLine> &lines, const std::string &title)
     {
       out << "# Drawn by exemplar; to draw it anew: gnuplot study.gnuplot\n"
-          << "set terminal svg noenhanced size 800,560 font 'sans-serif,14' background 'white'\n"
+          << "set terminal svg noenhanced size 800,600 font 'sans-serif,15' background 'white'\n"
           << "set output 'study.svg'\n"
           << "set title " << quoted(title) << "\n"
           << "set logscale xy\nset format '%g'\nset grid\n"
-          << "set key outside right top\n"
+          << "set key below center Left reverse samplen 3 height 1\n"
           << "set xlabel 'seconds of time stepping'\n"
           << "set ylabel 'position error at the end (L2, relative)'\n";
       Points      all;
       std::string plots;
+      LineStyles  style;
       for (unsigned int l = 0; l < lines.size(); ++l)
         if (const Points points = points_of(lines[l]); !points.empty())
         {
           const std::string name = "line" + std::to_string(l);
           write_data(out, name, points);
-          plots += (plots.empty() ? "" : ", \\\n  ") + ("$" + name)
-                   + " with linespoints lw 2 pt 7 ps 0.7 title "
+          plots += (plots.empty() ? "" : ", \\\n  ") + ("$" + name) + " with "
+                   + style(lines[l].choice) + " title "
                    + quoted(lines[l].title.empty() ? "error" : lines[l].title);
           all.insert(all.end(), points.begin(), points.end());
         }

@@ -3,14 +3,16 @@
 
 import csv
 import os
+import re
 import shutil
 import signal
 import subprocess
+import sys
 import time
 import unittest
 from pathlib import Path
 
-from exemplar_runner import BAR, EXEMPLAR, SceneTest, prm
+from exemplar_runner import BAR, EXEMPLAR, REPOSITORY, SceneTest, prm
 
 DYNAMIC = {**BAR, "Scene": "dynamic", "Material/Young's modulus": "1e4", "Time/Step": "0.1",
            "Time/End": "0.4"}
@@ -295,6 +297,17 @@ class Studies(SceneTest):
         for words in ("one pass", "newton", "Pareto front", "seconds of time stepping"):
             self.assertIn(f"<text>{words}</text>", figure)
         self.assertEqual(self.run_of_study.stderr, "")
+
+    def test_colours_are_those_of_the_pages(self):
+        self.prepare(DYNAMIC, "Time/Step: 0.1 0.05 | Model/Strain: corotational, linear, green", Reference="Time/Step=0.02")
+        self.study()
+        script = (self.directory / "out/study.gnuplot").read_text()
+        sys.path.insert(0, str(REPOSITORY / "doc/scripts"))
+        from plots import PALETTE, line
+        for number in range(3):
+            self.assertIn(f"with {line(number)} title", script)
+        source = (REPOSITORY / "source/study/study_plot.cc").read_text()
+        self.assertEqual(tuple(re.findall('"(#[0-9a-f]{6})"', source)), PALETTE)
 
     def test_without_gnuplot(self):
         self.prepare(DYNAMIC, "Time/Step: 0.1 0.05", Reference="Time/Step=0.01")

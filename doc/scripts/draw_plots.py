@@ -1,0 +1,100 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Draw the plots of doc/figures from doc/studies.
+
+Usage: python3 doc/scripts/draw_plots.py [NAME]...      all, if none is named; Debian: gnuplot-nox
+
+NAME is space, growth_cells, growth_examples or a study of which a page shows the plot.
+"""
+import csv
+import sys
+
+from plots import GREY, MARKS, PALETTE, curves, gnuplot, line, plot, plot_study
+from study_tables import ELEMENTS, FIGURES, FILES, PAGES, STUDIES, axes, error, read, space_runs
+
+SPACE_BODIES = {"bar": "bar under its weight", "cook": "Cook's membrane", "cat": "cat", "horse": "horse"}
+SPACE_NUS = ("0.3", "0.499")
+
+
+def is_number(text):
+    try:
+        return bool(float(text) + 1)
+    except ValueError:
+        return False
+
+
+def draw_study(name):
+    rows = [row for row in read(name) if error(row) > 0 and float(row["seconds_median"]) > 0]
+    words = [key for key in axes(rows) if not all(is_number(row[key]) for row in rows)]
+    plot_study(FIGURES / f"{name}.svg",
+               [(tuple(row[key] for key in words), float(row["seconds_median"]), error(row)) for row in rows])
+
+
+def own_limit(body, mesh, element, runs):
+    """Is this run the limit against which it would be held? Cat and horse take theirs from quadratic elements, on the finest mesh from
+    the same ones."""
+    return body in ("cat", "horse") and element == "P2, patches" and mesh == runs[-1][0]
+
+
+def space_panel(body, nu):
+    runs = [run for run in space_runs(f"space_{body}") if run[2] == nu]
+    lines = []
+    for number, element in enumerate(ELEMENTS.values()):
+        points = [(seconds, abs(ratio - 1)) for mesh, of, _, ratio, seconds in runs
+                  if of == element and not own_limit(body, mesh, element, runs)]
+        lines.append((element, line(number), points))
+    return lines
+
+
+def draw_space():
+    """Error of the deflection against seconds: a row a body, a column a ratio of Poisson, one legend above all."""
+    width, height, top = 800, 280, 40
+    total = top + height * len(SPACE_BODIES)
+    commands = ["set multiplot", "set logscale xy", "set format '10^{%T}'", "unset mxtics", "unset mytics",
+                "set xrange [5e-4:20]", "set yrange [1e-4:1]", "set lmargin 9", "set rmargin 2", "set bmargin 3.2", "set tmargin 2", "unset key"]
+    commands += [f"set label {i + 1} '{element}' at screen {0.2 + 0.18 * i:g},{1 - top / 2 / total:.6g} point pt {MARKS[0]} "
+                 f"lc rgb '{PALETTE[i]}' offset 1,-0.3" for i, element in enumerate(ELEMENTS.values())]
+    for r, (body, title) in enumerate(SPACE_BODIES.items()):
+        for c, nu in enumerate(SPACE_NUS):
+            commands += [f"set size 0.5,{height / total:.6g}", f"set origin {0.5 * c:g},{(total - top - height * (r + 1)) / total:.6g}",
+                         f'set title "{title}, ν = {nu}" offset 0,-0.5', "set xlabel 'seconds' offset 0,0.5",
+                         "set ylabel 'error of the deflection'" if c == 0 else "set ylabel ' '",
+                         curves(space_panel(body, nu)), "unset label"]
+    gnuplot(FIGURES / "space.svg", (width, total), "set termoption enhanced\n" + "\n".join(commands))
+
+
+def growth(name):
+    with open(FILES / f"{name}.csv", newline="") as file:
+        rows = [tuple(map(float, row)) for row in list(csv.reader(file))[1:]]
+    return rows
+
+
+def labelled(points):
+    """A curve with its numbers on it."""
+    return [(None, line(0), points), (None, f"labels offset 0,1 textcolor rgb '{GREY}'", points)]
+
+
+def draw_growth_cells():
+    points = growth("growth_cells")
+    plot(FIGURES / "growth_cells.svg", "set logscale xy\nset xrange [1e3:2e6]\nset yrange [0.1:10]\nset xlabel 'cells'\n"
+         "set ylabel 'microseconds a cell and step'\nset format x '%.0f'", labelled(points), (640, 400))
+
+
+def draw_growth_examples():
+    # k + 1 on the axis, so that none has a place on it
+    points = growth("growth_examples")
+    ticks = ", ".join(f"'{count:.0f}' {count + 1:.0f}" for count, _ in points)
+    plot(FIGURES / "growth_examples.svg", f"set logscale x\nset xrange [0.8:100]\nset xtics ({ticks})\nset yrange [0:16]\n"
+         "set xlabel 'examples beside the rest pose'\nset ylabel 'time of a step, without examples 1'",
+         labelled([(count + 1, ratio) for count, ratio in points]), (640, 400))
+
+
+def main():
+    shown = [name for name in STUDIES if any(f"figures/{name}.svg" in page.read_text() for page in PAGES)]
+    makers = {"space": draw_space, "growth_cells": draw_growth_cells, "growth_examples": draw_growth_examples}
+    for name in sys.argv[1:] or [*shown, *makers]:
+        makers.get(name, lambda: draw_study(name))()
+
+
+if __name__ == "__main__":
+    main()
