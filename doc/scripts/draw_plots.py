@@ -6,10 +6,9 @@ Usage: python3 doc/scripts/draw_plots.py [NAME]...      all, if none is named; D
 
 NAME is space, growth_cells, growth_examples or a study of which a page shows the plot.
 """
-import csv
 import sys
 
-from plots import GREY, MARKS, PALETTE, curves, gnuplot, line, plot, plot_study
+from plots import BLACK, MARKS, PALETTE, curves, gnuplot, line, plot, plot_study
 from study_tables import ELEMENTS, FIGURES, FILES, PAGES, STUDIES, axes, error, read, space_runs
 
 SPACE_BODIES = {"bar": "bar under its weight", "cook": "Cook's membrane", "cat": "cat", "horse": "horse"}
@@ -63,30 +62,28 @@ def draw_space():
     gnuplot(FIGURES / "space.svg", (width, total), "set termoption enhanced\n" + "\n".join(commands))
 
 
-def growth(name):
-    with open(FILES / f"{name}.csv", newline="") as file:
-        rows = [tuple(map(float, row)) for row in list(csv.reader(file))[1:]]
-    return rows
-
-
-def labelled(points):
-    """A curve with its numbers on it."""
-    return [(None, line(0), points), (None, f"labels offset 0,1 textcolor rgb '{GREY}'", points)]
+def labelled(title, style, points):
+    """A curve with its numbers above it."""
+    return [(title, style, points), (None, f"labels offset 0,1 textcolor rgb '{BLACK}'", points)]
 
 
 def draw_growth_cells():
-    points = growth("growth_cells")
+    rows, lines = read("growth_cells"), []
+    for number, dilatation in enumerate(("cells", "patches")):
+        points = [(float(row["cells"]), 1e3 * float(row["ms_step"]) / float(row["cells"])) for row in rows
+                  if row["dilatation"] == dilatation]
+        lines.append((f"Dilatation = {dilatation}", line(number), points))
     plot(FIGURES / "growth_cells.svg", "set logscale xy\nset xrange [1e3:2e6]\nset yrange [0.1:10]\nset xlabel 'cells'\n"
-         "set ylabel 'microseconds a cell and step'\nset format x '%.0f'", labelled(points), (640, 400))
+         "set ylabel 'microseconds a cell and step'\nset format x '%.0f'", lines, (640, 420))
 
 
 def draw_growth_examples():
+    points = [(float(row["examples"]), float(row["ratio"])) for row in read("growth_examples")]
     # k + 1 on the axis, so that none has a place on it
-    points = growth("growth_examples")
     ticks = ", ".join(f"'{count:.0f}' {count + 1:.0f}" for count, _ in points)
     plot(FIGURES / "growth_examples.svg", f"set logscale x\nset xrange [0.8:100]\nset xtics ({ticks})\nset yrange [0:16]\n"
          "set xlabel 'examples beside the rest pose'\nset ylabel 'time of a step, without examples 1'",
-         labelled([(count + 1, ratio) for count, ratio in points]), (640, 400))
+         labelled(None, line(0), [(count + 1, ratio) for count, ratio in points]), (640, 420))
 
 
 def main():

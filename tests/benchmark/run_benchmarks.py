@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measure the steps of the benchmark scenes, print a table, draw how costs grow, compare with the baseline.
+"""Measure the steps of the benchmark scenes, print a table, write how costs grow, compare with the baseline.
 
 Usage: python3 tests/benchmark/run_benchmarks.py [--large] [--steps N] [--repeats N] [--set 'Section/Key=value']...
                                                  [--program FILE] [--output DIRECTORY] [--write-baseline] [SCENE]...
@@ -10,14 +10,14 @@ each scene only. --set applies to all scenes.
 A number is the median of three runs. The unit is one CHOLMOD factorisation and one solve of the scene's own matrix, so
 ratios to it can be compared between machines. Errors are those of each step against the step solved to 1e-11 from the
 same state, relative to its greatest displacement, and come from a run of their own. The whole results, results.json,
-and the plots go to DIRECTORY (output/benchmarks). baseline.json, beside this file, holds ratios only. The exit status
-is 1 if a run failed, otherwise 0, whatever got slower.
+and how costs grow, growth_cells.csv and growth_examples.csv, go to DIRECTORY (output/benchmarks); those in doc/studies
+are what doc/scripts/draw_plots.py draws. baseline.json, beside this file, holds ratios only. The exit status is 1 if a
+run failed, otherwise 0, whatever got slower.
 """
 import argparse
+import csv
 import json
-import shutil
 import statistics
-import subprocess
 import sys
 from pathlib import Path
 
@@ -36,8 +36,7 @@ WITHOUT_REFERENCE = ["cat_one_pass", LARGE_SCENE]
 REFERENCE_STEPS = {"bar100k": 10}
 BAR_BRICKS = [4, 8, 16]  # of the bar 4:1:1 along its short sides, with 24 n^3 tetrahedra
 LARGE_BAR_BRICKS = 35
-LARGE_STEPS = 5
-LARGE_SETTINGS = {"Solver/Linear solver": "iterative"}  # a factor takes too much memory
+DILATATIONS = ["cells", "patches"]
 EXAMPLE_COUNTS = [0, 1, 4, 16, 64]
 PARTS = ["evaluate", "assemble", "factorize", "solve", "output"]
 WORSE = 1.15
@@ -106,21 +105,18 @@ def measure_scene(options, scene, failures):
     return result
 
 
-def measure_growth_with_cells(options, results, failures):
-    """Bars of growing numbers of cells: {cells: result}."""
-    sizes = {}
-    for n in BAR_BRICKS + ([LARGE_BAR_BRICKS] if options.large else []):
-        large = n == LARGE_BAR_BRICKS
-        print(f"bar of {24 * n**3} cells ...", file=sys.stderr, flush=True)
-        if n == 16 and results.get("bar100k"):
-            result = results["bar100k"]
-        else:
-            flags = ["--no-unit", *steps_flags(options.steps, LARGE_STEPS)] if large else []
+def measure_growth_with_cells(options, failures):
+    """Bars of growing numbers of cells, each dilatation, with the linear solver that auto takes: {(dilatation, cells): result}."""
+    results = {}
+    for dilatation in DILATATIONS:
+        for n in BAR_BRICKS + ([LARGE_BAR_BRICKS] if options.large else []):
+            print(f"bar of {24 * n**3} cells, {dilatation} ...", file=sys.stderr, flush=True)
             result = measure(options, "bar100k", failures, {
-                "Mesh/Box cells": f"{4 * n}, {n}, {n}", **(LARGE_SETTINGS if large else {})}, flags)
-        if result is not None:
-            sizes[result["cells"]] = result
-    return sizes
+                "Mesh/Box cells": f"{4 * n}, {n}, {n}", "Model/Dilatation": dilatation, "Solver/Linear solver": "auto"},
+                             ["--no-unit"] if n == LARGE_BAR_BRICKS else [])
+            if result is not None:
+                results[dilatation, result["cells"]] = result
+    return results
 
 
 def pose_functions(count):
@@ -169,6 +165,10 @@ def of_best(result, value, best):
     return f"{number(result[value])} ({result[value] / result[best]:.0%})"
 
 
+def bar_name(dilatation, count):
+    return f"bar {count} {dilatation}"
+
+
 def row(name, result):
     steps = max(result["steps"], 1)
     error = number(result.get("worst_error"), 2)
@@ -193,7 +193,7 @@ def print_table(rows):
 
 
 def print_results(results, cells, examples):
-    named = {**results, **{f"bar, {count:,} cells": result for count, result in cells.items()},
+    named = {**results, **{bar_name(*key): result for key, result in cells.items()},
              **{f"cat_mid60, {count} examples": result for count, result in examples.items()}}
     if not named:
         return
@@ -209,47 +209,21 @@ def print_results(results, cells, examples):
     print(".\n")
 
 
-def plot(file, points, title, xlabel, ylabel, commands):
-    """Draw (x, y) as SVG."""
-    data = "\n".join(f"{x} {y}" for x, y in points)
-    script = f"""set terminal svg size 640,400 background "white" font "sans,13"
-set output "{file}"
-set title "{title}"
-set xlabel "{xlabel}"
-set ylabel "{ylabel}"
-set grid
-set yrange [0:*]
-set offsets 0, 0, graph 0.12, 0
-{commands}
-$data << end
-{data}
-end
-plot $data using 1:2 with linespoints linewidth 2 pointtype 7 notitle, \\
-     $data using 1:2:(sprintf("%.3g", $2)) with labels offset 0,1 notitle
-"""
-    subprocess.run(["gnuplot"], input=script, text=True, check=True)
+def write_csv(file, head, rows):
+    with open(file, "w", newline="") as out:
+        csv.writer(out, lineterminator="\n").writerows([head, *rows])
     print(f"wrote {file}")
 
 
-def draw(directory, cells, examples):
-    if not (cells or examples):
-        return
-    if shutil.which("gnuplot") is None:
-        print("No plots: gnuplot is missing. On Debian: apt install gnuplot-nox")
-        return
-    cells = {count: result for count, result in cells.items() if "failed_step" not in result}
+def write_growths(directory, cells, examples):
+    """Processor time, as the machine may be shared; of examples the time over that without."""
     if cells:
-        plot(directory / "growth_cells.svg",
-             [(count, 1e3 * result["mean_step_ms"] / count) for count, result in cells.items()],
-             "A bar that falls under its weight", "cells", "microseconds a cell and step",
-             "set logscale xy\nset xrange [1e3:2e6]\nset yrange [0.1:100]")
+        write_csv(directory / "growth_cells.csv", ["dilatation", "cells", "ms_step"],
+                  [(*key, f"{result['mean_step_cpu_ms']:.4g}") for key, result in cells.items() if "failed_step" not in result])
     ratios = example_ratios(examples)
     if ratios:
-        # k + 1 on the axis, so that none has a place on it
-        ticks = ", ".join(f'"{count}" {int(count) + 1}' for count in ratios)
-        plot(directory / "growth_examples.svg", [(int(count) + 1, ratio) for count, ratio in ratios.items()],
-             "The cat with examples", "examples beside the rest pose", "time of a step, without examples 1",
-             f"set logscale x\nset xrange [0.8:100]\nset xtics ({ticks})")
+        write_csv(directory / "growth_examples.csv", ["examples", "ratio"],
+                  [(count, f"{ratio:.4g}") for count, ratio in ratios.items()])
 
 
 def example_ratios(examples):
@@ -263,7 +237,7 @@ def example_ratios(examples):
 def ratios_of(results, cells, examples):
     """What a baseline holds: {name: {what: ratio}}; no times, which depend on the machine."""
     ratios = {}
-    for name, result in {**results, **{f"bar {count}": result for count, result in cells.items()}}.items():
+    for name, result in {**results, **{bar_name(*key): result for key, result in cells.items()}}.items():
         if "failed_step" in result:
             continue
         entry = {"steps": result["steps"], "share": share(result)}
@@ -330,14 +304,14 @@ def main():
     options, failures = parse_arguments(), Failures()
     results = {name: measure_scene(options, name, failures) for name in options.names if name not in GROWTHS}
     results = {name: result for name, result in results.items() if result is not None}
-    cells = measure_growth_with_cells(options, results, failures) if "growth-cells" in options.names else {}
+    cells = measure_growth_with_cells(options, failures) if "growth-cells" in options.names else {}
     examples = measure_growth_with_examples(options, failures) if "growth-examples" in options.names else {}
 
     options.output.mkdir(parents=True, exist_ok=True)
-    everything = {"scenes": results, "cells": cells, "examples": examples}
+    everything = {"scenes": results, "cells": {bar_name(*key): result for key, result in cells.items()}, "examples": examples}
     (options.output / "results.json").write_text(json.dumps(everything, indent=1) + "\n")
     print_results(results, cells, examples)
-    draw(options.output, cells, examples)
+    write_growths(options.output, cells, examples)
     report_baseline(options, ratios_of(results, cells, examples))
     sys.exit(bool(failures.seen))
 
