@@ -8,7 +8,7 @@ NAME is space, growth_cells, growth_examples or a study of which a page shows th
 """
 import sys
 
-from plots import BLACK, MARKS, PALETTE, curves, gnuplot, line, plot, plot_study
+from plots import MARKS, PALETTE, curves, gnuplot, line, plot, plot_study
 from study_tables import ELEMENTS, FIGURES, FILES, PAGES, STUDIES, axes, error, read, space_runs
 
 SPACE_BODIES = {"bar": "bar under its weight", "cook": "Cook's membrane", "cat": "cat", "horse": "horse"}
@@ -62,17 +62,12 @@ def draw_space():
     gnuplot(FIGURES / "space.svg", (width, total), "set termoption enhanced\n" + "\n".join(commands))
 
 
-def labelled(title, style, points):
-    """A curve with its numbers above it."""
-    return [(title, style, points), (None, f"labels offset 0,1 textcolor rgb '{BLACK}'", points)]
-
-
 def draw_growth_cells():
     rows, lines = read("growth_cells"), []
-    for number, dilatation in enumerate(("cells", "patches")):
+    for number, (dilatation, title) in enumerate((("cells", "Dilatation = cells"), ("patches", "Dilatation = patches, the default"))):
         points = [(float(row["cells"]), 1e3 * float(row["ms_step"]) / float(row["cells"])) for row in rows
                   if row["dilatation"] == dilatation]
-        lines.append((f"Dilatation = {dilatation}", line(number), points))
+        lines.append((title, line(number), points))
     plot(FIGURES / "growth_cells.svg", "set logscale xy\nset xrange [1e3:2e6]\nset yrange [0.1:10]\nset xlabel 'cells'\n"
          "set ylabel 'microseconds a cell and step'\nset format x '%.0f'", lines, (640, 420))
 
@@ -83,7 +78,7 @@ def draw_growth_examples():
     ticks = ", ".join(f"'{count:.0f}' {count + 1:.0f}" for count, _ in points)
     plot(FIGURES / "growth_examples.svg", f"set logscale x\nset xrange [0.8:100]\nset xtics ({ticks})\nset yrange [0:16]\n"
          "set xlabel 'examples beside the rest pose'\nset ylabel 'time of a step, without examples 1'",
-         labelled(None, line(0), [(count + 1, ratio) for count, ratio in points]), (640, 420))
+         [(None, line(0), [(count + 1, ratio) for count, ratio in points])], (640, 420))
 
 
 def main():
