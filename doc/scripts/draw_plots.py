@@ -9,7 +9,7 @@ NAME is space, growth_cells, growth_examples or a study of which a page shows th
 import sys
 
 from plots import MARKS, PALETTE, curves, gnuplot, line, plot, plot_study
-from study_tables import ELEMENTS, FIGURES, FILES, PAGES, STUDIES, axes, error, read, space_runs
+from study_tables import ELEMENTS, FIGURES, FILES, PAGES, STUDIES, axes, error, own_limit, read, space_runs
 
 SPACE_BODIES = {"bar": "bar under its weight", "cook": "Cook's membrane", "cat": "cat", "horse": "horse"}
 SPACE_NUS = ("0.3", "0.499")
@@ -27,12 +27,6 @@ def draw_study(name):
     words = [key for key in axes(rows) if not all(is_number(row[key]) for row in rows)]
     plot_study(FIGURES / f"{name}.svg",
                [(tuple(row[key] for key in words), float(row["seconds_median"]), error(row)) for row in rows])
-
-
-def own_limit(body, mesh, element, runs):
-    """Is this run the limit against which it would be held? Cat and horse take theirs from quadratic elements, on the finest mesh from
-    the same ones."""
-    return body in ("cat", "horse") and element == "P2, patches" and mesh == runs[-1][0]
 
 
 def space_panel(body, nu):
