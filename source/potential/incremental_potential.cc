@@ -155,6 +155,21 @@ namespace Exemplar
       evaluation.term_energies.push_back(energy);
       evaluation.potential += energy;
     }
+    if (held_back.part == 0.)
+      return;
+    Vector displacement = positions;
+    displacement -= held_back.positions;
+    evaluation.gradient.add(-held_back.part, held_back.gradient);
+    evaluation.potential
+        -= held_back.part * free_dofs.exchange().product(held_back.gradient, displacement);
+  }
+
+  void
+  IncrementalPotential::hold_back(const Vector &gradient, const Vector &positions)
+  {
+    held_back = { 1., Vector(gradient.size()), positions };
+    for (const unsigned int dof : free_dofs.local_list())
+      held_back.gradient[dof] = gradient[dof];
   }
 
   void

@@ -16,9 +16,42 @@ namespace Exemplar
   {
     constexpr unsigned int max_halvings_of_increment = 6;
 
-    /// As many times the maximum of iterations are allowed where halving an increment cannot help,
-    /// because the potential falls in each.
-    constexpr unsigned int patience = 20;
+    /// As many times the maximum of iterations may be used by a step that cannot be halved.
+    constexpr unsigned int patience    = 8;
+    constexpr double       least_stage = 1e-12;
+
+    /// Do it; a SolverFailure becomes a status of the report.
+    template <typename Work>
+    void
+    try_to(const Work &work, SolveReport &report)
+    {
+      report.status = SolveStatus::initial;
+      try
+      {
+        work();
+      }
+      catch (const SolverFailure &failure)
+      {
+        report.status  = SolveStatus::failed;
+        report.failure = failure.what();
+      }
+    }
+
+    /// Lets go what it holds back, also where a step is interrupted.
+    struct HoldBack
+    {
+      IncrementalPotential &potential;
+
+      HoldBack(IncrementalPotential &potential, const Vector &gradient, const Vector &positions)
+          : potential(potential)
+      {
+        potential.hold_back(gradient, positions);
+      }
+      ~HoldBack()
+      {
+        potential.let_go();
+      }
+    };
 
   } // namespace
 
@@ -63,32 +96,80 @@ namespace Exemplar
   {
     Trial trial     = start;
     bool  can_halve = false;
-    report.status   = SolveStatus::initial;
-    try
-    {
-      can_halve = halvings < max_halvings_of_increment && is_driven(start.state, time);
-      predict(start, time, halvings == 0, trial, evaluation);
-      iterate((can_halve ? 1 : patience) * parameters.maximum_iterations, trial, evaluation,
-              report);
-    }
-    catch (const SolverFailure &failure)
-    {
-      report.status  = SolveStatus::failed;
-      report.failure = failure.what();
-    }
+    try_to(
+        [&]
+        {
+          can_halve = halvings < max_halvings_of_increment && is_driven(start.state, time);
+          predict(start, time, halvings == 0, trial, evaluation);
+          iterate((can_halve ? 1 : patience) * parameters.maximum_iterations, trial, evaluation,
+                  report);
+        },
+        report);
     if (report.status == SolveStatus::converged)
     {
       start = std::move(trial);
       return true;
     }
     start.linearization = {}; // the factor is that of a failed trial
-    if (!can_halve)           // but a dynamic step can begin elsewhere: see predict()
-      return halvings == 0 && potential.inertial_positions() != nullptr
-             && advance(start, evaluation, time, halvings + 1, report);
+    if (!can_halve)
+      return halvings == 0 && report.status != SolveStatus::iteration_limit
+             && raise_forces(start, evaluation, time, report);
     // from the same state again, with half the way of handles, loads and weights
     const double middle = 0.5 * (start.state.time + time);
     return advance(start, evaluation, middle, halvings + 1, report)
            && advance(start, evaluation, time, halvings + 1, report);
+  }
+
+  bool
+  Newton::raise_forces(Trial &start, Evaluation &evaluation, const double time, SolveReport &report)
+  {
+    const unsigned int most   = patience * parameters.maximum_iterations;
+    double             raised = 0., stage = 0.;
+    try_to(
+        [&]
+        {
+          potential.set_time(time, start.state);
+          evaluate(start.state, evaluation);
+          stage = first_stage(start.state, evaluation, report);
+        },
+        report);
+    const HoldBack held(potential, evaluation.gradient, start.state.positions);
+    while (raised < 1. && stage > least_stage && report.iterations < most)
+    {
+      const double to    = std::min(1., raised + stage);
+      Trial        trial = start;
+      potential.set_held_back(1. - to);
+      try_to(
+          [&]
+          {
+            evaluate(trial.state, evaluation);
+            iterate(std::min(parameters.maximum_iterations, most - report.iterations), trial,
+                    evaluation, report);
+          },
+          report);
+      ++report.load_stages;
+      if (report.status == SolveStatus::converged)
+      {
+        start  = std::move(trial);
+        raised = to;
+        stage *= 2.;
+      }
+      else
+        stage /= 4.;
+    }
+    return raised == 1.;
+  }
+
+  double
+  Newton::first_stage(const State &start, const Evaluation &evaluation, SolveReport &report)
+  {
+    BorderedVector step;
+    if (!find_step(start, evaluation, step, report))
+      return 0.125;
+    const Exchange &exchange = potential.get_free_dofs().exchange();
+    const Vector    moved    = system.displacement(start, step);
+    const double    most     = exchange.max(max_entry(moved.begin(), moved.end()));
+    return std::min(1., 0.25 * extent(start.positions, exchange) / most);
   }
 
   bool

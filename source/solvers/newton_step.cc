@@ -64,14 +64,19 @@ namespace Exemplar
     for (unsigned int halving = 0; halving < max_halvings_of_step; ++halving)
     {
       try_length(std::pow(0.5, halving));
-      if (!is_better({ potential, evaluation }, before, length * slope))
+      const Merit now(potential, evaluation);
+      if (!is_better(now, before, length * slope)
+          && !is_better_by_slopes(now, before, slope, system.slope(evaluation, step), length))
         continue;
       // the convex tangent is too stiff near a saddle: go on as long as it goes down
       double reached = evaluation.potential;
       while (report.convexity > 0. && length >= 1. && length < max_step_length)
       {
         try_length(2. * length);
-        if (!(evaluation.potential < reached))
+        const bool still_falls = is_below_rounding(before, slope)
+                                     ? system.slope(evaluation, step) < 0.
+                                     : evaluation.potential < reached;
+        if (!still_falls)
         {
           try_length(0.5 * length);
           break;

@@ -71,6 +71,23 @@ namespace Exemplar
     void
     add_terms(const Vector &positions, Evaluation &evaluation) const;
 
+    /// Until let_go(), add -part f.(x - x_0) with the forces f [N] and the positions x_0 at which the
+    /// gradient is f: for part = 1 the body is at rest there. `part` is that of set_held_back().
+    void
+    hold_back(const Vector &gradient, const Vector &positions);
+
+    void
+    set_held_back(const double part)
+    {
+      held_back.part = part;
+    }
+
+    void
+    let_go()
+    {
+      held_back = {};
+    }
+
     /// The matrix A and the columns G: exact for convexity 0, convex for 1, a mixture between.
     void
     assemble(const Vector              &positions,
@@ -149,6 +166,12 @@ namespace Exemplar
     }
 
   private:
+    struct HeldBack
+    {
+      double part = 0.;
+      Vector gradient, positions;
+    };
+
     void
     assemble_tangent(Tangent                    tangent,
                      const Vector              &positions,
@@ -162,6 +185,7 @@ namespace Exemplar
     const ExampleWeights                             *weights; ///< null without examples
     TimeIntegrator                                   *integrator;
     const FreeDofs                                   &free_dofs;
+    HeldBack                                          held_back;
     bool                                              in_dynamic_step = false;
   };
 } // namespace Exemplar

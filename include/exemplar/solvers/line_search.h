@@ -23,6 +23,18 @@ namespace Exemplar
   /// promised.
   bool
   is_better(const Merit &now, const Merit &before, double change_expected);
+
+  /// Whether such a change of the potential is too near its rounding to be seen.
+  bool
+  is_below_rounding(const Merit &before, double change_expected);
+
+  /// The same where the change is too small to be seen: by the slopes at both ends of a step of that
+  /// length, of which half the sum is the mean slope of a quadratic function (the approximate Wolfe
+  /// condition of Hager and Zhang, SIAM J. Optim. 16, 2005). Off a saddle point the potential falls
+  /// and the gradient grows, which is_better() would refuse.
+  bool
+  is_better_by_slopes(
+      const Merit &now, const Merit &before, double slope_before, double slope_now, double length);
 } // namespace Exemplar
 
 #endif

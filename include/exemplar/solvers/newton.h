@@ -14,7 +14,7 @@ namespace Exemplar
   /// best ones at every evaluation. Steps come from the exact tangent; where that is indefinite,
   /// from a mixture with the convex one. A line search makes each a descent. Where a step does not
   /// converge, handles, loads and prescribed weights go half the way first. Where none of them
-  /// moves, it goes on as long as the potential falls.
+  /// moves, what acts on the body at the step's start is raised from nothing, in stages.
   class Newton : public StepSolver
   {
   public:
@@ -77,6 +77,16 @@ namespace Exemplar
             double       time,
             unsigned int halvings,
             SolveReport &report);
+
+    /// Go to `time` in stages, each the start of the next. In the first ones nearly all of the
+    /// forces that are not in balance at `start` are held back. They are few where these forces
+    /// move the body little.
+    bool
+    raise_forces(Trial &start, Evaluation &evaluation, double time, SolveReport &report);
+
+    /// The part of its forces that would move the body by a quarter of its extent, were it linear.
+    double
+    first_stage(const State &start, const Evaluation &evaluation, SolveReport &report);
 
     /// Whether handles, loads or prescribed weights have another place or value at `time`, so that
     /// half the way there is another problem.

@@ -39,6 +39,7 @@ namespace Exemplar
     std::vector<double> residual_history;  ///< one entry an iteration
     double              step_length = 1.;  ///< of the last step, as the line search left it
     double              convexity   = 0.;  ///< of the last tangent: 0 exact, 1 convex
+    unsigned int        load_stages = 0;   ///< in which the forces were raised within the step
     std::string         failure;           ///< why, if the status is `failed` or `indefinite`
   };
 
