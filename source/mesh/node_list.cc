@@ -73,7 +73,8 @@ namespace Exemplar
           throw UserError(key + ": " + in_quotes(word) + " in " + file.string()
                           + " is no node number of " + mesh_name
                           + (number == 0.
-                                 ? ", whose nodes are counted from " + std::to_string(least) + "."
+                                 ? ", whose nodes are counted from " + std::to_string(least)
+                                       + ": add " + std::to_string(least) + " to all."
                                  : ".")
                           + remedy);
         nodes.insert(found->second);

@@ -58,7 +58,9 @@ namespace Exemplar
 
     /// What to say of a wrong number of formulas.
     std::string
-    remedy_of_number(const std::vector<std::string> &texts, const unsigned int n_components)
+    remedy_of_number(const std::vector<std::string> &texts,
+                     const unsigned int              n_components,
+                     const bool                      are_of_places)
     {
       if (texts.empty())
         return " Is there a ';' or '|' too many?";
@@ -66,7 +68,7 @@ namespace Exemplar
         return " Remove the ';' at the end.";
       if (texts.size() == 1 && has_outer_comma(texts[0]))
         return " Commas do not separate formulas.";
-      if (texts.size() < n_components && n_components == 3)
+      if (texts.size() < n_components && are_of_places)
         return " They are for x, y and z; write 0 where nothing is.";
       return "";
     }
@@ -136,7 +138,7 @@ namespace Exemplar
           key + " = '" + text + "' has " + std::to_string(parsers->texts.size())
           + (parsers->texts.size() == 1 ? " formula, but needs " : " formulas, but needs ")
           + std::to_string(n_components) + ", separated by ';'."
-          + remedy_of_number(parsers->texts, n_components));
+          + remedy_of_number(parsers->texts, n_components, variables != "t"));
     parsers->parsers.resize(n_components);
     for (unsigned int i = 0; i < n_components; ++i)
     {

@@ -158,8 +158,8 @@ namespace Exemplar
                + " stands alone. A value with blanks needs quotes, and no blanks around the '=': "
                  "--set \"Section/Key=value\".";
       if (second.find('=') != std::string::npos)
-        return in_quotes(second) + " stands alone. Values of a scene are given by --set "
-               + in_quotes(second) + ".";
+        return in_quotes(second) + " stands alone. Values of a scene are given by --set \""
+               + printable(second) + "\".";
       return "Two scenes are given, " + in_quotes(first) + " and " + in_quotes(second)
              + ". A run has one; exemplar study runs one with many settings.";
     }

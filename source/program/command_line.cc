@@ -65,7 +65,9 @@ Exit status:
       app.add_flag("--resume", arguments.run.resume,
                    "go on from the checkpoint in the output directory");
       add_number_option(app, "--resume-from", arguments.run.resume_from, 0U, 1000000000U,
-                        "go on from the state of this step, also with an edited scene");
+                        "go on from the state of this step, also with an edited scene",
+                        "It is the number of a step, as in the column step of statistics.csv; "
+                        "--output names the run's directory. ");
       add_number_option(app, "--threads", arguments.run.n_threads, 1U, 1024U,
                         "threads instead of one a core (one in each of several processes); results "
                         "do not depend on it");

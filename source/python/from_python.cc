@@ -193,7 +193,8 @@ namespace Exemplar::Python
     {
       if (value < 0 || value > std::numeric_limits<unsigned int>::max())
         throw UserError(what + " has " + std::to_string(value)
-                        + ", which is not allowed. Allowed: indices from 0.");
+                        + ", which is not allowed. Allowed: indices from 0; if 1 was subtracted "
+                          "from such ones, add it to all.");
       return static_cast<unsigned int>(value);
     }
 

@@ -204,6 +204,17 @@ namespace Exemplar
       return {};
     }
 
+    Warning
+    review_step(const Problem &problem)
+    {
+      const TimeParameters &time = problem.parameters.time;
+      if (problem.actions.mass == nullptr || time.step <= time.end * (1. + 1e-12))
+        return {};
+      return "Time/Step = " + shortest_text(time.step)
+             + " is longer than Time/End = " + shortest_text(time.end) + ": one step is made, of "
+             + shortest_text(time.end) + " s. Take a smaller Time/Step or a greater Time/End.";
+    }
+
     /// The formulas of a scene by their keys.
     std::map<std::string, std::string>
     formulas_of(const SceneParameters &scene)
@@ -307,7 +318,8 @@ namespace Exemplar
     if (masses_matter(problem))
       found.insert(found.end(), { review_density(measures), review_stiffness(measures),
                                   review_weight(problem, measures) });
-    found.insert(found.end(), { review_motion(problem), review_angles(problem, measures) });
+    found.insert(found.end(), { review_motion(problem), review_step(problem),
+                                review_angles(problem, measures) });
     std::vector<std::string> warnings;
     for (const Warning &warning : found)
       if (warning)

@@ -314,6 +314,10 @@ class Outputs(SceneTest):
             ({**pulled, motion: "0; 0; sin(90*t)"}, ["sin(90*t) goes up to 14.3 turns", "write 90*pi/180."]),
             ({**pulled, motion: "300*t; 0; 0"}, ["150 m in a step, 61.2 times the size of the body (2.45 m)"]),
             ({**pulled, motion: "100*t; 0; 0", "Time/Increments": "50"}, ["up to 100 m, 40.8 times"]),
+            ({**BAR, "Time/Step": "0.1"}, ["Time/Step = 0.1 does nothing", "in Time/Increments = 2 steps", "Scene = dynamic"]),
+            ({**BAR, "Scene": "dynamic", "Time/Step": "0.5", "Time/End": "0.2"}, ["Time/Step = 0.5 is longer than Time/End = 0.2: one step"]),
+            ({**BAR, "Scene": "dynamic", "Handles/left/Select": "sphere 0 -.5 -.5 .1"}, ["'left' holds a single node", "Select by 1.75 m"]),
+            ({**BAR, "Scene": "dynamic", "Handles/left/Select": "sphere 0 -.5 -.5 1.85"}, []),
             (BAR, []),
             ({**pulled, "Material/Density": "1", "Material/Young's modulus": "1"}, []),  # nothing depends on them
             ({**pulled, motion: "0; 0; sin(90*pi/180*t)"}, []),

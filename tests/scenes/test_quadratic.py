@@ -148,7 +148,7 @@ class QuadraticElements(SceneTest):
 
     def test_meshes_of_ten_node_tetrahedra(self):
         rest = read_msh(self.solve({**BAR, **P2, "Scene": "dynamic", "Time/Increments": None, "Time/Step": "1e-9",
-                                    "Time/End": "1e-9"}, output="box") / "final.msh")
+                                    "Time/End": "1e-9", "Time/Step": "1e-9"}, output="box") / "final.msh")
         exact = rest._replace(nodes={n: tuple(round(c, 6) for c in x) for n, x in rest.nodes.items()})
         write_msh(self.directory / "ten.msh", exact)
         scene = {**BAR, **P2, "Mesh/Generator": None, "Mesh/Box size": None, "Mesh/Box cells": None, "Mesh/File": "ten.msh"}

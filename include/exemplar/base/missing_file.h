@@ -9,9 +9,14 @@ namespace Exemplar
 {
   /// What may be wrong with the name of a file that cannot be opened: quotes, ~, a pattern,
   /// several names in one, a directory that there is not, or a name that is nearly that of a file
-  /// beside. One sentence that begins with a blank, or nothing.
+  /// beside, other than that of `not_meant`. One sentence that begins with a blank, or nothing.
   std::string
-  missing_file_remedy(const std::filesystem::path &file);
+  missing_file_remedy(const std::filesystem::path &file,
+                      const std::filesystem::path &not_meant = {});
+
+  /// Throws UserError for a pose that there is not; `rest` is the body at rest, which it is not.
+  void
+  require_pose(const std::filesystem::path &pose, const std::filesystem::path &rest);
 } // namespace Exemplar
 
 #endif
