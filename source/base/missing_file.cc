@@ -115,7 +115,9 @@ namespace Exemplar
   {
     std::error_code ignored;
     if (!fs::exists(pose, ignored))
-      throw UserError(pose.string() + ": cannot be opened (No such file or directory). Give the name of a pose."
+      throw UserError(pose.string()
+                      + ": cannot be opened (No such file or directory). Give the name of a pose: "
+                        "a .msh file, or a surface."
                       + missing_file_remedy(pose, rest));
   }
 } // namespace Exemplar

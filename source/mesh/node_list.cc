@@ -25,7 +25,7 @@ namespace Exemplar
     bool
     is_list(const std::string &name)
     {
-      return name.find_first_not_of("0123456789 ,") == std::string::npos;
+      return name.find_first_not_of("0123456789 ,-:") == std::string::npos;
     }
 
     /// Reads a list of nodes; messages begin with `key`.

@@ -53,20 +53,40 @@ namespace Exemplar
     }
 
     std::vector<double>
-    numbers(const Words &words, const unsigned int n, const std::string &key)
+    parse_numbers(const std::string &text, bool &are_all)
     {
-      std::istringstream  in(words.rest);
+      std::istringstream  in(text);
       std::vector<double> values;
       for (double value; in >> value;)
         values.push_back(value);
-      if (!in.eof() || values.size() != n)
+      are_all = in.eof();
+      return values;
+    }
+
+    /// n numbers as they are written, out of those with commas; empty for other texts.
+    std::string
+    remedy_of_numbers(const Words &words, const unsigned int n)
+    {
+      static const std::regex decimal_comma("(\\d),(\\d)");
+      bool                    are_all = false;
+      for (const std::string &rest :
+           { words.rest, std::regex_replace(words.rest, decimal_comma, "$1.$2") })
+        if (const std::string text = usual_form("", rest);
+            parse_numbers(text, are_all).size() == n && are_all)
+          return " Did you mean '" + words.kind + text + "'?";
+      return "";
+    }
+
+    std::vector<double>
+    numbers(const Words &words, const unsigned int n, const std::string &key)
+    {
+      bool       are_all = false;
+      const auto values  = parse_numbers(words.rest, are_all);
+      if (!are_all || values.size() != n)
         throw UserError(key + "/Select = '" + words.kind + " " + words.rest + "': '" + words.kind
-                        + "' takes " + std::to_string(n) + " numbers"
-                        + (words.rest.find(',') == std::string::npos
-                               ? ""
-                               : ", separated by blanks, with points as decimal signs: '"
-                                     + usual_form(words.kind, words.rest) + "'")
-                        + ". Allowed: " + forms + ".");
+                        + "' takes " + std::to_string(n)
+                        + " numbers, separated by blanks, with points as decimal signs."
+                        + remedy_of_numbers(words, n) + " Allowed: " + forms + ".");
       return values;
     }
 
@@ -94,6 +114,8 @@ namespace Exemplar
       const std::string text = words.kind + " " + words.rest;
       if (const std::string box = box_of(trim(text)); !box.empty())
         return " A part of space is selected by a box around it. Did you mean '" + box + "'?";
+      if (text.find_first_not_of("0123456789 ,") == std::string::npos)
+        return " Node numbers stand in a file: 'nodes FILE' names it.";
       const std::size_t n_letters = std::min(
           words.kind.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"),
           words.kind.size());
@@ -105,9 +127,7 @@ namespace Exemplar
                                          { "face", "boundary" },
                                          { "volume", "region" },
                                          { "material", "region" },
-                                         { "node", "nodes" },
-                                         { "ball", "sphere" },
-                                         { "cube", "box" } })
+                                         { "node", "nodes" } })
         if (is_near(letters, other))
           return " Did you mean '" + usual_form(kind, text.substr(n_letters)) + "'?";
       const std::string kind = nearest_word(

@@ -65,6 +65,8 @@ namespace Exemplar
                                  : " These words are written in small letters.";
       if (std::regex_match(line, comment))
         return " A comment begins with #.";
+      if (line[0] == '{' || line[0] == '<' || line[0] == '$')
+        return " This looks like a file of another kind, not like a scene or a study.";
       if (starts_with_word(line, "include"))
         return " Scenes do not include others: copy its lines, or give values by --set.";
       if (std::regex_match(line, parts, section))

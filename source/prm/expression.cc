@@ -80,6 +80,8 @@ namespace Exemplar
       const std::vector<std::pair<std::string, std::string>> habits
           = { { "\\*\\*", "Powers are written x^2." },
               { "\\b(np|numpy|math|std|Math)\\b", "Functions have no prefix: sin(t)." },
+              { "\\bdeg(rees?)?\\b|\xC2\xB0", "Angles are in radians: 90 degrees are 90*pi/180." },
+              { "\\b(heaviside|Heaviside|step) *\\(", "A step is written t > 0.5 ? 1 : 0." },
               { "(^|[^a-zA-Z0-9_.])[0-9.]+ *(?![eE][-+0-9])[a-zA-Z(]",
                 "Products are written 2*t." },
               { "\\bif *\\(", "A choice is written c ? a : b." },
@@ -87,7 +89,7 @@ namespace Exemplar
               { "\\btime\\b|\\bT\\b", "The time is t." },
               { "\\b[XYZ]\\b", "Coordinates are x, y, z, in small letters." },
               { "\\b(mod|fmod)\\b|%", "t modulo 1 is t - floor(t)." },
-              { "^[\\[({]|[\\])}]$", "No brackets stand around the formulas." },
+              { "^[\\[({][^\\])}]*$|^[^\\[({]*[\\])}]$", "No brackets stand around the formulas." },
               { "\xE2\x88\x92|\xE2\x80\x93", "The sign of minus is -, not a dash." },
               { "\xC2\xB2|\xC2\xB3", "Powers are written x^2." },
               { "\xC2\xB7|\xC3\x97", "The sign of products is *." },

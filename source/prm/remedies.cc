@@ -63,6 +63,16 @@ namespace Exemplar
       return contains ? 1 : is_near(a, b) ? edit_distance(a, b) : far;
     }
 
+    std::string
+    keys_of(const std::string &section, const std::vector<DeclaredKey> &keys)
+    {
+      std::string names;
+      for (const DeclaredKey &key : keys)
+        if (split_path(key.path()).section == section)
+          names += (names.empty() ? "" : ", ") + key.key;
+      return names;
+    }
+
     /// The keys that are nearest: by their names first, then by their sections.
     std::vector<std::string>
     nearest_keys(const Path &written, const std::vector<DeclaredKey> &keys)
@@ -72,9 +82,11 @@ namespace Exemplar
       for (const DeclaredKey &key : keys)
       {
         const std::size_t distance = name_distance(written.key, key);
-        if (distance == far)
-          continue;
-        const std::string section = split_path(key.path()).section;
+        const std::string section  = split_path(key.path()).section;
+        if (distance == far
+            || (distance > 0 && section != written.section
+                && !keys_of(written.section, keys).empty()))
+          continue;            // who names another section means a key of it
         const std::size_t cost // names of sections have less than 100 letters
             = 100 * distance
               + (written.section.empty() ? 0 : edit_distance(written.section, section));
@@ -88,20 +100,15 @@ namespace Exemplar
     }
 
     std::string
-    keys_of(const std::string &section, const std::vector<DeclaredKey> &keys)
-    {
-      std::string names;
-      for (const DeclaredKey &key : keys)
-        if (split_path(key.path()).section == section)
-          names += (names.empty() ? "" : ", ") + key.key;
-      return names;
-    }
-
-    std::string
     section_in_words(const std::string &section, const std::vector<DeclaredKey> &keys)
     {
       const std::string names = section.empty() ? "" : keys_of(section, keys);
-      return names.empty() ? "" : "Section " + section + " has the keys " + names + ". ";
+      return names.empty() ? ""
+                           : "Section " + section + " has the keys " + names
+                                 + (names.find("Names") == std::string::npos
+                                        ? ". "
+                                        : "; what Names lists has keys of its own, in a subsection "
+                                          "each. ");
     }
 
     // What common mistakes become when they are undone.
@@ -130,7 +137,10 @@ namespace Exemplar
       std::string                    names;
       for (const std::string &word : split_trimmed(value, ','))
       {
-        const std::string nearest = nearest_word(word, choices);
+        std::string nearest = nearest_word(word, choices);
+        for (const std::string &choice : choices) // Newton-Raphson
+          if (nearest.empty() && letters(word).find(letters(choice)) != std::string::npos)
+            nearest = choice;
         if (nearest.empty())
           return "";
         names += (names.empty() ? "" : ", ") + nearest;
@@ -153,7 +163,7 @@ namespace Exemplar
     {
       char digits[32];
       std::snprintf(digits, sizeof(digits), "%.12g", number);
-      return replaced(shortest_text(parse_number(digits)), "\\+", "");
+      return replaced(shortest_text(parse_number(digits)), "e\\+0*", "e");
     }
 
     /// The share of one that a percentage is; empty for other texts.
@@ -244,21 +254,27 @@ namespace Exemplar
     changes(const DeclaredKey &key, const std::string &value)
     {
       const std::string point = "The decimal sign is a point.";
-      return { { replaced(value, "^[\"'](.*)[\"']$", "$1"), "Values have no quotes." },
-               { replaced(value, "\\s*[;,]$", ""), "No sign ends a line." },
-               { replaced(value, "\\s*//.*", ""), "A comment begins with #." },
-               { replaced(value, "^([^,]*),([^,]*)$", "$1.$2"), point },
-               { replaced(value, "(\\d),(\\d)", "$1.$2"), point },
-               { replaced(value, "\\s*[;x*]\\s*|\\s+", ", "), "Separate them by commas." },
-               { replaced(value, "^\\s*[\\[({](.*)[\\])}]\\s*$", "$1"), "No brackets are needed." },
-               { whole(value), "Write all digits." },
-               { nearest_choices(key, value), "" },
-               { truth(value), "" },
-               { share(value), "It is a share of 1, not of 100." },
-               { without_units(key, value), "Write the number alone, in " + unit_of(key) + "." },
-               { std::isnan(parse_number(value)) ? computed(value) : "",
-                 "No formula is allowed here." },
-               { replaced(value, "^-\\s*", ""), "It cannot be negative." } };
+      return {
+        { replaced(value, "^[\"'](.*)[\"']$", "$1"), "Values have no quotes." },
+        { replaced(value, "\\s*[;,]$", ""), "No sign ends a line." },
+        { replaced(value, "\\s*(//|;).*", ""), "A comment begins with #." },
+        { std::regex_match(value, std::regex("[1-9]\\d{0,2}([,_' ]\\d{3})+"))
+              ? replaced(value, "[,_' ]", "")
+              : "",
+          "Digits are not grouped, and the decimal sign is a point." },
+        { replaced(value, "^([-+.\\d]+)[dD]([-+]?\\d+)$", "$1e$2"), "Powers of ten have an e." },
+        { replaced(value, "^([^,]*),([^,]*)$", "$1.$2"), point },
+        { replaced(value, "(\\d),(\\d)", "$1.$2"), point },
+        { replaced(value, "\\s*[;x*]\\s*|\\s+", ", "), "Separate them by commas." },
+        { replaced(value, "^\\s*[\\[({](.*)[\\])}]\\s*$", "$1"), "No brackets are needed." },
+        { whole(value), "Write all digits." },
+        { nearest_choices(key, value), "" },
+        { truth(value), "" },
+        { share(value), "It is a share of 1, not of 100." },
+        { without_units(key, value), "Write the number alone, in " + unit_of(key) + "." },
+        { std::isnan(parse_number(value)) ? computed(value) : "", "No formula is allowed here." },
+        { replaced(value, "^-\\s*", ""), "It cannot be negative." }
+      };
     }
 
     bool
@@ -312,6 +328,8 @@ namespace Exemplar
                   + (option_value.empty() ? "'" + nearest[i] + "'"
                                           : "--set \"" + nearest[i] + option_value + "\"");
       remedy += "? ";
+      if (split_path(nearest[0]).section != written.section)
+        remedy += section_in_words(written.section, keys);
     }
     else
       remedy += section_in_words(keys_of(usual, keys).empty() ? written.section : usual, keys);

@@ -78,6 +78,11 @@ namespace Exemplar
     void
     check_files(const PoseOptions &options)
     {
+      if (options.output.extension() == ".msh")
+        throw UserError("--output " + options.output.string()
+                        + ": the name is that of a file, but poses are written "
+                          "to a directory, each as NAME.msh by the name of its surface. Give the "
+                          "name of a directory.");
       if (is_surface_file(options.mesh) && !is_surface_file(options.rest))
         throw UserError("--mesh " + options.mesh.string() + " and --rest " + options.rest.string()
                         + " seem to be swapped: --mesh takes the tetrahedra (.msh), --rest the "

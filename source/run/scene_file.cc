@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/mesh/map_name.h>
+#include <exemplar/run/ignored_keys.h>
 #include <exemplar/run/named_subsections.h>
 #include <exemplar/run/scene_file.h>
 #include <exemplar/surface/numbered_files.h>
@@ -176,7 +177,8 @@ namespace Exemplar
       keys.set("Output/Directory",
                "output/" + std::filesystem::path(parameters.name).stem().string());
     parameters.check();
-    note_ignored(assignments);
+    if (text.empty() || find_assignment(overrides, "Scene") == nullptr) // else the rest may stay
+      parameters.warnings = warn_of_ignored_keys(parameters, keys, assignments);
   }
 
   std::filesystem::path
@@ -271,27 +273,6 @@ namespace Exemplar
     require("Weights", "prescribed", given.weights == parameters.examples.weights);
     if (given.prescribed_weights.empty())
       keys.set("Examples/Prescribed weights", parameters.examples.prescribed_weights);
-  }
-
-  void
-  SceneFile::note_ignored(const std::vector<Assignment> &assignments)
-  {
-    const auto n_scenes = std::count_if(assignments.begin(), assignments.end(),
-                                        [](const Assignment &a) { return a.path() == "Scene"; });
-    if (parameters.scene == SceneKind::dynamic
-        || n_scenes > 1) // who overrides Scene keeps the rest
-      return;
-    const TimeParameters standard; // which parameters.prm holds, too
-    for (const auto &[key, is_standard] :
-         { std::pair("Time/Step", parameters.time.step == standard.step),
-           { "Time/End", parameters.time.end == standard.end } })
-      if (const Assignment *given = find_assignment(assignments, key);
-          given != nullptr && !is_standard)
-        parameters.warnings.push_back(
-            given->place + ": " + key + " = " + given->value
-            + " does nothing in a scene that is not dynamic: its t goes from 0 to 1 in "
-              "Time/Increments = "
-            + keys.get("Time/Increments") + " steps. Remove it, or set Scene = dynamic.");
   }
 
   std::vector<DeclaredKey>

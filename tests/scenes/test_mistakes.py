@@ -66,6 +66,11 @@ SCENES = {
                            "Examples/Prescribed weights": "1-t; t"}, ["2 weights for 3 examples", "example 2 (pose function '1.2*x; y; z') lacks one"]),
     "negative step": ({**DYNAMIC, "Time/Step": "-0.01"}, ["cannot be negative", "'0.01'"]),
     "negative density": ({**BAR, "Material/Density": "-1000"}, ["cannot be negative", "'1000'"]),
+    "digits in groups": ({**BAR, "Material/Density": "1,000"}, ["not grouped", "Did you mean '1000'?"]),
+    "power of Fortran": ({**BAR, "Material/Density": "1D3"}, ["have an e", "'1e3'"]),
+    "comment behind a semicolon": ({**BAR, "Material/Density": "1000 ; kg"}, ["comment begins with #", "'1000'"]),
+    "formula for a number": ({**BAR, "Material/Density": "10^3"}, ["No formula", "'1000'"]),
+    "longer name of a choice": ({**BAR, "Solver/Method": "Newton-Raphson"}, ["Did you mean 'newton'?"]),
     "percent": ({**FREE, "Examples/Importance": "50%"}, ["share of 1", "'0.5'"]),
     "Poisson's ratio in percent": ({**BAR, "Material/Poisson's ratio": "49"}, ["share of 1", "'0.49'"]),
     "integer as a power": ({**BAR, "Time/Increments": "1e2"}, ["all digits", "'100'"]),
@@ -81,6 +86,9 @@ SCENES = {
     "other apostrophe": ({**BAR, "Material/Young’s modulus": "1e6"}, ["Did you mean 'Material/Young's modulus'"]),
     "key of another section": ({**DYNAMIC, "Solver/Step": ".1"}, ["Did you mean 'Time/Step'"]),
     "old key": ({**BAR, "Output/Format": "vtu"}, ["Did you mean 'Output/Formats'"]),
+    "key of another section by name": ({**BAR, "Handles/left/Velocity": "0; 0; 1"}, ["'Initial/Velocity'", "Section Handles/left has the keys Select"]),
+    "key of no section": ({**DYNAMIC, "Time/Start": "0"}, ["Section Time has the keys Scheme, Step"]),
+    "key that is in named sections": ({**BAR, "Loads/Force": "0; 0; 1"}, ["has keys of its own, in a subsection each"]),
     "key that is far from all": ({**LOADED, "Loads/tip/Pressure": "5"}, ["Loads/tip has the keys Select, Force"]),
     "handle outside of Handles": ({**BAR, "left/Motion": "0; 0; t"}, ["Did you mean 'Handles/left/Motion'"]),
     "section misspelt": ({**BAR, "Handle/left/Motion": "0; 0; t"}, ["Did you mean 'Handles/left/Motion'"]),
@@ -116,6 +124,8 @@ SCENES = {
     "power of Python": (left(Motion="t**2; 0; 0"), ["written x^2"]),
     "numpy": (left(Motion="np.sin(t); 0; 0"), ["no prefix"]),
     "product without a sign": (left(Motion="2t; 0; 0"), ["written 2*t"]),
+    "degrees": (left(Motion="sin(90 deg*t); 0; 0"), ["in radians", "90*pi/180"]),
+    "step function": (left(Motion="heaviside(t-.5); 0; 0"), ["t > 0.5 ? 1 : 0"]),
     "capital T": (left(Motion="T; 0; 0"), ["time is t"]),
     "Pi": (left(Motion="Pi*t; 0; 0"), ["written pi"]),
     "if": (left(Motion="if(t>.5, 1, 0); 0; 0"), ["c ? a : b"]),
@@ -125,6 +135,10 @@ SCENES = {
     "minus of a typesetter": (left(Motion="0; 0; −t"), ["minus is -"]),
     # selections
     "box by commas": (left(Select="box 0, -1, -1, .1, 1, 1"), ["6 numbers", "separated by blanks", "'box 0 -1 -1 .1 1 1'"]),
+    "box with decimal commas": (left(Select="box 0,0 -1,5 -1,5 0,1 1,5 1,5"), ["Did you mean 'box 0.0 -1.5 -1.5 0.1 1.5 1.5'?"]),
+    "components together": (left(Components="xz"), ["such as 'x, z'"]),
+    "numbers alone": (left(Select="1 2 3"), ["'nodes FILE' names it"]),
+    "range of nodes": (left(Select="nodes 1-5"), ["stand in a file"]),
     "box in brackets": (left(Select="box(0,-1,-1,.1,1,1)"), ["Did you mean 'box 0 -1 -1 .1 1 1'?"]),
     "kind with a capital": (left(Select="Boundary 1"), ["Did you mean 'boundary 1'?"]),
     "inequality": (left(Select="x < .1"), ["selected by a box", "Did you mean 'box -1e9 -1e9 -1e9 .1 1e9 1e9'?"]),
@@ -143,7 +157,7 @@ SCENES = {
     "home directory": ({**FILE, "Mesh/File": "~/bar.msh"}, ["Neither ~ nor $"]),
     "backslash": ({**FILE, "Mesh/File": "C:\\meshes\\bar.msh"}, ["separated by /", "Windows", "/mnt/c/meshes/bar.msh"]),
     "ending left out": ({**FILE, "Mesh/File": "bar"}, ["Did you mean bar.msh?"]),
-    "missing pose": ({**FILE, "Mesh/File": "bar.msh", "Examples/Poses": "ber.msh"}, ["Examples/Poses: ", "/ber.msh: cannot be opened", "name of a pose.\n"]),
+    "missing pose": ({**FILE, "Mesh/File": "bar.msh", "Examples/Poses": "ber.msh"}, ["Examples/Poses: ", "/ber.msh: cannot be opened", "name of a pose: a .msh file, or a surface.\n"]),
     "missing pose to follow": (left(**{"Follow pose": "smal.msh"}), ["Handles/left/Follow pose: ", "Did you mean small.msh?"]),
     "missing directory": ({**FILE, "Mesh/File": "meshes/bar.msh"}, ["There is no directory", "/meshes."]),
     "poses by blanks": ({**FILE, "Mesh/File": "bar.msh", "Examples/Poses": "bar.msh other.msh"}, ["by commas"]),
@@ -212,6 +226,11 @@ COMMANDS = [
     (["scene.prm", "--output", ""], ["--output is empty"]),
     (["scene.prm", "--output", "a", "--output", "b"], ["--output is given twice"]),
     (["scene.prm", "other.prm"], ["Two scenes are given", "'other.prm'"]),
+    (["help"], ["neither a scene nor a command", "--help lists commands"]),
+    (["broken"], ["is the directory of a run", "exemplar broken/parameters.prm"]),
+    (["validate", "scene.prm"], ["Did you mean '--validate'?"]),
+    (["scene.prm", "--resume", "a directory"], ["is a directory", "given by --output \"a directory\""]),
+    (["from0.json"], ["looks like a file of another kind"]),
     (["run", "scene.prm"], ["no command 'run'", "exemplar SCENE.prm"]),
     (["meshes", "--surface", "cube.obj"], ["no command 'meshes'", "Did you mean 'mesh'"]),
     (["stduy", "scene.prm"], ["no command 'stduy'", "Did you mean 'study'"]),
@@ -226,7 +245,8 @@ COMMANDS = [
     (["scene.prm", "--resume-from", "out/frame_0001.vtu"], ["number of a step", "--output names"]),
     (["pose", "--mesh", "cube.obj", "--rest", "bar.msh", "--pose", "cube.obj", "--output", "p"], ["swapped", "--mesh takes the tetrahedra"]),
     (["pose", "--mesh", "cube.obj", "--rest", "cube.obj", "--pose", "cube.obj", "--output", "p"], ["is a surface", "exemplar mesh --surface cube.obj"]),
-    (["pose", "--mesh", "bar.msh", "--rest", "cube.obj", "--pose", "cube_.obj", "--output", "p"], ["cube_.obj: cannot be opened", "name of a pose.\n"]),
+    (["pose", "--mesh", "bar.msh", "--rest", "cube.obj", "--pose", "cube_.obj", "--output", "p"], ["cube_.obj: cannot be opened", "name of a pose: a .msh file, or a surface.\n"]),
+    (["pose", "--mesh", "bar.msh", "--rest", "cube.obj", "--pose", "cube.obj", "--output", "p.msh"], ["Give the name of a directory"]),
     (["verify", "patchh"], ["Did you mean 'patch'", "--list"]),
     ([*MESH, "--cell", "100", "--output", "m.msh"], ["exemplar mesh has no option '--cell'", "'--cells'"]),
     ([*MESH, "--cells", "100", "-o", "m.msh"], ["no option '-o'", "'--output'"]),
@@ -256,6 +276,7 @@ class Mistakes(BadInputTest):
     def setUp(self):
         super().setUp()
         self.write("from0.txt", "0\n1\n2\n")
+        self.write("from0.json", "{}\n")
         write_obj(self.directory / "cube.obj", *cube())
 
     def test_scenes(self):

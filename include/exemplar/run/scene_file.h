@@ -92,10 +92,6 @@ namespace Exemplar
     void
     set_interpolation(const std::vector<Assignment> &assignments, const ExampleParameters &given);
 
-    /// Warn of what `assignments` set of Time that this kind of scene does not look at.
-    void
-    note_ignored(const std::vector<Assignment> &assignments);
-
     const std::filesystem::path file;
     const std::string           text;
     SceneParameters             parameters;
