@@ -111,13 +111,12 @@ namespace Exemplar
   }
 
   void
-  require_pose(const fs::path &pose, const fs::path &rest)
+  require_file(const fs::path &file, const std::string &what, const fs::path &not_meant)
   {
     std::error_code ignored;
-    if (!fs::exists(pose, ignored))
-      throw UserError(pose.string()
-                      + ": cannot be opened (No such file or directory). Give the name of a pose: "
-                        "a .msh file, or a surface."
-                      + missing_file_remedy(pose, rest));
+    if (!fs::exists(file, ignored))
+      throw UserError(file.string()
+                      + ": cannot be opened (No such file or directory). Give the path of " + what
+                      + "." + missing_file_remedy(file, not_meant));
   }
 } // namespace Exemplar

@@ -244,7 +244,8 @@ namespace Exemplar
              + conversion(format->way, name) + ".";
     case Way::msh:
       return what
-             + ", not a surface. It needs no filling: name it by Mesh/File, with the ending .msh.";
+             + ", not a surface. It needs no filling: a scene names it by Mesh/File or, if it is a "
+               "pose, by Examples/Poses, with the ending .msh.";
     case Way::cad:
     case Way::geo:
       return what + ". Make a surface of it: gmsh -2 " + quoted(name) + " -o "

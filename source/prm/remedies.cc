@@ -257,6 +257,7 @@ namespace Exemplar
       return {
         { replaced(value, "^[\"'](.*)[\"']$", "$1"), "Values have no quotes." },
         { replaced(value, "\\s*[;,]$", ""), "No sign ends a line." },
+        { replaced(value, "\\s*;?\\s*\\bset .*", ""), "A line sets one key." },
         { replaced(value, "\\s*(//|;).*", ""), "A comment begins with #." },
         { std::regex_match(value, std::regex("[1-9]\\d{0,2}([,_' ]\\d{3})+"))
               ? replaced(value, "[,_' ]", "")
@@ -280,8 +281,11 @@ namespace Exemplar
     bool
     is_number_with_unit(const std::string &value)
     {
-      static const std::regex pattern("[-+]?[0-9.]+([eE][-+]?[0-9]+)? *[A-Za-z].*");
-      return std::isnan(parse_number(value)) && std::regex_match(value, pattern);
+      char *end = nullptr;
+      std::strtod(value.c_str(), &end);
+      const std::string rest = trim(end);
+      return end != value.c_str() && !rest.empty()
+             && std::isalpha(static_cast<unsigned char>(rest[0])) != 0;
     }
 
     std::string

@@ -173,7 +173,7 @@ namespace Exemplar
     check_files(options);
     std::vector<PoseFile> poses = plan(options);
     for (const PoseFile &pose : poses)
-      require_pose(pose.file, options.rest);
+      require_file(pose.file, "a pose: an .obj, .ply or .stl file", options.rest);
     const Mesh        mesh(read_msh(options.mesh), options.mesh.string());
     const RestSurface rest(options.rest);
     for (PoseFile &pose : poses)

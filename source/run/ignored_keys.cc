@@ -66,6 +66,10 @@ namespace Exemplar
           warnings.push_back(first->place + ": " + key.path() + " = " + first->value
                              + " does nothing " + kind.why);
       }
+    for (const LoadParameters &load : scene.loads.named)
+      if (load.force == LoadParameters().force)
+        warnings.push_back("Loads/" + load.name + " does nothing: its Force is " + load.force
+                           + ". Set Loads/" + load.name + "/Force, or remove it from Loads/Names.");
     return warnings;
   }
 } // namespace Exemplar

@@ -28,6 +28,8 @@ namespace Exemplar
       void
       read()
       {
+        if (is_to_be_filled(scene.mesh))
+          require_file(scene.mesh.file, "a surface: an .obj, .ply or .stl file");
         for_each_pose([this](const std::string &file) { check(file); });
         if (scene.needs_surface())
           add_surface();
@@ -71,7 +73,8 @@ namespace Exemplar
       void
       check(const std::string &file)
       {
-        require_pose(file, is_surface_file(file) ? scene.mesh.surface_file() : scene.mesh.file);
+        require_file(file, "a pose: a .msh file, or a surface",
+                     is_surface_file(file) ? scene.mesh.surface_file() : scene.mesh.file);
         if (is_surface_file(file))
           surfaces.read_pose(file);
       }

@@ -177,7 +177,9 @@ namespace Exemplar
       keys.set("Output/Directory",
                "output/" + std::filesystem::path(parameters.name).stem().string());
     parameters.check();
-    if (text.empty() || find_assignment(overrides, "Scene") == nullptr) // else the rest may stay
+    const auto is_overridden = [&](const std::string &key)
+    { return !text.empty() && find_assignment(overrides, key) != nullptr; };
+    if (!is_overridden("Scene") && !is_overridden("Mesh/Generator")) // else the rest may stay
       parameters.warnings = warn_of_ignored_keys(parameters, keys, assignments);
   }
 

@@ -164,7 +164,7 @@ class Outputs(SceneTest):
 
     def test_every_column_and_key_is_in_the_manual(self):
         manual = set(re.findall(r"`([\w.]+)`", (REPOSITORY / "doc/output.md").read_text()))
-        dynamic = {**DYNAMIC, "Loads/Names": "tip", "Loads/tip/Select": "boundary 2"}
+        dynamic = {**DYNAMIC, "Loads/Names": "tip", "Loads/tip/Select": "boundary 2", "Loads/tip/Force": "0; 0; t"}
         for scene in (dynamic, {**dynamic, "Examples/Weights per region": "true"}):
             output = self.solve(scene)
             for column in read_csv(output)[0]:
@@ -318,6 +318,8 @@ class Outputs(SceneTest):
             ({**BAR, "Initial/Velocity": "0; 0; 1"}, ["Initial/Velocity = 0; 0; 1 does nothing in a scene that is not dynamic"]),
             ({**BAR, "Scene": "dynamic"}, ["Time/Increments = 2 does nothing in a dynamic scene"]),
             ({**BAR, "Examples/Importance": "0.5"}, ["Examples/Importance = 0.5 does nothing without examples"]),
+            ({**BAR, "Loads/Names": "tip", "Loads/tip/Select": "boundary 2"}, ["Loads/tip does nothing: its Force is 0; 0; 0."]),
+            ({**BAR, "Material/Density": "7.8"}, ["density of 7.8 kg/m^3", "1000 are one g/cm^3"]),
             ({**BAR, "Mesh/Cells": "500"}, ["Mesh/Cells = 500 does nothing unless Mesh/File is a surface"]),
             ({**BAR, "Examples/Importance": "0"}, []),
             ({**BAR, "Scene": "dynamic", "Time/Increments": None, "Time/Step": "0.5", "Time/End": "0.2"}, ["Time/Step = 0.5 is longer than Time/End = 0.2: one step"]),

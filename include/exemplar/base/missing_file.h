@@ -14,9 +14,12 @@ namespace Exemplar
   missing_file_remedy(const std::filesystem::path &file,
                       const std::filesystem::path &not_meant = {});
 
-  /// Throws UserError for a pose that there is not; `rest` is the body at rest, which it is not.
+  /// Throws UserError for a file that there is not; it should be `what`, and is not `not_meant`. For
+  /// files that are read where their directory cannot be listed, too.
   void
-  require_pose(const std::filesystem::path &pose, const std::filesystem::path &rest);
+  require_file(const std::filesystem::path &file,
+               const std::string           &what,
+               const std::filesystem::path &not_meant = {});
 } // namespace Exemplar
 
 #endif
