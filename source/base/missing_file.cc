@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
 #include <exemplar/base/missing_file.h>
 #include <exemplar/base/nearest_word.h>
 
 #include <algorithm>
+#include <cctype>
 #include <vector>
 
 namespace Exemplar
@@ -25,6 +27,17 @@ namespace Exemplar
       return point != std::string::npos && holds(name.substr(point), " ");
     }
 
+    /// Where Linux in Windows has C:\\directory\\file.
+    std::string
+    path_in_wsl(const std::string &path)
+    {
+      std::string linux_path = "/mnt/";
+      linux_path += static_cast<char>(std::tolower(static_cast<unsigned char>(path[0])));
+      linux_path += path.substr(2);
+      std::replace(linux_path.begin(), linux_path.end(), '\\', '/');
+      return linux_path;
+    }
+
     /// The first directory on the way to a file that there is not; empty if all are there.
     fs::path
     missing_directory(const fs::path &file)
@@ -37,9 +50,9 @@ namespace Exemplar
       return missing;
     }
 
-    /// The name in a directory that is nearest to a name; empty if none is near.
-    std::string
-    near_name(const fs::path &file)
+    /// The names in the directory of a file.
+    std::vector<std::string>
+    names_beside(const fs::path &file)
     {
       constexpr std::size_t    most = 2000; // who has more files in a directory waits no longer
       std::vector<std::string> names;
@@ -49,12 +62,28 @@ namespace Exemplar
            entry != end && names.size() < most; entry.increment(ignored))
         names.push_back(entry->path().filename().string());
       std::sort(names.begin(), names.end()); // directories have no order of their own
-      return nearest_word(file.filename().string(), names);
+      return names;
+    }
+
+    /// The name in a directory that is nearest to a name; empty if none is near. An ending that is
+    /// right does not make names nearer; one that is missing does not make them farther.
+    std::string
+    near_name(const fs::path &file, const fs::path &not_meant)
+    {
+      std::vector<std::string> names = names_beside(file);
+      for (const std::string &name : names)
+        if (name == file.filename().string() + fs::path(name).extension().string())
+          return name;
+      names.erase(std::remove(names.begin(), names.end(), not_meant.filename().string()),
+                  names.end());
+      const std::string near        = nearest_word(file.filename().string(), names);
+      const bool        is_near_too = is_near(file.stem().string(), fs::path(near).stem().string());
+      return is_near_too ? near : "";
     }
   } // namespace
 
   std::string
-  missing_file_remedy(const fs::path &file)
+  missing_file_remedy(const fs::path &file, const fs::path &not_meant)
   {
     const std::string name = file.string();
     std::error_code   ignored;
@@ -64,6 +93,10 @@ namespace Exemplar
       return " Names of files are written without quotes.";
     if (holds(name, "/~") || name[0] == '~' || holds(name, "$"))
       return " Neither ~ nor $ is replaced here: write the path in full.";
+    if (const std::size_t colon = name.find(":\\"); colon != std::string::npos && colon > 0)
+      return " It is a path of Windows: directories are separated by /, not by \\, and there is no "
+             "drive. In WSL it is "
+             + path_in_wsl(name.substr(colon - 1)) + ".";
     if (holds(name, "\\"))
       return " Directories are separated by /, not by \\.";
     if (name.find_first_of("*?") != std::string::npos)
@@ -72,8 +105,18 @@ namespace Exemplar
       return " Names of files are separated by commas.";
     if (const fs::path directory = missing_directory(file); !directory.empty())
       return " There is no directory " + directory.string() + ".";
-    if (const std::string near = near_name(file); !near.empty())
+    if (const std::string near = near_name(file, not_meant); !near.empty())
       return " Did you mean " + near + "?";
     return "";
+  }
+
+  void
+  require_file(const fs::path &file, const std::string &what, const fs::path &not_meant)
+  {
+    std::error_code ignored;
+    if (!fs::exists(file, ignored))
+      throw UserError(file.string()
+                      + ": cannot be opened (No such file or directory). Give the path of " + what
+                      + "." + missing_file_remedy(file, not_meant));
   }
 } // namespace Exemplar

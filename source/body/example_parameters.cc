@@ -13,13 +13,12 @@ namespace Exemplar
 {
   namespace
   {
-    const EnumTable<ExampleEnergy> energies
-        = { { ExampleEnergy::scaled, "scaled" },
-            { ExampleEnergy::blended, "blended" },
-            { ExampleEnergy::mixed, "mixed" } };
-    const EnumTable<WeightRule> weight_kinds = { { WeightRule::simplex, "simplex" },
-                                                 { WeightRule::free, "free" },
-                                                 { WeightRule::prescribed, "prescribed" } };
+    const EnumTable<ExampleEnergy> energies     = { { ExampleEnergy::scaled, "scaled" },
+                                                    { ExampleEnergy::blended, "blended" },
+                                                    { ExampleEnergy::mixed, "mixed" } };
+    const EnumTable<WeightRule>    weight_kinds = { { WeightRule::simplex, "simplex" },
+                                                    { WeightRule::free, "free" },
+                                                    { WeightRule::prescribed, "prescribed" } };
 
     /// sigma for "auto" and "paper", in units of sum E V.
     double
@@ -79,7 +78,7 @@ namespace Exemplar
     keys.add(
         "Weights", weights, weight_kinds,
         "simplex: minimise the energy over weights that sum to one and are not negative; free: "
-        "that sum to one, as the paper; prescribed: as given.");
+        "that sum to one, as the paper; prescribed: as Prescribed weights gives them.");
     keys.add("Prescribed weights", prescribed_weights,
              "One function of t for each example, the rest pose first where it is "
              "included, separated by ;. They sum to one. Empty in an interpolation between two "

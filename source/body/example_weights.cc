@@ -22,6 +22,15 @@ namespace Exemplar
         return 0.2;
       return energy == ExampleEnergy::blended ? 1. : 0.;
     }
+
+    std::string
+    names_of_examples(const ExamplePoses &poses)
+    {
+      std::string names;
+      for (unsigned int example = 0; example < poses.size(); ++example)
+        names += (example == 0 ? "" : " | ") + poses.name(example);
+      return names;
+    }
   } // namespace
 
   ExampleWeights::ExampleWeights(const ExampleParameters &parameters,
@@ -82,7 +91,15 @@ namespace Exemplar
                       + " Give one list for all"
                       + (are_per_region ? " or one for each region." : "."));
     for (const std::string &list : lists)
+    {
+      if (const std::size_t n = split_trimmed(list, ';').size(); n < poses.size())
+        throw UserError(key + " = '" + list + "' has " + std::to_string(n) + " weights for "
+                        + std::to_string(poses.size()) + " examples: example " + std::to_string(n)
+                        + " (" + poses.name(n)
+                        + ") lacks one. Write one for each, separated by ';'. The examples are "
+                        + names_of_examples(poses) + ".");
       prescribed.emplace_back(key, list, "t", poses.size());
+    }
   }
 
   void

@@ -23,11 +23,15 @@ namespace Exemplar
           components.insert(static_cast<unsigned int>(word[0] - 'x'));
         else
           components.insert(3);
+      std::string meant;
+      for (const std::string c : { "x", "y", "z" })
+        if (text.find(c) != std::string::npos)
+          meant += (meant.empty() ? "" : ", ") + c;
       if (components.empty() || components.count(3) == 1)
-        throw UserError(
-            key + "/Components = '" + text
-            + "' is not allowed. Allowed: some of x, y, z, separated by commas, such as "
-              "'x, y'.");
+        throw UserError(key + "/Components = '" + text
+                        + "' is not allowed. Allowed: some of x, y, z, separated by commas, such "
+                          "as '"
+                        + (meant.empty() ? "x, y" : meant) + "'.");
       return { components.begin(), components.end() };
     }
 

@@ -22,7 +22,8 @@ namespace Exemplar
       frame,
       scene,
       geo,
-      msh
+      msh,
+      data
     };
 
     struct Format
@@ -42,7 +43,10 @@ namespace Exemplar
         { "a Nastran file", Way::gmsh, { ".bdf", ".nas" }, {} },
         { "a Medit mesh", Way::gmsh, { ".mesh", ".meshb" }, { "MeshVersionFormatted" } },
         { "an Abaqus file", Way::meshio, { ".inp" }, { "*HEADING", "*Heading", "*NODE", "*Node" } },
-        { "a VTK XML file", Way::frame, { ".vtu", ".pvd", ".pvtu" }, { "<VTKFile", "<?xml" } },
+        { "a VTK XML file",
+          Way::frame,
+          { ".vtu", ".vtp", ".pvd", ".pvtu" },
+          { "<VTKFile", "<?xml" } },
         { "an XDMF file", Way::meshio, { ".xdmf", ".xmf" }, {} },
         { "a mesh of TetGen", Way::meshio, { ".node", ".ele" }, {} },
         { "a MED file", Way::meshio, { ".med" }, {} },
@@ -85,8 +89,12 @@ namespace Exemplar
           { "v ", "# Blender", "mtllib ", "o " } },
         { "a scene", Way::scene, { ".prm" }, { "set ", "subsection " } },
         { "a gmsh script", Way::geo, { ".geo" }, {} },
-        { "a mesh of tetrahedra", Way::msh, { ".msh" }, {} },
+        { "a mesh of tetrahedra", Way::msh, { ".msh" }, { "$MeshFormat" } },
         { "a mesh of Ansys", Way::meshio, { ".msh" }, { "(0 ", "(1 " } },
+        { "a JSON file", Way::data, { ".json" }, { "{", "[" } },
+        { "an array of numpy", Way::data, { ".npy", ".npz" }, { "\x93NUMPY" } },
+        { "an HDF5 file", Way::data, { ".h5", ".hdf5", ".mat" }, {} },
+        { "a table", Way::data, { ".csv", ".txt", ".dat" }, {} },
       };
       return all;
     }
@@ -155,7 +163,8 @@ namespace Exemplar
         return "Frames of exemplar are not read back: take the run's final.msh. Convert others: "
                + by_meshio;
       case Way::cad:
-        return "Mesh it: gmsh -3 " + old + " -format msh22 -o " + made;
+        return "Mesh it: gmsh -3 " + old + " -format msh22 -o " + made
+               + "; its lengths are mostly millimetres, of which Mesh/Scale = 0.001 makes metres";
       case Way::scene_of_others:
       case Way::surface:
         return "Export the object as .obj, .ply or .stl in the program that made it (Blender: "
@@ -170,6 +179,12 @@ namespace Exemplar
         return "Name the mesh here, not the scene";
       case Way::geo:
         return "gmsh makes a mesh of it if its name ends in .geo, in small letters";
+      case Way::data:
+        return "Meshes are read from .msh (gmsh 2.2 or 4.1) and .geo, surfaces from .obj, .ply and "
+               ".stl. Arrays are taken from Python: exemplar.Problem(scene, mesh=(nodes, cells)), "
+               "and meshio writes them as .msh: meshio.Mesh(nodes, [(\"tetra\", "
+               "cells)]).write(\""
+               + file.stem().string() + ".msh\", file_format=\"gmsh22\")";
       default:
         return "";
       }
@@ -207,19 +222,47 @@ namespace Exemplar
   }
 
   std::string
-  remedy_of_surface(const std::filesystem::path &file)
+  remedy_of_surface(const std::filesystem::path &file, const std::string_view bytes)
   {
-    const Format *const format = format_of_name(file);
-    if (format == nullptr || format->way == Way::packed || format->way == Way::scene)
+    const Format *const by_bytes = format_of_bytes(bytes);
+    const Format *const format   = by_bytes == nullptr ? format_of_name(file) : by_bytes;
+    if (format == nullptr)
+      return "";
+    const std::string what = "It is " + format->name;
+    const std::string name = with_right_name(*format, file).filename().string();
+    switch (format->way)
+    {
+    case Way::gmsh:
+    case Way::meshio:
+    case Way::frame:
+      return what
+             + ", not a surface that is read. If it holds a surface, write it as .ply in ParaView "
+               "(open "
+             + name
+             + ", Filters > Extract Surface, File > Save Data). A mesh of tetrahedra needs no "
+               "filling: Mesh/File names it, as .msh. "
+             + conversion(format->way, name) + ".";
+    case Way::msh:
+      return what
+             + ", not a surface. It needs no filling: a scene names it by Mesh/File or, if it is a "
+               "pose, by Examples/Poses, with the ending .msh.";
+    case Way::cad:
+    case Way::geo:
+      return what + ". Make a surface of it: gmsh -2 " + quoted(name) + " -o "
+             + quoted(file.stem().string() + ".stl") + ".";
+    case Way::data:
+      return what + ", not a surface.";
+    default:
       return remedy(format, file);
-    if (format->way == Way::gmsh || format->way == Way::meshio || format->way == Way::frame
-        || format->way == Way::msh)
-      return "It is " + format->name
-             + ", not a surface. A mesh of tetrahedra needs no filling: name it by Mesh/File.";
-    if (format->way == Way::cad || format->way == Way::geo)
-      return "It is " + format->name + ". Make a surface of it: gmsh -2 "
-             + quoted(file.filename().string()) + " -o " + quoted(file.stem().string() + ".stl")
-             + ".";
-    return remedy(format, file);
+    }
+  }
+
+  std::string
+  remedy_of_content(const std::filesystem::path &surface, const std::string_view bytes)
+  {
+    const Format *const format = format_of_bytes(bytes);
+    if (format == nullptr || format == format_of_name(surface))
+      return "";
+    return remedy_of_surface(surface, bytes);
   }
 } // namespace Exemplar

@@ -28,9 +28,10 @@ namespace Exemplar
     {
       for (const unsigned int node : nodes)
         if (node >= msh.nodes.size())
-          throw UserError(std::string("The mesh has ") + std::to_string(msh.nodes.size())
-                          + " nodes, but a " + find_msh_element_kind(type)->name + " has node "
-                          + std::to_string(node) + ". Nodes are counted from 0.");
+          throw UserError(
+              std::string("The mesh has ") + std::to_string(msh.nodes.size()) + " nodes, but a "
+              + find_msh_element_kind(type)->name + " has node " + std::to_string(node)
+              + ". Nodes are counted from 0: if these are from 1, subtract 1 from all.");
       const int id = static_cast<int>(tag);
       msh.elements.push_back(
           { msh.elements.size() + 1, type, id, id, { nodes.begin(), nodes.end() } });

@@ -224,7 +224,7 @@ namespace Exemplar
   MshScanner::fail_expected(const std::string &expected, const std::string_view found) const
   {
     // No complete file ends with a wrong word: this one is half a word.
-    if (position == bytes.size())
+    if (position == bytes.size() && bytes.find('$') != std::string::npos)
       fail_at_end();
     fail("expected " + expected + ", found " + in_quotes(found)
          + (section.empty() && counted.empty()

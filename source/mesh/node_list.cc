@@ -25,7 +25,7 @@ namespace Exemplar
     bool
     is_list(const std::string &name)
     {
-      return name.find_first_not_of("0123456789 ,") == std::string::npos;
+      return name.find_first_not_of("0123456789 ,-:") == std::string::npos;
     }
 
     /// Reads a list of nodes; messages begin with `key`.
@@ -73,7 +73,8 @@ namespace Exemplar
           throw UserError(key + ": " + in_quotes(word) + " in " + file.string()
                           + " is no node number of " + mesh_name
                           + (number == 0.
-                                 ? ", whose nodes are counted from " + std::to_string(least) + "."
+                                 ? ", whose nodes are counted from " + std::to_string(least)
+                                       + ": add " + std::to_string(least) + " to all."
                                  : ".")
                           + remedy);
         nodes.insert(found->second);

@@ -4,9 +4,12 @@
 #include <exemplar/mesh/mesh.h>
 #include <exemplar/mesh/physical_names.h>
 #include <exemplar/mesh/selection.h>
+#include <exemplar/prm/assignments.h>
 #include <exemplar/prm/key_table.h>
 
 #include <algorithm>
+#include <array>
+#include <regex>
 #include <set>
 #include <sstream>
 
@@ -35,36 +38,102 @@ namespace Exemplar
       return words;
     }
 
-    std::vector<double>
-    numbers(const Words &words, const unsigned int n, const std::string &key)
+    /// A selection as it is written, out of one with brackets, commas or capitals.
+    std::string
+    usual_form(const std::string &kind, std::string rest)
     {
-      std::istringstream  in(words.rest);
+      for (char &c : rest)
+        if (std::string("(),;:={}[]").find(c) != std::string::npos)
+          c = ' ';
+      std::istringstream in(rest);
+      std::string        text = kind;
+      for (std::string word; in >> word;)
+        text += " " + word;
+      return text;
+    }
+
+    std::vector<double>
+    parse_numbers(const std::string &text, bool &are_all)
+    {
+      std::istringstream  in(text);
       std::vector<double> values;
       for (double value; in >> value;)
         values.push_back(value);
-      if (!in.eof() || values.size() != n)
-        throw UserError(key + "/Select = '" + words.kind + " " + words.rest + "': '" + words.kind
-                        + "' takes " + std::to_string(n) + " numbers"
-                        + (words.rest.find(',') == std::string::npos
-                               ? ""
-                               : ", separated by blanks, with points as decimal signs")
-                        + ". Allowed: " + forms + ".");
+      are_all = in.eof();
       return values;
+    }
+
+    /// n numbers as they are written, out of those with commas; empty for other texts.
+    std::string
+    remedy_of_numbers(const Words &words, const unsigned int n)
+    {
+      static const std::regex decimal_comma("(\\d),(\\d)");
+      bool                    are_all = false;
+      for (const std::string &rest :
+           { words.rest, std::regex_replace(words.rest, decimal_comma, "$1.$2") })
+        if (const std::string text = usual_form("", rest);
+            parse_numbers(text, are_all).size() == n && are_all)
+          return " Did you mean '" + words.kind + text + "'?";
+      return "";
+    }
+
+    std::vector<double>
+    numbers(const Words &words, const unsigned int n, const std::string &key)
+    {
+      bool       are_all = false;
+      const auto values  = parse_numbers(words.rest, are_all);
+      if (!are_all || values.size() != n)
+        throw UserError(key + "/Select = '" + words.kind + " " + words.rest + "': '" + words.kind
+                        + "' takes " + std::to_string(n)
+                        + " numbers, separated by blanks, with points as decimal signs."
+                        + remedy_of_numbers(words, n) + " Allowed: " + forms + ".");
+      return values;
+    }
+
+    /// The box that an inequality means; empty for other texts.
+    std::string
+    box_of(const std::string &text)
+    {
+      static const std::regex inequality("([xyz]) *([<>])=? *([-+.0-9eE]+)");
+      std::smatch             parts;
+      if (text.size() > 100 || !std::regex_match(text, parts, inequality))
+        return "";
+      std::array<std::string, 6> box{ { "-1e9", "-1e9", "-1e9", "1e9", "1e9", "1e9" } };
+      const auto                 c            = static_cast<std::size_t>(parts.str(1)[0] - 'x');
+      box.at(parts.str(2) == "<" ? c + 3 : c) = parts.str(3);
+      std::string selection                   = "box";
+      for (const std::string &bound : box)
+        selection += " " + bound;
+      return selection;
     }
 
     /// What to say of a selection that is none.
     std::string
     remedy_of(const Words &words)
     {
-      const std::string letters = words.kind.substr(
-          0, words.kind.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"));
+      const std::string text = words.kind + " " + words.rest;
+      if (const std::string box = box_of(trim(text)); !box.empty())
+        return " A part of space is selected by a box around it. Did you mean '" + box + "'?";
+      if (text.find_first_not_of("0123456789 ,") == std::string::npos)
+        return " Node numbers stand in a file: 'nodes FILE' names it.";
+      const std::size_t n_letters = std::min(
+          words.kind.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"),
+          words.kind.size());
+      const std::string letters = words.kind.substr(0, n_letters);
       if (letters == "x" || letters == "y" || letters == "z")
         return " A part of space is selected by a box around it.";
+      for (const auto &[other, kind] : { std::pair("physical", "boundary"),
+                                         { "surface", "boundary" },
+                                         { "face", "boundary" },
+                                         { "volume", "region" },
+                                         { "material", "region" },
+                                         { "node", "nodes" } })
+        if (is_near(letters, other))
+          return " Did you mean '" + usual_form(kind, text.substr(n_letters)) + "'?";
       const std::string kind = nearest_word(
           letters, { "box", "sphere", "boundary", "region", "nodes", "vertex", "group", "map" });
-      if (kind.empty())
-        return "";
-      return " Did you mean '" + kind + "', followed by a blank?";
+      return kind.empty() ? ""
+                          : " Did you mean '" + usual_form(kind, text.substr(n_letters)) + "'?";
     }
 
     /// The id that a selection gives or names.
@@ -277,7 +346,10 @@ namespace Exemplar
       nodes.assign(on_faces.begin(), on_faces.end());
     }
     else if (words.kind.empty())
-      throw UserError(key + "/Select is not set. Allowed: " + forms + ".");
+      throw UserError(key + "/Select is not set. Write 'subsection " + key.substr(key.find('/') + 1)
+                      + "', 'set Select = boundary 1', 'end' in subsection "
+                      + key.substr(0, key.find('/'))
+                      + ", each in a line of its own. Allowed: " + forms + ".");
     else
       throw UserError(key + "/Select = '" + text + "' is not understood." + remedy_of(words)
                       + " Allowed: " + forms + ".");

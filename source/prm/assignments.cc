@@ -55,6 +55,7 @@ namespace Exemplar
       static const std::regex word("(set|subsection|end)\\b.*", std::regex::icase);
       static const std::regex comment("(//|;|%|--|/\\*).*");
       static const std::regex section("(?:section|\\[)\\s*(.+?)\\s*\\]?", std::regex::icase);
+      static const std::regex brace("([^=:]+?)\\s*\\{");
       static const std::regex value("([^=:]+?)\\s*[:=]\\s*(.*)");
       static const std::regex continued("[^=:]*[;,]|[-+.0-9(].*");
       std::smatch             parts;
@@ -65,9 +66,13 @@ namespace Exemplar
                                  : " These words are written in small letters.";
       if (std::regex_match(line, comment))
         return " A comment begins with #.";
+      if (line[0] == '{' || line[0] == '<' || line[0] == '$')
+        return " This looks like a file of another kind, not like a scene or a study.";
       if (starts_with_word(line, "include"))
         return " Scenes do not include others: copy its lines, or give values by --set.";
-      if (std::regex_match(line, parts, section))
+      if (line == "}")
+        return " A subsection is closed by a line 'end'.";
+      if (std::regex_match(line, parts, section) || std::regex_match(line, parts, brace))
         return " Did you mean 'subsection " + parts.str(1) + "', closed by a line 'end'?";
       if (std::regex_match(line, parts, value))
         return " Did you mean 'set " + parts.str(1) + " = " + parts.str(2) + "'?";
@@ -152,6 +157,10 @@ namespace Exemplar
       {
         if (name.empty())
           fail("the subsection has no name. Write 'subsection NAME'.");
+        if (name.find('/') != std::string::npos && name.compare(0, 7, "region ") != 0)
+          fail("'" + name + "' is no name of a subsection. Write 'subsection "
+               + name.substr(0, name.find('/')) + "' and within it 'subsection "
+               + name.substr(name.find('/') + 1) + "', each closed by a line 'end'.");
         // in files without indentation only the names tell
         const bool is_outer = sections.count(name) > 0 || (!open.empty() && subsections[0] == name);
         if (!open.empty()

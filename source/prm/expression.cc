@@ -58,7 +58,9 @@ namespace Exemplar
 
     /// What to say of a wrong number of formulas.
     std::string
-    remedy_of_number(const std::vector<std::string> &texts, const unsigned int n_components)
+    remedy_of_number(const std::vector<std::string> &texts,
+                     const unsigned int              n_components,
+                     const bool                      are_of_places)
     {
       if (texts.empty())
         return " Is there a ';' or '|' too many?";
@@ -66,7 +68,7 @@ namespace Exemplar
         return " Remove the ';' at the end.";
       if (texts.size() == 1 && has_outer_comma(texts[0]))
         return " Commas do not separate formulas.";
-      if (texts.size() < n_components && n_components == 3)
+      if (texts.size() < n_components && are_of_places)
         return " They are for x, y and z; write 0 where nothing is.";
       return "";
     }
@@ -78,6 +80,8 @@ namespace Exemplar
       const std::vector<std::pair<std::string, std::string>> habits
           = { { "\\*\\*", "Powers are written x^2." },
               { "\\b(np|numpy|math|std|Math)\\b", "Functions have no prefix: sin(t)." },
+              { "\\bdeg(rees?)?\\b|\xC2\xB0", "Angles are in radians: 90 degrees are 90*pi/180." },
+              { "\\b(heaviside|Heaviside|step) *\\(", "A step is written t > 0.5 ? 1 : 0." },
               { "(^|[^a-zA-Z0-9_.])[0-9.]+ *(?![eE][-+0-9])[a-zA-Z(]",
                 "Products are written 2*t." },
               { "\\bif *\\(", "A choice is written c ? a : b." },
@@ -85,7 +89,7 @@ namespace Exemplar
               { "\\btime\\b|\\bT\\b", "The time is t." },
               { "\\b[XYZ]\\b", "Coordinates are x, y, z, in small letters." },
               { "\\b(mod|fmod)\\b|%", "t modulo 1 is t - floor(t)." },
-              { "^[\\[({]|[\\])}]$", "No brackets stand around the formulas." },
+              { "^[\\[({][^\\])}]*$|^[^\\[({]*[\\])}]$", "No brackets stand around the formulas." },
               { "\xE2\x88\x92|\xE2\x80\x93", "The sign of minus is -, not a dash." },
               { "\xC2\xB2|\xC2\xB3", "Powers are written x^2." },
               { "\xC2\xB7|\xC3\x97", "The sign of products is *." },
@@ -136,7 +140,7 @@ namespace Exemplar
           key + " = '" + text + "' has " + std::to_string(parsers->texts.size())
           + (parsers->texts.size() == 1 ? " formula, but needs " : " formulas, but needs ")
           + std::to_string(n_components) + ", separated by ';'."
-          + remedy_of_number(parsers->texts, n_components));
+          + remedy_of_number(parsers->texts, n_components, variables != "t"));
     parsers->parsers.resize(n_components);
     for (unsigned int i = 0; i < n_components; ++i)
     {

@@ -273,8 +273,10 @@ namespace Exemplar
     {
       const std::size_t index = index_of(assignment.path());
       if (index == entries.size())
-        throw UnknownKey(assignment.place + ": there is no parameter '" + assignment.path() + "'. "
-                         + remedy_of_key(assignment.path(), keys()));
+        throw UnknownKey(
+            assignment.place + ": there is no parameter '" + assignment.path() + "'. "
+            + remedy_of_key(assignment.path(), keys(),
+                            assignment.place == "--set" ? "=" + assignment.value : ""));
       DeclaredKey      &key   = entries[index].declared;
       const std::string value = key.is_input_file
                                     ? absolute_files(assignment.value, key.is_list, directory)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/nearest_word.h>
 #include <exemplar/base/number_text.h>
+#include <exemplar/prm/expression.h>
 #include <exemplar/prm/key_table.h>
 #include <exemplar/prm/remedies.h>
 
@@ -62,6 +63,16 @@ namespace Exemplar
       return contains ? 1 : is_near(a, b) ? edit_distance(a, b) : far;
     }
 
+    std::string
+    keys_of(const std::string &section, const std::vector<DeclaredKey> &keys)
+    {
+      std::string names;
+      for (const DeclaredKey &key : keys)
+        if (split_path(key.path()).section == section)
+          names += (names.empty() ? "" : ", ") + key.key;
+      return names;
+    }
+
     /// The keys that are nearest: by their names first, then by their sections.
     std::vector<std::string>
     nearest_keys(const Path &written, const std::vector<DeclaredKey> &keys)
@@ -71,9 +82,11 @@ namespace Exemplar
       for (const DeclaredKey &key : keys)
       {
         const std::size_t distance = name_distance(written.key, key);
-        if (distance == far)
-          continue;
-        const std::string section = split_path(key.path()).section;
+        const std::string section  = split_path(key.path()).section;
+        if (distance == far
+            || (distance > 0 && section != written.section
+                && !keys_of(written.section, keys).empty()))
+          continue;            // who names another section means a key of it
         const std::size_t cost // names of sections have less than 100 letters
             = 100 * distance
               + (written.section.empty() ? 0 : edit_distance(written.section, section));
@@ -87,20 +100,15 @@ namespace Exemplar
     }
 
     std::string
-    keys_of(const std::string &section, const std::vector<DeclaredKey> &keys)
-    {
-      std::string names;
-      for (const DeclaredKey &key : keys)
-        if (split_path(key.path()).section == section)
-          names += (names.empty() ? "" : ", ") + key.key;
-      return names;
-    }
-
-    std::string
     section_in_words(const std::string &section, const std::vector<DeclaredKey> &keys)
     {
       const std::string names = section.empty() ? "" : keys_of(section, keys);
-      return names.empty() ? "" : "Section " + section + " has the keys " + names + ". ";
+      return names.empty() ? ""
+                           : "Section " + section + " has the keys " + names
+                                 + (names.find("Names") == std::string::npos
+                                        ? ". "
+                                        : "; what Names lists has keys of its own, in a subsection "
+                                          "each. ");
     }
 
     // What common mistakes become when they are undone.
@@ -129,7 +137,10 @@ namespace Exemplar
       std::string                    names;
       for (const std::string &word : split_trimmed(value, ','))
       {
-        const std::string nearest = nearest_word(word, choices);
+        std::string nearest = nearest_word(word, choices);
+        for (const std::string &choice : choices) // Newton-Raphson
+          if (nearest.empty() && letters(word).find(letters(choice)) != std::string::npos)
+            nearest = choice;
         if (nearest.empty())
           return "";
         names += (names.empty() ? "" : ", ") + nearest;
@@ -146,15 +157,82 @@ namespace Exemplar
                                                             : "";
     }
 
-    /// The number that a percentage or a fraction is, as text; empty for other texts.
+    /// As a person writes it: rounding errors of a product are left out.
+    std::string
+    written(const double number)
+    {
+      char digits[32];
+      std::snprintf(digits, sizeof(digits), "%.12g", number);
+      return replaced(shortest_text(parse_number(digits)), "e\\+0*", "e");
+    }
+
+    /// The share of one that a percentage is; empty for other texts.
+    std::string
+    share(const std::string &value)
+    {
+      const double percent = parse_number(trim(replaced(value, "%$", "")));
+      return value.back() == '%' || percent >= 2. ? shortest_text(percent / 100.) : "";
+    }
+
+    /// The number that a formula without variables gives; empty for other texts.
     std::string
     computed(const std::string &value)
     {
-      const std::string number = trim(replaced(value, "%$", ""));
-      if (const double percent = parse_number(number); std::isfinite(percent))
-        return value.back() == '%' || percent >= 2. ? shortest_text(percent / 100.) : "";
-      const std::vector<std::string> parts = split_trimmed(value, '/');
-      return parts.size() == 2 ? short_text(parse_number(parts[0]) / parse_number(parts[1])) : "";
+      try
+      {
+        return written(Expression("", value, "t", 1).values({}, std::nan(""))[0]);
+      }
+      catch (const std::exception &)
+      {
+        return "";
+      }
+    }
+
+    struct Unit
+    {
+      const char *name, *base;
+      double      factor;
+    };
+
+    constexpr Unit units[]
+        = { { "Pa", "Pa", 1. },         { "kPa", "Pa", 1e3 },    { "MPa", "Pa", 1e6 },
+            { "GPa", "Pa", 1e9 },       { "N/m2", "Pa", 1. },    { "N/mm2", "Pa", 1e6 },
+            { "bar", "Pa", 1e5 },       { "s", "s", 1. },        { "ms", "s", 1e-3 },
+            { "min", "s", 60. },        { "1/s", "1/s", 1. },    { "m", "m", 1. },
+            { "cm", "m", 1e-2 },        { "mm", "m", 1e-3 },     { "kg/m3", "kg/m^3", 1. },
+            { "g/cm3", "kg/m^3", 1e3 }, { "m/s2", "m/s^2", 1. }, { "g", "m/s^2", 9.81 },
+            { "J", "J", 1. },           { "J/m3", "J/m^3", 1. } };
+
+    /// The unit of a key's number, by its documentation.
+    std::string
+    unit_of(const DeclaredKey &key)
+    {
+      static const std::regex bracket("\\[([^\\] ]+)");
+      std::smatch             found;
+      return std::regex_search(key.documentation, found, bracket) ? found.str(1) : "";
+    }
+
+    /// Numbers with units, in the unit of a key; empty for other texts.
+    std::string
+    without_units(const DeclaredKey &key, const std::string &value)
+    {
+      std::string numbers, last;
+      for (const std::string &part : split_trimmed(value, ','))
+      {
+        char             *end    = nullptr;
+        const double      number = std::strtod(part.c_str(), &end);
+        const std::string name   = replaced(replaced(trim(end), "\\^|\\*", ""), "\xC2\xB2", "2");
+        const Unit *const unit   = std::find_if(std::begin(units), std::end(units),
+                                                [&](const Unit &u) {
+                                                return replaced(name, "\xC2\xB3", "3") == u.name
+                                                       && unit_of(key) == u.base;
+                                              });
+        if (end == part.c_str() || (!name.empty() && unit == std::end(units)))
+          return "";
+        numbers += (numbers.empty() ? "" : ", ")
+                   + written(name.empty() ? number : number * unit->factor);
+      }
+      return numbers;
     }
 
     /// 1e3 is an integer, too.
@@ -176,45 +254,68 @@ namespace Exemplar
     changes(const DeclaredKey &key, const std::string &value)
     {
       const std::string point = "The decimal sign is a point.";
-      return { { replaced(value, "^[\"'](.*)[\"']$", "$1"), "Values have no quotes." },
-               { replaced(value, "\\s*[;,]$", ""), "No sign ends a line." },
-               { replaced(value, "\\s*//.*", ""), "A comment begins with #." },
-               { replaced(value, "^([^,]*),([^,]*)$", "$1.$2"), point },
-               { replaced(value, "(\\d),(\\d)", "$1.$2"), point },
-               { replaced(value, "\\s*[;x*]\\s*|\\s+", ", "), "Separate them by commas." },
-               { replaced(value, "^\\s*[\\[({](.*)[\\])}]\\s*$", "$1"), "No brackets are needed." },
-               { whole(value), "Write all digits." },
-               { nearest_choices(key, value), "" },
-               { truth(value), "" },
-               { computed(value), value.find('/') == std::string::npos
-                                      ? "It is a share of 1, not of 100."
-                                      : "No formula is allowed here." },
-               { replaced(value, "^-\\s*", ""), "It cannot be negative." } };
+      return {
+        { replaced(value, "^[\"'](.*)[\"']$", "$1"), "Values have no quotes." },
+        { replaced(value, "\\s*[;,]$", ""), "No sign ends a line." },
+        { replaced(value, "\\s*;?\\s*\\bset .*", ""), "A line sets one key." },
+        { replaced(value, "\\s*(//|;).*", ""), "A comment begins with #." },
+        { std::regex_match(value, std::regex("[1-9]\\d{0,2}([,_' ]\\d{3})+"))
+              ? replaced(value, "[,_' ]", "")
+              : "",
+          "Digits are not grouped, and the decimal sign is a point." },
+        { replaced(value, "^([-+.\\d]+)[dD]([-+]?\\d+)$", "$1e$2"), "Powers of ten have an e." },
+        { replaced(value, "^([^,]*),([^,]*)$", "$1.$2"), point },
+        { replaced(value, "(\\d),(\\d)", "$1.$2"), point },
+        { replaced(value, "\\s*[;x*]\\s*|\\s+", ", "), "Separate them by commas." },
+        { replaced(value, "^\\s*[\\[({](.*)[\\])}]\\s*$", "$1"), "No brackets are needed." },
+        { whole(value), "Write all digits." },
+        { nearest_choices(key, value), "" },
+        { truth(value), "" },
+        { share(value), "It is a share of 1, not of 100." },
+        { without_units(key, value), "Write the number alone, in " + unit_of(key) + "." },
+        { std::isnan(parse_number(value)) ? computed(value) : "", "No formula is allowed here." },
+        { replaced(value, "^-\\s*", ""), "It cannot be negative." }
+      };
     }
 
     bool
     is_number_with_unit(const std::string &value)
     {
-      static const std::regex pattern("[-+]?[0-9.]+([eE][-+]?[0-9]+)? *[A-Za-z].*");
-      return std::regex_match(value, pattern);
+      char *end = nullptr;
+      std::strtod(value.c_str(), &end);
+      const std::string rest = trim(end);
+      return end != value.c_str() && !rest.empty()
+             && std::isalpha(static_cast<unsigned char>(rest[0])) != 0;
     }
 
-    /// The first sentence of what a number means, with its unit; empty for what is no number.
+    std::string
+    first_sentence(const std::string &text)
+    {
+      std::size_t end = text.find(". ");
+      while (end < text.size() - 2 && std::isupper(static_cast<unsigned char>(text[end + 2])) == 0)
+        end = text.find(". ", end + 1); // such as behind "e.g."
+      return end == std::string::npos ? text : text.substr(0, end + 1);
+    }
+
+    /// What a key means: the first sentence of its documentation.
     std::string
     meaning(const DeclaredKey &key, const std::string &value)
     {
-      if (key.allowed.find("number") == std::string::npos
-          && key.allowed.find("integer") == std::string::npos)
-        return "";
-      return (is_number_with_unit(value) ? " Write the number alone, without its unit."
-                                         : std::string())
-             + " Its meaning: " + key.documentation.substr(0, key.documentation.find(". "))
-             + (key.documentation.find(". ") == std::string::npos ? "" : ".");
+      const bool is_number = key.allowed.find("number") != std::string::npos
+                             || key.allowed.find("integer") != std::string::npos;
+      std::string hint;
+      if (is_number && is_number_with_unit(value))
+        hint = " Write the number alone, without its unit.";
+      if (!is_number && value.find_first_of("0123456789") != std::string::npos)
+        hint = " It is a choice of these words, not a number.";
+      return hint + " Its meaning: " + first_sentence(key.documentation);
     }
   } // namespace
 
   std::string
-  remedy_of_key(const std::string &path, const std::vector<DeclaredKey> &keys)
+  remedy_of_key(const std::string              &path,
+                const std::vector<DeclaredKey> &keys,
+                const std::string              &option_value)
   {
     const std::string usual_remedy = "exemplar --print-parameters lists them all.";
     if (path.size() > 200) // no key of a person, and too much for regular expressions
@@ -226,10 +327,13 @@ namespace Exemplar
     const std::vector<std::string> nearest = nearest_keys(written, keys);
     if (!nearest.empty())
     {
-      remedy += "Did you mean '";
       for (std::size_t i = 0; i < std::min<std::size_t>(nearest.size(), 4); ++i)
-        remedy += (i == 0 ? "" : "' or '") + nearest[i];
-      remedy += "'? ";
+        remedy += (i == 0 ? "Did you mean " : " or ")
+                  + (option_value.empty() ? "'" + nearest[i] + "'"
+                                          : "--set \"" + nearest[i] + option_value + "\"");
+      remedy += "? ";
+      if (split_path(nearest[0]).section != written.section)
+        remedy += section_in_words(written.section, keys);
     }
     else
       remedy += section_in_words(keys_of(usual, keys).empty() ? written.section : usual, keys);

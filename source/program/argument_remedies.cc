@@ -142,7 +142,8 @@ namespace Exemplar
       if (!line.command.empty() || first.empty() || first.find('.') != std::string::npos
           || std::filesystem::exists(first))
         return "";
-      const std::string nearest = nearest_word(first, commands);
+      const bool is_option = std::count(line.options.begin(), line.options.end(), "--" + first) > 0;
+      const std::string nearest = is_option ? "--" + first : nearest_word(first, commands);
       return "There is no command " + in_quotes(first) + "."
              + (nearest.empty() ? " A scene is run without one: exemplar SCENE.prm."
                                 : " Did you mean '" + nearest + "'?");
@@ -158,8 +159,13 @@ namespace Exemplar
                + " stands alone. A value with blanks needs quotes, and no blanks around the '=': "
                  "--set \"Section/Key=value\".";
       if (second.find('=') != std::string::npos)
-        return in_quotes(second) + " stands alone. Values of a scene are given by --set "
-               + in_quotes(second) + ".";
+        return in_quotes(second) + " stands alone. Values of a scene are given by --set \""
+               + printable(second) + "\".";
+      std::error_code ignored;
+      if (std::filesystem::is_directory(second, ignored))
+        return in_quotes(second)
+               + " is a directory and stands alone. That of the results is given by --output \""
+               + printable(second) + "\".";
       return "Two scenes are given, " + in_quotes(first) + " and " + in_quotes(second)
              + ". A run has one; exemplar study runs one with many settings.";
     }

@@ -3,6 +3,7 @@
 #include <exemplar/algebra/spd_operator.h>
 #include <exemplar/base/environment.h>
 #include <exemplar/base/errors.h>
+#include <exemplar/base/message_text.h>
 #include <exemplar/base/standard_streams.h>
 #include <exemplar/base/version.h>
 #include <exemplar/mesh/mesh_parameters.h>
@@ -65,7 +66,9 @@ Exit status:
       app.add_flag("--resume", arguments.run.resume,
                    "go on from the checkpoint in the output directory");
       add_number_option(app, "--resume-from", arguments.run.resume_from, 0U, 1000000000U,
-                        "go on from the state of this step, also with an edited scene");
+                        "go on from the state of this step, also with an edited scene",
+                        "It is the number of a step, as in the column step of statistics.csv; "
+                        "--output names the run's directory. ");
       add_number_option(app, "--threads", arguments.run.n_threads, 1U, 1024U,
                         "threads instead of one a core (one in each of several processes); results "
                         "do not depend on it");
@@ -191,10 +194,21 @@ Exit status:
         throw UserError(command + " cannot be done by several processes. Call it without mpirun.");
     }
 
-    /// A mesh or a surface cannot be run.
+    /// A mesh, a directory or a misspelt command cannot be run.
     void
     require_scene(const std::filesystem::path &file)
     {
+      std::error_code ignored;
+      const auto      is_there = [&](const std::filesystem::path &path)
+      { return std::filesystem::exists(path, ignored); };
+      if (!file.empty() && is_there(file / "parameters.prm"))
+        throw UserError(file.string() + " is the directory of a run. Its scene is run by: exemplar "
+                        + (file / "parameters.prm").string() + ".");
+      if (!file.empty() && !file.has_extension() && !is_there(file)
+          && !is_there(file.string() + ".prm"))
+        throw UserError(in_quotes(file.string())
+                        + " is neither a scene nor a command. A scene is run by: exemplar "
+                          "SCENE.prm; exemplar --help lists commands and options.");
       const std::string extension = file.extension().string();
       if (extension == ".msh" || extension == ".geo" || is_surface_file(file.string()))
         throw UserError(file.string()

@@ -2,8 +2,10 @@
 #include <exemplar/base/atomic_file.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/base/message_text.h>
+#include <exemplar/base/missing_file.h>
 #include <exemplar/base/standard_streams.h>
 #include <exemplar/base/text_file.h>
+#include <exemplar/mesh/mesh_parameters.h>
 #include <exemplar/mesh/msh_file.h>
 #include <exemplar/program/mesh_command.h>
 #include <exemplar/run/output_directory.h>
@@ -107,6 +109,8 @@ namespace Exemplar
   void
   run_mesh_command(const MeshCommandOptions &options)
   {
+    if (is_surface_file(options.meshing.surface.string()))
+      require_file(options.meshing.surface, "a surface: an .obj, .ply or .stl file");
     if (!options.faults.empty())
     {
       list_faults(options);

@@ -2,8 +2,10 @@
 #include <exemplar/base/atomic_file.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/base/message_text.h>
+#include <exemplar/base/missing_file.h>
 #include <exemplar/base/number_text.h>
 #include <exemplar/base/progress.h>
+#include <exemplar/mesh/mesh_parameters.h>
 #include <exemplar/program/interrupt.h>
 #include <exemplar/program/pose_command.h>
 #include <exemplar/run/output_directory.h>
@@ -71,6 +73,26 @@ namespace Exemplar
       require_replaceable({ options.output / "poses.csv", header_of_poses }, inputs, remedy);
       require_writable(options.output, remedy);
       return poses;
+    }
+
+    void
+    check_files(const PoseOptions &options)
+    {
+      if (options.output.extension() == ".msh")
+        throw UserError("--output " + options.output.string()
+                        + ": the name is that of a file, but poses are written "
+                          "to a directory, each as NAME.msh by the name of its surface. Give the "
+                          "name of a directory.");
+      if (is_surface_file(options.mesh) && !is_surface_file(options.rest))
+        throw UserError("--mesh " + options.mesh.string() + " and --rest " + options.rest.string()
+                        + " seem to be swapped: --mesh takes the tetrahedra (.msh), --rest the "
+                          "surface around them (.obj, .ply or .stl).");
+      if (is_surface_file(options.mesh))
+        throw UserError("--mesh " + options.mesh.string()
+                        + " is a surface. Make tetrahedra inside it: exemplar mesh --surface "
+                        + options.mesh.string() + " --cells 5000 --output "
+                        + fs::path(options.mesh).replace_extension(".msh").string()
+                        + ", and give these.");
     }
 
     void
@@ -148,9 +170,12 @@ namespace Exemplar
   void
   carry_poses(const PoseOptions &options)
   {
+    check_files(options);
     std::vector<PoseFile> poses = plan(options);
-    const Mesh            mesh(read_msh(options.mesh), options.mesh.string());
-    const RestSurface     rest(options.rest);
+    for (const PoseFile &pose : poses)
+      require_file(pose.file, "a pose: an .obj, .ply or .stl file", options.rest);
+    const Mesh        mesh(read_msh(options.mesh), options.mesh.string());
+    const RestSurface rest(options.rest);
     for (PoseFile &pose : poses)
       pose.surface = read_pose_surface(pose.file, rest);
     PoseTransfer transfer = make_pose_transfer(mesh, rest, options.attach);

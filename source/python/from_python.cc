@@ -46,6 +46,10 @@ namespace Exemplar::Python
     std::string
     text_of_value(const py::handle &value, const std::string &what)
     {
+      if (PyCallable_Check(value.ptr()) != 0)
+        throw UserError(what
+                        + " is a function, but a scene holds formulas, as text. A function moves "
+                          "a handle by problem.set_motion(name, function).");
       if (py::isinstance<py::bool_>(value))
         return value.cast<bool>() ? "true" : "false";
       if (is_list(value) || py::isinstance<py::dict>(value))
@@ -135,9 +139,12 @@ namespace Exemplar::Python
         sections.insert(sections.end(), assignments.begin(), assignments.end());
         return SceneFile({}, "", sections).get_parameters();
       }
-      // a str or a path
+      if (!py::isinstance<py::str>(scene) && !py::hasattr(scene, "__fspath__"))
+        throw py::type_error("scene must be the path of a .prm file, its text, or a dictionary of "
+                             "sections, but is a "
+                             + py::type::of(scene).attr("__name__").cast<std::string>() + ".");
       const std::string text = text_of(py::module_::import("os").attr("fspath")(scene), "scene");
-      if (text.find('\n') != std::string::npos)
+      if (text.find('\n') != std::string::npos || text.compare(0, 4, "set ") == 0)
         return SceneFile({}, text, assignments).get_parameters();
       return SceneFile(text, read_prm(text), assignments).get_parameters();
     }
@@ -193,7 +200,8 @@ namespace Exemplar::Python
     {
       if (value < 0 || value > std::numeric_limits<unsigned int>::max())
         throw UserError(what + " has " + std::to_string(value)
-                        + ", which is not allowed. Allowed: indices from 0.");
+                        + ", which is not allowed. Allowed: indices from 0; if 1 was subtracted "
+                          "from such ones, add it to all.");
       return static_cast<unsigned int>(value);
     }
 
@@ -202,8 +210,9 @@ namespace Exemplar::Python
     {
       const auto parts = py::tuple(mesh);
       if (parts.size() != 2 && parts.size() != 3)
-        throw UserError(
-            "mesh must be (nodes (n, 3), cells (m, 4)) or (nodes, cells, material ids (m)).");
+        throw UserError("mesh must be (nodes (n, 3), cells (m, 4)) or (nodes, cells, material ids "
+                        "(m)). A file is "
+                        "named by the scene: Mesh/File.");
       const auto rows  = rows_of<long long>(parts[1], "mesh: cells", -1, 4);
       const auto nodes = rows.unchecked<2>();
       std::vector<std::array<unsigned int, 4>> cells(nodes.shape(0));
@@ -223,7 +232,12 @@ namespace Exemplar::Python
   {
     Given                   given;
     std::vector<Assignment> assignments;
-    const auto              list = poses.is_none() ? py::list() : py::list(poses);
+    if (py::isinstance<py::dict>(poses)
+        || (py::isinstance<py::array>(poses)
+            && py::reinterpret_borrow<py::array>(poses).ndim() != 3))
+      throw UserError("poses must be a list of arrays (n, 3), such as [bent], but is "
+                      + description(poses, py::array::ensure(poses)) + ".");
+    const auto list = poses.is_none() ? py::list() : py::list(poses);
     if (!poses.is_none())
     {
       std::string names;

@@ -4,6 +4,7 @@
 #include <exemplar/python/from_python.h>
 #include <exemplar/python/held_problem.h>
 #include <exemplar/python/unlocked_work.h>
+#include <exemplar/run/unit_review.h>
 
 #include <utility>
 
@@ -73,8 +74,11 @@ namespace Exemplar::Python
   } // namespace
 
   HeldProblem::HeldProblem(const py::object &scene, const py::object &mesh, const py::object &poses)
-      : callback(py::none()), problem(make_problem(scene, mesh, poses)), diagnostics(*problem)
+      : callback(py::none()), problem(make_problem(scene, mesh, poses)),
+        warnings(problem->warnings()), diagnostics(*problem)
   {
+    const std::vector<std::string> of_units = unit_warnings(*problem);
+    warnings.insert(warnings.end(), of_units.begin(), of_units.end());
     problem->solver->observe = [this](const SolveReport &iteration) { return observe(iteration); };
   }
 

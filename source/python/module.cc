@@ -154,9 +154,8 @@ namespace Exemplar::Python
           "statistics", [](const HeldProblem &held) { return held.statistics(""); },
           "All numbers of the state's row in statistics.csv, seconds aside: reactions of handles,\n"
           "work, momenta, ... doc/output.md explains them.");
-      problem.def_property_readonly(
-          "warnings", [](const HeldProblem &held) { return held.get().warnings(); },
-          "What the program would warn of: a list of strings.");
+      problem.def_property_readonly("warnings", &HeldProblem::get_warnings,
+                                    "What the program would warn of: a list of strings.");
     }
 
     void

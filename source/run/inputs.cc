@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
+#include <exemplar/base/missing_file.h>
 #include <exemplar/mesh/map_name.h>
 #include <exemplar/run/inputs.h>
 #include <exemplar/run/scene_parameters.h>
@@ -27,6 +28,8 @@ namespace Exemplar
       void
       read()
       {
+        if (is_to_be_filled(scene.mesh))
+          require_file(scene.mesh.file, "a surface: an .obj, .ply or .stl file");
         for_each_pose([this](const std::string &file) { check(file); });
         if (scene.needs_surface())
           add_surface();
@@ -47,29 +50,31 @@ namespace Exemplar
       void
       for_each_pose(const Action &act)
       {
-        const auto act_on_missing = [&](const std::string &file)
+        const auto act_on_missing = [&](const std::string &file, const std::string &key)
         {
-          if (!file.empty() && inputs.poses.count(file) == 0)
-            act(file);
-        };
-        for (const HandleParameters &handle : scene.handles)
           try
           {
-            act_on_missing(handle.follow_pose);
+            if (!file.empty() && inputs.poses.count(file) == 0)
+              act(file);
           }
           catch (const UserError &error)
           {
-            throw UserError("Handles/" + handle.name + "/Follow pose: " + error.what());
+            throw UserError(key + ": " + error.what());
           }
+        };
+        for (const HandleParameters &handle : scene.handles)
+          act_on_missing(handle.follow_pose, "Handles/" + handle.name + "/Follow pose");
         if (scene.examples.in_use())
           for (const std::string &pose : scene.examples.poses)
-            act_on_missing(pose);
-        act_on_missing(scene.initial.pose);
+            act_on_missing(pose, "Examples/Poses");
+        act_on_missing(scene.initial.pose, "Initial/Pose");
       }
 
       void
       check(const std::string &file)
       {
+        require_file(file, "a pose: a .msh file, or a surface",
+                     is_surface_file(file) ? scene.mesh.surface_file() : scene.mesh.file);
         if (is_surface_file(file))
           surfaces.read_pose(file);
       }

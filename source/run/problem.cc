@@ -250,7 +250,8 @@ namespace Exemplar
   std::vector<std::string>
   Problem::warnings() const
   {
-    std::vector<std::string> all = body.mesh.get_warnings();
+    std::vector<std::string> all = parameters.warnings;
+    all.insert(all.end(), body.mesh.get_warnings().begin(), body.mesh.get_warnings().end());
     if (parameters.model.gradient == GradientKind::frozen && !parameters.model.is_frozen())
       all.push_back(
           "Model/Gradient = frozen holds rotations, which this Model/Strain does not have: "
@@ -265,6 +266,9 @@ namespace Exemplar
       for (const std::string &warning : warnings_of(*body.made))
         all.push_back(warning);
     append(constraints.handles);
+    if (actions.mass != nullptr) // statics refuse what can turn
+      for (const std::string &warning : constraints.describe_single_nodes(body))
+        all.push_back(warning);
     append(examples.poses);
     append(examples.weights);
     return all;

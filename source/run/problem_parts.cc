@@ -6,6 +6,9 @@
 #include <exemplar/run/problem_parts.h>
 #include <exemplar/run/shared_inputs.h>
 
+#include <algorithm>
+#include <limits>
+
 namespace Exemplar
 {
   namespace
@@ -58,16 +61,21 @@ namespace Exemplar
       return names;
     }
 
-    /// A sentence about each handle of one node; begins with a blank.
-    std::string
-    single_nodes(const Handles &handles)
+    /// The least radius about a node [m] within which a whole cell lies.
+    double
+    reach_of_a_cell(const Body &body, const unsigned int node)
     {
-      std::string text;
-      for (unsigned int h = 0; h < handles.size(); ++h)
-        if (handles.n_nodes(h) == 1)
-          text += " Handle '" + handles.name(h)
-                  + "' holds a single node, about which the body can turn.";
-      return text;
+      double least = std::numeric_limits<double>::max();
+      for (const auto &cell : body.mesh.get_cells())
+        if (std::find(cell.begin(), cell.end(), node) != cell.end())
+        {
+          double reach = 0.;
+          for (const unsigned int corner : cell)
+            reach = std::max(reach,
+                             body.mesh.get_nodes()[corner].distance(body.mesh.get_nodes()[node]));
+          least = std::min(least, reach);
+        }
+      return least;
     }
 
     std::vector<unsigned int>
@@ -240,6 +248,24 @@ namespace Exemplar
                       + " processes some would have no node to move. Start fewer with mpirun -n.");
   }
 
+  std::vector<std::string>
+  Constraints::describe_single_nodes(const Body &body) const
+  {
+    std::vector<std::string> all;
+    for (unsigned int h = 0; handles != nullptr && h < handles->size(); ++h)
+      if (handles->n_nodes(h) == 1)
+      {
+        const auto  &nodes = handles->nodes(h);
+        const double reach = body.exchange().min(nodes.empty() ? std::numeric_limits<double>::max()
+                                                               : reach_of_a_cell(body, nodes[0]));
+        all.push_back("Handle '" + handles->name(h)
+                      + "' holds a single node, about which the body can turn. Enlarge Handles/"
+                      + handles->name(h) + "/Select by " + short_text(1.01 * reach)
+                      + " m, and it holds a whole tetrahedron.");
+      }
+    return all;
+  }
+
   void
   Constraints::check(const SceneParameters &parameters, const Body &body) const
   {
@@ -247,11 +273,13 @@ namespace Exemplar
       return;
     const unsigned int n_free = n_free_rigid_motions(body.mesh, body.fe_space.rest_positions(),
                                                      held_dofs(parameters, body, *this));
+    std::string        single_nodes;
+    for (const std::string &sentence : describe_single_nodes(body))
+      single_nodes += " " + sentence;
     if (n_free > 0)
       throw UserError(
           parameters.name + ": the handles leave " + std::to_string(n_free)
-          + " of 6 rigid motions free, so a static scene has no unique equilibrium."
-          + (handles == nullptr ? "" : single_nodes(*handles))
+          + " of 6 rigid motions free, so a static scene has no unique equilibrium." + single_nodes
           + " Add a subsection of Handles that holds three nodes not on a line (a box, a sphere "
             "or a boundary), or hold more Components.");
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/mesh/map_name.h>
+#include <exemplar/run/ignored_keys.h>
 #include <exemplar/run/named_subsections.h>
 #include <exemplar/run/scene_file.h>
 #include <exemplar/surface/numbered_files.h>
@@ -176,6 +177,10 @@ namespace Exemplar
       keys.set("Output/Directory",
                "output/" + std::filesystem::path(parameters.name).stem().string());
     parameters.check();
+    const auto is_overridden = [&](const std::string &key)
+    { return !text.empty() && find_assignment(overrides, key) != nullptr; };
+    if (!is_overridden("Scene") && !is_overridden("Mesh/Generator")) // else the rest may stay
+      parameters.warnings = warn_of_ignored_keys(parameters, keys, assignments);
   }
 
   std::filesystem::path

@@ -22,8 +22,8 @@ namespace Exemplar
     // 180 long, a metre that was scaled for millimetres .001.
     constexpr double great_length = 100., small_length = 0.005;
 
-    // Air has 1.2 kg/m^3, light foam 10, osmium 22,600.
-    constexpr double light = 5., heavy = 25000.;
+    // Air has 1.2 kg/m^3, light foam 10, osmium 22,600; in g/cm^3 steel has 7.8, copper 8.96.
+    constexpr double light = 9., heavy = 25000.;
 
     // Jelly has some 1,000 Pa.
     constexpr double soft = 100.;
@@ -65,7 +65,8 @@ namespace Exemplar
     {
       if (measures.density.least < light)
         return "A density of " + short_text(measures.density.least)
-               + " kg/m^3 is that of a gas; water has 1000. Material/Density is in kg/m^3, of "
+               + " kg/m^3 is less than that of light foam; water has 1000. Material/Density is in "
+                 "kg/m^3, of "
                  "which "
                  "1000 are one g/cm^3.";
       if (measures.density.greatest > heavy)
@@ -204,6 +205,17 @@ namespace Exemplar
       return {};
     }
 
+    Warning
+    review_step(const Problem &problem)
+    {
+      const TimeParameters &time = problem.parameters.time;
+      if (problem.actions.mass == nullptr || time.step <= time.end * (1. + 1e-12))
+        return {};
+      return "Time/Step = " + shortest_text(time.step)
+             + " is longer than Time/End = " + shortest_text(time.end) + ": one step is made, of "
+             + shortest_text(time.end) + " s. Take a smaller Time/Step or a greater Time/End.";
+    }
+
     /// The formulas of a scene by their keys.
     std::map<std::string, std::string>
     formulas_of(const SceneParameters &scene)
@@ -307,7 +319,8 @@ namespace Exemplar
     if (masses_matter(problem))
       found.insert(found.end(), { review_density(measures), review_stiffness(measures),
                                   review_weight(problem, measures) });
-    found.insert(found.end(), { review_motion(problem), review_angles(problem, measures) });
+    found.insert(found.end(), { review_motion(problem), review_step(problem),
+                                review_angles(problem, measures) });
     std::vector<std::string> warnings;
     for (const Warning &warning : found)
       if (warning)

@@ -2,6 +2,7 @@
 #include <exemplar/study/study_axes.h>
 
 #include <algorithm>
+#include <regex>
 #include <set>
 
 namespace Exemplar
@@ -91,6 +92,33 @@ namespace Exemplar
       return split_at_blanks(text);
     }
 
+    /// Commas without blanks between numbers, beside blanks or only one, may as well be decimal signs.
+    void
+    refuse_decimal_commas(const std::string &text, const std::string &place)
+    {
+      static const std::regex several("[^\";]*[0-9],[0-9][^\";]* [^\";]*"),
+          one("[-+.0-9eE]*[0-9],[0-9][-+.0-9eE]*");
+      if (text.size() < 1000 && (std::regex_match(text, several) || std::regex_match(text, one)))
+        throw UserError(place + ": '" + text
+                        + "' may have decimal commas. The decimal sign is a point, as in 0.5: '"
+                        + std::regex_replace(text, std::regex("([0-9]),([0-9])"), "$1.$2")
+                        + "'. If commas separate values, write a blank behind each.");
+    }
+
+    /// What other files separate or enclose by other signs.
+    void
+    refuse_foreign_signs(const std::string &text, const std::string &place)
+    {
+      static const std::regex second("[^\"]*[,;] *[A-Z][^,;:=\"/]*/[^,;:=\"]*[:=][^\"]*");
+      if (text.compare(0, 1, "[") == 0)
+        throw UserError(place + ": '" + text
+                        + "' begins with a bracket. Values have none: 0.1 0.2.");
+      if (text.size() < 1000 && std::regex_match(text, second))
+        throw UserError(place + ": '" + text
+                        + "' holds a second key. Axes of Vary are separated by '|', keys of Base "
+                          "and Reference by ';'.");
+    }
+
     /// "Section/Key: values", or "Key + Key: value + value, ...".
     StudyAxis
     parse_axis(const std::string &text, const std::string &place)
@@ -105,6 +133,8 @@ namespace Exemplar
         axis.keys.push_back(parse_assignment(key + "=", place).path());
       if (axis.keys.empty())
         throw UserError(place + ": the axis '" + text + "' names no key." + remedy);
+      refuse_foreign_signs(trim(text.substr(colon + 1)), place + ": " + axis.name());
+      refuse_decimal_commas(trim(text.substr(colon + 1)), place + ": " + axis.name());
       for (const std::string &value : split_values(trim(text.substr(colon + 1))))
       {
         axis.values.push_back(axis.keys.size() > 1 ? split_unquoted(value, '+')
@@ -151,6 +181,7 @@ namespace Exemplar
       if (!part.empty())
       {
         settings.push_back(parse_assignment(part, place));
+        refuse_foreign_signs(settings.back().value, place + ": " + settings.back().path());
         settings.back().value = without_quotes(settings.back().value);
         require_own_key(settings.back());
         if (!paths.insert(settings.back().path()).second)

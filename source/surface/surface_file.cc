@@ -35,9 +35,19 @@ namespace Exemplar
                         + (remedy.empty() ? "Export it in one of these formats." : remedy));
       }
       SurfaceScanner in(file);
-      if (extension == ".obj")
-        return read_obj(in);
-      return extension == ".ply" ? read_ply(in) : read_stl(in);
+      try
+      {
+        if (extension == ".obj")
+          return read_obj(in);
+        return extension == ".ply" ? read_ply(in) : read_stl(in);
+      }
+      catch (const UserError &)
+      {
+        if (const std::string remedy = remedy_of_content(file, in.all()); !remedy.empty())
+          throw UserError(file.string() + ": the name ends in " + extension
+                          + ", but the content does not fit. " + remedy);
+        throw;
+      }
     }
 
     void

@@ -65,8 +65,13 @@ namespace Exemplar
             for (const Case &one : all)
               known.push_back(one.name);
             const std::string nearest = nearest_word(name, known);
+            const bool is_scene = name.size() > 4 && name.compare(name.size() - 4, 4, ".prm") == 0;
             throw UserError("verify: there is no case '" + name + "'."
                             + (nearest.empty() ? "" : " Did you mean '" + nearest + "'?")
+                            + (is_scene ? " verify computes reference cases by their names; a "
+                                          "scene is run by: exemplar "
+                                              + name + "."
+                                        : "")
                             + " exemplar verify --list names them all.");
           }
           selected.push_back(*found);

@@ -99,6 +99,10 @@ class Scenes(unittest.TestCase):
             "absent.prm": ("absent.prm",),
             "nodes must be an array of shape \\(n, 3\\), but is an array of shape \\(45, 2\\)": (bare, (nodes[:, :2], cells)),
             "real numbers": (bare, (nodes + 1j, cells)),
+            "has node 45.*from 0: if these are from 1, subtract 1": (bare, (nodes, cells + 1)),
+            "poses must be a list of arrays .*an array of shape \\(45, 3\\)": (bare, (nodes, cells), nodes),
+            "is a function.*problem.set_motion": ({**BAR, "Handles": {"left": {"Select": "boundary 1", "Motion": len}}},),
+            "no mesh is given": ("set Scene = static",),
             "has node 99": (bare, (nodes, np.array([[0, 1, 2, 99]]))),
             "has -1": (bare, (nodes, np.array([[0, 1, 2, -1]]))),
             "array of integers": (bare, (nodes, cells + 0.5)),
@@ -107,6 +111,8 @@ class Scenes(unittest.TestCase):
         }.items():
             with self.subTest(message), self.assertRaisesRegex(exemplar.UserError, message):
                 exemplar.Problem(*arguments)
+        with self.assertRaisesRegex(TypeError, "scene must be the path of a .prm file.* but is a list"):
+            exemplar.Problem([BAR])
         with self.assertRaises(exemplar.SolverFailure) as caught:
             solved({**BAR, "Solver": {"Method": "fixed point", "Maximum iterations": 1}})
         self.assertIn("Step 1 stopped at its iteration limit", str(caught.exception))
@@ -114,6 +120,12 @@ class Scenes(unittest.TestCase):
         with self.assertRaisesRegex(exemplar.UserError, "All 3 steps"):
             problem.step()
 
+
+    def test_units_are_warned_of(self):
+        problem = exemplar.Problem({**BAR, "Mesh": {**BAR["Mesh"], "Box size": [400, 100, 100]}, "Time": {"Step": 0.1}, "Handles": {"left": {"Select": "boundary 1"}}})
+        self.assertEqual(len(problem.warnings), 2)
+        self.assertRegex(problem.warnings[0], "^scene: Time/Step = 0.1 does nothing in a scene that is not dynamic")
+        self.assertRegex(problem.warnings[1], "^The body is 400 m long.*Mesh/Scale = 0.001")
 
     def test_dictionaries_without_end(self):
         section, entries = {}, []

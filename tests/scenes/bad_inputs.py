@@ -5,7 +5,7 @@ import re
 
 from exemplar_runner import BAR, SceneTest, prm, write_msh
 
-DYNAMIC = {**BAR, "Scene": "dynamic", "Time/Step": "0.1", "Time/End": "0.2"}
+DYNAMIC = {**BAR, "Scene": "dynamic", "Time/Increments": None, "Time/Step": "0.1", "Time/End": "0.2"}
 FILE = {**BAR, "Mesh/Generator": None, "Mesh/Box size": None, "Mesh/Box cells": None}
 
 # What a crash, a deal.II exception or a C++ library would print.

@@ -197,7 +197,7 @@ class SceneTest(unittest.TestCase):
     def write_box(self, keys, file, place=lambda x, y, z: (x, y, z)):
         """Write the box of a scene as a mesh file, its nodes moved; return it."""
         box = {**{path: value for path, value in keys.items() if path.startswith("Mesh/")},
-               "Scene": "dynamic", "Time/End": "1e-9", "Solver/Method": "one pass"}
+               "Scene": "dynamic", "Time/End": "1e-9", "Time/Step": "1e-9", "Solver/Method": "one pass"}
         written = read_msh(self.solve(box, output="box", file="box.prm") / "final.msh")
         # the free body has stayed but for rounding
         rest = {number: tuple(round(x, 9) for x in position)

@@ -13,7 +13,7 @@ INTERPOLATION = {**BAR, "Scene": "interpolation", "Handles/Names": None,
                  "Handles/left/Select": None, "Loads/Gravity": None,
                  "Examples/Pose functions": STRETCH, "Examples/Prescribed weights": "1-t; t"}
 TWO_HANDLES = {**BAR, "Handles/Names": "left, right"}
-LOADED = {**BAR, "Loads/Names": "tip", "Loads/tip/Select": "boundary 2"}
+LOADED = {**BAR, "Loads/Names": "tip", "Loads/tip/Select": "boundary 2", "Loads/tip/Force": "0; 0; -1"}
 
 LINES = len(prm(BAR).splitlines())
 

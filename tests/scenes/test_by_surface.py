@@ -380,7 +380,7 @@ class Caches(BySurface):
 
     def test_resumed(self):
         self.write_bytes("rig.mdd", mdd([k / 8 for k in range(9)], self.samples()))
-        scene = {**BAR, **self.scene({"Handles/right/Follow cache": "rig.mdd"}), "Scene": "dynamic", "Time/Step": "0.05",
+        scene = {**BAR, **self.scene({"Handles/right/Follow cache": "rig.mdd"}), "Scene": "dynamic", "Time/Increments": None, "Time/Step": "0.05",
                  "Output/Every": "1"}
         whole = self.solve({**scene, "Time/End": "0.4"}, output="whole")
         self.solve({**scene, "Time/End": "0.2"})

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from exemplar_runner import BAR, EXEMPLAR, SceneTest, own_words, prm, results
 
-DYNAMIC = {**BAR, "Scene": "dynamic", "Material/Young's modulus": "1e4", "Time/Step": "0.1", "Time/End": "0.4",
+DYNAMIC = {**BAR, "Scene": "dynamic", "Time/Increments": None, "Material/Young's modulus": "1e4", "Time/Step": "0.1", "Time/End": "0.4",
            "Output/Every": "2"}
 OF_FILE = {**DYNAMIC, "Mesh/Generator": None, "Mesh/Box size": None, "Mesh/Box cells": None, "Mesh/File": "bar.msh"}
 OWN = ("original.prm", "parameters.prm", "statistics.csv", "summary.json", "final.msh", "checkpoint.bin",

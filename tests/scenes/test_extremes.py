@@ -9,7 +9,7 @@ import unittest
 
 from exemplar_runner import BAR, EXEMPLAR, SceneTest, nodes_of, prm, read_csv, read_vtu
 
-DYNAMIC = {**BAR, "Scene": "dynamic", "Time/Step": "0.1", "Time/End": "0.3"}
+DYNAMIC = {**BAR, "Scene": "dynamic", "Time/Increments": None, "Time/Step": "0.1", "Time/End": "0.3"}
 PULLED = {**BAR, "Handles/Names": "left, right", "Handles/right/Select": "boundary 2"}
 INTERPOLATION = {**BAR, "Scene": "interpolation", "Handles/Names": None, "Handles/left/Select": None,
                  "Loads/Gravity": None, "Examples/Pose functions": "1.1*x; y; z"}

@@ -13,7 +13,7 @@ BENT = {**BAR, "Mesh/Box size": "4, 1, 1", "Mesh/Box cells": "12, 3, 3", "Time/I
         "Handles/right/Motion": "0; 0; 0.5*t", "Handles/right/Components": "z"}
 EXAMPLE_POSES = {"Examples/Pose functions": "1.2*x; y; z | x; y; z+0.05*x^2"}
 EXAMPLES = {**BENT, **EXAMPLE_POSES}
-DYNAMIC = {**BENT, "Scene": "dynamic", "Time/Step": "0.02", "Time/End": "0.24"}
+DYNAMIC = {**BENT, "Scene": "dynamic", "Time/Increments": None, "Time/Step": "0.02", "Time/End": "0.24"}
 ITERATIVE = {"Solver/Linear solver": "iterative"}
 
 

@@ -6,7 +6,7 @@ import unittest
 from exemplar_runner import BAR, SceneTest, needs_trilinos, read_csv, read_summary, results
 
 EXAMPLE = {**BAR, "Examples/Pose functions": "1.1*x; y; z"}
-DYNAMIC = {**BAR, "Scene": "dynamic", "Time/Step": "0.01", "Time/End": "0.02"}
+DYNAMIC = {**BAR, "Scene": "dynamic", "Time/Increments": None, "Time/Step": "0.01", "Time/End": "0.02"}
 # the paper's method, as far as a linear solver is concerned
 PAPER = {"Solver/Method": "fixed point", "Examples/Weights": "free",
          "Solver/Maximum iterations": "500"}

@@ -32,7 +32,7 @@ BODY = {
     "Output/Every": "0",
 }
 STATIC = {**BODY, "Scene": "static", "Time/Increments": "2", "Solver/Tolerance": "1e-11"}
-DYNAMIC = {**BODY, "Scene": "dynamic", "Time/Step": "0.02", "Time/End": "0.1", "Solver/Method": "newton",
+DYNAMIC = {**BODY, "Scene": "dynamic", "Time/Increments": None, "Time/Step": "0.02", "Time/End": "0.1", "Solver/Method": "newton",
            "Solver/Tolerance": "1e-11", "Handles/left/Motion": "0; 0; 0.3*sin(4*t)"}
 # in one process with a factor, in several with a multigrid hierarchy
 QUASI_NEWTON = {**DYNAMIC, "Solver/Method": "quasi newton", "Solver/Step tolerance": "1e-11"}

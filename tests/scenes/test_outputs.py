@@ -11,7 +11,7 @@ import unittest
 from exemplar_runner import (BAR, EXEMPLAR, REPOSITORY, SceneTest, distance, greatest_distance, prm, read_csv, read_msh,
                              read_pvd, read_summary, read_vtu, results)
 
-DYNAMIC = {**BAR, "Scene": "dynamic", "Mesh/Scale": "0.5", "Material/Density": "10",
+DYNAMIC = {**BAR, "Scene": "dynamic", "Time/Increments": None, "Mesh/Scale": "0.5", "Material/Density": "10",
            "Examples/Pose functions": "1.2*x; y; z", "Time/Step": "0.1", "Time/End": "0.35",
            "Handles/left/Motion": "0; 0; 0.1*t", "Output/Every": "2",
            "Material/region 1/Poisson's ratio": "0.3"}
@@ -164,7 +164,7 @@ class Outputs(SceneTest):
 
     def test_every_column_and_key_is_in_the_manual(self):
         manual = set(re.findall(r"`([\w.]+)`", (REPOSITORY / "doc/output.md").read_text()))
-        dynamic = {**DYNAMIC, "Loads/Names": "tip", "Loads/tip/Select": "boundary 2"}
+        dynamic = {**DYNAMIC, "Loads/Names": "tip", "Loads/tip/Select": "boundary 2", "Loads/tip/Force": "0; 0; t"}
         for scene in (dynamic, {**dynamic, "Examples/Weights per region": "true"}):
             output = self.solve(scene)
             for column in read_csv(output)[0]:
@@ -283,7 +283,7 @@ class Outputs(SceneTest):
         self.assertEqual(log.count("Where the time went"), 2)
 
     def test_log_of_a_failure(self):
-        failing = {**BAR, "Scene": "dynamic", "Time/Step": "0.1", "Time/End": "0.2", "Solver/Method": "fixed point",
+        failing = {**BAR, "Scene": "dynamic", "Time/Increments": None, "Time/Step": "0.1", "Time/End": "0.2", "Solver/Method": "fixed point",
                    "Solver/Maximum iterations": "1", "Solver/Tolerance": "1e-12", "Loads/Gravity": "0, 0, -1"}
         run = self.attempt(failing)
         self.assertEqual(run.status, 2, run.stderr)
@@ -314,10 +314,21 @@ class Outputs(SceneTest):
             ({**pulled, motion: "0; 0; sin(90*t)"}, ["sin(90*t) goes up to 14.3 turns", "write 90*pi/180."]),
             ({**pulled, motion: "300*t; 0; 0"}, ["150 m in a step, 61.2 times the size of the body (2.45 m)"]),
             ({**pulled, motion: "100*t; 0; 0", "Time/Increments": "50"}, ["up to 100 m, 40.8 times"]),
+            ({**BAR, "Time/Step": "0.1"}, ["Time/Step = 0.1 does nothing", "in Time/Increments = 2 steps", "Scene = dynamic"]),
+            ({**BAR, "Initial/Velocity": "0; 0; 1"}, ["Initial/Velocity = 0; 0; 1 does nothing in a scene that is not dynamic"]),
+            ({**BAR, "Scene": "dynamic"}, ["Time/Increments = 2 does nothing in a dynamic scene"]),
+            ({**BAR, "Examples/Importance": "0.5"}, ["Examples/Importance = 0.5 does nothing without examples"]),
+            ({**BAR, "Loads/Names": "tip", "Loads/tip/Select": "boundary 2"}, ["Loads/tip does nothing: its Force is 0; 0; 0."]),
+            ({**BAR, "Material/Density": "7.8"}, ["density of 7.8 kg/m^3", "1000 are one g/cm^3"]),
+            ({**BAR, "Mesh/Cells": "500"}, ["Mesh/Cells = 500 does nothing unless Mesh/File is a surface"]),
+            ({**BAR, "Examples/Importance": "0"}, []),
+            ({**BAR, "Scene": "dynamic", "Time/Increments": None, "Time/Step": "0.5", "Time/End": "0.2"}, ["Time/Step = 0.5 is longer than Time/End = 0.2: one step"]),
+            ({**BAR, "Scene": "dynamic", "Time/Increments": None, "Handles/left/Select": "sphere 0 -.5 -.5 .1"}, ["'left' holds a single node", "Select by 1.75 m"]),
+            ({**BAR, "Scene": "dynamic", "Time/Increments": None, "Handles/left/Select": "sphere 0 -.5 -.5 1.85"}, []),
             (BAR, []),
             ({**pulled, "Material/Density": "1", "Material/Young's modulus": "1"}, []),  # nothing depends on them
             ({**pulled, motion: "0; 0; sin(90*pi/180*t)"}, []),
-            ({**BAR, "Scene": "dynamic", "Loads/Gravity": "0, 0, -100", "Time/End": "0.01"}, []),  # has no time to sag
+            ({**BAR, "Scene": "dynamic", "Time/Increments": None, "Loads/Gravity": "0, 0, -100", "Time/End": "0.01"}, []),  # has no time to sag
         )
         for keys, words in cases:
             with self.subTest(words=words):

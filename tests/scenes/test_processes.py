@@ -10,7 +10,7 @@ import unittest
 
 from exemplar_runner import (BAR, EXEMPLAR, SceneTest, needs_trilinos, own_words, prm, read_csv, read_summary, results)
 
-DYNAMIC = {**BAR, "Scene": "dynamic", "Material/Young's modulus": "1e4", "Time/Step": "0.01", "Time/End": "0.1"}
+DYNAMIC = {**BAR, "Scene": "dynamic", "Time/Increments": None, "Material/Young's modulus": "1e4", "Time/Step": "0.01", "Time/End": "0.1"}
 ENDLESS = {**DYNAMIC, "Time/Step": "1e-9", "Output/Every": "1000", "Output/Checkpoint minutes": "0"}
 BUSY = "Another run is writing into the output directory out. Wait for its end or stop it. Give another one by "
 BEFORE = "exemplar: Interrupted before a run had begun.\n"

@@ -30,7 +30,7 @@ HANDLES = {
     "Handles/right end/Components": "x",
     "Loads/Gravity": "0, 0, -9.81",
 }
-DYNAMIC = {**BOX, **HANDLES, "Scene": "dynamic", "Time/Step": "0.01", "Time/End": "0.7"}
+DYNAMIC = {**BOX, **HANDLES, "Scene": "dynamic", "Time/Increments": None, "Time/Step": "0.01", "Time/End": "0.7"}
 ITERATIVE = {"Solver/Linear solver": "iterative"}
 STATIC = {**BOX, **HANDLES, "Scene": "static", "Time/Increments": "70"}
 INTERPOLATION = {**BOX, "Scene": "interpolation", "Time/Increments": "70",

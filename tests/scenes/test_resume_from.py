@@ -21,7 +21,7 @@ BOX = {
     "Handles/left/Motion": "0; 0; 0.1*sin(6*t)",
     "Loads/Gravity": "0, 0, -9.81",
 }
-DYNAMIC = {**BOX, "Scene": "dynamic", "Time/Step": "0.01", "Time/End": "0.18"}
+DYNAMIC = {**BOX, "Scene": "dynamic", "Time/Increments": None, "Time/Step": "0.01", "Time/End": "0.18"}
 STATIC = {**BOX, "Scene": "static", "Time/Increments": "10"}
 
 

@@ -14,7 +14,7 @@ from pathlib import Path
 
 from exemplar_runner import BAR, EXEMPLAR, REPOSITORY, SceneTest, prm
 
-DYNAMIC = {**BAR, "Scene": "dynamic", "Material/Young's modulus": "1e4", "Time/Step": "0.1",
+DYNAMIC = {**BAR, "Scene": "dynamic", "Time/Increments": None, "Material/Young's modulus": "1e4", "Time/Step": "0.1",
            "Time/End": "0.4"}
 FREE_FALL = {**DYNAMIC, "Handles/Names": None, "Handles/left/Select": None, "Time/End": "1"}
 

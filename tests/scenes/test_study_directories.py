@@ -7,7 +7,7 @@ import unittest
 from exemplar_runner import BAR, prm
 from test_directories import DirectoryTest, strace_works, tree
 
-DYNAMIC = {**BAR, "Scene": "dynamic", "Material/Young's modulus": "1e4", "Time/Step": "0.1", "Time/End": "0.4"}
+DYNAMIC = {**BAR, "Scene": "dynamic", "Time/Increments": None, "Material/Young's modulus": "1e4", "Time/Step": "0.1", "Time/End": "0.4"}
 HEX = "0123456789abcdef"
 STUDY = ["study", "study.prm", "--output", "out"]
 

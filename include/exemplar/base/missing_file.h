@@ -9,9 +9,17 @@ namespace Exemplar
 {
   /// What may be wrong with the name of a file that cannot be opened: quotes, ~, a pattern,
   /// several names in one, a directory that there is not, or a name that is nearly that of a file
-  /// beside. One sentence that begins with a blank, or nothing.
+  /// beside, other than that of `not_meant`. One sentence that begins with a blank, or nothing.
   std::string
-  missing_file_remedy(const std::filesystem::path &file);
+  missing_file_remedy(const std::filesystem::path &file,
+                      const std::filesystem::path &not_meant = {});
+
+  /// Throws UserError for a file that there is not; it should be `what`, and is not `not_meant`. For
+  /// files that are read where their directory cannot be listed, too.
+  void
+  require_file(const std::filesystem::path &file,
+               const std::string           &what,
+               const std::filesystem::path &not_meant = {});
 } // namespace Exemplar
 
 #endif

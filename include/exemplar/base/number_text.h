@@ -25,12 +25,13 @@ namespace Exemplar
     return { buffer, end };
   }
 
-  /// A number with three digits, for messages.
+  /// A number with three digits, for messages; without a power of ten below a million.
   inline std::string
   short_text(const double value)
   {
-    char buffer[32];
-    std::snprintf(buffer, sizeof(buffer), "%.3g", value);
+    char       buffer[32];
+    const bool is_whole = std::abs(value) >= 999.5 && std::abs(value) < 1e6;
+    std::snprintf(buffer, sizeof(buffer), is_whole ? "%.0f" : "%.3g", value);
     return buffer;
   }
 

@@ -11,13 +11,16 @@ namespace Exemplar
   struct DeclaredKey;
 
   /// What to say of a path ("Section/Key") that no key has: which keys may have been meant, or
-  /// else which keys the section has. One or more sentences.
+  /// else which keys the section has. One or more sentences. Keys of the command line are named
+  /// with `option_value` ("=value") behind them, as a shell takes them.
   std::string
-  remedy_of_key(const std::string &path, const std::vector<DeclaredKey> &keys);
+  remedy_of_key(const std::string              &path,
+                const std::vector<DeclaredKey> &keys,
+                const std::string              &option_value = "");
 
   /// What to say of a value that a key does not allow. If it becomes an allowed one by a change
   /// that undoes a common mistake, such as a decimal comma: that change, and what it makes. Else
-  /// what a number means, and its unit. Begins with a blank, or is empty. `is_allowed` tells of a
+  /// what the key means. Begins with a blank, or is empty. `is_allowed` tells of a
   /// text whether the key allows it.
   std::string
   remedy_of_value(const DeclaredKey                              &key,

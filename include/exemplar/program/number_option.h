@@ -26,7 +26,8 @@ namespace Exemplar
 
   /// Declare an option that takes a number from `least` to `most`, in decimal digits alone: CLI11 itself
   /// would take NaN for a number in any range, and octal and hexadecimal ones. Whoever gives another
-  /// text gets a UserError. `target` may be a std::optional.
+  /// text gets a UserError, with `remedy`, a sentence with a blank behind it. `target` may be a
+  /// std::optional.
   template <typename Target, typename Number>
   CLI::Option *
   add_number_option(CLI::App          &app,
@@ -34,17 +35,18 @@ namespace Exemplar
                     Target            &target,
                     const Number       least,
                     const Number       most,
-                    const std::string &description)
+                    const std::string &description,
+                    const std::string &remedy = "")
   {
-    const auto read = [&target, name, least, most](const std::string &text)
+    const auto read = [&target, name, least, most, remedy](const std::string &text)
     {
       const auto number = decimal_number<Number>(text);
       if (!number || *number < least || *number > most)
         throw UserError(name + ": expected a "
                         + (std::is_integral<Number>::value ? "whole number" : "number") + " from "
                         + bound_text(least) + " to " + bound_text(most)
-                        + " in decimal digits, found " + in_quotes(text)
-                        + ". exemplar --help lists what is allowed.");
+                        + " in decimal digits, found " + in_quotes(text) + ". " + remedy
+                        + "exemplar --help lists what is allowed.");
       target = *number;
     };
     return app.add_option_function<std::string>(name, read, description)

@@ -55,6 +55,13 @@ namespace Exemplar::Python
     const Problem &
     get() const;
 
+    /// What the program would warn of before the first step.
+    const std::vector<std::string> &
+    get_warnings() const
+    {
+      return warnings;
+    }
+
     const SolveReport &
     get_report() const
     {
@@ -105,6 +112,7 @@ namespace Exemplar::Python
     std::map<std::string, pybind11::object> motions;  ///< functions, by handle
     pybind11::object                        callback; ///< None or a function
     const std::shared_ptr<Problem>          problem;  ///< its memory is shared with arrays
+    std::vector<std::string>                warnings;
     Diagnostics                             diagnostics;
     SolveReport                             report;
     std::shared_ptr<Shown>                  shown_positions, shown_velocities;

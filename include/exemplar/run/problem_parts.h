@@ -47,7 +47,7 @@ namespace Exemplar
     const std::shared_ptr<const MadeOfSurfaces> made;
     /// What stood around gmsh, see MshFile::geo_walls.
     const std::optional<std::vector<std::string>> geo_walls;
-    const std::shared_ptr<const SharedBody>     shared; ///< null in one process
+    const std::shared_ptr<const SharedBody>       shared; ///< null in one process
   };
 
   /// What holds the body, and what is left free.
@@ -62,6 +62,10 @@ namespace Exemplar
     /// Throws UserError for a static scene in which the body could move rigidly.
     void
     check(const SceneParameters &parameters, const Body &body) const;
+
+    /// A warning of each handle of one node, and how to enlarge it. All processes must call this.
+    std::vector<std::string>
+    describe_single_nodes(const Body &body) const;
 
     const std::unique_ptr<Handles>                    handles;
     const std::optional<StaticallyDeterminateSupport> support; ///< of an interpolation

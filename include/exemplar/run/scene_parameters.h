@@ -42,6 +42,7 @@ namespace Exemplar
     TimeParameters                time;
     SolverParameters              solver;
     OutputParameters              output;
+    std::vector<std::string>      warnings; ///< of what the text of the scene says in vain
 
     /// Set what the kind of scene decides: importance 1 and prescribed weights of an
     /// interpolation, and the method and the dilatation that `automatic` stands for. To do so

@@ -276,7 +276,7 @@ namespace Exemplar::Testing
       };
       EXPECT_EQ(complaint({ { 0., .05, 0. } }, 1.), "");
       for (const char *part : { "Mesh/Surface: cat.obj is not the surface of box: its vertex ",
-                                "The surface is 1e+03 times as large", "Mesh/Scale" })
+                                "The surface is 1000 times as large", "Mesh/Scale" })
         expect_contains(complaint({ { 0., 0., 0. } }, 1000.), part);
       for (const char *part :
            { "the boundary of the body is ", "The surface is 0.001 times as large" })
