@@ -117,7 +117,7 @@ namespace Exemplar
         if (!is_success(report.status))
           end_with_failure(problem, report, writer, log);
         StepClock::Scope scope(problem.clock, Part::output);
-        review.add_step();
+        review.add_step(report);
         progress.update(problem.state.step, progress_text(report));
       }
     }

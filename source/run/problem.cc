@@ -231,6 +231,11 @@ namespace Exemplar
                     ? ". The matrix of a fixed point lacks a part of the consistent force's "
                       "derivative, so it may never converge: set Solver/Method = newton, "
                       "or Model/Gradient = frozen."
+                : report.load_stages > 0
+                    ? " and " + std::to_string(report.load_stages)
+                          + " stages in which the loads were raised. Let them grow over the "
+                            "increments (Loads/Ramp = increments, Time/Increments = 100), or look "
+                            "at the units of Young's modulus, density and lengths."
                     : ". Take smaller steps (Time/Step or Time/Increments), or change "
                       "Solver/Tolerance or Solver/Maximum iterations.");
     return message.str();

@@ -175,8 +175,10 @@ namespace Exemplar
   StateReview::StateReview(const Problem &problem) : problem(problem) {}
 
   void
-  StateReview::add_step()
+  StateReview::add_step(const SolveReport &report)
   {
+    if (report.load_stages > 0 && first_raised == 0)
+      first_raised = problem.state.step;
     const unsigned int n_cells = problem.evaluation.elastic.inverted_cells;
     if (n_cells == 0)
       return;
@@ -206,6 +208,11 @@ namespace Exemplar
                     + std::to_string(inversions.first_step) + ": element "
                     + list_numbers(inversions.elements)
                     + ". At the end none is. Smaller steps may avoid it.");
+    if (first_raised > 0)
+      all.push_back("Step " + std::to_string(first_raised)
+                    + " stalled under its whole load, so its loads were raised in stages within "
+                      "the step. Loads/Ramp = increments raises them over the increments, with "
+                      "frames of the way.");
     for (const auto &warning : { describe_stretched(problem), describe_miss(problem) })
       if (warning)
         all.push_back(*warning);

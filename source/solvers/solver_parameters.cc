@@ -46,8 +46,8 @@ namespace Exemplar
              Bounds{ 0., 1. });
     keys.add("Maximum iterations", maximum_iterations,
              "Iterations after which a step without convergence ends the run with status "
-             "2; newton first tries half the step, up to six times, with as many each. Not "
-             "used by one pass.",
+             "2; newton first tries half the step, up to six times, with as many each, or goes "
+             "on for eight times as many where nothing moves or changes. Not used by one pass.",
              Bounds{ 1 });
     keys.add(
         "Rotations", rotations, pass_rotations,

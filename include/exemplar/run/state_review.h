@@ -18,7 +18,7 @@ namespace Exemplar
 
     /// A step has been accepted.
     void
-    add_step();
+    add_step(const SolveReport &report);
 
     /// In the order of their weight. Elements are named by the numbers of the mesh file.
     std::vector<std::string>
@@ -35,6 +35,7 @@ namespace Exemplar
 
     const Problem &problem;
     Inversions     inversions;
+    unsigned int   first_raised = 0; ///< the step whose loads were raised within it; 0: none
   };
 } // namespace Exemplar
 

@@ -9,8 +9,10 @@ namespace Exemplar
   /// By what a step is judged: the potential with the best weights, and its gradient.
   struct Merit
   {
-    double potential;         ///< [J]
-    double max_free_gradient; ///< [N]
+    double potential         = 0.; ///< [J]
+    double max_free_gradient = 0.; ///< [N]
+
+    Merit() = default;
 
     Merit(const IncrementalPotential &potential, const Evaluation &evaluation)
         : potential(evaluation.potential),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/run/problem.h>
+#include <exemplar/solvers/line_search.h>
 
 #include "body.h"
 #include "matrices.h"
@@ -26,6 +27,58 @@ namespace Exemplar::Testing
                                                   "1e-11\nend\n");
       Scene             by_newton(text + newton);
       EXPECT_LT(max_difference(fixed_point.solve().positions, by_newton.solve().positions), 1e-9);
+    }
+
+    TEST(LineSearch, OffASaddleTheSlopesTellWhatThePotentialCannot)
+    {
+      // f = 1e6 - x^2 / 2 from x = 1e-6, where the slope is -1e-6 and every fall is below rounding
+      const auto merit = [](const double x)
+      {
+        Merit at;
+        at.potential         = 1e6 - x * x / 2.;
+        at.max_free_gradient = std::abs(x);
+        return at;
+      };
+      const Merit before = merit(1e-6), now = merit(3e-6);
+      EXPECT_TRUE(is_below_rounding(before, -2e-12));
+      EXPECT_FALSE(is_better(now, before, -2e-12)); // the gradient has grown
+      EXPECT_TRUE(is_better_by_slopes(now, before, -1e-6, -3e-6, 2e-6));
+      EXPECT_FALSE(is_better_by_slopes(now, before, -1e-6, 1.1e-6, 2e-6)); // beyond a minimum
+      EXPECT_FALSE(is_better_by_slopes(now, before, -1e-6, -3e-6, 1e6)); // large enough to be seen
+    }
+
+    TEST(Newton, ABodyIsAtRestWhereItsForcesAreHeldBack)
+    {
+      Scene                 scene("set Scene = static\n" + bar + drag
+                                  + "subsection Loads\n set Gravity = 0, 0, -9.81\nend\n" + newton);
+      IncrementalPotential &potential = scene.problem.potential;
+      State                 state     = scene.problem.state;
+      Evaluation            free, held;
+      potential.set_time(0., state);
+      potential.evaluate(state, RotationUse::update, free);
+      ASSERT_GT(potential.max_free_gradient(free), 1.);
+      potential.hold_back(free.gradient, state.positions);
+      potential.evaluate(state, RotationUse::update, held);
+      EXPECT_EQ(potential.max_free_gradient(held), 0.);
+      EXPECT_EQ(held.potential, free.potential);
+      // the gradient is that of the potential, elsewhere and with a part let go
+      potential.set_held_back(0.25);
+      const unsigned int dof    = potential.get_free_dofs().list().back();
+      double             change = 0.;
+      for (const double side : { 1., -1. })
+      {
+        State beside = state;
+        beside.positions[dof] += side * 1e-5;
+        potential.evaluate(beside, RotationUse::update, held);
+        change += side * held.potential;
+      }
+      potential.evaluate(state, RotationUse::update, held);
+      EXPECT_NEAR(change / 2e-5, held.gradient[dof], 1e-5 * std::abs(held.gradient[dof]));
+      EXPECT_NEAR(held.gradient[dof], 0.75 * free.gradient[dof],
+                  1e-9 * std::abs(free.gradient[dof]));
+      potential.let_go();
+      potential.evaluate(state, RotationUse::update, held);
+      EXPECT_EQ(potential.max_free_gradient(held), potential.max_free_gradient(free));
     }
 
     TEST(Newton, ConvergesQuadratically)
