@@ -20,6 +20,12 @@ namespace Exemplar
     constexpr unsigned int patience    = 8;
     constexpr double       least_stage = 1e-12;
 
+    bool
+    has_stalled(const SolveReport &report)
+    {
+      return report.status == SolveStatus::stalled || report.status == SolveStatus::indefinite;
+    }
+
     /// Do it; a SolverFailure becomes a status of the report.
     template <typename Work>
     void
@@ -94,12 +100,13 @@ namespace Exemplar
                   const unsigned int halvings,
                   SolveReport       &report)
   {
-    Trial trial     = start;
-    bool  can_halve = false;
+    Trial trial    = start;
+    bool  is_still = false, can_halve = false; // neither if its motions throw
     try_to(
         [&]
         {
-          can_halve = halvings < max_halvings_of_increment && is_driven(start.state, time);
+          is_still  = !is_driven(start.state, time);
+          can_halve = !is_still && halvings < max_halvings_of_increment;
           predict(start, time, halvings == 0, trial, evaluation);
           iterate((can_halve ? 1 : patience) * parameters.maximum_iterations, trial, evaluation,
                   report);
@@ -112,8 +119,7 @@ namespace Exemplar
     }
     start.linearization = {}; // the factor is that of a failed trial
     if (!can_halve)
-      return halvings == 0 && report.status != SolveStatus::iteration_limit
-             && raise_forces(start, evaluation, time, report);
+      return is_still && has_stalled(report) && raise_forces(start, evaluation, time, report);
     // from the same state again, with half the way of handles, loads and weights
     const double middle = 0.5 * (start.state.time + time);
     return advance(start, evaluation, middle, halvings + 1, report)
@@ -157,7 +163,10 @@ namespace Exemplar
       else
         stage /= 4.;
     }
-    return raised == 1.;
+    if (raised == 1.)
+      return true;
+    report.status = report.iterations < most ? SolveStatus::stalled : SolveStatus::iteration_limit;
+    return false;
   }
 
   double

@@ -169,7 +169,7 @@ namespace Exemplar::Testing
         const fs::path geo    = write_file("attack.geo", filled(attack.script));
         const auto     before = all_files();
         let_gmsh_mesh(geo, Confinement::none);
-        for (unsigned int i = 0; attack.works && i < 50 && all_files() == before; ++i)
+        for (unsigned int i = 0; attack.works && i < 1000 && all_files() == before; ++i)
           std::this_thread::sleep_for(std::chrono::milliseconds(10)); // a program in the background
         EXPECT_EQ(has_left_a_trace(before), attack.works) << attack.script;
         n_successes += attack.works ? 1 : 0;
