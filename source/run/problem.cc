@@ -231,7 +231,7 @@ namespace Exemplar
                     ? ". The matrix of a fixed point lacks a part of the consistent force's "
                       "derivative, so it may never converge: set Solver/Method = newton, "
                       "or Model/Gradient = frozen."
-                : report.load_stages > 0
+                : report.load_stages > 0 && parameters.scene == SceneKind::statics
                     ? " and " + std::to_string(report.load_stages)
                           + " stages in which the loads were raised. Let them grow over the "
                             "increments (Loads/Ramp = increments, Time/Increments = 100), or look "

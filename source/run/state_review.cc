@@ -211,8 +211,11 @@ namespace Exemplar
     if (first_raised > 0)
       all.push_back("Step " + std::to_string(first_raised)
                     + " stalled under its whole load, so its loads were raised in stages within "
-                      "the step. Loads/Ramp = increments raises them over the increments, with "
-                      "frames of the way.");
+                      "the step. "
+                    + (problem.parameters.scene == SceneKind::statics
+                           ? "Loads/Ramp = increments raises them over the increments, with frames "
+                             "of the way."
+                           : "Smaller steps (Time/Step) may avoid it."));
     for (const auto &warning : { describe_stretched(problem), describe_miss(problem) })
       if (warning)
         all.push_back(*warning);
