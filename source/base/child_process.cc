@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/child_process.h>
+#include <exemplar/base/descriptor.h>
 #include <exemplar/base/errors.h>
 
 #include <fcntl.h>
@@ -19,30 +20,6 @@ namespace Exemplar
   namespace
   {
     using Clock = std::chrono::steady_clock;
-
-    /// An open file, closed at the end.
-    class OpenFile
-    {
-    public:
-      /// What open() or the like has returned; throws if that is an error.
-      OpenFile(const int descriptor, const std::string &name) : descriptor(descriptor)
-      {
-        if (descriptor < 0)
-          throw std::system_error(errno, std::generic_category(), name);
-      }
-
-      ~OpenFile()
-      {
-        close(descriptor);
-      }
-
-      OpenFile(const OpenFile &) = delete;
-      OpenFile &
-      operator=(const OpenFile &)
-          = delete;
-
-      const int descriptor;
-    };
 
     /// In the forked process, where nothing but system calls is safe.
     [[noreturn]] void
@@ -139,13 +116,14 @@ namespace Exemplar
             const double                    timeout,
             const std::function<bool()>    &stop)
   {
-    const OpenFile out(open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666),
-                       log.string());
-    ChildEnd       end;
-    const auto     begin = Clock::now();
-    const auto     seconds
+    const Descriptor out(open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+    if (out.number < 0)
+      throw std::system_error(errno, std::generic_category(), log.string());
+    ChildEnd   end;
+    const auto begin = Clock::now();
+    const auto seconds
         = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
-    Child child(command, out.descriptor);
+    Child child(command, out.number);
     while (!child.has_ended())
     {
       if (stop && stop())

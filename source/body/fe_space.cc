@@ -158,6 +158,20 @@ namespace Exemplar
     return sum;
   }
 
+  void
+  FESpace::nodal_forces(const unsigned int     point,
+                        const Matrix3<double> &P,
+                        std::vector<double>   &forces) const
+  {
+    forces.clear();
+    for (const Vector3<double> &g : gradients(point))
+    {
+      const Vector3<double> force = P * g;
+      for (unsigned int c = 0; c < 3; ++c)
+        forces.push_back(volume(point) * force[c]);
+    }
+  }
+
   double
   FESpace::total_volume() const
   {

@@ -182,20 +182,6 @@ namespace Exemplar
   }
 
   void
-  PatchGuard::find_forces(const unsigned int     point,
-                          const Matrix3<double> &P,
-                          std::vector<double>   &forces) const
-  {
-    forces.clear();
-    for (const Vector3<double> &g : fe_space.gradients(point))
-    {
-      const Vector3<double> force = P * g;
-      for (unsigned int c = 0; c < 3; ++c)
-        forces.push_back(fe_space.volume(point) * force[c]);
-    }
-  }
-
-  void
   PatchGuard::add_forces(const CellField &cells, Vector &gradient) const
   {
     std::vector<double> forces;
@@ -205,8 +191,8 @@ namespace Exemplar
       const Stretched      &of_patch = stretched.at(patch);
       const Matrix3<double> P_of_guard
           = cells.rotation(point) * guard_force(with_guard(at.state, *at.C));
-      find_forces(point, combine(of_patch.beta, P_of_guard, by_gradient(patch, of_patch), at.F),
-                  forces);
+      fe_space.nodal_forces(
+          point, combine(of_patch.beta, P_of_guard, by_gradient(patch, of_patch), at.F), forces);
       const auto nodes = fe_space.nodes(fe_space.cell_of(point));
       for (std::size_t i = 0; i < forces.size(); ++i)
         gradient[3 * nodes[i / 3] + i % 3] += forces[i];
@@ -234,11 +220,11 @@ namespace Exemplar
       for (int i = 0; i < 3; ++i)
         of_trace[i][i] += 1.;
       add_point_tangent(point, R, R * of_trace, tangent, places, matrix);
-      find_forces(point, at.F, forces);
+      fe_space.nodal_forces(point, at.F, forces);
       add_at(places, forces, 2. / volume, by_x_of_square);
       const Matrix3<double> of_W
           = combine(1., guard_force(with_guard(at.state, *at.C)), lambda * at.excess, of_trace);
-      find_forces(point, R * of_W, forces);
+      fe_space.nodal_forces(point, R * of_W, forces);
       add_at(places, forces, 1., by_x_of_sum);
       places += forces.size() / 3;
     }
@@ -263,7 +249,7 @@ namespace Exemplar
     const double        of_trace  = patches.lambda(patch) * of_patch.beta / fe_space.volume(point);
     const auto          gradients = fe_space.gradients(point);
     std::vector<double> u, column;
-    find_forces(point, by_F_of_trace, u);
+    fe_space.nodal_forces(point, by_F_of_trace, u);
     for (unsigned int j = 0; j < u.size(); ++j)
     {
       Matrix3<double> dF{};
@@ -275,7 +261,7 @@ namespace Exemplar
         const Matrix3<double> M = transpose_times(R, dF);
         of_guard                = R * combine(1., guarded.response(M), -1., at.state.response(M));
       }
-      find_forces(point, combine(of_patch.beta, of_guard, of_F, dF), column);
+      fe_space.nodal_forces(point, combine(of_patch.beta, of_guard, of_F, dF), column);
       for (unsigned int i = 0; i < u.size(); ++i)
         matrix(3 * places[i / 3] + i % 3, 3 * places[j / 3] + j % 3)
             += of_trace * u[i] * u[j] + column[i];

@@ -15,19 +15,6 @@ namespace Exemplar
     {
       return 4. / 9. * trace_of_S * (trace_of_S * trace_of_S - square) < y_0 * square;
     }
-
-    /// P at a point, of which the nodal forces are V P g, over the nodes of its cell.
-    Vector3<double>
-    nodal_force(const FESpace         &fe_space,
-                const unsigned int     point,
-                const unsigned int     a,
-                const Matrix3<double> &P)
-    {
-      Vector3<double> force = P * fe_space.gradients(point)[a];
-      for (unsigned int c = 0; c < 3; ++c)
-        force[c] *= fe_space.volume(point);
-      return force;
-    }
   } // namespace
 
   ThinCells::Point
@@ -94,18 +81,16 @@ namespace Exemplar
   void
   ThinCells::add_forces(const CellField &cells, const double *pressures, Vector &gradient) const
   {
+    std::vector<double> forces;
     for (const auto &[point, at] : points)
     {
       const Matrix3<double> P
           = cells.rotation(point)
             * combine(pressures[point] * at.r.first, at.y_derivative, 0., at.y_derivative);
+      fe_space.nodal_forces(point, P, forces);
       const auto nodes = fe_space.nodes(fe_space.cell_of(point));
-      for (unsigned int a = 0; a < nodes.size(); ++a)
-      {
-        const Vector3<double> force = nodal_force(fe_space, point, a, P);
-        for (unsigned int c = 0; c < 3; ++c)
-          gradient[3 * nodes[a] + c] += force[c];
-      }
+      for (std::size_t i = 0; i < forces.size(); ++i)
+        gradient[3 * nodes[i / 3] + i % 3] += forces[i];
     }
   }
 
@@ -119,6 +104,7 @@ namespace Exemplar
     const Point           &at        = points.at(point);
     const Matrix3<double> &S         = at.state.stretch_factor();
     const auto             gradients = fe_space.gradients(point);
+    std::vector<double>    forces;
     for (unsigned int j = 0; j < 3 * gradients.size(); ++j)
     {
       Matrix3<double> dF{};
@@ -133,12 +119,9 @@ namespace Exemplar
                     at.r.second * dy, at.y_derivative);
       const Matrix3<double> dP
           = R * combine(pressure, of_y, pressure * at.r.first, Omega * at.y_derivative);
-      for (unsigned int a = 0; a < gradients.size(); ++a)
-      {
-        const Vector3<double> force = nodal_force(fe_space, point, a, dP);
-        for (unsigned int c = 0; c < 3; ++c)
-          matrix(3 * places[a] + c, 3 * places[j / 3] + j % 3) += force[c];
-      }
+      fe_space.nodal_forces(point, dP, forces);
+      for (unsigned int i = 0; i < forces.size(); ++i)
+        matrix(3 * places[i / 3] + i % 3, 3 * places[j / 3] + j % 3) += forces[i];
     }
   }
 } // namespace Exemplar

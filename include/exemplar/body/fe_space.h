@@ -221,6 +221,11 @@ namespace Exemplar
       return F;
     }
 
+    /// The forces [N] on the nodes() of a point's cell by a stress P [Pa] there, in that order and by
+    /// components: volume P g of a node with gradient g.
+    void
+    nodal_forces(unsigned int point, const Matrix3<double> &P, std::vector<double> &forces) const;
+
     /// Pattern of the nodal graph: all pairs of nodes that share a cell.
     dealii::SparsityPattern
     nodal_pattern() const;

@@ -116,10 +116,6 @@ namespace Exemplar
     static Matrix3<double>
     guard_force(const CorotationalCell<double> &guarded);
 
-    /// The nodal forces of P at a point, three numbers a node of its cell.
-    void
-    find_forces(unsigned int point, const Matrix3<double> &P, std::vector<double> &forces) const;
-
     /// The part of the tangent that couples the nodes of one cell.
     void
     add_point_tangent(unsigned int                point,
