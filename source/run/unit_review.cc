@@ -171,6 +171,18 @@ namespace Exemplar
       return travel;
     }
 
+    /// Of handles that move by `way` in a step.
+    Warning
+    review_way(const double way, const double size)
+    {
+      if (!(way > great_step * size))
+        return {};
+      return "Handles move by up to " + short_text(way) + " m in a step, " + short_text(way / size)
+             + " times the size of the body (" + short_text(size)
+             + " m). Motions are in metres, angles in radians. If this is meant, take smaller "
+               "steps.";
+    }
+
     Warning
     review_motion(const Problem &problem)
     {
@@ -192,17 +204,13 @@ namespace Exemplar
       {
         return {}; // the step will say so
       }
-      travel                    = { exchange.max(travel.in_step), exchange.max(travel.in_all) };
-      const std::string of_size = " times the size of the body (" + short_text(size) + " m)";
-      if (travel.in_step > great_step * size)
-        return "Handles move by up to " + short_text(travel.in_step) + " m in a step, "
-               + short_text(travel.in_step / size) + of_size
-               + ". Motions are in metres, angles in radians. If this is meant, take smaller "
-                 "steps.";
-      if (travel.in_all > great_way * size)
-        return "Handles move by up to " + short_text(travel.in_all) + " m, "
-               + short_text(travel.in_all / size) + of_size + ". Motions are in metres.";
-      return {};
+      travel            = { exchange.max(travel.in_step), exchange.max(travel.in_all) };
+      const Warning far = review_way(travel.in_step, size);
+      if (far || !(travel.in_all > great_way * size))
+        return far;
+      return "Handles move by up to " + short_text(travel.in_all) + " m, "
+             + short_text(travel.in_all / size) + " times the size of the body (" + short_text(size)
+             + " m). Motions are in metres.";
     }
 
     Warning
@@ -309,6 +317,18 @@ namespace Exemplar
     if (problem.actions.mass != nullptr && fall < estimate.sag)
       estimate = { fall, estimate.strain * fall / estimate.sag };
     return estimate;
+  }
+
+  std::optional<std::string>
+  next_step_warning(const Problem &problem)
+  {
+    if (problem.constraints.handles == nullptr)
+      return {};
+    const Vector &before = problem.state.positions;
+    Vector        after  = before;
+    problem.constraints.handles->move(problem.time_axis.time(problem.state.step + 1), after);
+    const double way = problem.body.exchange().max(greatest_difference(before, after));
+    return review_way(way, problem.body.mesh.diameter());
   }
 
   std::vector<std::string>

@@ -5,6 +5,7 @@
 #include <exemplar/run/body_measures.h>
 #include <exemplar/run/problem.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,11 @@ namespace Exemplar
   /// body must call this.
   std::vector<std::string>
   unit_warnings(const Problem &problem);
+
+  /// The warning of unit_warnings() that handles move too far in a step, of the next one alone: for
+  /// motions that a program has set. Throws what Handles::move() throws.
+  std::optional<std::string>
+  next_step_warning(const Problem &problem);
 } // namespace Exemplar
 
 #endif
