@@ -44,7 +44,7 @@ namespace Exemplar::Python
       const auto any = py::array::ensure(cells);
       if (any && any.ndim() == 2 && any.shape(1) == 8)
         throw UserError("mesh: cells has 8 nodes a row, as hexahedra have. Only tetrahedra, of 4 "
-                        "nodes, are taken: split each hexahedron into some.");
+                        "nodes, are taken: split each hexahedron into tetrahedra.");
       if (any && any.ndim() == 2 && any.shape(1) == 10)
         throw UserError("mesh: cells has 10 nodes a row. Take the corners alone, cells[:, :4], and "
                         "the nodes that these have; Model/Element = P2 puts nodes into the middles "
@@ -166,6 +166,8 @@ namespace Exemplar::Python
       for (const py::handle id : parts[2])
         material_ids.push_back(index_of(id.cast<long long>(), "mesh: material ids"));
     MshFile msh = make_msh(points_of(parts[0], "mesh: nodes"), cells, material_ids);
+    for (MshElement &element : msh.elements)
+      --element.number; // of its cell
     refuse_unused_nodes(cells, msh.nodes.size());
     refuse_repeated_cells(cells);
     return msh;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
+#include <exemplar/base/number_text.h>
 #include <exemplar/python/arrays_from_python.h>
 #include <exemplar/python/from_python.h>
 #include <exemplar/run/scene_file.h>
@@ -249,7 +250,9 @@ namespace Exemplar::Python
       std::vector<dealii::Tensor<1, 3>> displacements;
       for (const dealii::Point<3> &u : points_of(
                call(function, py::make_tuple(points, time), "set_motion calls function(rest, t)."),
-               "Handles/" + handle + ": what the function of its motion returns", n))
+               "Handles/" + handle
+                   + ": what the function of its motion returns at t = " + shortest_text(time),
+               n))
         displacements.push_back(u);
       return displacements;
     };

@@ -6,8 +6,10 @@
 #include <exemplar/python/from_python.h>
 #include <exemplar/python/held_problem.h>
 #include <exemplar/python/unlocked_work.h>
+#include <exemplar/run/motion_review.h>
 #include <exemplar/run/unit_review.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace Exemplar::Python
@@ -82,6 +84,7 @@ namespace Exemplar::Python
     problem->solver->observe = [this](const SolveReport &iteration) { return observe(iteration); };
     warn(problem->warnings());
     warn(unit_warnings(*problem));
+    warn(motion_warnings(*problem));
   }
 
   void
@@ -142,11 +145,14 @@ namespace Exemplar::Python
   {
     if (motions.empty() || is_warned_of_motions)
       return;
-    const auto warning = next_step_warning(*problem);
-    if (!warning)
-      return;
-    is_warned_of_motions = true;
-    warn({ *warning });
+    std::vector<std::string> found = next_step_warnings(*problem);
+    is_warned_of_motions           = !found.empty();
+    found.erase(std::remove_if(found.begin(), found.end(), // of a handle that a formula moves
+                               [this](const std::string &warning) {
+                                 return std::count(warnings.begin(), warnings.end(), warning) > 0;
+                               }),
+                found.end());
+    warn(found);
   }
 
   void

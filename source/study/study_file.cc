@@ -155,6 +155,7 @@ namespace Exemplar
     threads       = entries.threads;
     columns_place = place("Columns");
     columns       = parse_columns(entries.columns, columns_place);
+    probe_place   = place("Probe") + ": " + entries.probe;
     probe         = parse_probe(entries.probe, place("Probe"));
     check_disjoint(base, axes);
   }

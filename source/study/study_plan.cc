@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/nearest_word.h>
+#include <exemplar/base/number_text.h>
+#include <exemplar/mesh/mesh.h>
 #include <exemplar/run/diagnostics.h>
 #include <exemplar/run/problem.h>
 #include <exemplar/run/scene_file.h>
@@ -46,6 +48,32 @@ namespace Exemplar
       return columns;
     }
 
+    /// A probe that is not in the box around the body was given in another unit, say.
+    std::vector<std::string>
+    warnings_of_probe(const Study &study, const Mesh &mesh)
+    {
+      if (!study.probe)
+        return {};
+      dealii::Point<3> in_box, nearest = mesh.get_nodes()[0];
+      for (unsigned int c = 0; c < 3; ++c)
+      {
+        const auto [least, greatest]
+            = std::minmax_element(mesh.get_nodes().begin(), mesh.get_nodes().end(),
+                                  [&](const auto &a, const auto &b) { return a[c] < b[c]; });
+        in_box[c] = std::clamp((*study.probe)[c], (*least)[c], (*greatest)[c]);
+      }
+      for (const dealii::Point<3> &node : mesh.get_nodes())
+        if (node.distance_square(*study.probe) < nearest.distance_square(*study.probe))
+          nearest = node;
+      const double distance = in_box.distance(*study.probe);
+      if (!(distance > 0.01 * mesh.diameter()))
+        return {};
+      return { study.probe_place + " lies " + short_text(distance)
+               + " m outside the box around the body: the node nearest to it is taken, at "
+               + short_text(nearest[0]) + ", " + short_text(nearest[1]) + ", "
+               + short_text(nearest[2]) + ". Rest positions are in metres." };
+    }
+
     /// What is known of a run that can be built.
     struct BuiltRun
     {
@@ -54,12 +82,14 @@ namespace Exemplar
 
     /// Whether a run can be built, with what in it; why not is in `refusal`, if nothing is there yet.
     bool
-    can_be_built(const SceneFile &scene, BuiltRun &built, std::string &refusal)
+    can_be_built(const Study &study, const SceneFile &scene, BuiltRun &built, std::string &refusal)
     {
       try
       {
         const auto problem = make_problem(scene.get_parameters());
         built              = { problem->warnings(), columns_of(*problem) };
+        for (const std::string &warning : warnings_of_probe(study, problem->body.mesh))
+          built.warnings.push_back(warning);
         return true;
       }
       catch (const UserError &error)
@@ -108,7 +138,7 @@ namespace Exemplar
       if (scene == nullptr)
         refusals.insert(why);
       parts_are_checked
-          = parts_are_checked || (scene != nullptr && can_be_built(*scene, built, refusal));
+          = parts_are_checked || (scene != nullptr && can_be_built(study, *scene, built, refusal));
       if (scene != nullptr)
         for (const auto &file : scene->named_files())
           named_files.insert(file);
@@ -175,7 +205,7 @@ namespace Exemplar
       BuiltRun    built;
       std::string refusal;
       const auto  scene = scene_of(runs[i].assignments, study, scene_text, refusal);
-      if (scene != nullptr && can_be_built(*scene, built, refusal))
+      if (scene != nullptr && can_be_built(study, *scene, built, refusal))
         missing = missing_columns(std::move(missing), built.columns);
     }
     if (missing.empty())

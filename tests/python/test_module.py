@@ -153,7 +153,15 @@ class Scenes(unittest.TestCase):
         nodes = np.vstack([[[9, 9, 9]], nodes])
         used, new = np.unique(cells + 1, return_inverse=True)
         problem = exemplar.Problem(without_mesh(BAR), mesh=(nodes[used], new.reshape(-1, 4)))
+        self.assertEqual(problem.warnings, [])
         self.assertEqual(problem.rest_positions.tobytes(), box()[0].tobytes())
+
+    def test_messages_count_cells_from_0(self):
+        nodes, cells = box()
+        cells[0] = cells[0][[1, 0, 2, 3]]
+        with self.assertWarns(UserWarning):
+            problem = exemplar.Problem(without_mesh(BAR), mesh=(nodes, cells))
+        self.assertEqual(problem.warnings, ["mesh: 1 tetrahedra of negative volume were re-oriented: element 0."])
 
     def test_whole_numbers_may_be_floats(self):
         self.assertEqual(exemplar.Problem({**BAR, "Time": {"Increments": 2.0}}).n_steps, 2)
@@ -323,6 +331,12 @@ class Callbacks(unittest.TestCase):
             problem.set_motion("right", np.zeros((9, 3)))
         with self.assertRaisesRegex(TypeError, "the name of a handle must be a str, but is a function"):
             problem.set_motion(lambda rest, t: rest, "right")
+
+    def test_motions_that_give_places_are_warned_of(self):
+        problem = exemplar.Problem(BAR)
+        problem.set_motion("right", lambda rest, t: rest + [0, 0, 0.1 * t])
+        with self.assertWarnsRegex(UserWarning, "^Handles/right: at t = 0 its motion moves every node by the node's own place.*in Python rest"):
+            problem.step()
 
     def test_motions_that_go_far_are_warned_of(self):
         problem = exemplar.Problem(BAR)

@@ -148,6 +148,10 @@ class Studies(SceneTest):
             self.assertAlmostEqual(float(row["probe_z"]), -fall, delta=1e-9)
             self.assertAlmostEqual(float(row["probe_x"]), 0, delta=1e-9)
         self.assertIn("| probe_z |", self.report())
+        self.assertRegex(self.run_of_study.stderr, r"^Warning: study.prm:\d, Probe: 9, 9, 9 lies .* m outside the box around the body: .*nearest")
+        self.prepare(FREE_FALL, "Time/Step: 0.1 0.05", Probe="0.1, 0, 0")
+        self.study()
+        self.assertEqual(self.run_of_study.stderr, "")
 
     def test_columns_of_some_runs(self):
         self.prepare({**BAR, "Examples/Pose functions": "x; y; z + 0.1*x^2"}, "Examples/Importance: 0 0.5", Columns="weight_1")

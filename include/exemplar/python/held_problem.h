@@ -106,7 +106,8 @@ namespace Exemplar::Python
     void
     warn(const std::vector<std::string> &some);
 
-    /// That functions move handles too far in the next step; once until one is set anew.
+    /// Of functions that move handles too far in the next step, or elsewhere at the beginning; once
+    /// until one is set anew.
     void
     warn_of_motions();
 

@@ -5,7 +5,6 @@
 #include <exemplar/run/body_measures.h>
 #include <exemplar/run/problem.h>
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,15 +25,10 @@ namespace Exemplar
   estimate_weight(const Problem &problem, const BodyMeasures &measures);
 
   /// Warnings of what looks like a wrong unit: the size of the body, its density and stiffness, what
-  /// gravity does to it, how far handles move, and degrees in formulas. All processes that share the
+  /// gravity and forces do to it, its times, and degrees in formulas. All processes that share the
   /// body must call this.
   std::vector<std::string>
   unit_warnings(const Problem &problem);
-
-  /// The warning of unit_warnings() that handles move too far in a step, of the next one alone: for
-  /// motions that a program has set. Throws what Handles::move() throws.
-  std::optional<std::string>
-  next_step_warning(const Problem &problem);
 } // namespace Exemplar
 
 #endif

@@ -47,6 +47,7 @@ namespace Exemplar
     std::string              columns_place;
     /// Where the displacement at the end is a column [m].
     std::optional<dealii::Point<3>> probe;
+    std::string                     probe_place; ///< and its text
   };
 
   /// All keys of a study file, for the reference.
