@@ -272,7 +272,7 @@ class Outputs(SceneTest):
         # the same with --quiet, which clears the one before; a resumed run adds to it
         quiet = self.solve(BAR, "--quiet")
         def words(text):
-            return re.sub(r"[0-9.]+", "0", text)
+            return re.sub(r" *[0-9.]+", " 0", text)
         first = (quiet / "log.txt").read_text()
         self.assertEqual(words(first), words("\n".join([mark, date, *lines, ""])))
         self.solve(BAR, "--quiet", "--resume")
