@@ -165,7 +165,10 @@ namespace Exemplar
                               && std::all_of(names.begin(), names.end(), is_temporary);
     if (!is_ours() && !is_stillborn)
       throw UserError("Output directory " + path.string()
-                      + " is not empty and was not written by exemplar." + remedy);
+                      + (fs::exists(path / "study.prm") && fs::is_directory(path / "runs")
+                             ? " holds a study."
+                             : " is not empty and was not written by exemplar.")
+                      + remedy);
   }
 
   std::string
