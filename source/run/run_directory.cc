@@ -165,7 +165,10 @@ namespace Exemplar
                               && std::all_of(names.begin(), names.end(), is_temporary);
     if (!is_ours() && !is_stillborn)
       throw UserError("Output directory " + path.string()
-                      + " is not empty and was not written by exemplar." + remedy);
+                      + (begins_with(path / "study.prm", study_mark)
+                             ? " holds a study, beside which no run writes."
+                             : " is not empty and was not written by exemplar.")
+                      + remedy);
   }
 
   std::string
