@@ -22,6 +22,9 @@ namespace Exemplar
     // 180 long, a metre that was scaled for millimetres .001.
     constexpr double great_length = 100., small_length = 0.005;
 
+    // Beyond this length [m] what is as soft as this [Pa] is more likely of another unit.
+    constexpr double great_soft_length = 20., soft_as_rubber = 1e8;
+
     // Air has 1.2 kg/m^3, light foam 10, osmium 22,600; in g/cm^3 steel has 7.8, copper 8.96.
     constexpr double light = 9., heavy = 25000.;
 
@@ -35,29 +38,36 @@ namespace Exemplar
     // one that does so in a step is not followed.
     constexpr double great_way = 20., great_step = 2.;
 
+    // More files fill a disk.
+    constexpr unsigned int many_frames = 1000000;
+
     // So many turns in a run were not meant [rad].
     constexpr double great_angle = 4. * M_PI;
 
     const std::string scale_remedy = "Mesh/Scale = 0.001 makes metres of millimetres.";
-
-    Warning
-    review_size(const BodyMeasures &measures)
-    {
-      const double length = measures.length();
-      if (length >= great_length)
-        return "The body is " + short_text(length)
-               + " m long. If its mesh is in millimetres: " + scale_remedy;
-      if (length <= small_length)
-        return "The body is only " + short_text(length)
-               + " m long. Lengths are in metres; look at the unit of the mesh, and at Mesh/Scale.";
-      return {};
-    }
 
     bool
     masses_matter(const Problem &problem)
     {
       return problem.actions.mass != nullptr
              || (problem.actions.loads != nullptr && problem.actions.loads->has_gravity());
+    }
+
+    Warning
+    review_size(const Problem &problem, const BodyMeasures &measures)
+    {
+      const double          length               = measures.length();
+      const MeshParameters &mesh                 = problem.parameters.mesh;
+      const bool            is_soft_and_unscaled = masses_matter(problem)
+                                        && measures.young.greatest < soft_as_rubber
+                                        && !mesh.file.empty() && mesh.scale == 1.;
+      if (length >= great_length || (length >= great_soft_length && is_soft_and_unscaled))
+        return "The body is " + short_text(length)
+               + " m long. If its mesh is in millimetres: " + scale_remedy;
+      if (length <= small_length)
+        return "The body is only " + short_text(length)
+               + " m long. Lengths are in metres; look at the unit of the mesh, and at Mesh/Scale.";
+      return {};
     }
 
     Warning
@@ -216,6 +226,18 @@ namespace Exemplar
              + shortest_text(time.end) + " s. Take a smaller Time/Step or a greater Time/End.";
     }
 
+    Warning
+    review_frames(const Problem &problem)
+    {
+      const unsigned int every = problem.parameters.output.every, n = problem.time_axis.n_steps();
+      if (every == 0 || n / every <= many_frames)
+        return {};
+      return "The run makes " + std::to_string(n) + " steps and writes " + std::to_string(n / every)
+             + " frames. If so many are not meant, "
+             + (problem.actions.mass != nullptr ? "take a greater Time/Step, or " : "")
+             + "set Output/Every = " + std::to_string(n / 1000) + ", for 1000 frames.";
+    }
+
     /// The formulas of a scene by their keys.
     std::map<std::string, std::string>
     formulas_of(const SceneParameters &scene)
@@ -315,12 +337,12 @@ namespace Exemplar
   unit_warnings(const Problem &problem)
   {
     const BodyMeasures   measures = measure(problem.body);
-    std::vector<Warning> found    = { review_size(measures) };
+    std::vector<Warning> found    = { review_size(problem, measures) };
     if (masses_matter(problem))
       found.insert(found.end(), { review_density(measures), review_stiffness(measures),
                                   review_weight(problem, measures) });
     found.insert(found.end(), { review_motion(problem), review_step(problem),
-                                review_angles(problem, measures) });
+                                review_frames(problem), review_angles(problem, measures) });
     std::vector<std::string> warnings;
     for (const Warning &warning : found)
       if (warning)
