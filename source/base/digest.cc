@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/digest.h>
 #include <exemplar/base/errors.h>
+#include <exemplar/base/text_file.h>
 
 #include <openssl/evp.h>
 
@@ -23,20 +24,21 @@ namespace Exemplar
     }
 
     [[noreturn]] void
-    throw_unreadable(const std::filesystem::path &file)
+    throw_unreadable(const std::filesystem::path &file, const std::string &reason)
     {
-      throw UserError(file.string() + ": cannot be read ("
-                      + (errno != 0 ? std::strerror(errno) : "it is too short") + ").");
+      throw UserError(file.string() + ": cannot be read (" + reason + ").");
     }
 
     /// Of a file, or of its first bytes if `n_bytes` are given.
     std::string
     digest_of(const std::filesystem::path &file, const std::uintmax_t *n_bytes)
     {
+      if (const std::string reason = reason_not_to_read(file); !reason.empty())
+        throw_unreadable(file, reason);
       errno = 0;
       std::ifstream in(file, std::ios::binary);
       if (!in)
-        throw_unreadable(file);
+        throw_unreadable(file, std::strerror(errno));
 
       Sha256                    digest;
       std::array<char, 1 << 16> buffer;
@@ -50,9 +52,8 @@ namespace Exemplar
         left -= n_read;
       }
 
-      // A directory opens, but does not read.
       if (in.bad() || (n_bytes != nullptr ? left > 0 : !in.eof()))
-        throw_unreadable(file);
+        throw_unreadable(file, errno != 0 ? std::strerror(errno) : "it is too short");
       return digest.hex_digest();
     }
   } // namespace

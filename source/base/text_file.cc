@@ -21,6 +21,18 @@ namespace Exemplar
     }
   } // namespace
 
+  std::string
+  reason_not_to_read(const std::filesystem::path &file)
+  {
+    std::error_code ignored;
+    const auto      kind = std::filesystem::status(file, ignored).type();
+    if (kind == std::filesystem::file_type::directory)
+      return "is it a directory?";
+    if (kind == std::filesystem::file_type::character || kind == std::filesystem::file_type::block)
+      return "it is a device";
+    return "";
+  }
+
   std::optional<std::string>
   read_text_file(const std::filesystem::path &file, std::string *reason)
   {
@@ -30,12 +42,8 @@ namespace Exemplar
         *reason = why;
       return std::nullopt;
     };
-    std::error_code ignored;
-    const auto      kind = std::filesystem::status(file, ignored).type();
-    if (kind == std::filesystem::file_type::directory)
-      return fail("is it a directory?");
-    if (kind == std::filesystem::file_type::character || kind == std::filesystem::file_type::block)
-      return fail("it is a device"); // one like /dev/zero has no end
+    if (const std::string why = reason_not_to_read(file); !why.empty())
+      return fail(why);
     errno = 0;
     std::ifstream in(file, std::ios::binary);
     if (!in)

@@ -85,6 +85,7 @@ namespace Exemplar
     for (unsigned int step = 0; step <= axis.n_steps() && !shared.empty(); ++step)
       check_agreement(shared, displacements(axis.time(step)), axis.time(step));
     look_for_straight_turns(axis);
+    look_for_large_turns(axis);
   }
 
   Handles::Handle

@@ -88,6 +88,18 @@ namespace Exemplar
       return smaller > 0. ? std::sqrt(std::max(least, 0.) / smaller) : 1.;
     }
 
+    /// Of the way from some points to others: the angle if it is a rigid motion, but for a tenth.
+    double
+    rigid_angle(const Points &from, const Points &to)
+    {
+      const RigidMotion motion = best_rigid_motion(from, to);
+      const Arms        size   = arms(from);
+      double            miss   = 0.;
+      for (std::size_t i = 0; i < from.size(); ++i)
+        miss += (to[i] - motion(from[i])).norm_square();
+      return miss <= 0.01 * product(size, size) ? axis_and_angle(motion.rotation).angle : 0.;
+    }
+
     std::string
     rounded(const double value)
     {
@@ -132,6 +144,57 @@ namespace Exemplar
     const double size = least_relative_size(across(turn.axis, start), across(turn.axis, way));
     return 1. - size < 0.5 * (1. - std::cos(0.5 * turn.angle)) ? none
                                                                : StraightTurn{ turn.angle, size };
+  }
+
+  double
+  Handles::Handle::turn_between(const Points &rest, const double begin, const double end) const
+  {
+    constexpr unsigned int n_parts = 16; // the angle of each is below 180 degrees up to 8 turns
+    double                 angle   = 0.;
+    Points                 before;
+    for (unsigned int part = 0; part <= n_parts; ++part)
+    {
+      Points now = rest;
+      for (dealii::Point<3> &place : now)
+        place += motion.vector(place, begin + part * (end - begin) / n_parts);
+      if (part > 0)
+        angle += rigid_angle(before, now);
+      before = std::move(now);
+    }
+    return angle;
+  }
+
+  void
+  Handles::look_for_large_turns(const TimeAxis &axis)
+  {
+    constexpr std::size_t most_nodes = 20, most_steps = 100; // some milliseconds
+    for (const Handle &handle : handles)
+    {
+      if (handle.path || handle.function || handle.components.size() < 3)
+        continue;
+      Points            rest;
+      const Points      all    = rest_positions(handle);
+      const std::size_t stride = all.size() / most_nodes + 1;
+      for (std::size_t i = 0; i < all.size(); i += stride)
+        rest.push_back(all[i]);
+      if (rest.size() < 3 || are_collinear(rest))
+        continue;
+      double            greatest = 0.;
+      const std::size_t n_steps  = std::min<std::size_t>(axis.n_steps(), most_steps);
+      for (std::size_t k = 1; k <= n_steps; ++k)
+      {
+        const auto step = static_cast<unsigned int>(k * axis.n_steps() / n_steps);
+        greatest
+            = std::max(greatest, handle.turn_between(rest, axis.time(step - 1), axis.time(step)));
+      }
+      if (greatest > 179.9 * degree)
+        warnings.push_back("Handles/" + handle.name + "/Motion turns the held nodes by "
+                           + rounded(greatest / degree)
+                           + " degrees in a step, which knows only where they end: the body goes "
+                             "the shorter way. Take "
+                           + rounded(std::ceil(greatest / (30. * degree)))
+                           + " times as many steps (Time/Increments, or Time/Step).");
+    }
   }
 
   void

@@ -180,7 +180,7 @@ namespace Exemplar
               "mesh's unit.");
       for (double &share : shares)
         share /= sum;
-      loads.push_back({ nodes, shares, Expression(key + "/Force", p.force, "t", 3) });
+      loads.push_back({ p.name, nodes, shares, Expression(key + "/Force", p.force, "t", 3) });
     }
   }
 

@@ -42,7 +42,7 @@ namespace Exemplar
   std::vector<AngleInDegrees>
   find_degrees(const std::string &formulas)
   {
-    static const std::regex     call("\\b(sin|cos|tan)\\s*\\(");
+    static const std::regex     call("\\b(sin|cos|tan)\\s*\\("), over_180("/\\s*180(?![\\w.])");
     std::vector<AngleInDegrees> all;
     for (std::sregex_iterator found(formulas.begin(), formulas.end(), call), end; found != end;
          ++found)
@@ -50,7 +50,7 @@ namespace Exemplar
       const auto        open = static_cast<std::size_t>(found->position() + found->length() - 1);
       const std::string argument = in_parentheses(formulas, open);
       if (const std::string number = degrees_in(argument); !number.empty())
-        all.push_back({ (*found)[1], argument, number });
+        all.push_back({ (*found)[1], argument, number, std::regex_search(argument, over_180) });
     }
     return all;
   }

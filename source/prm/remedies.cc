@@ -282,7 +282,9 @@ namespace Exemplar
         { share(value), "It is a share of 1, not of 100." },
         { without_units(key, value), "Write the number alone, in " + unit_of(key) + "." },
         { std::isnan(parse_number(value)) ? computed(value) : "", "No formula is allowed here." },
-        { replaced(value, "^-\\s*", ""), "It cannot be negative." }
+        { replaced(value, "^-\\s*", ""), "It cannot be negative." },
+        { key.path() == "Loads/Gravity" ? replaced(value, "^-?([.\\d]+)$", "0, 0, -$1") : "",
+          "It is a vector." }
       };
     }
 

@@ -136,8 +136,9 @@ namespace Exemplar
     unknown_command(const Sorted &line, const Words &commands)
     {
       const std::string first = line.positional.empty() ? "" : line.positional[0];
+      std::error_code   ignored; // a name may be too long for a file
       if (!line.command.empty() || first.empty() || first.find('.') != std::string::npos
-          || std::filesystem::exists(first))
+          || std::filesystem::exists(first, ignored))
         return "";
       const bool is_option = std::count(line.options.begin(), line.options.end(), "--" + first) > 0;
       const std::string nearest = is_option ? "--" + first : nearest_word(first, commands);

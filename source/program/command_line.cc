@@ -253,6 +253,7 @@ Exit status:
                          std::string("exemplar " EXEMPLAR_VERSION " (" EXEMPLAR_GIT_REVISION ")")
                              + (has_iterative_operator() ? "" : " without Trilinos"));
     app.footer(footer("exemplar bar.prm --set Examples/Importance=0 --output plain"));
+    app.require_subcommand(0, 1);
     declare_scene(app, arguments);
     const CLI::App &study_command  = declare_study(app, arguments);
     const CLI::App &verify_command = declare_verify(app, arguments);

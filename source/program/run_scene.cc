@@ -9,6 +9,7 @@
 #include <exemplar/program/run_log.h>
 #include <exemplar/program/run_scene.h>
 #include <exemplar/program/run_texts.h>
+#include <exemplar/run/motion_review.h>
 #include <exemplar/run/problem.h>
 #include <exemplar/run/run_directory.h>
 #include <exemplar/run/run_writer.h>
@@ -52,6 +53,7 @@ namespace Exemplar
                                { return read_shared_inputs(scene, MPI_COMM_WORLD, announce); }));
       log.warn(problem->warnings());
       log.warn(unit_warnings(*problem));
+      log.warn(motion_warnings(*problem));
       return problem;
     }
 

@@ -3,6 +3,7 @@
 #include <exemplar/base/message_text.h>
 #include <exemplar/program/run_texts.h>
 #include <exemplar/run/body_measures.h>
+#include <exemplar/run/motion_review.h>
 
 #include <cmath>
 #include <iomanip>
@@ -114,13 +115,17 @@ namespace Exemplar
     }
 
     std::string
-    hint_text(const Problem &problem)
+    notes_text(const Problem &problem)
     {
-      const unsigned int bound = cells_of_one_process(problem.parameters.scene);
-      if (problem.body.exchange().n_processes() == 1 || problem.body.mesh.whole().n_cells >= bound)
-        return "";
-      return "Note      with fewer than " + std::to_string(bound)
-             + " cells one process is faster: start without mpirun\n";
+      const unsigned int       bound = cells_of_one_process(problem.parameters.scene);
+      std::vector<std::string> notes = idle_notes(problem);
+      if (problem.body.exchange().n_processes() > 1 && problem.body.mesh.whole().n_cells < bound)
+        notes.push_back("with fewer than " + std::to_string(bound)
+                        + " cells one process is faster: start without mpirun");
+      std::string text;
+      for (const std::string &note : notes)
+        text += "Note      " + note + '\n';
+      return text;
     }
 
     std::string
@@ -180,7 +185,7 @@ namespace Exemplar
     return "Scene     " + printable(problem.parameters.name) + '\n' + mesh_text(problem)
            + made_text(problem.body.made.get()) + body_text(problem)
            + examples_text(problem.examples.poses.get()) + solver_text(problem) + "Output    "
-           + problem.parameters.output.directory + '\n' + hint_text(problem);
+           + problem.parameters.output.directory + '\n' + notes_text(problem);
   }
 
   std::string

@@ -4,6 +4,7 @@
 #include <exemplar/python/from_python.h>
 #include <exemplar/python/held_problem.h>
 #include <exemplar/python/unlocked_work.h>
+#include <exemplar/run/motion_review.h>
 #include <exemplar/run/unit_review.h>
 
 #include <utility>
@@ -77,8 +78,8 @@ namespace Exemplar::Python
       : callback(py::none()), problem(make_problem(scene, mesh, poses)),
         warnings(problem->warnings()), diagnostics(*problem)
   {
-    const std::vector<std::string> of_units = unit_warnings(*problem);
-    warnings.insert(warnings.end(), of_units.begin(), of_units.end());
+    for (const auto &found : { unit_warnings(*problem), motion_warnings(*problem) })
+      warnings.insert(warnings.end(), found.begin(), found.end());
     problem->solver->observe = [this](const SolveReport &iteration) { return observe(iteration); };
   }
 

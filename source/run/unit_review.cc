@@ -28,15 +28,14 @@ namespace Exemplar
     // Air has 1.2 kg/m^3, light foam 10, osmium 22,600; in g/cm^3 steel has 7.8, copper 8.96.
     constexpr double light = 9., heavy = 25000.;
 
-    // Jelly has some 1,000 Pa.
-    constexpr double soft = 100.;
+    // Jelly has some 1,000 Pa, diamond 1.2e12.
+    constexpr double soft = 1000., stiff = 1e13;
 
     // What sags by less of its length, or is strained by less, may well be meant.
     constexpr double great_sag = 0.2, great_strain = 0.05;
 
-    // A handle that goes further than so many times the body's size was given in another unit, and
-    // one that does so in a step is not followed.
-    constexpr double great_way = 20., great_step = 2.;
+    // Loads that a body of such a section and stiffness cannot bear.
+    constexpr double great_pull = 5.;
 
     // More files fill a disk.
     constexpr unsigned int many_frames = 1000000;
@@ -89,12 +88,16 @@ namespace Exemplar
     Warning
     review_stiffness(const BodyMeasures &measures)
     {
+      if (measures.young.greatest > stiff)
+        return "Young's modulus of " + short_text(measures.young.greatest)
+               + " Pa is beyond that of all materials; diamond has 1.2e12. Material/Young's "
+                 "modulus "
+                 "is in Pa: 210 GPa are 2.1e11.";
       if (measures.young.least >= soft)
         return {};
       return "Young's modulus of " + short_text(measures.young.least)
              + " Pa is less than that of jelly, which has some 1000 Pa. Material/Young's modulus "
-               "is "
-               "in Pa, of which 1e6 are one MPa.";
+               "is in Pa: 1 MPa are 1e6, 210 GPa 2.1e11.";
     }
 
     double
@@ -148,73 +151,6 @@ namespace Exemplar
                "(Mesh/Scale), gravity is in m/s^2.";
     }
 
-    double
-    greatest_difference(const Vector &a, const Vector &b)
-    {
-      MaxMagnitude greatest;
-      for (unsigned int dof = 0; dof < a.size(); ++dof)
-        greatest.add(a[dof] - b[dof]);
-      return greatest.value();
-    }
-
-    /// The greatest ways of held nodes, by component [m].
-    struct Travel
-    {
-      double in_step = 0., in_all = 0.;
-    };
-
-    /// Of the nodes that this process has, in a few of the steps.
-    Travel
-    look_at_travel(const Handles &handles, const TimeAxis &axis, const Vector &rest)
-    {
-      const unsigned int n_looks = std::min(axis.n_steps(), 8u);
-      Travel             travel;
-      Vector             before = rest, after = rest;
-      for (unsigned int look = 1; look <= n_looks; ++look)
-      {
-        const auto step = static_cast<unsigned int>(std::size_t(look) * axis.n_steps() / n_looks);
-        handles.move(axis.time(step - 1), before);
-        handles.move(axis.time(step), after);
-        travel.in_step = std::max(travel.in_step, greatest_difference(before, after));
-        travel.in_all  = std::max(travel.in_all, greatest_difference(rest, after));
-      }
-      return travel;
-    }
-
-    Warning
-    review_motion(const Problem &problem)
-    {
-      if (problem.constraints.handles == nullptr)
-        return {};
-      const Exchange &exchange = problem.body.exchange();
-      const double    size     = problem.body.mesh.diameter();
-      Travel          travel;
-      try
-      {
-        do_in_agreement(exchange,
-                        [&]
-                        {
-                          travel = look_at_travel(*problem.constraints.handles, problem.time_axis,
-                                                  problem.body.fe_space.rest_positions());
-                        });
-      }
-      catch (const SolverFailure &)
-      {
-        return {}; // the step will say so
-      }
-      travel                    = { exchange.max(travel.in_step), exchange.max(travel.in_all) };
-      const std::string of_size = " times the size of the body (" + short_text(size) + " m)";
-      if (travel.in_step > great_step * size)
-        return "Handles move by up to " + short_text(travel.in_step) + " m in a step, "
-               + short_text(travel.in_step / size) + of_size
-               + ". Motions are in metres, angles in radians. If this is meant, take smaller "
-                 "steps.";
-      if (travel.in_all > great_way * size)
-        return "Handles move by up to " + short_text(travel.in_all) + " m, "
-               + short_text(travel.in_all / size) + of_size + ". Motions are in metres.";
-      return {};
-    }
-
     Warning
     review_step(const Problem &problem)
     {
@@ -236,6 +172,49 @@ namespace Exemplar
              + " frames. If so many are not meant, "
              + (problem.actions.mass != nullptr ? "take a greater Time/Step, or " : "")
              + "set Output/Every = " + std::to_string(n / 1000) + ", for 1000 frames.";
+    }
+
+    Warning
+    review_damping(const Problem &problem)
+    {
+      const TimeParameters &time = problem.parameters.time;
+      if (problem.actions.mass == nullptr || time.stiffness_damping <= time.end)
+        return {};
+      return "Time/Stiffness damping = " + shortest_text(time.stiffness_damping)
+             + " is longer than Time/End = " + shortest_text(time.end)
+             + ". It is a time in s, not a part or per cent: what swings faster than it dies out.";
+    }
+
+    /// Named loads at the end, over what would stretch a bar as thick as the body to twice its length.
+    Warning
+    review_force(const Problem &problem, const BodyMeasures &measures)
+    {
+      if (problem.actions.loads == nullptr || !problem.actions.loads->has_named_loads())
+        return {};
+      Vector force(problem.body.fe_space.n_dofs());
+      try
+      {
+        problem.actions.loads->named_loads(problem.time_axis.time(problem.time_axis.n_steps()),
+                                           force);
+      }
+      catch (const SolverFailure &)
+      {
+        return {}; // the step will say so
+      }
+      dealii::Tensor<1, 3> total;
+      for (unsigned int dof = 0; dof < force.size(); ++dof)
+        if (problem.body.exchange().owns(dof / 3))
+          total[dof % 3] += force[dof];
+      problem.body.exchange().sum(total.begin_raw(), 3);
+      const double thickness = measures.thickness();
+      const double strain    = total.norm() / (measures.soft_young * thickness * thickness);
+      if (!(strain > great_pull))
+        return {};
+      return "The loads add up to " + short_text(total.norm()) + " N at the end, "
+             + short_text(strain) + " times E times the body's section of some "
+             + short_text(thickness * thickness)
+             + " m^2. Forces are in N and of all nodes together: a pressure is to be multiplied by "
+               "its area.";
     }
 
     /// The formulas of a scene by their keys.
@@ -290,11 +269,17 @@ namespace Exemplar
     {
       for (const auto &[key, formulas] : formulas_of(problem.parameters))
         for (const AngleInDegrees &angle : find_degrees(formulas))
+        {
+          const std::string call = key + ": " + angle.function + "(" + angle.argument + ")";
+          if (angle.lacks_pi)
+            return call + " divides by 180 without pi, but angles are in radians. Write "
+                   + angle.number + "*pi/180.";
           if (const double greatest = greatest_angle(angle.argument, problem, measures);
               greatest >= great_angle)
-            return key + ": " + angle.function + "(" + angle.argument + ") goes up to "
-                   + short_text(greatest / (2. * M_PI)) + " turns, as angles are in radians. If "
-                   + angle.number + " means degrees, write " + angle.number + "*pi/180.";
+            return call + " goes up to " + short_text(greatest / (2. * M_PI))
+                   + " turns, as angles are in radians. If " + angle.number
+                   + " means degrees, write " + angle.number + "*pi/180.";
+        }
       return {};
     }
   } // namespace
@@ -338,11 +323,14 @@ namespace Exemplar
   {
     const BodyMeasures   measures = measure(problem.body);
     std::vector<Warning> found    = { review_size(problem, measures) };
+    if (masses_matter(problem)
+        || problem.actions.loads != nullptr) // else shapes do not depend on it
+      found.push_back(review_stiffness(measures));
     if (masses_matter(problem))
-      found.insert(found.end(), { review_density(measures), review_stiffness(measures),
-                                  review_weight(problem, measures) });
-    found.insert(found.end(), { review_motion(problem), review_step(problem),
-                                review_frames(problem), review_angles(problem, measures) });
+      found.insert(found.end(), { review_density(measures), review_weight(problem, measures) });
+    found.insert(found.end(),
+                 { review_step(problem), review_frames(problem), review_damping(problem),
+                   review_force(problem, measures), review_angles(problem, measures) });
     std::vector<std::string> warnings;
     for (const Warning &warning : found)
       if (warning)

@@ -45,10 +45,10 @@ namespace Exemplar
 
     /// Colours that the colour-blind can tell apart and that are not faint on white; the same as in
     /// doc/scripts/plots.py.
-    const std::array palette{ "#0072b2", "#d55e00", "#009e73", "#aa4499",
-                              "#e69f00", "#56b4e9", "#000000", "#777777" };
+    const std::array<const char *, 8> palette{ { "#0072b2", "#d55e00", "#009e73", "#aa4499",
+                                                 "#e69f00", "#56b4e9", "#000000", "#777777" } };
     /// gnuplot's disc, square, triangles up and down, diamond.
-    const std::array marks{ 7, 5, 9, 11, 13 };
+    const std::array<int, 5> marks{ { 7, 5, 9, 11, 13 } };
 
     /// The place of a value among those seen; a new one comes last.
     template <typename T>

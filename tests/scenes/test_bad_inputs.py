@@ -14,6 +14,8 @@ COMMANDS = [
     ("scene is a directory", ["a directory"], ["a directory", "cannot be read", "existing .prm"]),
     ("no scene", [], ["SCENE is required", "--help"]),
     ("unknown option", ["scene.prm", "--outputs", "out"], ["--outputs", "--help"]),
+    ("a long name without a dot", ["x" * 5000], ["neither a scene nor a command"]),
+    ("two commands", ["verify", "study", "scene.prm"], ["study", "exemplar verify --list"]),
     ("two scenes", ["scene.prm", "scene.prm"], ["scene.prm", "--help"]),
     ("--set without =", ["scene.prm", "--set", "Time/Increments"],
      ["--set 'Time/Increments'", "'='", "Section/Key=value"]),

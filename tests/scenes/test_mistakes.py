@@ -51,7 +51,7 @@ SCENES = {
     "list by blanks": ({**BAR, "Loads/Gravity": "0 0 -9.81"}, ["by commas", "'0, 0, -9.81'"]),
     "list by semicolons": ({**BAR, "Loads/Gravity": "0; 0; -9.81"}, ["by commas", "'0, 0, -9.81'"]),
     "list in brackets": ({**BAR, "Loads/Gravity": "[0, 0, -9.81]"}, ["brackets", "'0, 0, -9.81'"]),
-    "one number for three": ({**BAR, "Loads/Gravity": "-9.81"}, ["three numbers", "gravity [m/s^2]"]),
+    "one number for three": ({**BAR, "Loads/Gravity": "-9.81"}, ["three numbers", "It is a vector. Did you mean '0, 0, -9.81'?"]),
     "cells by x": ({**BAR, "Mesh/Box cells": "16x4x4"}, ["by commas", "'16, 4, 4'"]),
     "unit behind a number": ({**BAR, "Material/Young's modulus": "210 GPa"}, ["alone, in Pa", "Did you mean '2.1e11'"]),
     "milliseconds": ({**DYNAMIC, "Time/Step": "10 ms"}, ["alone, in s", "Did you mean '0.01'"]),

@@ -272,7 +272,7 @@ class Outputs(SceneTest):
         # the same with --quiet, which clears the one before; a resumed run adds to it
         quiet = self.solve(BAR, "--quiet")
         def words(text):
-            return re.sub(r"[0-9.]+", "0", text)
+            return re.sub(r" *[0-9.]+", " 0", text)
         first = (quiet / "log.txt").read_text()
         self.assertEqual(words(first), words("\n".join([mark, date, *lines, ""])))
         self.solve(BAR, "--quiet", "--resume")
@@ -300,6 +300,16 @@ class Outputs(SceneTest):
             self.assertIn("holds log.txt, which was not written by exemplar", run.stderr)
         self.assertEqual((output / "log.txt").read_text(), "my notes\n")
 
+    def test_what_does_nothing_is_noted(self):
+        cases = (({"Loads/Gravity": None}, "Note      nothing will happen: no handle moves, no load acts"),
+                 ({"Examples/Pose functions": "x; y; z+0.1*x^2", "Examples/Weights per region": "true"},
+                  "Note      Examples/Weights per region does nothing: the body has one region"))
+        for keys, words in cases:
+            with self.subTest(words):
+                run = self.attempt({**BAR, **keys})
+                self.assertEqual((run.status, run.stderr), (0, ""))
+                self.assertIn(words, (run.output / "log.txt").read_text())
+
     def test_wrong_units_are_warned_of(self):
         pulled = {**BAR, "Loads/Gravity": None, "Handles/Names": "left, right", "Handles/right/Select": "boundary 2"}
         motion = "Handles/right/Motion"
@@ -320,6 +330,19 @@ class Outputs(SceneTest):
             ({**BAR, "Examples/Importance": "0.5"}, ["Examples/Importance = 0.5 does nothing without examples"]),
             ({**BAR, "Loads/Names": "tip", "Loads/tip/Select": "boundary 2"}, ["Loads/tip does nothing: its Force is 0; 0; 0."]),
             ({**BAR, "Material/Density": "7.8"}, ["density of 7.8 kg/m^3", "1000 are one g/cm^3"]),
+            ({**pulled, motion: "x; y; z+0.5*t"}, ["Handles/right: at t = 0", "as if it gave places", "displacements"]),
+            ({**pulled, motion: "0; y*(cos(4*pi*t)-1)-z*sin(4*pi*t); y*sin(4*pi*t)+z*(cos(4*pi*t)-1)"},
+             ["Handles/right/Motion turns the held nodes by 360 degrees in a step", "Take 12 times as many steps"]),
+            ({**pulled, motion: "0; 0; sin(90/180*t)"}, ["sin(90/180*t) divides by 180 without pi", "90*pi/180"]),
+            ({**pulled, motion: "0; 0; 0.5", "Scene": "dynamic", "Time/Increments": None, "Time/Step": "0.01", "Time/End": "0.02"},
+             ["Handles/right: at t = 0 the held nodes are up to 0.5 m from where the body starts"]),
+            ({**BAR, "Loads/Names": "tip", "Loads/tip/Select": "boundary 1", "Loads/tip/Force": "0; 0; 1"}, ["Loads/tip moves nothing: handles hold"]),
+            ({**BAR, "Loads/Names": "tip", "Loads/tip/Select": "boundary 2", "Loads/tip/Force": "0; 0; 1e8"},
+             ["The loads add up to 1e+08 N", "times E times the body's section", "a pressure is to be multiplied"]),
+            ({**BAR, "Material/Young's modulus": "210"}, ["Young's modulus of 210 Pa is less than that of jelly", "210 GPa 2.1e11"]),
+            ({**BAR, "Material/Young's modulus": "2.1e14"}, ["Young's modulus of 2.1e+14 Pa is beyond that of all materials"]),
+            ({**BAR, "Scene": "dynamic", "Time/Increments": None, "Time/Step": "0.01", "Time/End": "0.02", "Time/Stiffness damping": "5"},
+             ["Time/Stiffness damping = 5 is longer than Time/End = 0.02"]),
             ({**BAR, "Mesh/Cells": "500"}, ["Mesh/Cells = 500 does nothing unless Mesh/File is a surface"]),
             ({**BAR, "Examples/Importance": "0"}, []),
             ({**BAR, "Scene": "dynamic", "Time/Increments": None, "Time/Step": "0.5", "Time/End": "0.2"}, ["Time/Step = 0.5 is longer than Time/End = 0.2: one step"]),

@@ -11,6 +11,11 @@
 
 namespace Exemplar
 {
+  /// Why a name cannot be that of a file to be read, in words for a message: a directory or a device,
+  /// of which one like /dev/zero has no end. Empty for all else.
+  std::string
+  reason_not_to_read(const std::filesystem::path &file);
+
   /// All bytes of a file; nothing if it cannot be read, and then `reason`, if given, says why, in
   /// words for a message. Directories and devices cannot be read.
   std::optional<std::string>

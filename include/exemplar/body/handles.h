@@ -106,7 +106,7 @@ namespace Exemplar
     dealii::Tensor<1, 3>
     sum_over(unsigned int handle, const dealii::Vector<double> &field) const;
 
-    /// Warnings to show the user: handles that are crushed as they turn.
+    /// Warnings to show the user: handles that are crushed as they turn, or turn too far in a step.
     const std::vector<std::string> &
     get_warnings() const
     {
@@ -125,6 +125,11 @@ namespace Exemplar
       Motion                    function; ///< a program's, instead of all these
 
       std::vector<unsigned int> places_in_path = {}; ///< of each node, among those of all processes
+
+      /// The angle [rad] by which `motion` turns points of the handle as a rigid body from one time to
+      /// another, to and fro summed up.
+      double
+      turn_between(const std::vector<dealii::Point<3>> &rest, double begin, double end) const;
 
       /// Of `nodes`, which are at `rest` at rest, at time t [s].
       std::vector<dealii::Tensor<1, 3>>
@@ -175,6 +180,10 @@ namespace Exemplar
     /// Fill `warnings`.
     void
     look_for_straight_turns(const TimeAxis &axis);
+
+    /// Fill `warnings`.
+    void
+    look_for_large_turns(const TimeAxis &axis);
 
     /// The mesh file's number of a node, or those of the ends of its edge.
     std::string

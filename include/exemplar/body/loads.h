@@ -39,6 +39,26 @@ namespace Exemplar
       return !loads.empty();
     }
 
+    /// How many named ones there are.
+    unsigned int
+    size() const
+    {
+      return loads.size();
+    }
+
+    const std::string &
+    name(const unsigned int load) const
+    {
+      return loads[load].name;
+    }
+
+    /// What a named one acts on, in this process.
+    const std::vector<unsigned int> &
+    nodes(const unsigned int load) const
+    {
+      return loads[load].nodes;
+    }
+
     /// What multiplies all loads at time t: with Ramp = increments t, which goes from 0 to 1, else 1.
     double
     ramp_factor(const double time) const
@@ -60,6 +80,7 @@ namespace Exemplar
   private:
     struct Load
     {
+      std::string               name;
       std::vector<unsigned int> nodes;
       std::vector<double>       shares; ///< of each node; they sum to one
       Expression                force;

@@ -13,6 +13,7 @@ namespace Exemplar
     std::string function; ///< "sin"
     std::string argument; ///< "90*t"
     std::string number;   ///< that looks like degrees: "90"
+    bool        lacks_pi; ///< there is "/180", which would need pi
   };
 
   /// Those in formulas whose argument holds a whole number of fifteens, 30 or more, that is not

@@ -25,7 +25,7 @@ namespace Exemplar
   estimate_weight(const Problem &problem, const BodyMeasures &measures);
 
   /// Warnings of what looks like a wrong unit: the size of the body, its density and stiffness, what
-  /// gravity does to it, how far handles move, and degrees in formulas. All processes that share the
+  /// gravity and forces do to it, its times, and degrees in formulas. All processes that share the
   /// body must call this.
   std::vector<std::string>
   unit_warnings(const Problem &problem);

@@ -16,6 +16,9 @@ namespace Exemplar::Testing
       EXPECT_EQ(found[1].number, "45");
       EXPECT_EQ(found[2].argument, "sin(360*min(t,1))");
       EXPECT_EQ(found[3].argument, "360*min(t,1)");
+      EXPECT_FALSE(found[0].lacks_pi);
+      EXPECT_TRUE(find_degrees("sin(90/180*t)").at(0).lacks_pi);
+      EXPECT_FALSE(find_degrees("sin(90/1800*t)").at(0).lacks_pi);
     }
 
     TEST(Degrees, OtherNumbersAreNone)

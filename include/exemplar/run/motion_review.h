@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_motion_review_h
+#define exemplar_motion_review_h
+
+#include <exemplar/run/problem.h>
+
+#include <string>
+#include <vector>
+
+namespace Exemplar
+{
+  /// Warnings of handles that seem to be given places instead of displacements, that jump where a
+  /// dynamic scene begins, or that move further than can be meant, and of loads that act on held nodes
+  /// alone. All processes that share the body must call this.
+  std::vector<std::string>
+  motion_warnings(const Problem &problem);
+
+  /// What the scene has that does nothing, for the header of a run, as it may be meant: nothing acts,
+  /// or there are weights by region where there is one. All processes that share the body must call
+  /// this.
+  std::vector<std::string>
+  idle_notes(const Problem &problem);
+} // namespace Exemplar
+
+#endif

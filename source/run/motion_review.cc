@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/long_vectors.h>
+#include <exemplar/base/errors.h>
+#include <exemplar/base/number_text.h>
+#include <exemplar/run/agreement.h>
+#include <exemplar/run/motion_review.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace Exemplar
+{
+  namespace
+  {
+    using Warning = std::optional<std::string>;
+
+    // A handle that goes further than so many times the body's size was given in another unit, and
+    // one that does so in a step is not followed.
+    constexpr double great_way = 20., great_step = 2.;
+
+    // What is less than so many times the body's size is nothing.
+    constexpr double small_way = 1e-3;
+
+    double
+    greatest_difference(const Vector &a, const Vector &b)
+    {
+      MaxMagnitude greatest;
+      for (unsigned int dof = 0; dof < a.size(); ++dof)
+        greatest.add(a[dof] - b[dof]);
+      return greatest.value();
+    }
+
+    /// The greatest ways of held nodes, by component [m].
+    struct Travel
+    {
+      double in_step = 0., in_all = 0.;
+    };
+
+    /// Of the nodes that this process has, in a few of the steps.
+    Travel
+    look_at_travel(const Handles &handles, const TimeAxis &axis, const Vector &rest)
+    {
+      const unsigned int n_looks = std::min(axis.n_steps(), 8u);
+      Travel             travel;
+      Vector             before = rest, after = rest;
+      for (unsigned int look = 1; look <= n_looks; ++look)
+      {
+        const auto step = static_cast<unsigned int>(std::size_t(look) * axis.n_steps() / n_looks);
+        handles.move(axis.time(step - 1), before);
+        handles.move(axis.time(step), after);
+        travel.in_step = std::max(travel.in_step, greatest_difference(before, after));
+        travel.in_all  = std::max(travel.in_all, greatest_difference(rest, after));
+      }
+      return travel;
+    }
+
+    Warning
+    review_travel(const Problem &problem, const Travel &travel)
+    {
+      const double      size    = problem.body.mesh.diameter();
+      const std::string of_size = " times the size of the body (" + short_text(size) + " m)";
+      if (travel.in_step > great_step * size)
+        return "Handles move by up to " + short_text(travel.in_step) + " m in a step, "
+               + short_text(travel.in_step / size) + of_size
+               + ". Motions are in metres, angles in radians. If this is meant, take smaller "
+                 "steps.";
+      if (travel.in_all > great_way * size)
+        return "Handles move by up to " + short_text(travel.in_all) + " m, "
+               + short_text(travel.in_all / size) + of_size + ". Motions are in metres.";
+      return {};
+    }
+
+    /// How a handle begins: its nodes' greatest distances [m], by component.
+    struct Beginning
+    {
+      double from_rest;        ///< of rest from the origin
+      double from_double_rest; ///< of t = 0 from twice the places at rest
+      double from_start;       ///< of t = 0 from where the body starts
+    };
+
+    Beginning
+    look_at_beginning(const Problem &problem, const unsigned int handle, const Vector &moved)
+    {
+      const Vector               &rest = problem.body.fe_space.rest_positions();
+      std::array<MaxMagnitude, 3> greatest;
+      for (const unsigned int node : problem.constraints.handles->nodes(handle))
+        for (unsigned int dof = 3 * node; dof < 3 * node + 3; ++dof)
+        {
+          greatest[0].add(rest[dof]);
+          greatest[1].add(moved[dof] - 2. * rest[dof]);
+          if (moved[dof] != rest[dof]) // held, and moved
+            greatest[2].add(moved[dof] - problem.state.positions[dof]);
+        }
+      const Exchange &exchange = problem.body.exchange();
+      return { exchange.max(greatest[0].value()), exchange.max(greatest[1].value()),
+               exchange.max(greatest[2].value()) };
+    }
+
+    Warning
+    review_beginning(const Problem &problem, const unsigned int handle, const Vector &moved)
+    {
+      const double      size = problem.body.mesh.diameter();
+      const Beginning   at   = look_at_beginning(problem, handle, moved);
+      const std::string key  = "Handles/" + problem.constraints.handles->name(handle);
+      if (at.from_rest > small_way * size && at.from_double_rest < 1e-9 * at.from_rest)
+        return key
+               + ": at t = 0 its motion moves every node by the node's own place, as if it gave "
+                 "places. It gives displacements from rest: take x; y; z off (in Python rest).";
+      const bool follows_cache = !problem.parameters.handles[handle].follow_cache.empty();
+      if (problem.actions.mass != nullptr && !follows_cache && at.from_start > small_way * size)
+        return key + ": at t = 0 the held nodes are up to " + short_text(at.from_start)
+               + " m from where the body starts, so they jump in the first step. Let its motion "
+                 "begin with 0, or set Initial/Pose.";
+      return {};
+    }
+
+    bool
+    is_at_rest(const Problem &problem)
+    {
+      const Vector &v = problem.state.velocities;
+      return greatest_difference(problem.state.positions, problem.body.fe_space.rest_positions())
+                 <= 1e-12 * problem.body.mesh.diameter()
+             && std::all_of(v.begin(), v.end(), [](const double x) { return x == 0.; });
+    }
+
+    /// Whether all of these nodes are held in all directions, in this process.
+    bool
+    are_held(const std::vector<unsigned int> &nodes, const std::vector<unsigned int> &held_dofs)
+    {
+      const auto is_held = [&](const unsigned int dof)
+      { return std::binary_search(held_dofs.begin(), held_dofs.end(), dof); };
+      return std::all_of(nodes.begin(), nodes.end(),
+                         [&](const unsigned int node) {
+                           return is_held(3 * node) && is_held(3 * node + 1)
+                                  && is_held(3 * node + 2);
+                         });
+    }
+
+    /// Of the handles in all processes; nothing if one is not finite, which the step will say.
+    std::optional<Travel>
+    travel_of(const Problem &problem)
+    {
+      Travel travel;
+      if (problem.constraints.handles == nullptr)
+        return travel;
+      const Exchange &exchange = problem.body.exchange();
+      try
+      {
+        do_in_agreement(exchange,
+                        [&]
+                        {
+                          travel = look_at_travel(*problem.constraints.handles, problem.time_axis,
+                                                  problem.body.fe_space.rest_positions());
+                        });
+      }
+      catch (const SolverFailure &)
+      {
+        return {};
+      }
+      return Travel{ exchange.max(travel.in_step), exchange.max(travel.in_all) };
+    }
+
+    std::vector<std::string>
+    warnings_of_handles(const Problem &problem, const Handles &handles)
+    {
+      std::vector<std::string>    warnings;
+      const std::optional<Travel> travel = travel_of(problem);
+      if (!travel)
+        return warnings;
+      Vector moved = problem.body.fe_space.rest_positions();
+      handles.move(problem.time_axis.time(0), moved);
+      for (unsigned int handle = 0; handle < handles.size(); ++handle)
+        if (const Warning warning = review_beginning(problem, handle, moved))
+          warnings.push_back(*warning);
+      if (const Warning warning = review_travel(problem, *travel))
+        warnings.push_back(*warning);
+      return warnings;
+    }
+  } // namespace
+
+  std::vector<std::string>
+  motion_warnings(const Problem &problem)
+  {
+    const Handles *const handles = problem.constraints.handles.get();
+    const Loads *const   loads   = problem.actions.loads.get();
+    if (handles == nullptr)
+      return {};
+    std::vector<std::string>        warnings = warnings_of_handles(problem, *handles);
+    const std::vector<unsigned int> held     = handles->held_dofs();
+    for (unsigned int load = 0; loads != nullptr && load < loads->size(); ++load)
+      if (!problem.body.exchange().any(!are_held(loads->nodes(load), held)))
+        warnings.push_back(
+            "Loads/" + loads->name(load)
+            + " moves nothing: handles hold all nodes that it acts on. Select others "
+              "in its Select, or in that of the handle.");
+    return warnings;
+  }
+
+  std::vector<std::string>
+  idle_notes(const Problem &problem)
+  {
+    std::vector<std::string>    notes;
+    const std::optional<Travel> travel         = travel_of(problem);
+    const bool                  starts_at_rest = !problem.body.exchange().any(!is_at_rest(problem));
+    if (problem.parameters.scene != SceneKind::interpolation && problem.actions.loads == nullptr
+        && problem.examples.poses == nullptr && travel && travel->in_all == 0. && starts_at_rest)
+      notes.push_back("nothing will happen: no handle moves, no load acts, and the body starts at "
+                      "rest (Handles/NAME/Motion, Loads/Gravity, Loads/Names)");
+    const ExampleWeights *const weights = problem.examples.weights.get();
+    if (problem.parameters.examples.weights_per_region && weights != nullptr
+        && weights->n_regions() == 1)
+      notes.push_back("Examples/Weights per region does nothing: the body has one region");
+    return notes;
+  }
+} // namespace Exemplar
