@@ -165,8 +165,8 @@ namespace Exemplar
                               && std::all_of(names.begin(), names.end(), is_temporary);
     if (!is_ours() && !is_stillborn)
       throw UserError("Output directory " + path.string()
-                      + (begins_with(path / "study.prm", study_mark)
-                             ? " holds a study, beside which no run writes."
+                      + (fs::exists(path / "study.prm") && fs::is_directory(path / "runs")
+                             ? " holds a study."
                              : " is not empty and was not written by exemplar.")
                       + remedy);
   }

@@ -15,6 +15,9 @@ namespace Exemplar
 
   namespace
   {
+    /// The first line of study.prm: by it a directory is known as ours.
+    const std::string mark = "# exemplar: the study of this directory";
+
     const std::string remedy = " Give another one by --output.";
 
     /// Whether the file is empty or begins as study.csv does, whose first columns differ.
@@ -49,8 +52,7 @@ namespace Exemplar
   bool
   StudyDirectory::is_ours() const
   {
-    return fs::is_regular_file(fs::symlink_status(study_prm()))
-           && begins_with(study_prm(), study_mark);
+    return fs::is_regular_file(fs::symlink_status(study_prm())) && begins_with(study_prm(), mark);
   }
 
   void
@@ -83,7 +85,7 @@ namespace Exemplar
         refuse(file, objection_to(file, beginning));
     };
     const std::vector<std::pair<fs::path, std::string>> files
-        = { { study_prm(), study_mark + "\n" },
+        = { { study_prm(), mark + "\n" },
             { csv(), "" },
             { markdown(), "# Study " },
             { gnuplot(), "# Drawn by exemplar" } };
@@ -136,7 +138,7 @@ namespace Exemplar
   StudyDirectory::write_study(const std::string &study_text) const
   {
     AtomicFile file(study_prm());
-    file.stream() << study_mark << '\n' << study_text;
+    file.stream() << mark << '\n' << study_text;
     file.commit();
   }
 

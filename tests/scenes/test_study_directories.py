@@ -35,13 +35,6 @@ class StudyDirectories(DirectoryTest):
     def names(self):
         return {run.name for run in self.runs.iterdir()}
 
-    def test_a_run_in_the_directory_of_a_study(self):
-        before = tree(self.output)
-        run = self.call("scene.prm", "--output", "out")
-        self.assertEqual(run.status, 1)
-        self.assertIn("holds a study, beside which no run writes. Give another one by --output", run.stderr)
-        self.assertEqual(tree(self.output), before)
-
     def test_what_looks_like_a_run_stays(self):
         # a folder with the name of a run, empty, of texts, and a copy of a run without its record; a file; a link
         (self.runs / HEX).mkdir()

@@ -11,9 +11,6 @@
 
 namespace Exemplar
 {
-  /// The first line of the study.prm that a study writes: by it its directory is known.
-  inline const std::string study_mark = "# exemplar: the study of this directory";
-
   /// Throws UserError unless `path` is a directory, or may become one, in which may be written.
   void
   require_writable(const std::filesystem::path &path, const std::string &remedy);
