@@ -105,6 +105,10 @@ namespace Exemplar
       return " Names of files are separated by commas.";
     if (const fs::path directory = missing_directory(file); !directory.empty())
       return " There is no directory " + directory.string() + ".";
+    if (file.is_absolute() && fs::exists(file.filename(), ignored))
+      return " Names in a scene are relative to its directory, not to the working directory, where "
+             "there is a "
+             + file.filename().string() + ".";
     if (const std::string near = near_name(file, not_meant); !near.empty())
       return " Did you mean " + near + "?";
     return "";
@@ -114,6 +118,8 @@ namespace Exemplar
   require_file(const fs::path &file, const std::string &what, const fs::path &not_meant)
   {
     std::error_code ignored;
+    if (fs::is_directory(file, ignored))
+      throw UserError(file.string() + ": is a directory. Give the path of " + what + ".");
     if (!fs::exists(file, ignored))
       throw UserError(file.string()
                       + ": cannot be opened (No such file or directory). Give the path of " + what

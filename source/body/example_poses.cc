@@ -85,11 +85,17 @@ namespace Exemplar
       add_pose("rest pose", mesh.get_nodes());
     for (const std::string &name : parameters.poses)
       add_pose(name, mesh.find_pose(poses, name, "Examples/Poses"));
-    for (const std::string &function : split_trimmed(parameters.pose_functions, '|'))
+    const std::vector<std::string> functions = split_trimmed(parameters.pose_functions, '|');
+    for (const std::string &function : functions)
       add_pose("pose function '" + function + "'", images(function, fe_space));
     for (unsigned int i = first_strained; i < size(); ++i)
       if (const std::string problem = describe_pose(mesh, fe_space, positions[i]); !problem.empty())
         warnings.push_back("Example " + std::to_string(i) + " (" + names[i] + ") " + problem);
+    for (std::size_t i = 0; i < functions.size(); ++i)
+      if (const std::string problem = describe_displacements(
+              functions[i], mesh, fe_space, positions[size() - functions.size() + i]);
+          !problem.empty())
+        warnings.push_back("Examples/Pose functions" + problem);
     compute_strains();
     if (patches != nullptr)
       compute_patch_dilatations(*patches);

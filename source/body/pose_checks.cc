@@ -3,6 +3,7 @@
 #include <exemplar/body/pose_checks.h>
 #include <exemplar/kernels/matrix3.h>
 #include <exemplar/mesh/mesh_checks.h>
+#include <exemplar/prm/assignments.h>
 
 #include <algorithm>
 #include <cmath>
@@ -73,6 +74,33 @@ namespace Exemplar
              + list_numbers(pose.inverted) + "; their strain is ambiguous.";
     }
   } // namespace
+
+  std::string
+  describe_displacements(const std::string            &functions,
+                         const Mesh                   &mesh,
+                         const FESpace                &fe_space,
+                         const dealii::Vector<double> &positions)
+  {
+    std::string  places, coordinates = "xyz";
+    unsigned int n_lacking = 0;
+    for (const std::string &formula : split_trimmed(functions, ';'))
+    {
+      const std::string coordinate     = coordinates.substr(0, 1);
+      const bool        needs_brackets = formula.find_first_of("?<>=&|") != std::string::npos;
+      n_lacking += formula.find(coordinate) == std::string::npos ? 1 : 0;
+      places += (places.empty() ? "" : "; ") + coordinate;
+      if (needs_brackets)
+        places += " + (" + formula + ")";
+      else if (parse_number(formula) != 0.)
+        places += formula[0] == '-' ? " - " + trim(formula.substr(1)) : " + " + formula;
+      coordinates.erase(0, 1);
+    }
+    if (measure(mesh, fe_space, positions).max_abs_volume >= flat_tolerance || n_lacking < 2)
+      return "";
+    return " = '" + functions
+           + "' makes the body flat. It gives positions, not displacements: did you mean '" + places
+           + "'?";
+  }
 
   std::string
   describe_pose(const Mesh &mesh, const FESpace &fe_space, const dealii::Vector<double> &positions)

@@ -53,9 +53,11 @@ namespace Exemplar
     std::string
     why_refused(const Tokens &script, const std::size_t i)
     {
-      const std::string &word   = script[i].text;
-      const std::string &option = geo_token(script, i + 2).text;
+      const std::string &word       = script[i].text;
+      const std::string &option     = geo_token(script, i + 2).text;
       const bool         has_option = geo_token(script, i + 1).text == ".";
+      if (word == "Save" && is_geo_command(script, i))
+        return "the command Save writes a file. A scene needs none: remove this line";
       if (refused_everywhere.count(word) > 0
           || (refused_commands.count(word) > 0 && is_geo_command(script, i)))
         return "the command " + word + " runs a program or writes files";

@@ -46,13 +46,14 @@ namespace Exemplar
       std::vector<unsigned int>
       read()
       {
-        const auto bytes = read_text_file(file);
+        std::string reason;
+        const auto  bytes = read_text_file(file, &reason);
         if (!bytes)
-          throw UserError(key + ": the file of nodes " + file.string() + " cannot be read"
-                          + (is_list(file.filename().string())
-                                 ? ". The numbers stand in a file; Select names the file."
-                                 : "." + missing_file_remedy(file))
-                          + remedy);
+          throw UserError(
+              key + ": the file of nodes " + file.string() + " cannot be read (" + reason + ")."
+              + (is_list(file.filename().string())
+                     ? " The numbers stand in a file; Select names the file." + remedy
+                     : " Give the path of a list of nodes." + missing_file_remedy(file)));
         if (bytes->compare(0, npy_magic.size(), npy_magic) == 0)
           read_npy(*bytes);
         else

@@ -61,6 +61,15 @@ namespace Exemplar
     return static_cast<unsigned int>(number);
   }
 
+  std::string
+  remedy_of_geo(const MshFile &mesh)
+  {
+    return mesh.geo_walls
+               ? " If the .geo has it: gmsh leaves out, without a word, a group of which "
+                 "no surface or volume exists; look at the tags in its braces."
+               : "";
+  }
+
   unsigned int
   find_id(const MshFile &mesh, const int dimension, const std::string &text, const std::string &key)
   {
@@ -72,11 +81,18 @@ namespace Exemplar
       if (group.first == dimension && name == wanted)
         found.insert(static_cast<unsigned int>(std::abs(group.second)));
     const std::string kind = dimension == 3 ? "Physical Volume" : "Physical Surface";
+    if (found.empty()
+        && (wanted.find(',') != std::string::npos
+            || (wanted.find(' ') != std::string::npos
+                && wanted.find_first_not_of("0123456789 ") == std::string::npos)))
+      throw UserError(key + ": one " + kind + " is selected at a time, and none has the name "
+                      + in_quotes(wanted)
+                      + ". Give each a subsection of its own, or put all into one " + kind + ".");
     if (found.empty())
       throw UserError(key + ": the mesh has no " + kind + " of the name " + in_quotes(wanted)
                       + " (present: " + names_present(mesh, dimension) + "). "
                       + suggestion(mesh, dimension, wanted)
-                      + "Give one that name, or its number here.");
+                      + "Give one that name, or its number here." + remedy_of_geo(mesh));
     if (found.size() > 1)
       throw UserError(key + ": several of the mesh's " + kind + "s have the name "
                       + in_quotes(wanted) + ". Give a number here.");

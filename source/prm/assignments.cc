@@ -98,6 +98,8 @@ namespace Exemplar
                                                                       : text);
         if (text.compare(0, 2, "\xFF\xFE") == 0 || text.compare(0, 2, "\xFE\xFF") == 0)
           throw UserError(file + ": the text is saved as UTF-16. Save it as UTF-8.");
+        if (text.compare(0, 4, "PK\x03\x04") == 0 || text.compare(0, 2, "\x1F\x8B") == 0)
+          throw UserError(file + ": is a packed file (zip or gzip), no text. Unpack it.");
         for (std::string line; std::getline(in, line);)
         {
           ++line_number;

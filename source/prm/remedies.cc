@@ -73,6 +73,13 @@ namespace Exemplar
       return names;
     }
 
+    /// Whether a key is of another outermost section.
+    bool
+    is_outside(const std::string &section, const DeclaredKey &key)
+    {
+      return section.substr(0, section.find('/')) != key.subsections[0];
+    }
+
     /// The keys that are nearest: by their names first, then by their sections.
     std::vector<std::string>
     nearest_keys(const Path &written, const std::vector<DeclaredKey> &keys)
@@ -83,8 +90,9 @@ namespace Exemplar
       {
         const std::size_t distance = name_distance(written.key, key);
         const std::string section  = split_path(key.path()).section;
+        const bool is_of_others    = key.subsections.size() > 1 && is_outside(written.section, key);
         if (distance == far
-            || (distance > 0 && section != written.section
+            || ((distance > 0 || is_of_others) && section != written.section
                 && !keys_of(written.section, keys).empty()))
           continue;            // who names another section means a key of it
         const std::size_t cost // names of sections have less than 100 letters

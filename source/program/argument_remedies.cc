@@ -110,14 +110,11 @@ namespace Exemplar
     std::string
     suggested_option(const std::string &unknown, const Words &options)
     {
-      const std::string nearest = nearest_word(unknown, options);
-      if (!nearest.empty())
-        return nearest;
       const std::string beginning = unknown.substr(unknown.find_first_not_of('-'));
-      for (const std::string &option : options) // -o for --output
+      for (const std::string &option : options) // -o or --out for --output
         if (option.compare(2, beginning.size(), beginning) == 0)
           return option;
-      return "";
+      return nearest_word(unknown, options);
     }
 
     /// What a study has instead of an option of scenes; empty for other options.

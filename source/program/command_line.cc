@@ -288,6 +288,8 @@ Exit status:
     if (arguments.run.resume && arguments.run.resume_from)
       throw UserError("--resume goes on from the last checkpoint, --resume-from from the step that "
                       "it names: give one of them.");
+    if (arguments.run.quiet && arguments.run.verbose)
+      throw UserError("--quiet prints less and --verbose prints more: give one of them.");
     if (arguments.output.empty() && app.get_option("--output")->count() > 0)
       throw UserError("--output is empty. Give the name of a directory; is a variable of the shell "
                       "not set?");

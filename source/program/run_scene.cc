@@ -73,7 +73,7 @@ namespace Exemplar
         else
           writer.begin();
         if (options.resume_from || options.resume)
-          log.say("Resumed   after step " + std::to_string(problem.state.step) + '\n');
+          log.say(resumption_text(problem));
         log.keep_in(RunDirectory(problem.parameters.output.directory).log());
       }
       catch (const std::filesystem::filesystem_error &error)

@@ -168,6 +168,18 @@ namespace Exemplar
   } // namespace
 
   std::string
+  resumption_text(const Problem &problem)
+  {
+    std::string text = "Resumed   after step " + std::to_string(problem.state.step) + '\n';
+    if (problem.state.step == problem.time_axis.n_steps())
+      text += std::string("          it was the last one, and nothing is left to do; ")
+              + (problem.parameters.scene == SceneKind::dynamic
+                     ? "a greater Time/End makes more steps\n"
+                     : "more increments need a run from the start\n");
+    return text;
+  }
+
+  std::string
   header_text(const Problem &problem)
   {
     return "Scene     " + printable(problem.parameters.name) + '\n' + mesh_text(problem)

@@ -118,7 +118,10 @@ namespace Exemplar
   load_checkpoint(const std::filesystem::path &file)
   {
     if (!std::filesystem::exists(file))
-      throw UserError(file.string() + ": there is no checkpoint to resume from." + without_resume);
+      throw UserError(
+          file.string()
+          + ": there is no checkpoint to resume from. Give the --output of the run that is "
+            "to go on, or run the scene without --resume.");
     if (n_sealed_bytes(file) == 0) // before anything in it is believed
       throw UserError(file.string()
                       + " is damaged, or of another version: its checksum is missing or not that "

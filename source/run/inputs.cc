@@ -16,6 +16,21 @@ namespace Exemplar
       return mesh.is_surface() && mesh.generator == MeshGenerator::none;
     }
 
+    /// Names the key in what `act` throws.
+    template <typename Action>
+    auto
+    under_key(const std::string &key, const Action &act)
+    {
+      try
+      {
+        return act();
+      }
+      catch (const UserError &error)
+      {
+        throw UserError(key + ": " + error.what());
+      }
+    }
+
     /// Adds to inputs what they do not hold.
     class InputReader
     {
@@ -28,8 +43,12 @@ namespace Exemplar
       void
       read()
       {
-        if (is_to_be_filled(scene.mesh))
-          require_file(scene.mesh.file, "a surface: an .obj, .ply or .stl file");
+        if (!scene.mesh.file.empty() && (is_to_be_filled(scene.mesh) || inputs.mesh.nodes.empty()))
+          under_key("Mesh/File",
+                    [this] {
+                      require_file(scene.mesh.file,
+                                   "a mesh (.msh or .geo) or of a surface (.obj, .ply or .stl)");
+                    });
         for_each_pose([this](const std::string &file) { check(file); });
         if (scene.needs_surface())
           add_surface();
@@ -52,15 +71,8 @@ namespace Exemplar
       {
         const auto act_on_missing = [&](const std::string &file, const std::string &key)
         {
-          try
-          {
-            if (!file.empty() && inputs.poses.count(file) == 0)
-              act(file);
-          }
-          catch (const UserError &error)
-          {
-            throw UserError(key + ": " + error.what());
-          }
+          if (!file.empty() && inputs.poses.count(file) == 0)
+            under_key(key, [&] { act(file); });
         };
         for (const HandleParameters &handle : scene.handles)
           act_on_missing(handle.follow_pose, "Handles/" + handle.name + "/Follow pose");
@@ -112,8 +124,12 @@ namespace Exemplar
           add_map(handle.select.map(), "Handles/" + handle.name + "/Select");
           if (!handle.follow_cache.empty() && inputs.caches.count(handle.name) == 0)
             inputs.caches[handle.name]
-                = open_point_cache(handle.follow_cache, handle.frames_per_second, *inputs.surface,
-                                   scene.mesh.surface_file());
+                = under_key("Handles/" + handle.name + "/Follow cache",
+                            [&]
+                            {
+                              return open_point_cache(handle.follow_cache, handle.frames_per_second,
+                                                      *inputs.surface, scene.mesh.surface_file());
+                            });
         }
         for (const LoadParameters &load : scene.loads.named)
           add_map(load.select.map(), "Loads/" + load.name + "/Select");
@@ -126,8 +142,12 @@ namespace Exemplar
           return;
         const MapName map = split_map_name(text, key);
         if (inputs.maps.count(map.name()) == 0)
-          inputs.maps[map.name()] = read_painted_map(map.file, map.attribute, *inputs.surface,
-                                                     scene.mesh.surface_file());
+          inputs.maps[map.name()]
+              = under_key(key,
+                          [&] {
+                            return read_painted_map(map.file, map.attribute, *inputs.surface,
+                                                    scene.mesh.surface_file());
+                          });
       }
 
       const SceneParameters &scene;

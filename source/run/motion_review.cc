@@ -162,25 +162,16 @@ namespace Exemplar
     }
 
     std::vector<std::string>
-    warnings_of_beginning(const Problem &problem, const Handles &handles)
+    warnings_of_handles(const Problem &problem, const Travel &travel)
     {
       std::vector<std::string> warnings;
-      Vector                   moved = problem.body.fe_space.rest_positions();
+      const Handles           &handles = *problem.constraints.handles;
+      Vector                   moved   = problem.body.fe_space.rest_positions();
       handles.move(problem.time_axis.time(0), moved);
-      for (unsigned int handle = 0; handle < handles.size(); ++handle)
+      for (unsigned int handle = 0; handle < handles.size() && problem.state.step == 0; ++handle)
         if (const Warning warning = review_beginning(problem, handle, moved))
           warnings.push_back(*warning);
-      return warnings;
-    }
-
-    std::vector<std::string>
-    warnings_of_handles(const Problem &problem, const Handles &handles)
-    {
-      const std::optional<Travel> travel = travel_of(problem);
-      if (!travel)
-        return {};
-      std::vector<std::string> warnings = warnings_of_beginning(problem, handles);
-      if (const Warning warning = review_travel(problem, *travel))
+      if (const Warning warning = review_travel(problem, travel))
         warnings.push_back(*warning);
       return warnings;
     }
@@ -193,8 +184,10 @@ namespace Exemplar
     const Loads *const   loads   = problem.actions.loads.get();
     if (handles == nullptr)
       return {};
-    std::vector<std::string>        warnings = warnings_of_handles(problem, *handles);
-    const std::vector<unsigned int> held     = handles->held_dofs();
+    std::vector<std::string> warnings;
+    if (const std::optional<Travel> travel = travel_of(problem))
+      warnings = warnings_of_handles(problem, *travel);
+    const std::vector<unsigned int> held = handles->held_dofs();
     for (unsigned int load = 0; loads != nullptr && load < loads->size(); ++load)
       if (!problem.body.exchange().any(!are_held(loads->nodes(load), held)))
         warnings.push_back(
@@ -210,15 +203,12 @@ namespace Exemplar
     const Handles *const handles = problem.constraints.handles.get();
     if (handles == nullptr)
       return {};
-    std::vector<std::string> warnings;
-    if (problem.state.step == 0)
-      warnings = warnings_of_beginning(problem, *handles);
-    Vector after = problem.state.positions;
+    const Vector &before = problem.state.positions;
+    Vector        after  = before;
     handles->move(problem.time_axis.time(problem.state.step + 1), after);
-    const double way = greatest_difference(problem.state.positions, after);
-    if (const Warning warning = review_travel(problem, { problem.body.exchange().max(way), 0. }))
-      warnings.push_back(*warning);
-    return warnings;
+    Travel travel;
+    travel.in_step = problem.body.exchange().max(greatest_difference(before, after));
+    return warnings_of_handles(problem, travel);
   }
 
   std::vector<std::string>

@@ -2,6 +2,7 @@
 #include <exemplar/algebra/long_vectors.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
+#include <exemplar/body/pose_checks.h>
 #include <exemplar/run/finiteness.h>
 #include <exemplar/run/initial_state.h>
 #include <exemplar/run/problem.h>
@@ -271,9 +272,17 @@ namespace Exemplar
       for (const std::string &warning : warnings_of(*body.made))
         all.push_back(warning);
     append(constraints.handles);
-    if (actions.mass != nullptr) // statics refuse what can turn
-      for (const std::string &warning : constraints.describe_single_nodes(body))
-        all.push_back(warning);
+    // statics refuse what can turn
+    for (const std::string &warning : actions.mass != nullptr
+                                          ? constraints.describe_single_nodes(body)
+                                          : constraints.describe_pulled_nodes(parameters, body))
+      all.push_back(warning);
+    if (const std::string &function = parameters.initial.pose_function;
+        !function.empty() && state.step == 0)
+      if (const std::string problem
+          = describe_displacements(function, body.mesh, body.fe_space, state.positions);
+          !problem.empty())
+        all.push_back("Initial/Pose function" + problem);
     append(examples.poses);
     append(examples.weights);
     return all;

@@ -248,21 +248,45 @@ namespace Exemplar
                       + " processes some would have no node to move. Start fewer with mpirun -n.");
   }
 
+  namespace
+  {
+    /// Of a handle with a single node.
+    std::string
+    remedy_of_single_node(const Handles &handles, const unsigned int h, const Body &body)
+    {
+      const auto  &nodes = handles.nodes(h);
+      const double reach = body.exchange().min(nodes.empty() ? std::numeric_limits<double>::max()
+                                                             : reach_of_a_cell(body, nodes[0]));
+      return "Enlarge Handles/" + handles.name(h) + "/Select by " + short_text(1.01 * reach)
+             + " m, and it holds a whole tetrahedron.";
+    }
+  } // namespace
+
   std::vector<std::string>
   Constraints::describe_single_nodes(const Body &body) const
   {
     std::vector<std::string> all;
     for (unsigned int h = 0; handles != nullptr && h < handles->size(); ++h)
       if (handles->n_nodes(h) == 1)
-      {
-        const auto  &nodes = handles->nodes(h);
-        const double reach = body.exchange().min(nodes.empty() ? std::numeric_limits<double>::max()
-                                                               : reach_of_a_cell(body, nodes[0]));
         all.push_back("Handle '" + handles->name(h)
-                      + "' holds a single node, about which the body can turn. Enlarge Handles/"
-                      + handles->name(h) + "/Select by " + short_text(1.01 * reach)
-                      + " m, and it holds a whole tetrahedron.");
-      }
+                      + "' holds a single node, about which the body can turn. "
+                      + remedy_of_single_node(*handles, h, body));
+    return all;
+  }
+
+  std::vector<std::string>
+  Constraints::describe_pulled_nodes(const SceneParameters &parameters, const Body &body) const
+  {
+    const HandleParameters   usual;
+    std::vector<std::string> all;
+    for (unsigned int h = 0; handles != nullptr && h < handles->size(); ++h)
+      if (const HandleParameters &handle = parameters.handles[h];
+          handle.select.is_of_space() && handle.motion != usual.motion
+          && handle.components == usual.components && handles->n_nodes(h) == 1)
+        all.push_back("Handle '" + handle.name + "' pulls at the single node in its "
+                      + handle.select.text
+                      + ", so the strain there depends on the size of the cells. "
+                      + remedy_of_single_node(*handles, h, body));
     return all;
   }
 
@@ -280,7 +304,8 @@ namespace Exemplar
       throw UserError(
           parameters.name + ": the handles leave " + std::to_string(n_free)
           + " of 6 rigid motions free, so a static scene has no unique equilibrium." + single_nodes
-          + " Add a subsection of Handles that holds three nodes not on a line (a box, a sphere "
+          + (single_nodes.empty() ? " Add" : " Or add")
+          + " a subsection of Handles that holds three nodes not on a line (a box, a sphere "
             "or a boundary), or hold more Components.");
   }
 

@@ -78,24 +78,6 @@ namespace Exemplar
       return files;
     }
 
-    void
-    check_same_scene(const Checkpoint                         &checkpoint,
-                     const SceneFile                          &scene,
-                     const std::map<std::string, std::string> &input_digests,
-                     const std::filesystem::path              &file)
-    {
-      const std::string failure = "Cannot resume from " + file.string() + ": ";
-      const std::string remedy
-          = " Change it back, or run the scene without --resume. Only Time/End "
-            "and the section Output may change; to go on with another scene after step "
-            + std::to_string(checkpoint.state.step) + ", say --resume-from "
-            + std::to_string(checkpoint.state.step) + ".";
-      for (const ChangedKey &changed : changed_keys(checkpoint, scene))
-        throw UserError(failure + changed.text() + remedy);
-      for (const std::string &input : changed_files(checkpoint, input_digests))
-        throw UserError(failure + "the file " + input + " has changed since." + remedy);
-    }
-
     /// What makes other states: a run cannot go on with another one.
     bool
     is_fixed(const ChangedKey &changed)
@@ -107,26 +89,57 @@ namespace Exemplar
              || key == "Model/Element" || key.compare(0, 5, "Mesh/") == 0;
     }
 
-    void
-    refuse_other_steps(const Checkpoint                         &checkpoint,
-                       const SceneFile                          &scene,
-                       const std::map<std::string, std::string> &input_digests,
-                       const std::filesystem::path              &file)
+    /// A change with which a run cannot even go on from a step, in a sentence; empty if there is none.
+    std::string
+    fixed_change(const Checkpoint                         &checkpoint,
+                 const SceneFile                          &scene,
+                 const std::map<std::string, std::string> &input_digests)
     {
-      const std::string failure = "Cannot go on from " + file.string() + ": ";
-      const std::string remedy
-          = " The kind of scene, its mesh and element and its steps of time must stay. Change "
-            "it back, or run the scene from its start, without --resume-from.";
       for (const ChangedKey &changed : changed_keys(checkpoint, scene))
         if (is_fixed(changed))
-          throw UserError(failure + changed.text() + remedy);
+          return changed.text();
       const auto            files = changed_files(checkpoint, input_digests);
       const MeshParameters &mesh  = scene.get_parameters().mesh;
       for (const auto &[what, name] :
            { std::pair("mesh ", mesh.file), std::pair("surface ", mesh.surface) })
         if (std::count(files.begin(), files.end(), name) > 0
             && checkpoint.input_digests.count(name) > 0)
-          throw UserError(failure + "the " + what + name + " has changed since." + remedy);
+          return "the " + (what + name) + " has changed since.";
+      return "";
+    }
+
+    void
+    check_same_scene(const Checkpoint                         &checkpoint,
+                     const SceneFile                          &scene,
+                     const std::map<std::string, std::string> &input_digests,
+                     const std::filesystem::path              &file)
+    {
+      const std::string failure = "Cannot resume from " + file.string() + ": ";
+      const std::string usual_remedy
+          = " Change it back, or run the scene from its start, without --resume. Only Time/End and "
+            "the section Output may change";
+      if (const std::string what = fixed_change(checkpoint, scene, input_digests); !what.empty())
+        throw UserError(failure + what + usual_remedy + ".");
+      const std::string step   = std::to_string(checkpoint.state.step);
+      const std::string remedy = usual_remedy + "; to go on with another scene after step " + step
+                                 + ", say --resume-from " + step + ".";
+      for (const ChangedKey &changed : changed_keys(checkpoint, scene))
+        throw UserError(failure + changed.text() + remedy);
+      for (const std::string &input : changed_files(checkpoint, input_digests))
+        throw UserError(failure + "the file " + input + " has changed since." + remedy);
+    }
+
+    void
+    refuse_other_steps(const Checkpoint                         &checkpoint,
+                       const SceneFile                          &scene,
+                       const std::map<std::string, std::string> &input_digests,
+                       const std::filesystem::path              &file)
+    {
+      if (const std::string what = fixed_change(checkpoint, scene, input_digests); !what.empty())
+        throw UserError("Cannot go on from " + file.string() + ": " + what
+                        + " The kind of scene, its mesh and element and its steps of time must "
+                          "stay. Change it back, or run the scene from its start, without "
+                          "--resume-from.");
     }
 
     void

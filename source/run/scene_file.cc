@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
+#include <exemplar/base/nearest_word.h>
 #include <exemplar/mesh/map_name.h>
 #include <exemplar/run/ignored_keys.h>
 #include <exemplar/run/named_subsections.h>
@@ -158,6 +159,7 @@ namespace Exemplar
     keys.apply(assignments, directory());
     check_names(handle_names, "Handles");
     check_names(load_names, "Loads");
+    refuse_misspelt_names(unknown);
     check_listed(named, "Handles", handle_names);
     check_listed(named, "Loads", load_names);
     declare_named_subsections(named);
@@ -181,6 +183,16 @@ namespace Exemplar
     { return !text.empty() && find_assignment(overrides, key) != nullptr; };
     if (!is_overridden("Scene") && !is_overridden("Mesh/Generator")) // else the rest may stay
       parameters.warnings = warn_of_ignored_keys(parameters, keys, assignments);
+  }
+
+  void
+  SceneFile::refuse_misspelt_names(const std::vector<Assignment> &unknown)
+  {
+    for (const Assignment &a : unknown)
+      if (a.subsections == std::vector<std::string>{ "Handles" }
+          || a.subsections == std::vector<std::string>{ "Loads" })
+        if (is_near(a.key, "Names"))
+          keys.apply({ a }, directory());
   }
 
   std::filesystem::path

@@ -118,7 +118,7 @@ namespace Exemplar
               const std::string &text,
               double ElasticConstants::*const member,
               const double                    low,
-              const double                    high) const
+              const double                    high)
       {
         if (text.empty())
           return {};
@@ -143,7 +143,28 @@ namespace Exemplar
                   + (high < 1. ? " and less than " + short_text(high) : "")
                   + " everywhere. Paint other values there, or say 'from A to B' behind the map.");
         }
+        const bool scales_one = *std::max_element(factors.begin(), factors.end()) <= 1.;
+        if (low == 0. && use.is_factor != scales_one)
+          doubt(key + " = '" + text + "'", values, use.is_factor);
         return { selector.at_cells(values), use.is_factor };
+      }
+
+      /// Warn of values that look like those of the other use of a map. Nobody paints a body a hundred
+      /// times as stiff or dense everywhere as its scene says, unless that says 1; jelly has some 1000 Pa.
+      void
+      doubt(const std::string &map, const std::vector<double> &values, const bool are_factors)
+      {
+        const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
+        const std::string range      = short_text(*least) + " to " + short_text(*greatest);
+        if (are_factors && *least >= 100.)
+          readings.warnings.push_back(map + ": its values " + range
+                                      + " are factors of the constant that Material gives. If they "
+                                        "are in Pa or kg/m^3, write 'absolute' behind the map.");
+        if (!are_factors && *greatest < 100. && map.find("Young") != std::string::npos)
+          readings.warnings.push_back(map + ": E is " + range
+                                      + " Pa, less than that of jelly, which has some 1000 Pa. If "
+                                        "these are factors of Material/Young's modulus, leave "
+                                        "'absolute' out.");
       }
 
       std::vector<double>
@@ -168,6 +189,12 @@ namespace Exemplar
 
       void
       add_motion(const HandleParameters &handle);
+
+      void
+      check_unit(const PointCache &cache, const std::string &key) const;
+
+      void
+      warn_of_unreached(const std::vector<double> &times, const HandleParameters &handle);
 
       const SceneParameters &scene;
       const Mesh            &mesh;
@@ -201,6 +228,53 @@ namespace Exemplar
       }
     };
 
+    /// How large a set of points is: the root of their mean squared distance from their middle.
+    double
+    spread(const PointCache::Vertices &points)
+    {
+      SurfaceMesh::Vertex sum{};
+      double              squares = 0.;
+      for (const auto &point : points)
+        for (unsigned int c = 0; c < 3; ++c)
+        {
+          sum[c] += point[c];
+          squares += point[c] * point[c];
+        }
+      const auto n = static_cast<double>(points.size());
+      return std::sqrt(
+          std::max(0., squares - (sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]) / n) / n);
+    }
+
+    /// No rig makes a surface so many times as large or as small.
+    constexpr double other_unit = 20.;
+
+    void
+    SurfaceReader::check_unit(const PointCache &cache, const std::string &key) const
+    {
+      const double ratio = spread(cache.sample(0)) / spread(inputs.surface->vertices);
+      if (!(ratio < other_unit && ratio > 1. / other_unit))
+        throw UserError(key + ": in its first sample the surface is " + short_text(ratio)
+                        + " times as large as at rest. Export both in the same unit of length.");
+    }
+
+    /// A cache that goes on when t of the scene has come to its end, which is 1 but in dynamics.
+    void
+    SurfaceReader::warn_of_unreached(const std::vector<double> &times,
+                                     const HandleParameters    &handle)
+    {
+      if (scene.scene == SceneKind::dynamic || times.back() <= 1. + 1e-6)
+        return;
+      const std::string key       = "Handles/" + handle.name;
+      const auto        n_reached = std::upper_bound(times.begin(), times.end(), 1. + 1e-6);
+      const bool has_frames = std::filesystem::path(handle.follow_cache).extension() != ".mdd";
+      readings.warnings.push_back(
+          key + "/Follow cache goes to t = " + short_text(times.back())
+          + " s, but t of a static scene ends at 1, after "
+          + std::to_string(n_reached - times.begin()) + " of " + std::to_string(times.size())
+          + " samples. Set Scene = dynamic and Time/End = " + shortest_text(times.back())
+          + (has_frames ? ", or a greater " + key + "/Frames per second." : "."));
+    }
+
     void
     SurfaceReader::add_motion(const HandleParameters &handle)
     {
@@ -222,6 +296,8 @@ namespace Exemplar
         for (double &time : track->times)
           time += shift;
       }
+      check_unit(*cache->second, key + "/Follow cache");
+      warn_of_unreached(track->times, handle);
       const double farthest = 1e3 * mesh.diameter();
       for (std::size_t k = 0; k < track->times.size(); ++k)
       {

@@ -22,6 +22,9 @@ namespace Exemplar
     // 180 long, a metre that was scaled for millimetres .001.
     constexpr double great_length = 100., small_length = 0.005;
 
+    // Beyond this length [m] what is as soft as this [Pa] is more likely of another unit.
+    constexpr double great_soft_length = 20., soft_as_rubber = 1e8;
+
     // Air has 1.2 kg/m^3, light foam 10, osmium 22,600; in g/cm^3 steel has 7.8, copper 8.96.
     constexpr double light = 9., heavy = 25000.;
 
@@ -34,29 +37,36 @@ namespace Exemplar
     // Loads that a body of such a section and stiffness cannot bear.
     constexpr double great_pull = 5.;
 
+    // More files fill a disk.
+    constexpr unsigned int many_frames = 1000000;
+
     // So many turns in a run were not meant [rad].
     constexpr double great_angle = 4. * M_PI;
 
     const std::string scale_remedy = "Mesh/Scale = 0.001 makes metres of millimetres.";
-
-    Warning
-    review_size(const BodyMeasures &measures)
-    {
-      const double length = measures.length();
-      if (length >= great_length)
-        return "The body is " + short_text(length)
-               + " m long. If its mesh is in millimetres: " + scale_remedy;
-      if (length <= small_length)
-        return "The body is only " + short_text(length)
-               + " m long. Lengths are in metres; look at the unit of the mesh, and at Mesh/Scale.";
-      return {};
-    }
 
     bool
     masses_matter(const Problem &problem)
     {
       return problem.actions.mass != nullptr
              || (problem.actions.loads != nullptr && problem.actions.loads->has_gravity());
+    }
+
+    Warning
+    review_size(const Problem &problem, const BodyMeasures &measures)
+    {
+      const double          length               = measures.length();
+      const MeshParameters &mesh                 = problem.parameters.mesh;
+      const bool            is_soft_and_unscaled = masses_matter(problem)
+                                        && measures.young.greatest < soft_as_rubber
+                                        && !mesh.file.empty() && mesh.scale == 1.;
+      if (length >= great_length || (length >= great_soft_length && is_soft_and_unscaled))
+        return "The body is " + short_text(length)
+               + " m long. If its mesh is in millimetres: " + scale_remedy;
+      if (length <= small_length)
+        return "The body is only " + short_text(length)
+               + " m long. Lengths are in metres; look at the unit of the mesh, and at Mesh/Scale.";
+      return {};
     }
 
     Warning
@@ -150,6 +160,18 @@ namespace Exemplar
       return "Time/Step = " + shortest_text(time.step)
              + " is longer than Time/End = " + shortest_text(time.end) + ": one step is made, of "
              + shortest_text(time.end) + " s. Take a smaller Time/Step or a greater Time/End.";
+    }
+
+    Warning
+    review_frames(const Problem &problem)
+    {
+      const unsigned int every = problem.parameters.output.every, n = problem.time_axis.n_steps();
+      if (every == 0 || n / every <= many_frames)
+        return {};
+      return "The run makes " + std::to_string(n) + " steps and writes " + std::to_string(n / every)
+             + " frames. If so many are not meant, "
+             + (problem.actions.mass != nullptr ? "take a greater Time/Step, or " : "")
+             + "set Output/Every = " + std::to_string(n / 1000) + ", for 1000 frames.";
     }
 
     Warning
@@ -300,15 +322,15 @@ namespace Exemplar
   unit_warnings(const Problem &problem)
   {
     const BodyMeasures   measures = measure(problem.body);
-    std::vector<Warning> found    = { review_size(measures) };
+    std::vector<Warning> found    = { review_size(problem, measures) };
     if (masses_matter(problem)
         || problem.actions.loads != nullptr) // else shapes do not depend on it
       found.push_back(review_stiffness(measures));
     if (masses_matter(problem))
       found.insert(found.end(), { review_density(measures), review_weight(problem, measures) });
     found.insert(found.end(),
-                 { review_step(problem), review_damping(problem), review_force(problem, measures),
-                   review_angles(problem, measures) });
+                 { review_step(problem), review_frames(problem), review_damping(problem),
+                   review_force(problem, measures), review_angles(problem, measures) });
     std::vector<std::string> warnings;
     for (const Warning &warning : found)
       if (warning)

@@ -2,6 +2,7 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/base/message_text.h>
 #include <exemplar/base/missing_file.h>
+#include <exemplar/base/nearest_word.h>
 #include <exemplar/base/number_text.h>
 #include <exemplar/base/text_file.h>
 #include <exemplar/surface/painted_map.h>
@@ -144,14 +145,31 @@ namespace Exemplar
         {
           value_column = index(column);
           if (value_column == none)
-            fail("there is no column " + in_quotes(column)
-                 + ". Give one that its first line names.");
+            fail("there is no column " + in_quotes(column) + " (there: " + listed(names) + ")."
+                 + suggestion(names));
           return;
         }
         if (width != (vertex_column == none ? 1 : 2))
           fail("there are several columns of values. Say which one by FILE.csv:COLUMN, with a name "
                "of the first line.");
         value_column = vertex_column == 0 ? 1 : 0;
+      }
+
+      static std::string
+      listed(const Cells &names)
+      {
+        std::string text;
+        for (const std::string &column_name : names)
+          text += (text.empty() ? "" : ", ") + printable(column_name);
+        return text.empty() ? "none: its first line names no columns" : text;
+      }
+
+      std::string
+      suggestion(const Cells &names) const
+      {
+        const std::string nearest = nearest_word(column, names);
+        return nearest.empty() ? " Write one of them behind the ':'."
+                               : " Did you mean " + in_quotes(nearest) + "?";
       }
 
       static constexpr std::size_t none = static_cast<std::size_t>(-1);

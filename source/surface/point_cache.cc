@@ -5,6 +5,7 @@
 // and frames a sample as floats, count of samples; then the points.
 #include <exemplar/base/errors.h>
 #include <exemplar/base/message_text.h>
+#include <exemplar/base/missing_file.h>
 #include <exemplar/base/number_text.h>
 #include <exemplar/surface/numbered_files.h>
 #include <exemplar/surface/point_cache.h>
@@ -237,8 +238,8 @@ namespace Exemplar
                    [](const unsigned char c) { return static_cast<char>(std::tolower(c)); });
     const bool is_one_file = extension == ".mdd" || extension == ".pc2";
     if (is_one_file && !std::filesystem::is_regular_file(file))
-      throw UserError(file
-                      + ": there is no such file. Give the point cache that is to be followed.");
+      throw UserError(file + ": there is no such file. Give the point cache that is to be followed."
+                      + missing_file_remedy(file));
     if (extension == ".mdd")
       return std::make_unique<FileCache>(open_mdd(file, rest, rest_name), file);
     if (extension == ".pc2")

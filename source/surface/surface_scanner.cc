@@ -126,7 +126,10 @@ namespace Exemplar
     double                 value = 0.;
     const auto             done  = std::from_chars(begin, end, value);
     if (done.ptr != end || done.ec == std::errc::invalid_argument)
-      fail("expected a number, found " + in_quotes(word) + ".");
+      fail("expected a number, found " + in_quotes(word) + "."
+           + (word.find(',') == std::string_view::npos
+                  ? ""
+                  : " The decimal sign is a point: export the surface with points."));
     if (done.ec == std::errc::result_out_of_range) // too small (0) or too large (infinite)
       value = std::strtod(std::string(begin, end).c_str(), nullptr);
     return value;

@@ -106,8 +106,9 @@ expect(in_threads(dragged, 3 * [FREE]) == 3 * [alone], "threads differ")
     def test_python_ends_while_threads_solve(self):
         self.passes("""
 import time
-LONG = {**BAR, "Scene": "dynamic", "Time": {"Step": 0.01, "End": 1000},
-        "Handles": {**BAR["Handles"], "right": {"Select": "boundary 2", "Motion": [0, 0, "0.5*sin(t)"]}}}
+import warnings
+warnings.simplefilter("ignore")  # the handle goes far in that time
+LONG = {**BAR, "Scene": "dynamic", "Time": {"Step": 0.01, "End": 1000}}
 for _ in range(2):
     threading.Thread(target=solved, args=(LONG,), daemon=True).start()
 time.sleep(0.5)

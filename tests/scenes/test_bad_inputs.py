@@ -180,10 +180,12 @@ class BadInputs(BadInputTest):
         def refused(expected, text=good):
             self.write("scene.prm", text)
             before = self.tree()
-            self.check(self.attempt(text, "--resume"), ["out/checkpoint.bin", *expected], before)
+            run = self.attempt(text, "--resume")
+            self.check(run, ["out/checkpoint.bin", *expected], before)
+            return run
 
         refused(["Material/Density was '1000' and is now '1001'", "Change it back",
-                 "Only Time/End"], prm({**scene, "Material/Density": "1001"}))
+                 "Only Time/End", "--resume-from"], prm({**scene, "Material/Density": "1001"}))
         refused(["Handles/left/Progress was 't' and is now 't^2'"],
                 prm({**scene, "Handles/left/Progress": "t^2"}))
         refused(["Material/region 1/Density was '(absent)' and is now '1000'"],
@@ -191,8 +193,11 @@ class BadInputs(BadInputTest):
         for file in ("bar.msh", "held.txt", "pose.msh"):
             original = (self.directory / file).read_text()
             self.write(file, original + "\n")
-            refused([f"/{file} has changed"])
+            run = refused([f"/{file} has changed"])
+            self.assertEqual("--resume-from" in run.stderr, file != "bar.msh")  # which takes no other mesh
             self.write(file, original)
+        run = refused(["Time/Increments was '2' and is now '4'", "from its start"], prm({**scene, "Time/Increments": "4"}))
+        self.assertNotIn("--resume-from", run.stderr)
         with open(self.directory / "out/statistics.csv", "r+") as statistics:
             statistics.truncate(10)
         self.check(self.attempt(good, "--resume"), ["out/statistics.csv", "without --resume"],

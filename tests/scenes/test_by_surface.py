@@ -235,6 +235,21 @@ class Painted(BySurface):
         between = .25 * sum(1. / (1. + 2. * s) for s in (.125, .375, .625, .875)) * .5
         self.assertAlmostEqual(end * 1e6, 2. + between + 1.5 / 3., delta=.06)
 
+    def test_factors_and_values_are_not_mistaken(self):
+        self.write("map.csv", table({v: v / len(VERTICES) for v in range(len(VERTICES))}))
+        hold = {**BAR, "Handles/Names": "left", "Handles/left/Select": "boundary 1"}
+        for key, text, words in (("Young's modulus", "1e5 to 1e6", "are factors of the constant"),
+                                 ("Density", "500 to 2000", "write 'absolute' behind"),
+                                 ("Young's modulus", "1 to 20 absolute", "leave 'absolute' out"),
+                                 ("Young's modulus", "1 to 1e3", ""), ("Young's modulus", "1e5 to 1e6 absolute", ""),
+                                 ("Density", "1 to 20 absolute", "")):
+            run = self.attempt({**hold, f"Material/{key} map": f"map.csv from {text}"})
+            self.assertEqual(run.status, 0, run.stderr)
+            self.assertIn(words, run.stderr)
+            self.assertEqual(run.stderr == "", words == "", run.stderr)
+        run = self.attempt({**hold, "Material/Young's modulus": "1", "Material/Young's modulus map": "map.csv from 1e5 to 1e6"})
+        self.assertEqual(run.stderr, "")
+
     def test_shares_of_weights(self):
         n = len(VERTICES)
         examples = {"Examples/Pose functions": "1.2*x; y; z", "Handles/Names": "left", "Handles/left/Select": "boundary 1",
@@ -273,6 +288,8 @@ class Painted(BySurface):
                 ("Material/Poisson's ratio map", "big.csv", ("vertex 1 has the value 2", "less than 0.5")),
                 ("Material/Young's modulus map", "zero.csv from 1", ("is not understood",)),
                 ("Material/Young's modulus map", "paint.png", ("names no painted map",)),
+                ("Material/Density map", "absent.csv", ("Material/Density map: ", "/absent.csv: cannot be opened")),
+                ("Material/Density map", "big.csv:pant", ("no column 'pant' (there: vertex, paint). Did you mean 'paint'?",)),
                 ("Examples/Weight maps", "big.csv", ("vertex 1 has the value 2", "between 0 and 1")),
                 ("Examples/Weight maps", "zero.csv, none.csv", ("map 2 is 0 in all cells",)),
                 ("Examples/Weight maps", "zero.csv above 1", ("is not understood",))):
@@ -355,8 +372,9 @@ class Caches(BySurface):
                 ("d.pc2", pc2(0., 1., [VERTICES])[:50], ("truncated",)),
                 ("a.abc", b"x", ("a point cache is a .mdd or .pc2 file",)),
                 ("a_1.obj", obj(VERTICES[:-1] + [(9., 9., 9.)]).replace("f 1 ", "f 2 ").encode(), ("is no pose of", "face")),
-                ("none_*.obj", None, ("No file matches",)),
-                ("none.mdd", None, ("there is no such file",))):
+                ("l.mdd", mdd([0., 1.], 2 * [[tuple(100 * c for c in x) for x in VERTICES]]), ("100 times as large as at rest", "same unit")),
+                ("none_*.obj", None, ("Handles/right/Follow cache: No file matches",)),
+                ("none.mdd", None, ("Handles/right/Follow cache: ", "there is no such file"))):
             with self.subTest(name):
                 if content is not None:
                     self.write_bytes(name, content)
@@ -377,6 +395,14 @@ class Caches(BySurface):
         self.write_bytes("rig.mdd", mdd([0., 1.], [self.samples()[4], self.samples()[8]]))
         run = self.attempt({**BAR, **self.scene({"Handles/right/Follow cache": "rig.mdd"})})
         self.assertIn("they jump in the first step", run.stderr)
+        self.write_bytes("rig.mdd", mdd([0., 1., 2.], 3 * [VERTICES]))
+        run = self.attempt({**BAR, **self.scene({"Handles/right/Follow cache": "rig.mdd"})})
+        self.assertIn("goes to t = 2 s, but t of a static scene ends at 1, after 2 of 3 samples. Set Scene = dynamic and Time/End = 2.", run.stderr)
+        self.write_bytes("rig.pc2", pc2(0., 1., 49 * [VERTICES]))
+        run = self.attempt({**BAR, **self.scene({"Handles/right/Follow cache": "rig.pc2"})})
+        self.assertIn("after 25 of 49 samples. Set Scene = dynamic and Time/End = 2, or a greater Handles/right/Frames per second.", run.stderr)
+        run = self.attempt({**BAR, **self.scene({"Handles/right/Follow cache": "rig.pc2", "Handles/right/Frames per second": "48"})})
+        self.assertEqual(run.stderr, "")
 
     def test_resumed(self):
         self.write_bytes("rig.mdd", mdd([k / 8 for k in range(9)], self.samples()))

@@ -67,10 +67,18 @@ class Meshing(GeoTest):
                     self.assertIn("--allow-commands", run.stderr)
                     self.assertEqual(list(self.directory.glob("trace*")), [])
                     self.assertFalse((self.directory / "out").exists())
+        self.assertIn("A scene needs none: remove this line", self.run_with(BOX + 'Save "box.msh";').stderr)
         run = self.run_with(BOX + f'SystemCall "touch {trace}";', "--allow-commands")
         self.assertEqual((run.status, run.stderr), (0, ""))
         self.assertTrue(trace.exists())
         self.assertEqual(read_summary(self.directory / "out")["geo_confinement"], [])
+
+    def test_a_group_of_what_there_is_not(self):
+        for select in ("boundary 2", "boundary right"):
+            self.write("scene.prm", prm({**SCENE, "Handles/left/Select": select}))
+            run = self.run_with(BOX.replace("{22}", "{77}"))
+            self.assertEqual(run.status, 1)
+            self.assertIn("gmsh leaves out, without a word, a group of which no surface or volume exists", run.stderr)
 
     def test_a_disguised_script_is_no_data(self):
         trace = self.directory / "trace"

@@ -90,6 +90,7 @@ SCENES = {
     "key of another section by name": ({**BAR, "Handles/left/Velocity": "0; 0; 1"}, ["'Initial/Velocity'", "Section Handles/left has the keys Select"]),
     "key of no section": ({**DYNAMIC, "Time/Start": "0"}, ["Section Time has the keys Scheme, Step"]),
     "key that is in named sections": ({**BAR, "Loads/Force": "0; 0; 1"}, ["has keys of its own, in a subsection each"]),
+    "key of a handle in a load": ({**LOADED, "Loads/tip/Motion": "0; 0; t"}, ["no parameter 'Loads/tip/Motion'. Section Loads/tip has the keys Select, Force"]),
     "key that is far from all": ({**LOADED, "Loads/tip/Pressure": "5"}, ["Loads/tip has the keys Select, Force"]),
     "handle outside of Handles": ({**BAR, "left/Motion": "0; 0; t"}, ["Did you mean 'Handles/left/Motion'"]),
     "section misspelt": ({**BAR, "Handle/left/Motion": "0; 0; t"}, ["Did you mean 'Handles/left/Motion'"]),
@@ -99,6 +100,7 @@ SCENES = {
     "names by semicolons": ({**TWO, "Handles/Names": "left; right"}, ["Names are separated by commas"]),
     "names in quotes": ({**TWO, "Handles/Names": '"left", "right"'}, ["without quotes"]),
     "name with a capital": ({**TWO, "Handles/Names": "Left, right"}, ["Did you mean Handles/Left?"]),
+    "Names misspelt": ({**LOADED, "Loads/Names": None, "Loads/Name": "tip"}, ["'Loads/Name'. Did you mean 'Loads/Names'?"]),
     # lines
     "inner end is missing": (without_line(14), ["scene.prm:12: subsection 'left' is not closed before line 14"]),
     "end of Mesh is missing": (without_line(6), ["scene.prm:2: subsection 'Mesh' is not closed before line 6", "'Examples' begins"]),
@@ -119,6 +121,7 @@ SCENES = {
     "END": ("subsection Mesh\nEND\n", ["small letters"]),
     "include": ("include other.prm\n", ["--set"]),
     "value over two lines": ("set Scene = static\n0; 0;\n", ["backslash"]),
+    "packed": (b"PK\x03\x04\x14\x00", ["is a packed file", "Unpack it"]),
     "UTF-16": (prm(BAR).encode("utf-16"), ["saved as UTF-16", "UTF-8"]),
     # formulas
     "semicolon at the end": (left(Motion="0; 0; t;"), ["4 formulas", "Remove the ';' at the end"]),
@@ -147,15 +150,16 @@ SCENES = {
     "kind with a capital": (left(Select="Boundary 1"), ["Did you mean 'boundary 1'?"]),
     "inequality": (left(Select="x < .1"), ["selected by a box", "Did you mean 'box -1e9 -1e9 -1e9 .1 1e9 1e9'?"]),
     "word of gmsh": (left(Select="physical 1"), ["Did you mean 'boundary 1'?"]),
-    "handle without a subsection": ({**TWO, "Handles/right/Select": None, "Handles/right/Motion": None}, ["'subsection right', 'set Select = boundary 1', 'end'"]),
+    "handle without a subsection": ({**TWO, "Handles/right/Select": None, "Handles/right/Motion": None}, ["Handles/right/Select is not set", "needs a line 'set Select = boundary 1'", "write 'subsection right' before"]),
     "no id": (left(Select="boundary"), ["does not say which boundary"]),
+    "two boundaries": (left(Select="boundary 1, 2"), ["one Physical Surface is selected at a time", "a subsection of its own"]),
     "name of a boundary misspelt": (left(Select="boundary X-"), ["Did you mean 'x-'"]),
     "nodes in the scene": (left(Select="nodes 1 2 3"), ["stand in a file"]),
     "nodes from 0": (left(Select="nodes from0.txt"), ["'0' in", "counted from 1: add 1 to all"]),
     "box in millimetres": (left(Select="box -1 -600 -600 3000 600 600"), ["every node", "Handles/left/Select smaller", "metres"]),
     "handle of one node": (left(Select="sphere 0 -.5 -.5 .1"), ["3 of 6", "Handle 'left' holds a single node", "Enlarge Handles/left/Select by 1.75 m"]),
     # files
-    "missing mesh": ({**FILE, "Mesh/File": "baar.msh"}, ["/baar.msh", "Did you mean bar.msh?"]),
+    "missing mesh": ({**FILE, "Mesh/File": "baar.msh"}, ["exemplar: Mesh/File: ", "/baar.msh: cannot be opened", "Did you mean bar.msh?"]),
     "capital in a file": ({**FILE, "Mesh/File": "Bar.msh"}, ["Did you mean bar.msh?"]),
     "quoted file": ({**FILE, "Mesh/File": '"bar.msh"'}, ["without quotes"]),
     "home directory": ({**FILE, "Mesh/File": "~/bar.msh"}, ["Neither ~ nor $"]),
@@ -206,6 +210,7 @@ FOREIGN = [
 ]
 
 MESH = ["mesh", "--surface", "cube.obj"]
+POSE = ["pose", "--mesh", "bar.msh", "--rest", "cube.obj", "--pose", "cube.obj", "--output", "p"]
 
 # arguments (with a good scene.prm beside), words of the message
 COMMANDS = [
@@ -229,6 +234,9 @@ COMMANDS = [
     (["scene.prm", "Examples/Importance=.3"], ["given by --set \"Examples/Importance=.3\""]),
     (["scene.prm", "--outptu", "out"], ["no option '--outptu'", "Did you mean '--output'"]),
     (["scene.prm", "--ouput=out"], ["no option '--ouput'", "Did you mean '--output'"]),
+    (["scene.prm", "--out", "out"], ["no option '--out'. Did you mean '--output'?"]),
+    (["scene.prm", "--quiet", "--verbose"], ["--quiet", "--verbose", "give one of them"]),
+    (["scene.prm", "--resume", "--output", "new"], ["no checkpoint", "Give the --output of the run that is to go on"]),
     (["scene.prm", "-o", "out"], ["no option '-o'", "Did you mean '--output'"]),
     (["scene.prm", "--Importance", ".3"], ["no option '--Importance'", "--set"]),
     (["scene.prm", "--output", ""], ["--output is empty"]),
@@ -258,7 +266,10 @@ COMMANDS = [
     (["verify", "patchh"], ["Did you mean 'patch'", "--list"]),
     ([*MESH, "--cell", "100", "--output", "m.msh"], ["exemplar mesh has no option '--cell'", "'--cells'"]),
     ([*MESH, "--cells", "100", "-o", "m.msh"], ["no option '-o'", "'--output'"]),
-    ([*MESH, "--cells", "1e4", "--output", "m.msh"], ["--cells", "'1e4'", "whole number"]),
+    ([*MESH, "--cells", "1e4", "--output", "m.msh"], ["--cells", "'1e4'", "whole number", "Did you mean 10000? exemplar mesh --help"]),
+    ([*MESH, "--cells", "10,000", "--output", "m.msh"], ["'10,000'. Did you mean 10000?"]),
+    ([*MESH, "--cells", "5", "--output", "m.msh"], ["from 10 to 10000000 in decimal digits, found '5'. exemplar mesh --help"]),
+    ([*POSE, "--attach", "0"], ["found '0'. exemplar pose --help"]),
     ([*MESH, "--cells", "100"], ["--output is required", "exemplar mesh --surface"]),
     (["mesh", "--surface", "cubee.obj", "--cells", "100", "--output", "m.msh"], ["Did you mean cube.obj?"]),
     (["mesh", "cube.obj", "m.msh"], ["stands without an option", "exemplar mesh --surface"]),
@@ -311,6 +322,11 @@ class Mistakes(BadInputTest):
         for arguments, words in COMMANDS:
             with self.subTest(arguments):
                 self.check(self.call(*arguments), words, before)
+
+    def test_names_are_relative_to_the_scene(self):
+        (self.directory / "scenes").mkdir()
+        self.write("scenes/scene.prm", prm({**FILE, "Mesh/File": "bar.msh"}))
+        self.check(self.call("scenes/scene.prm"), ["relative to its directory", "where there is a bar.msh"], self.tree())
 
     def test_names_may_hold_blanks(self):
         self.write("scene.prm", prm({**BAR, "Handles/Names": "left paw", "Handles/left/Select": None, "Handles/left paw/Select": "boundary 1"}))

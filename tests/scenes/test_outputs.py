@@ -272,14 +272,14 @@ class Outputs(SceneTest):
         # the same with --quiet, which clears the one before; a resumed run adds to it
         quiet = self.solve(BAR, "--quiet")
         def words(text):
-            return re.sub(r"[0-9.]+", "0", text)
+            return re.sub(r" *[0-9.]+", " 0", text)
         first = (quiet / "log.txt").read_text()
         self.assertEqual(words(first), words("\n".join([mark, date, *lines, ""])))
         self.solve(BAR, "--quiet", "--resume")
         log = (quiet / "log.txt").read_text()
         self.assertTrue(log.startswith(first))
         self.assertEqual(log.count(mark), 1)
-        self.assertIn("Resumed   after step 2\n", log[len(first):])
+        self.assertIn("Resumed   after step 2\n          it was the last one, and nothing is left to do", log[len(first):])
         self.assertEqual(log.count("Where the time went"), 2)
 
     def test_log_of_a_failure(self):
@@ -348,6 +348,16 @@ class Outputs(SceneTest):
             ({**BAR, "Scene": "dynamic", "Time/Increments": None, "Time/Step": "0.5", "Time/End": "0.2"}, ["Time/Step = 0.5 is longer than Time/End = 0.2: one step"]),
             ({**BAR, "Scene": "dynamic", "Time/Increments": None, "Handles/left/Select": "sphere 0 -.5 -.5 .1"}, ["'left' holds a single node", "Select by 1.75 m"]),
             ({**BAR, "Scene": "dynamic", "Time/Increments": None, "Handles/left/Select": "sphere 0 -.5 -.5 1.85"}, []),
+            ({**pulled, "Handles/right/Select": "sphere 2 .5 .5 .1", motion: "0; 0; .1*t"}, ["'right' pulls at the single node", "Select by"]),
+            ({**pulled, "Handles/right/Select": "sphere 2 .5 .5 .1", motion: "0; 0; .1*t", "Handles/right/Components": "z"}, []),
+            ({**pulled, "Handles/right/Select": "sphere 2 .5 .5 .1"}, []),
+            ({**pulled, "Handles/right/Select": "box 1.9 2.1 -1 1 -1 1"}, ["Did you mean 'box 1.9 -1 -1 2.1 1 1'? If not, write 'box 1 -1 -1 1.9 2.1 1'"]),
+            ({**pulled, "Handles/right/Select": "box 2.1 1 1 1.9 -1 -1"}, []),
+            ({**BAR, "Examples/Pose functions": "0; 0; 0.1*x^2"}, ["makes the body flat", "did you mean 'x; y; z + 0.1*x^2'?"]),
+            ({**BAR, "Initial/Pose function": "-.1; x > 1 ? .1 : 0; 0"}, ["did you mean 'x - .1; y + (x > 1 ? .1 : 0); z'?"]),
+            ({**BAR, "Initial/Pose function": "x; y; 0"}, []),
+            ({**BAR, "Scene": "dynamic", "Time/Increments": None, "Time/Step": "1e-7"}, ["10000000 steps and writes 10000000 frames", "Output/Every = 10000, for 1000 frames"]),
+            ({**BAR, "Scene": "dynamic", "Time/Increments": None, "Time/Step": "1e-7", "Output/Every": "10000"}, []),
             (BAR, []),
             ({**pulled, "Material/Density": "1", "Material/Young's modulus": "1"}, []),  # nothing depends on them
             ({**pulled, motion: "0; 0; sin(90*pi/180*t)"}, []),
@@ -362,6 +372,14 @@ class Outputs(SceneTest):
                     self.assertIn(word, run.stderr)
                 if not words:
                     self.assertEqual(run.stderr, "")
+
+    def test_a_long_soft_body_of_a_file(self):
+        output = self.solve({**BAR, "Mesh/Box size": "40, 10, 10", "Loads/Gravity": None})  # a box is in metres
+        scene = {**BAR, "Mesh/Generator": None, "Mesh/Box size": None, "Mesh/Box cells": None, "Mesh/File": str(output / "final.msh")}
+        for keys, is_warned in (({}, True), ({"Material/Young's modulus": "3e10"}, False), ({"Mesh/Scale": "0.9"}, False),
+                                ({"Loads/Gravity": None}, False)):
+            self.write("scene.prm", prm({**scene, **keys}))
+            self.assertEqual("40 m long. If its mesh is in millimetres" in self.call("scene.prm", "--validate").stderr, is_warned)
 
     def test_warnings_are_kept(self):
         run = self.attempt({**BAR, "Mesh/Box size": "400, 100, 100", "Material/Density": "1"})

@@ -15,9 +15,16 @@ namespace Exemplar
   /// by degree of freedom [m]. A clause that follows the example's name in a warning; empty if
   /// nothing looks wrong.
   std::string
-  describe_pose(const Mesh                   &mesh,
-                const FESpace                &fe_space,
-                const dealii::Vector<double> &positions);
+  describe_pose(const Mesh &mesh, const FESpace &fe_space, const dealii::Vector<double> &positions);
+
+  /// What to say of a pose function that makes the body flat and looks like displacements: at least two
+  /// of its formulas lack their own coordinate. A clause that follows its key; empty for others. All
+  /// processes must call this.
+  std::string
+  describe_displacements(const std::string            &functions,
+                         const Mesh                   &mesh,
+                         const FESpace                &fe_space,
+                         const dealii::Vector<double> &positions);
 } // namespace Exemplar
 
 #endif

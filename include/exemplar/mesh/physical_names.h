@@ -20,6 +20,11 @@ namespace Exemplar
   /// no group of the file has the name, or several have. An id need not be there.
   unsigned int
   find_id(const MshFile &mesh, int dimension, const std::string &text, const std::string &key);
+
+  /// Why the mesh of a .geo may lack a group that its text has, with a blank before it; empty for other
+  /// meshes.
+  std::string
+  remedy_of_geo(const MshFile &mesh);
 } // namespace Exemplar
 
 #endif

@@ -32,6 +32,15 @@ namespace Exemplar
     bool
     is_boundary() const;
 
+    /// Whether it is a box or a sphere.
+    bool
+    is_of_space() const;
+
+    /// Of a box whose six numbers may be ranges of x, y and z instead of two corners: what to write for
+    /// either. Sentences; empty for other selections.
+    std::string
+    doubt() const;
+
     /// Whether it needs the surface of the body: who has that puts the nodes among the named ones,
     /// by `text`.
     bool

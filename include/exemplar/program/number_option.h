@@ -8,6 +8,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cmath>
+#include <regex>
 #include <string>
 #include <type_traits>
 
@@ -24,6 +26,21 @@ namespace Exemplar
       return shortest_text(bound);
   }
 
+  /// The whole number that a text such as 1e4 or 10,000 means, as a question with a blank behind it;
+  /// nothing for other texts.
+  inline std::string
+  meant_number(const std::string &text, const double least, const double most)
+  {
+    static const std::regex groups("[1-9]\\d{0,2}([,_']\\d{3})+");
+    const bool              has_groups = text.size() < 30 && std::regex_match(text, groups);
+    const std::string       digits
+        = has_groups ? std::regex_replace(text, std::regex("[,_']"), "") : text;
+    const double number = parse_number(digits);
+    return number == std::floor(number) && number >= least && number <= most
+               ? "Did you mean " + std::to_string(static_cast<long long>(number)) + "? "
+               : "";
+  }
+
   /// Declare an option that takes a number from `least` to `most`, in decimal digits alone: CLI11 itself
   /// would take NaN for a number in any range, and octal and hexadecimal ones. Whoever gives another
   /// text gets a UserError, with `remedy`, a sentence with a blank behind it. `target` may be a
@@ -38,15 +55,17 @@ namespace Exemplar
                     const std::string &description,
                     const std::string &remedy = "")
   {
-    const auto read = [&target, name, least, most, remedy](const std::string &text)
+    const std::string command = app.get_parent() == nullptr ? "" : app.get_name() + " ";
+    const auto        read = [&target, name, least, most, remedy, command](const std::string &text)
     {
-      const auto number = decimal_number<Number>(text);
+      const bool is_whole = std::is_integral<Number>::value;
+      const auto number   = decimal_number<Number>(text);
       if (!number || *number < least || *number > most)
-        throw UserError(name + ": expected a "
-                        + (std::is_integral<Number>::value ? "whole number" : "number") + " from "
+        throw UserError(name + ": expected a " + (is_whole ? "whole number" : "number") + " from "
                         + bound_text(least) + " to " + bound_text(most)
-                        + " in decimal digits, found " + in_quotes(text) + ". " + remedy
-                        + "exemplar --help lists what is allowed.");
+                        + " in decimal digits, found " + in_quotes(text) + ". "
+                        + (is_whole ? meant_number(text, least, most) : "") + remedy + "exemplar "
+                        + command + "--help lists what is allowed.");
       target = *number;
     };
     return app.add_option_function<std::string>(name, read, description)

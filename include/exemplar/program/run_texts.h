@@ -12,6 +12,10 @@
 namespace Exemplar
 {
   /// What is solved, on what body and how. All processes that share the body must call this.
+  /// From where a run goes on.
+  std::string
+  resumption_text(const Problem &problem);
+
   std::string
   header_text(const Problem &problem);
 

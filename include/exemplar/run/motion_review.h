@@ -15,7 +15,7 @@ namespace Exemplar
   std::vector<std::string>
   motion_warnings(const Problem &problem);
 
-  /// Those of handles in the next step alone: for motions that a program has set. Throws what
+  /// The same of the handles in the next step alone: for motions that a program has set. Throws what
   /// Handles::move() throws.
   std::vector<std::string>
   next_step_warnings(const Problem &problem);

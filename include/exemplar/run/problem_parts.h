@@ -67,6 +67,11 @@ namespace Exemplar
     std::vector<std::string>
     describe_single_nodes(const Body &body) const;
 
+    /// Handles that pull at the one node that a box or a sphere happens to hold, in sentences with the
+    /// remedy. All processes must call this.
+    std::vector<std::string>
+    describe_pulled_nodes(const SceneParameters &parameters, const Body &body) const;
+
     const std::unique_ptr<Handles>                    handles;
     const std::optional<StaticallyDeterminateSupport> support; ///< of an interpolation
     const FreeDofs                                    free_dofs;

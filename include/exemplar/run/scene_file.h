@@ -84,6 +84,10 @@ namespace Exemplar
     void
     declare_named_subsections(const std::vector<Assignment> &assignments);
 
+    /// The line that should set Names says better what is wrong than the subsections that Names lacks.
+    void
+    refuse_misspelt_names(const std::vector<Assignment> &unknown);
+
     void
     make_selections_absolute();
 
