@@ -14,7 +14,8 @@ def box(n_x, n_y, n_z, size):
     cells = []
     for first, second in [(0, 1), (1, 2), (2, 0), (1, 0), (2, 1), (0, 2)]:  # the ways from corner to corner
         way = np.array([0, step[first], step[first] + step[second], step.sum()])
-        cells.append(corners + way)
+        is_right_handed = (second - first) % 3 == 1
+        cells.append(corners + (way if is_right_handed else way[[0, 2, 1, 3]]))
     return nodes, np.concatenate(cells)
 
 

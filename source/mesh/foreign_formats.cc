@@ -92,7 +92,8 @@ namespace Exemplar
         { "a mesh of tetrahedra", Way::msh, { ".msh" }, { "$MeshFormat" } },
         { "a mesh of Ansys", Way::meshio, { ".msh" }, { "(0 ", "(1 " } },
         { "a JSON file", Way::data, { ".json" }, { "{", "[" } },
-        { "an array of numpy", Way::data, { ".npy", ".npz" }, { "\x93NUMPY" } },
+        { "an array of numpy", Way::data, { ".npy" }, { "\x93NUMPY" } },
+        { "an archive of numpy's arrays", Way::data, { ".npz" }, {} },
         { "an HDF5 file", Way::data, { ".h5", ".hdf5", ".mat" }, {} },
         { "a table", Way::data, { ".csv", ".txt", ".dat" }, {} },
       };
@@ -136,6 +137,17 @@ namespace Exemplar
                                [&](const std::string &beginning)
                                { return bytes.substr(0, beginning.size()) == beginning; });
           });
+    }
+
+    /// By its bytes; but what is packed, or XML, may be a format of this that has no bytes of its own.
+    const Format *
+    format_of(const std::filesystem::path &file, const std::string_view bytes)
+    {
+      const Format *const by_bytes = format_of_bytes(bytes), *const by_name = format_of_name(file);
+      const bool is_within = bytes.substr(0, 2) == "PK" || bytes.substr(0, 5) == "<?xml";
+      return by_bytes == nullptr || (is_within && by_name != nullptr && by_name->beginnings.empty())
+                 ? by_name
+                 : by_bytes;
     }
 
     std::string
@@ -216,16 +228,14 @@ namespace Exemplar
   std::string
   remedy_of_mesh(const std::filesystem::path &file, const std::string_view bytes)
   {
-    const Format *const by_bytes = format_of_bytes(bytes);
-    const Format *const format   = by_bytes == nullptr ? format_of_name(file) : by_bytes;
+    const Format *const format = format_of(file, bytes);
     return format == nullptr || format->way == Way::msh ? "" : remedy(format, file);
   }
 
   std::string
   remedy_of_surface(const std::filesystem::path &file, const std::string_view bytes)
   {
-    const Format *const by_bytes = format_of_bytes(bytes);
-    const Format *const format   = by_bytes == nullptr ? format_of_name(file) : by_bytes;
+    const Format *const format = format_of(file, bytes);
     if (format == nullptr)
       return "";
     const std::string what = "It is " + format->name;

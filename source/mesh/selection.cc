@@ -355,10 +355,14 @@ namespace Exemplar
         selected.push_back(face);
     }
     if (selected.empty() && mesh.exchange().n_processes() == 1)
-      throw UserError(key + ": boundary id " + std::to_string(id) + " has no faces in "
-                      + mesh.get_name() + " (present: " + list(present)
-                      + "). Give a Physical Surface the tag " + std::to_string(id) + ", or change "
-                      + key + "/Select." + remedy_of_geo(mesh.get_contents()));
+      throw UserError(
+          key + ": boundary id " + std::to_string(id) + " has no faces in " + mesh.get_name()
+          + " (present: " + list(present)
+          + (mesh.get_contents().elements.size() == mesh.n_cells()
+                 ? "), which has no triangles. Select by box, sphere or region; boundary "
+                   "ids come from the Physical Surfaces of a mesh file."
+                 : "). Give a Physical Surface the tag " + std::to_string(id) + ", or change " + key
+                       + "/Select." + remedy_of_geo(mesh.get_contents())));
     return selected;
   }
 

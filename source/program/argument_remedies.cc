@@ -117,6 +117,23 @@ namespace Exemplar
       return nearest_word(unknown, options);
     }
 
+    /// What a study has instead of an option of scenes; empty for other options.
+    std::string
+    remedy_in_study(const std::string &option, const Sorted &line)
+    {
+      if (option == "--set")
+        return " Keys of all runs stand in the study: set Base = Section/Key=value.";
+      if (option == "--threads")
+        return " The study says it: set Threads = 2.";
+      if (option == "--resume")
+        return " A study goes on by itself: give the same command without it.";
+      if (option == "--validate")
+        return " A study is checked without the word study: exemplar "
+               + (line.positional.empty() ? "STUDY.prm" : printable(line.positional[0]))
+               + " --validate.";
+      return "";
+    }
+
     std::string
     unknown_option(const Sorted &line)
     {
@@ -124,6 +141,8 @@ namespace Exemplar
       const std::string  nearest = suggested_option(unknown, line.options);
       std::string        message = (line.command.empty() ? "A run" : "exemplar " + line.command)
                             + " has no option " + in_quotes(unknown) + ".";
+      if (line.command == "study" && !remedy_in_study(unknown, line).empty())
+        return message + remedy_in_study(unknown, line);
       if (!nearest.empty())
         message += " Did you mean '" + nearest + "'?";
       else if (line.command.empty())

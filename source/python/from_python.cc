@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
+#include <exemplar/python/arrays_from_python.h>
 #include <exemplar/python/from_python.h>
 #include <exemplar/run/scene_file.h>
+#include <exemplar/study/study_file.h>
 
-#include <pybind11/numpy.h>
-
+#include <cmath>
 #include <functional>
 
 namespace Exemplar::Python
@@ -52,11 +53,20 @@ namespace Exemplar::Python
                           "a handle by problem.set_motion(name, function).");
       if (py::isinstance<py::bool_>(value))
         return value.cast<bool>() ? "true" : "false";
-      if (is_list(value) || py::isinstance<py::dict>(value))
+      if (py::isinstance<py::dict>(value))
         throw UserError(what
-                        + " holds lists within lists of lists, or a dictionary in a list. "
-                          "Allowed: a value, a list of values, or of poses a list of lists of "
-                          "three formulas.");
+                        + " holds a dictionary in a list. Sections are dictionaries in "
+                          "dictionaries: \"Handles\": {\"left\": {\"Select\": ...}}.");
+      if (is_list(value))
+        throw UserError(what
+                        + " holds lists within lists of lists. Allowed: a value, a list of values, "
+                          "or of poses a list of lists of three formulas.");
+      if (value.is_none())
+        throw UserError(what + " is None. Leave the key out, and it has its default.");
+      if (py::isinstance<py::float_>(value)) // 2.0 may count steps
+        if (const auto number = value.cast<double>();
+            number == std::floor(number) && std::abs(number) < 1e9)
+          return std::to_string(std::lround(number));
       return text_of(value, what);
     }
 
@@ -81,7 +91,13 @@ namespace Exemplar::Python
     {
       const auto of_value = [&](const py::handle &entry) { return text_of_value(entry, what); };
       const auto of_entry = [&](const py::handle &entry)
-      { return is_list(entry) ? join(entry, "; ", of_value) : of_value(entry); };
+      {
+        if (is_list(entry) && key == "Poses")
+          throw UserError(what
+                          + " names files. Arrays are handed in by exemplar.Problem(scene, mesh, "
+                            "poses=[...]).");
+        return is_list(entry) ? join(entry, "; ", of_value) : of_value(entry);
+      };
       return is_list(value) ? join(value, separator(key), of_entry) : of_value(value);
     }
 
@@ -129,16 +145,39 @@ namespace Exemplar::Python
       }
     }
 
+    /// A scene that was written for Python. Files are also read by the program, for which such keys
+    /// are.
     SceneParameters
-    read_scene(const py::object &scene, std::vector<Assignment> assignments)
+    read_dictionary(const py::dict                &scene,
+                    const std::vector<Assignment> &assignments,
+                    const bool                     has_mesh)
+    {
+      std::vector<Assignment> sections;
+      add_section(scene, {}, sections);
+      std::vector<std::string> warnings;
+      for (const Assignment &a : sections)
+        if (a.path().rfind("Output/", 0) == 0)
+          warnings.push_back(
+              a.path()
+              + " does nothing in Python, where no files are written. Remove it, and "
+                "save what you need, such as problem.positions.");
+        else if (has_mesh && (a.path() == "Mesh/File" || a.path() == "Mesh/Generator")
+                 && !is_surface_file(a.value)) // that may be the skin of the mesh
+          warnings.push_back(a.path() + " = " + a.value
+                             + " does nothing, as mesh= is given, too. Remove one of them.");
+      sections.insert(sections.end(), assignments.begin(), assignments.end());
+      SceneParameters parameters = SceneFile({}, "", sections).get_parameters();
+      parameters.warnings.insert(parameters.warnings.end(), warnings.begin(), warnings.end());
+      return parameters;
+    }
+
+    SceneParameters
+    read_scene(const py::object              &scene,
+               const std::vector<Assignment> &assignments,
+               const bool                     has_mesh)
     {
       if (py::isinstance<py::dict>(scene))
-      {
-        std::vector<Assignment> sections;
-        add_section(scene, {}, sections);
-        sections.insert(sections.end(), assignments.begin(), assignments.end());
-        return SceneFile({}, "", sections).get_parameters();
-      }
+        return read_dictionary(scene, assignments, has_mesh);
       if (!py::isinstance<py::str>(scene) && !py::hasattr(scene, "__fspath__"))
         throw py::type_error("scene must be the path of a .prm file, its text, or a dictionary of "
                              "sections, but is a "
@@ -146,84 +185,10 @@ namespace Exemplar::Python
       const std::string text = text_of(py::module_::import("os").attr("fspath")(scene), "scene");
       if (text.find('\n') != std::string::npos || text.compare(0, 4, "set ") == 0)
         return SceneFile({}, text, assignments).get_parameters();
+      if (is_study(text))
+        throw UserError(text + " is a study. Run it by: exemplar study " + text
+                        + ". In Python a loop varies a scene: doc/python/sweep.py.");
       return SceneFile(text, read_prm(text), assignments).get_parameters();
-    }
-
-    /// In words, as in "an array of shape (9, 2)" or "a NoneType".
-    std::string
-    description(const py::handle &object, const py::array &array)
-    {
-      if (!array || array.ndim() == 0)
-        return "a " + std::string(py::str(py::type::of(object).attr("__name__")));
-      return "an array of shape " + std::string(py::str(array.attr("shape")));
-    }
-
-    /// The rows of an array (n, width), or any number of them where n is negative; `what` stands for
-    /// it in messages.
-    template <typename Number>
-    py::array_t<Number, py::array::c_style | py::array::forcecast>
-    rows_of(const py::handle  &object,
-            const std::string &what,
-            const py::ssize_t  n,
-            const py::ssize_t  width)
-    {
-      const auto any = py::array::ensure(object);
-      if (!any || any.ndim() != 2 || any.shape(1) != width || (n >= 0 && any.shape(0) != n))
-        throw UserError(what + " must be an array of shape (" + (n < 0 ? "n" : std::to_string(n))
-                        + ", " + std::to_string(width) + "), but is " + description(object, any)
-                        + ".");
-      const char kind = any.dtype().kind();
-      if (std::is_integral_v<Number> && kind != 'i' && kind != 'u')
-        throw UserError(what + " must be an array of integers.");
-      py::array_t<Number, py::array::c_style | py::array::forcecast> rows;
-      if (kind != 'c') // of which the real parts alone would be taken
-        rows = decltype(rows)::ensure(any);
-      if (kind == 'c' || !rows)
-        throw UserError(what + " must be an array of real numbers.");
-      return rows;
-    }
-
-    std::vector<dealii::Point<3>>
-    points_of(const py::handle &object, const std::string &what, const py::ssize_t n = -1)
-    {
-      const auto                    rows = rows_of<double>(object, what, n, 3);
-      const auto                    x    = rows.unchecked<2>();
-      std::vector<dealii::Point<3>> points;
-      for (py::ssize_t i = 0; i < x.shape(0); ++i)
-        points.emplace_back(x(i, 0), x(i, 1), x(i, 2));
-      return points;
-    }
-
-    /// Refuses what is negative, which would become large.
-    unsigned int
-    index_of(const long long value, const std::string &what)
-    {
-      if (value < 0 || value > std::numeric_limits<unsigned int>::max())
-        throw UserError(what + " has " + std::to_string(value)
-                        + ", which is not allowed. Allowed: indices from 0; if 1 was subtracted "
-                          "from such ones, add it to all.");
-      return static_cast<unsigned int>(value);
-    }
-
-    MshFile
-    mesh_of(const py::object &mesh)
-    {
-      const auto parts = py::tuple(mesh);
-      if (parts.size() != 2 && parts.size() != 3)
-        throw UserError("mesh must be (nodes (n, 3), cells (m, 4)) or (nodes, cells, material ids "
-                        "(m)). A file is "
-                        "named by the scene: Mesh/File.");
-      const auto rows  = rows_of<long long>(parts[1], "mesh: cells", -1, 4);
-      const auto nodes = rows.unchecked<2>();
-      std::vector<std::array<unsigned int, 4>> cells(nodes.shape(0));
-      for (py::ssize_t c = 0; c < nodes.shape(0); ++c)
-        for (py::ssize_t v = 0; v < 4; ++v)
-          cells[c][v] = index_of(nodes(c, v), "mesh: cells");
-      std::vector<unsigned int> material_ids;
-      if (parts.size() == 3)
-        for (const py::handle id : parts[2])
-          material_ids.push_back(index_of(id.cast<long long>(), "mesh: material ids"));
-      return make_msh(points_of(parts[0], "mesh: nodes"), cells, material_ids);
     }
   } // namespace
 
@@ -236,7 +201,7 @@ namespace Exemplar::Python
         || (py::isinstance<py::array>(poses)
             && py::reinterpret_borrow<py::array>(poses).ndim() != 3))
       throw UserError("poses must be a list of arrays (n, 3), such as [bent], but is "
-                      + description(poses, py::array::ensure(poses)) + ".");
+                      + description(poses) + ".");
     const auto list = poses.is_none() ? py::list() : py::list(poses);
     if (!poses.is_none())
     {
@@ -245,13 +210,28 @@ namespace Exemplar::Python
         names += (i == 0 ? "pose_" : ", pose_") + std::to_string(i);
       assignments.push_back({ { "Examples" }, "Poses", names, "poses" });
     }
-    given.scene = read_scene(scene, assignments);
+    given.scene = read_scene(scene, assignments, !mesh.is_none());
     for (std::size_t i = 0; i < list.size(); ++i)
       given.inputs.poses[given.scene.examples.poses[i]]
           = points_of(list[i], "poses[" + std::to_string(i) + "]");
     if (!mesh.is_none())
       given.inputs.mesh = mesh_of(mesh);
     return given;
+  }
+
+  py::object
+  call(const py::object &function, const py::tuple &arguments, const std::string &usage)
+  {
+    try
+    {
+      return function(*arguments);
+    }
+    catch (py::error_already_set &error)
+    {
+      if (!error.matches(PyExc_TypeError) || error.trace()) // it has begun
+        throw;
+      throw py::type_error(std::string(py::str(error.value())) + ". " + usage);
+    }
   }
 
   Motion
@@ -267,9 +247,9 @@ namespace Exemplar::Python
         for (unsigned int c = 0; c < 3; ++c)
           x(i, c) = rest[i][c];
       std::vector<dealii::Tensor<1, 3>> displacements;
-      for (const dealii::Point<3> &u :
-           points_of(function(points, time),
-                     "Handles/" + handle + ": what the function of its motion returns", n))
+      for (const dealii::Point<3> &u : points_of(
+               call(function, py::make_tuple(points, time), "set_motion calls function(rest, t)."),
+               "Handles/" + handle + ": what the function of its motion returns", n))
         displacements.push_back(u);
       return displacements;
     };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/algebra/mpi_session.h>
 #include <exemplar/base/errors.h>
+#include <exemplar/base/message_text.h>
+#include <exemplar/python/arrays_from_python.h>
 #include <exemplar/python/from_python.h>
 #include <exemplar/python/held_problem.h>
 #include <exemplar/python/unlocked_work.h>
@@ -75,12 +77,23 @@ namespace Exemplar::Python
   } // namespace
 
   HeldProblem::HeldProblem(const py::object &scene, const py::object &mesh, const py::object &poses)
-      : callback(py::none()), problem(make_problem(scene, mesh, poses)),
-        warnings(problem->warnings()), diagnostics(*problem)
+      : callback(py::none()), problem(make_problem(scene, mesh, poses)), diagnostics(*problem),
+        review(*problem)
   {
-    for (const auto &found : { unit_warnings(*problem), motion_warnings(*problem) })
-      warnings.insert(warnings.end(), found.begin(), found.end());
     problem->solver->observe = [this](const SolveReport &iteration) { return observe(iteration); };
+    warn(problem->warnings());
+    warn(unit_warnings(*problem));
+    warn(motion_warnings(*problem));
+  }
+
+  void
+  HeldProblem::warn(const std::vector<std::string> &some)
+  {
+    const py::gil_scoped_acquire lock;
+    warnings.insert(warnings.end(), some.begin(), some.end());
+    for (const std::string &warning : some)
+      if (PyErr_WarnEx(PyExc_UserWarning, message_text(warning).c_str(), 1) != 0)
+        throw py::error_already_set(); // a filter makes errors of warnings
   }
 
   const Problem &
@@ -101,7 +114,10 @@ namespace Exemplar::Python
     if (callback.is_none())
       return true;
     const py::object function = callback; // which it may replace
-    is_stopped                = is_stopped || function(iteration).is(py::bool_(false));
+    is_stopped
+        = is_stopped
+          || call(function, py::make_tuple(iteration), "on_iteration calls function(report).")
+                 .is(py::bool_(false));
     return !is_stopped;
   }
 
@@ -110,6 +126,7 @@ namespace Exemplar::Python
   {
     try
     {
+      warn_of_motions();
       SolveReport result = problem->advance();
       if (!is_success(result.status))
         throw SolverFailure(problem->failure_message(result));
@@ -122,11 +139,34 @@ namespace Exemplar::Python
     }
   }
 
+  void
+  HeldProblem::warn_of_motions()
+  {
+    if (motions.empty() || is_warned_of_motions)
+      return;
+    const std::vector<std::string> found = next_step_warnings(*problem);
+    is_warned_of_motions                 = !found.empty();
+    warn(found);
+  }
+
+  void
+  HeldProblem::require_no_step(const std::string &what) const
+  {
+    if (stepping == std::this_thread::get_id())
+      throw std::runtime_error("A step of this problem is being made, and has called a function "
+                               "that calls "
+                               + what
+                               + ". Such a function may only look at the problem; if that of "
+                                 "on_iteration returns False, the step ends.");
+    if (stepping != std::thread::id())
+      throw std::runtime_error("A step of this problem is being made by another thread: " + what
+                               + " must wait for its end.");
+  }
+
   SolveReport
   HeldProblem::step()
   {
-    if (stepping != std::thread::id())
-      throw std::runtime_error("A step of this problem is being made.");
+    require_no_step("step()");
     if (problem->state.step >= problem->time_axis.n_steps())
       throw UserError(
           "All " + std::to_string(problem->time_axis.n_steps())
@@ -137,11 +177,15 @@ namespace Exemplar::Python
     const auto keep_alive = shared_from_this(); // a callback may drop the last other owner
     is_stopped            = false;
     stepping              = std::this_thread::get_id();
+    std::vector<std::string> at_end;
     try
     {
       const UnlockedWork unlocked;
       report = advance();
       diagnostics.add_step();
+      review.add_step(report);
+      if (problem->state.step == problem->time_axis.n_steps())
+        at_end = review.warnings();
     }
     catch (...)
     {
@@ -149,6 +193,7 @@ namespace Exemplar::Python
       throw;
     }
     stepping = std::thread::id();
+    warn(at_end);
     if (is_stopped)
       throw Interrupted("Interrupted after step " + std::to_string(problem->state.step) + ".");
     return report;
@@ -163,14 +208,22 @@ namespace Exemplar::Python
   }
 
   void
-  HeldProblem::set_motion(const py::str &name, const py::function &function)
+  HeldProblem::set_motion(const py::object &name, const py::object &function)
   {
+    if (!py::isinstance<py::str>(name))
+      throw py::type_error("set_motion(name, function): the name of a handle must be a str, but is "
+                           + description(name) + ".");
+    if (PyCallable_Check(function.ptr()) == 0)
+      throw py::type_error("set_motion(name, function): function is called as function(rest, t), "
+                           "but is "
+                           + description(function)
+                           + ". Displacements that do not change: lambda rest, t: displacements.");
     const std::string handle = text_of(name, "set_motion: the name of the handle");
-    if (stepping != std::thread::id())
-      throw std::runtime_error("A step of this problem is being made: set motions between steps.");
+    require_no_step("set_motion()");
     py::object &kept = motions[handle]; // null if there is no such handle, which the next line says
     problem->set_motion(handle, motion_of(handle, kept));
-    kept = function;
+    kept                 = function;
+    is_warned_of_motions = false;
   }
 
   void

@@ -107,8 +107,13 @@ namespace Exemplar::Python
     void
     add_state(Class &problem)
     {
-      problem.def_property_readonly(
+      problem.def_property(
           "positions", &HeldProblem::positions,
+          [](HeldProblem &, const py::object &)
+          {
+            throw py::attribute_error("positions cannot be set: a problem starts where the scene's "
+                                      "section Initial says, and its steps go on from there.");
+          },
           "Positions (n, 3) [m] of the nodes, read only, in the mesh's order. No copy is made. "
           "The\n"
           "array shows the state at which it was asked for, also after later steps: ask again for\n"
@@ -155,7 +160,10 @@ namespace Exemplar::Python
           "All numbers of the state's row in statistics.csv, seconds aside: reactions of handles,\n"
           "work, momenta, ... doc/output.md explains them.");
       problem.def_property_readonly("warnings", &HeldProblem::get_warnings,
-                                    "What the program would warn of: a list of strings.");
+                                    "What the program would warn of: a list of strings. Each is "
+                                    "also a UserWarning of\n"
+                                    "Python when it is found: as the problem is made, in a step, "
+                                    "or after the last.");
     }
 
     void

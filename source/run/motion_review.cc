@@ -162,18 +162,16 @@ namespace Exemplar
     }
 
     std::vector<std::string>
-    warnings_of_handles(const Problem &problem, const Handles &handles)
+    warnings_of_handles(const Problem &problem, const Travel &travel)
     {
-      std::vector<std::string>    warnings;
-      const std::optional<Travel> travel = travel_of(problem);
-      if (!travel)
-        return warnings;
-      Vector moved = problem.body.fe_space.rest_positions();
+      std::vector<std::string> warnings;
+      const Handles           &handles = *problem.constraints.handles;
+      Vector                   moved   = problem.body.fe_space.rest_positions();
       handles.move(problem.time_axis.time(0), moved);
-      for (unsigned int handle = 0; handle < handles.size(); ++handle)
+      for (unsigned int handle = 0; handle < handles.size() && problem.state.step == 0; ++handle)
         if (const Warning warning = review_beginning(problem, handle, moved))
           warnings.push_back(*warning);
-      if (const Warning warning = review_travel(problem, *travel))
+      if (const Warning warning = review_travel(problem, travel))
         warnings.push_back(*warning);
       return warnings;
     }
@@ -186,8 +184,10 @@ namespace Exemplar
     const Loads *const   loads   = problem.actions.loads.get();
     if (handles == nullptr)
       return {};
-    std::vector<std::string>        warnings = warnings_of_handles(problem, *handles);
-    const std::vector<unsigned int> held     = handles->held_dofs();
+    std::vector<std::string> warnings;
+    if (const std::optional<Travel> travel = travel_of(problem))
+      warnings = warnings_of_handles(problem, *travel);
+    const std::vector<unsigned int> held = handles->held_dofs();
     for (unsigned int load = 0; loads != nullptr && load < loads->size(); ++load)
       if (!problem.body.exchange().any(!are_held(loads->nodes(load), held)))
         warnings.push_back(
@@ -195,6 +195,20 @@ namespace Exemplar
             + " moves nothing: handles hold all nodes that it acts on. Select others "
               "in its Select, or in that of the handle.");
     return warnings;
+  }
+
+  std::vector<std::string>
+  next_step_warnings(const Problem &problem)
+  {
+    const Handles *const handles = problem.constraints.handles.get();
+    if (handles == nullptr)
+      return {};
+    const Vector &before = problem.state.positions;
+    Vector        after  = before;
+    handles->move(problem.time_axis.time(problem.state.step + 1), after);
+    Travel travel;
+    travel.in_step = problem.body.exchange().max(greatest_difference(before, after));
+    return warnings_of_handles(problem, travel);
   }
 
   std::vector<std::string>

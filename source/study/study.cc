@@ -258,12 +258,13 @@ namespace Exemplar
     void
     print_end(const StudyTable &table, const StudyDirectory &directory)
     {
-      std::map<std::string, unsigned int> counts;
+      std::map<std::string, std::vector<std::string>> messages; // of each status
       for (const StudyRow &row : table.rows)
-        ++counts[row.status];
+        messages[row.status].push_back(row.message);
       std::cout << '\n';
-      for (const auto &[status, count] : counts)
-        std::cout << count << ' ' << status << '\n';
+      for (const auto &[status, all] : messages)
+        std::cout << all.size() << ' ' << status
+                  << (all[0].empty() ? "" : ": " + message_text(all[0])) << '\n';
       std::cout << "The tables are in " << directory.markdown().string() << " and "
                 << directory.csv().string();
       if (fs::exists(directory.svg()))

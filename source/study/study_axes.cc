@@ -105,7 +105,7 @@ namespace Exemplar
                         + "'. If commas separate values, write a blank behind each.");
     }
 
-    /// What other files separate or enclose by other signs.
+    /// What other programs or files write, separate or enclose by other signs.
     void
     refuse_foreign_signs(const std::string &text, const std::string &place)
     {
@@ -113,10 +113,23 @@ namespace Exemplar
       if (text.compare(0, 1, "[") == 0)
         throw UserError(place + ": '" + text
                         + "' begins with a bracket. Values have none: 0.1 0.2.");
+      static const std::regex range("[-+.0-9eE]*[0-9](\\.\\.+|:)[-+.:0-9eE]*[0-9]");
+      if (text.size() < 1000 && std::regex_match(text, range))
+        throw UserError(place + ": '" + text
+                        + "' is no value. Ranges are written out, value by value: 1 2 3 4.");
       if (text.size() < 1000 && std::regex_match(text, second))
         throw UserError(place + ": '" + text
                         + "' holds a second key. Axes of Vary are separated by '|', keys of Base "
                           "and Reference by ';'.");
+    }
+
+    /// How values of keys that change together are written, of which `value` has not as many.
+    std::string
+    remedy_of_joined(const std::string &value, const std::size_t n_keys)
+    {
+      const std::vector<std::string> words = split_at_blanks(value);
+      return " Values of joined keys are joined by '+', too"
+             + (words.size() == n_keys ? ": " + joined(words) + "." : ", and separated by commas.");
     }
 
     /// "Section/Key: values", or "Key + Key: value + value, ...".
@@ -148,12 +161,18 @@ namespace Exemplar
       {
         if (values.size() != axis.keys.size()
             || std::find(values.begin(), values.end(), "") != values.end())
-          throw UserError(place + ": " + axis.name() + " has the value '" + joined(values)
-                          + "', where " + std::to_string(axis.keys.size())
-                          + " are needed, none of them empty." + remedy);
+          throw UserError(
+              place + ": " + axis.name() + " has the value '" + joined(values) + "', where "
+              + std::to_string(axis.keys.size()) + " are needed, none of them empty."
+              + (axis.keys.size() > 1 ? remedy_of_joined(joined(values), axis.keys.size())
+                                      : remedy));
         if (std::count(axis.values.begin(), axis.values.end(), values) > 1)
           throw UserError(place + ": " + axis.name() + " lists '" + joined(values)
-                          + "' twice. Keep one.");
+                          + "' twice. Keep one."
+                          + (find_unquoted(text, ';') == std::string::npos
+                                 ? ""
+                                 : " If the ';' belong to the values, put each value in double "
+                                   "quotes: \"0; 0; t\" \"0; 0; 2*t\"."));
       }
       return axis;
     }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/nearest_word.h>
 #include <exemplar/base/number_text.h>
 #include <exemplar/study/study_axes.h>
 #include <exemplar/study/study_file.h>
@@ -55,6 +56,38 @@ namespace Exemplar
       }
     };
 
+    /// Throws UserError for what a study does not have, and if it lacks what it must have.
+    void
+    check_keys(const std::vector<Assignment> &given, const KeyTable &keys, const std::string &file)
+    {
+      std::vector<std::string> names;
+      for (const DeclaredKey &key : keys.keys())
+        names.push_back(key.key);
+      const Assignment *const vary = find_assignment(given, "Vary");
+      for (const Assignment &a : given)
+      {
+        if (a.subsections.empty() && !keys.declares(a.key))
+        {
+          const std::string near = nearest_word(a.key, names);
+          throw UnknownKey(a.place + ": a study has no key '" + a.key + "'."
+                           + (near.empty() ? "" : " Did you mean '" + near + "'?")
+                           + " exemplar study --print-parameters lists them all.");
+        }
+        if (!a.subsections.empty() && vary != nullptr)
+          throw UserError(
+              a.place + ": a study has no subsections. Keys of all runs stand in Base: "
+              + "set Base = " + a.path() + "="
+              + (a.value.find(';') == std::string::npos ? a.value : '"' + a.value + '"'));
+      }
+      for (const std::string key : { "Vary", "Scene" })
+        if (const Assignment *found = find_assignment(given, key);
+            found == nullptr || found->value.empty())
+          throw UserError(file + ": " + key
+                          + " is not set. A study has lines 'set Scene = FILE.prm' and 'set Vary = "
+                            "Section/Key: value value ...'. If it is a scene, run it by: exemplar "
+                          + file);
+    }
+
     std::vector<std::string>
     parse_columns(const std::string &text, const std::string &place)
     {
@@ -101,16 +134,10 @@ namespace Exemplar
   Study::Study(const std::filesystem::path &file) : file(file), text(read_prm(file))
   {
     const std::vector<Assignment> given = read_assignments(text, file.string());
-    for (const std::string key : { "Vary", "Scene" })
-      if (const Assignment *found = find_assignment(given, key);
-          found == nullptr || found->value.empty())
-        throw UserError(file.string() + ": " + key
-                        + " is not set. A study has lines 'set Scene = FILE.prm' and 'set Vary = "
-                          "Section/Key: value value ...'. If it is a scene, run it by: exemplar "
-                        + file.string());
-    KeyTable keys;
-    Entries  entries;
+    KeyTable                      keys;
+    Entries                       entries;
     entries.declare(keys);
+    check_keys(given, keys, file.string());
     keys.apply(given, std::filesystem::absolute(file).parent_path());
 
     const auto place = [&](const std::string &key)
@@ -118,16 +145,17 @@ namespace Exemplar
       const Assignment *assignment = find_assignment(given, key);
       return (assignment == nullptr ? file.string() : assignment->place) + ", " + key;
     };
-    scene      = entries.scene;
-    base       = parse_settings(entries.base, place("Base"));
-    reference  = parse_settings(entries.reference, place("Reference"));
-    vary_place = place("Vary");
-    axes       = parse_axes(entries.vary, vary_place);
-    repeats    = entries.repeats;
-    timeout    = entries.timeout;
-    threads    = entries.threads;
-    columns    = parse_columns(entries.columns, place("Columns"));
-    probe      = parse_probe(entries.probe, place("Probe"));
+    scene         = entries.scene;
+    base          = parse_settings(entries.base, place("Base"));
+    reference     = parse_settings(entries.reference, place("Reference"));
+    vary_place    = place("Vary");
+    axes          = parse_axes(entries.vary, vary_place);
+    repeats       = entries.repeats;
+    timeout       = entries.timeout;
+    threads       = entries.threads;
+    columns_place = place("Columns");
+    columns       = parse_columns(entries.columns, columns_place);
+    probe         = parse_probe(entries.probe, place("Probe"));
     check_disjoint(base, axes);
   }
 

@@ -1,20 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/nearest_word.h>
+#include <exemplar/run/diagnostics.h>
 #include <exemplar/run/problem.h>
 #include <exemplar/run/scene_file.h>
 #include <exemplar/study/study_plan.h>
 #include <exemplar/study/study_table.h>
 
+#include <algorithm>
 #include <memory>
 
 namespace Exemplar
 {
   namespace
   {
-    /// The scene of a run, or null where its values are refused.
+    /// The scene of a run, or null where its values are refused; then `refusal` says why.
     std::unique_ptr<const SceneFile>
     scene_of(const std::vector<Assignment> &assignments,
              const Study                   &study,
-             const std::string             &scene_text)
+             const std::string             &scene_text,
+             std::string                   &refusal)
     {
       try
       {
@@ -24,20 +28,38 @@ namespace Exemplar
       {
         throw;
       }
-      catch (const UserError &)
+      catch (const UserError &error)
       {
+        refusal = error.what();
         return nullptr;
       }
     }
 
-    /// Whether a run can be built, with what warnings; why not is in `refusal`, if nothing is
-    /// there yet.
+    std::vector<std::string>
+    columns_of(const Problem &problem)
+    {
+      StatisticsRow row = Diagnostics(problem).row(problem.state, SolveReport());
+      Diagnostics::append_seconds(row, {});
+      std::vector<std::string> columns;
+      for (const auto &[column, value] : row)
+        columns.push_back(column);
+      return columns;
+    }
+
+    /// What is known of a run that can be built.
+    struct BuiltRun
+    {
+      std::vector<std::string> warnings, columns;
+    };
+
+    /// Whether a run can be built, with what in it; why not is in `refusal`, if nothing is there yet.
     bool
-    can_be_built(const SceneFile &scene, std::vector<std::string> &warnings, std::string &refusal)
+    can_be_built(const SceneFile &scene, BuiltRun &built, std::string &refusal)
     {
       try
       {
-        warnings = make_problem(scene.get_parameters())->warnings();
+        const auto problem = make_problem(scene.get_parameters());
+        built              = { problem->warnings(), columns_of(*problem) };
         return true;
       }
       catch (const UserError &error)
@@ -47,6 +69,26 @@ namespace Exemplar
         return false;
       }
     }
+
+    std::string
+    listed(const std::vector<std::string> &words)
+    {
+      std::string text;
+      for (const std::string &word : words)
+        text += (text.empty() ? "" : ", ") + word;
+      return text;
+    }
+
+    /// Those of a study's columns that a run does not have.
+    std::vector<std::string>
+    missing_columns(std::vector<std::string> asked, const std::vector<std::string> &there)
+    {
+      asked.erase(std::remove_if(asked.begin(), asked.end(),
+                                 [&](const std::string &column)
+                                 { return std::count(there.begin(), there.end(), column) > 0; }),
+                  asked.end());
+      return asked;
+    }
   } // namespace
 
   StudyPlan::StudyPlan(const Study &study)
@@ -54,14 +96,19 @@ namespace Exemplar
   {
     check_extra_columns(study);
     read_assignments(scene_text, study.scene.string()); // its syntax concerns all runs
+    refuse_split_values();
     RunNames    names(study, scene_text);
     bool        parts_are_checked = false;
+    BuiltRun    built;
     std::string refusal;
     const auto  plan = [&](const std::vector<unsigned int> &choice, const auto &assignments)
     {
-      const auto scene = scene_of(assignments, study, scene_text);
+      std::string why;
+      const auto  scene = scene_of(assignments, study, scene_text, why);
+      if (scene == nullptr)
+        refusals.insert(why);
       parts_are_checked
-          = parts_are_checked || (scene != nullptr && can_be_built(*scene, warnings, refusal));
+          = parts_are_checked || (scene != nullptr && can_be_built(*scene, built, refusal));
       if (scene != nullptr)
         for (const auto &file : scene->named_files())
           named_files.insert(file);
@@ -79,10 +126,64 @@ namespace Exemplar
     }
     for (const auto &choice : study.choices())
       runs.push_back(plan(choice, study.assignments(choice)));
-    if (parts_are_checked)
+    if (!parts_are_checked)
+    {
+      SceneFile(study.scene, scene_text, runs.at(0).assignments); // throws if that is why
+      throw UserError(refusal);
+    }
+    warnings = built.warnings;
+    for (const std::string &why : refusals)
+      warnings.push_back("Runs will be refused, as their rows will say: " + why);
+    check_columns(built.columns);
+  }
+
+  void
+  StudyPlan::refuse_split_values() const
+  {
+    const auto is_allowed = [&](const StudyAxis &axis, const std::string &value)
+    {
+      std::vector<Assignment> assignments = study.assignments({});
+      assignments.push_back(parse_assignment(axis.keys[0] + "=", study.vary_place));
+      assignments.back().value = value;
+      try
+      {
+        SceneFile(study.scene, scene_text, assignments);
+        return true;
+      }
+      catch (const UserError &) // it may need the keys of other axes, too
+      {
+        return false;
+      }
+    };
+    for (const StudyAxis &axis : study.axes)
+      for (std::size_t i = 1; axis.keys.size() == 1 && i < axis.values.size(); ++i)
+      {
+        const std::string &first = axis.values[i - 1][0], both = first + " " + axis.values[i][0];
+        if (!is_allowed(axis, first) && is_allowed(axis, both))
+          throw UserError(study.vary_place + ": " + axis.name() + " has no value '" + first
+                          + "', but '" + both + "'. Values with blanks are separated by commas: "
+                          + axis.name() + ": " + both + ", ...");
+      }
+  }
+
+  void
+  StudyPlan::check_columns(const std::vector<std::string> &there) const
+  {
+    std::vector<std::string> missing = missing_columns(study.columns, there);
+    for (std::size_t i = 0; i < runs.size() && !missing.empty(); ++i)
+    {
+      BuiltRun    built;
+      std::string refusal;
+      const auto  scene = scene_of(runs[i].assignments, study, scene_text, refusal);
+      if (scene != nullptr && can_be_built(*scene, built, refusal))
+        missing = missing_columns(std::move(missing), built.columns);
+    }
+    if (missing.empty())
       return;
-    SceneFile(study.scene, scene_text, runs.at(0).assignments); // throws if that is why
-    throw UserError(refusal);
+    const std::string near = nearest_word(missing[0], there);
+    throw UserError(
+        study.columns_place + ": no run has the column '" + missing[0] + "'. "
+        + (near.empty() ? "There are: " + listed(there) + "." : "Did you mean '" + near + "'?"));
   }
 
   unsigned int

@@ -8,6 +8,7 @@ import sys
 import tempfile
 import threading
 import unittest
+import warnings
 import weakref
 from pathlib import Path
 
@@ -20,6 +21,15 @@ HANDLES = {"left": {"Select": "box 0 -1 -1 0 1 1"},
 BAR = {"Scene": "static", "Mesh": {"Generator": "box", "Box size": [2, 1, 1], "Box cells": (4, 2, 2)},
        "Handles": HANDLES, "Time": {"Increments": 3}}
 DYNAMIC = {**BAR, "Scene": "dynamic", "Time": {"Step": 0.05, "End": 0.3}}
+
+
+class Meshio:
+    """As meshio's meshes."""
+    points = cells_dict = None
+
+
+def with_nan(nodes):
+    return np.where(np.arange(nodes.size).reshape(nodes.shape) == 10, np.nan, nodes)
 
 
 def without_mesh(scene):
@@ -106,11 +116,29 @@ class Scenes(unittest.TestCase):
             "has node 99": (bare, (nodes, np.array([[0, 1, 2, 99]]))),
             "has -1": (bare, (nodes, np.array([[0, 1, 2, -1]]))),
             "array of integers": (bare, (nodes, cells + 0.5)),
-            "mesh must be": (bare, (nodes,)),
+            "mesh must be .* has 1 parts": (bare, (nodes,)),
+            "mesh must be .* is a str. A file is named by the scene": (bare, "box.msh"),
+            "mesh must be .* is a Meshio. .*mesh.points, mesh.cells_dict\\[\"tetra\"\\]": (bare, Meshio()),
+            "nodes must be finite numbers, but row 3, counted from 0, is \\(.*, nan, .*\\)": (bare, (with_nan(nodes), cells)),
+            "poses\\[0\\] must be finite numbers, but row 3": (bare, (nodes, cells), [with_nan(nodes)]),
+            "poses\\[0\\] must be finite numbers, but row 0, counted from 0, is \\(nan": (bare, (nodes, cells), [np.full((45, 3), None)]),
+            "no cell has the nodes \\(counted from 0\\) 45. .*np.unique": (bare, (np.vstack([nodes, [[9, 9, 9]]]), cells)),
+            "cells\\[96\\] has the same nodes as cells\\[7\\]": (bare, (nodes, np.vstack([cells, cells[7:8, ::-1]]))),
+            "8 nodes a row.*split each": (bare, (nodes, np.hstack([cells, cells]))),
+            "10 nodes a row.*cells\\[:, :4\\]": (bare, (nodes, np.hstack([cells, cells, cells[:, :2]]))),
+            "boundary id 1 .* has no triangles. Select by box": ({**bare, "Handles": {"left": {"Select": "boundary 1"}}}, (nodes, cells)),
+            "scene: Handles holds a dictionary in a list. .*\"Handles\": {\"left\"": ({**BAR, "Handles": [{"Select": "box"}]},),
+            "Examples/Poses names files. Arrays are .*poses=": ({**BAR, "Examples": {"Poses": [nodes]}},),
+            "Time/Increments is None. Leave the key out": ({**BAR, "Time": {"Increments": None}},),
             "has 3 nodes, the mesh 45": (bare, (nodes, cells), [nodes[:3]]),
         }.items():
             with self.subTest(message), self.assertRaisesRegex(exemplar.UserError, message):
                 exemplar.Problem(*arguments)
+        with tempfile.TemporaryDirectory() as directory:
+            file = Path(directory, "study.prm")
+            file.write_text("set Scene = a.prm\nset Vary = Time/Increments: 1 2\n")
+            with self.assertRaisesRegex(exemplar.UserError, "is a study. Run it by: exemplar study .*study.prm. In Python"):
+                exemplar.Problem(file)
         with self.assertRaisesRegex(TypeError, "scene must be the path of a .prm file.* but is a list"):
             exemplar.Problem([BAR])
         with self.assertRaises(exemplar.SolverFailure) as caught:
@@ -120,12 +148,42 @@ class Scenes(unittest.TestCase):
         with self.assertRaisesRegex(exemplar.UserError, "All 3 steps"):
             problem.step()
 
+    def test_unused_nodes_are_left_out_as_the_message_says(self):
+        nodes, cells = box()
+        nodes = np.vstack([[[9, 9, 9]], nodes])
+        used, new = np.unique(cells + 1, return_inverse=True)
+        problem = exemplar.Problem(without_mesh(BAR), mesh=(nodes[used], new.reshape(-1, 4)))
+        self.assertEqual(problem.rest_positions.tobytes(), box()[0].tobytes())
+
+    def test_whole_numbers_may_be_floats(self):
+        self.assertEqual(exemplar.Problem({**BAR, "Time": {"Increments": 2.0}}).n_steps, 2)
+        with self.assertRaisesRegex(exemplar.UserError, "Time/Increments = '2.5' is not allowed"):
+            exemplar.Problem({**BAR, "Time": {"Increments": 2.5}})
 
     def test_units_are_warned_of(self):
-        problem = exemplar.Problem({**BAR, "Mesh": {**BAR["Mesh"], "Box size": [400, 100, 100]}, "Time": {"Step": 0.1}, "Handles": {"left": {"Select": "boundary 1"}}})
+        scene = {**BAR, "Mesh": {**BAR["Mesh"], "Box size": [400, 100, 100]}, "Time": {"Step": 0.1}, "Handles": {"left": {"Select": "boundary 1"}}}
+        with warnings.catch_warnings(record=True) as told:
+            warnings.simplefilter("always")
+            problem = exemplar.Problem(scene)
         self.assertEqual(len(problem.warnings), 2)
         self.assertRegex(problem.warnings[0], "^scene: Time/Step = 0.1 does nothing in a scene that is not dynamic")
         self.assertRegex(problem.warnings[1], "^The body is 400 m long.*Mesh/Scale = 0.001")
+        self.assertEqual([str(warning.message) for warning in told], problem.warnings)
+        for warning in told:
+            self.assertEqual((warning.category, warning.filename), (UserWarning, __file__))
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            with self.assertRaisesRegex(UserWarning, "^scene: Time/Step"):
+                exemplar.Problem(scene)
+            solved(BAR)  # nothing to warn of
+
+    def test_keys_that_do_nothing_in_python(self):
+        nodes, cells = box()
+        for words, scene, mesh in (("^Output/Directory does nothing in Python.*problem.positions", {**BAR, "Output": {"Directory": "out"}}, None),
+                                   ("Mesh/File = absent.msh does nothing, as mesh= is given", {**BAR, "Mesh": {"File": "absent.msh"}}, (nodes, cells)),
+                                   ("Mesh/Generator = box does nothing", BAR, (nodes, cells))):
+            with self.subTest(words), self.assertWarnsRegex(UserWarning, words):
+                self.assertEqual(len(exemplar.Problem(scene, mesh).warnings), 1)
 
     def test_dictionaries_without_end(self):
         section, entries = {}, []
@@ -138,7 +196,7 @@ class Scenes(unittest.TestCase):
             "Mesh/Mesh/Mesh is a dictionary. The sections of a scene are at most two deep": section,
             "Mesh/Mesh/Mesh is": deep,
             "Mesh/Box size holds lists within lists": {**BAR, "Mesh": {"Box size": entries}},
-            "Mesh/Box size holds .* a dictionary in a list": {**BAR, "Mesh": {"Box size": [{}]}},
+            "Mesh/Box size holds a dictionary in a list": {**BAR, "Mesh": {"Box size": [{}]}},
         }.items():
             with self.subTest(message), self.assertRaisesRegex(exemplar.UserError, message):
                 exemplar.Problem(scene)
@@ -166,6 +224,11 @@ class Scenes(unittest.TestCase):
 
 
 class State(unittest.TestCase):
+    def test_positions_are_not_set(self):
+        problem = exemplar.Problem(BAR)
+        with self.assertRaisesRegex(AttributeError, "positions cannot be set.*Initial"):
+            problem.positions = box()[0]
+
     def test_measures(self):
         problem = exemplar.Problem(DYNAMIC, poses=[twisted(box()[0])])
         self.assertEqual((problem.step_number, problem.n_steps, problem.time), (0, 6, 0))
@@ -222,7 +285,7 @@ class Callbacks(unittest.TestCase):
             problem.set_motion("top", lambda rest, t: rest)
         for error, function in {ZeroDivisionError: lambda rest, t: 1 / 0,
                                 exemplar.UserError: lambda rest, t: rest[1:],
-                                exemplar.SolverFailure: lambda rest, t: rest * np.nan}.items():
+                                TypeError: lambda rest, t: rest + None}.items():
             problem.set_motion("right", function)
             with self.assertRaises(error):
                 problem.step()
@@ -235,13 +298,44 @@ class Callbacks(unittest.TestCase):
         problem = exemplar.Problem(BAR)
         for given, function in {"is an array of shape (8, 3)": lambda rest, t: rest[1:],
                                 "is an array of shape (9, 2)": lambda rest, t: rest[:, :2],
-                                "is a NoneType": lambda rest, t: None, "real numbers": lambda rest, t: 1j * rest}.items():
+                                "is a NoneType": lambda rest, t: None, "real numbers": lambda rest, t: 1j * rest,
+                                "finite numbers, but row 0, counted from 0, is (nan": lambda rest, t: np.nan * rest}.items():
             problem.set_motion("right", function)
             with self.subTest(given), self.assertRaises(exemplar.UserError) as caught:
                 problem.step()
             self.assertIn("Handles/right", str(caught.exception))
             self.assertIn(given, str(caught.exception))
-            self.assertTrue("shape (9, 3)" in str(caught.exception) or given == "real numbers")
+            self.assertTrue("shape (9, 3)" in str(caught.exception) or "numbers" in given)
+
+    def test_functions_with_other_arguments(self):
+        problem = exemplar.Problem(BAR)
+        problem.set_motion("right", lambda t: t)
+        with self.assertRaisesRegex(TypeError, "takes 1 positional argument but 2 were given. set_motion calls function\\(rest, t\\)"):
+            problem.step()
+        problem.set_motion("right", lambda rest, t: rest + None)
+        with self.assertRaisesRegex(TypeError, "unsupported operand[^.]*$"):
+            problem.step()
+        problem.set_motion("right", lambda rest, t: 0 * rest)
+        problem.on_iteration(lambda report, more: None)
+        with self.assertRaisesRegex(TypeError, "missing 1 required .*'more'. on_iteration calls function\\(report\\)"):
+            problem.step()
+        with self.assertRaisesRegex(TypeError, "function is called as function\\(rest, t\\), but is an array of shape \\(9, 3\\)"):
+            problem.set_motion("right", np.zeros((9, 3)))
+        with self.assertRaisesRegex(TypeError, "the name of a handle must be a str, but is a function"):
+            problem.set_motion(lambda rest, t: rest, "right")
+
+    def test_motions_that_go_far_are_warned_of(self):
+        problem = exemplar.Problem(BAR)
+        problem.set_motion("right", lambda rest, t: 0 * rest + [0, 0, 30 * t])
+        with self.assertWarnsRegex(UserWarning, "^Handles move by up to 10 m in a step, 4.08 times the size of the body"):
+            problem.step()
+        with warnings.catch_warnings(record=True) as told:
+            warnings.simplefilter("always")
+            problem.step()
+            self.assertEqual(told, [])  # it has been told of this function
+            problem.step()  # the last
+        self.assertRegex(str(told[0].message), "cells are (inverted|stretched) .*at the end: element")
+        self.assertEqual(problem.warnings[1:], [str(warning.message) for warning in told])
 
     def test_cycles_are_freed(self):
         class Subclass(exemplar.Problem):
@@ -280,7 +374,7 @@ class Callbacks(unittest.TestCase):
     def test_callback_may_not_step(self):
         problem = exemplar.Problem(BAR)
         problem.on_iteration(lambda report: problem.step())
-        with self.assertRaisesRegex(RuntimeError, "is being made"):
+        with self.assertRaisesRegex(RuntimeError, "is being made, and has called a function that calls step.*returns False"):
             problem.step()
 
     def test_control_c(self):

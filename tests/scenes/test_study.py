@@ -137,19 +137,23 @@ class Studies(SceneTest):
                 self.assertAlmostEqual(float(line[4]), order, delta=0.02 * order)
 
     def test_columns_and_probe(self):
-        self.prepare(FREE_FALL, "Time/Step: 0.1 0.05", Columns="momentum_z, angle", Probe="9, 9, 9")
+        self.prepare(FREE_FALL, "Time/Step: 0.1 0.05", Columns="momentum_z", Probe="9, 9, 9")
         rows = self.study()
         for row in rows:
             run = self.directory / "out/runs" / row["run"]
             with open(run / "statistics.csv", newline="") as file:
                 last = list(csv.DictReader(file))[-1]
             self.assertEqual(row["momentum_z"], last["momentum_z"])
-            self.assertEqual(row["angle"], "")
             fall = (1 + float(row["Time/Step"])) / 2  # in a second, by gravity 1
             self.assertAlmostEqual(float(row["probe_z"]), -fall, delta=1e-9)
             self.assertAlmostEqual(float(row["probe_x"]), 0, delta=1e-9)
-        self.assertIn("No run has a value in the column angle.", self.run_of_study.stderr)
         self.assertIn("| probe_z |", self.report())
+
+    def test_columns_of_some_runs(self):
+        self.prepare({**BAR, "Examples/Pose functions": "x; y; z + 0.1*x^2"}, "Examples/Importance: 0 0.5", Columns="weight_1")
+        without, with_examples = self.study()
+        self.assertEqual(without["weight_1"], "")
+        self.assertNotEqual(with_examples["weight_1"], "")
 
     def test_refined_meshes_are_compared_at_common_nodes(self):
         self.prepare(BAR, "Mesh/Box cells: 2, 1, 1; 4, 2, 2; 3, 1, 1",
@@ -180,6 +184,9 @@ class Studies(SceneTest):
         self.assertEqual((refused["status"], refused["exit_status"]), ("refused", "1"))
         self.assertIn("Material/Poisson's ratio = '0.6' is not allowed", refused["message"])
         self.assertEqual((refused["seconds_median"], refused["steps"]), ("", ""))
+        self.assertRegex(self.run_of_study.stderr, "^Warning: Runs will be refused, as their rows will say: study.prm:2, Vary: "
+                         "Material/Poisson's ratio = '0.6' is not allowed")
+        self.assertRegex(self.run_of_study.stdout, r"\n1 refused: .*Material/Poisson's ratio = '0.6' is not allowed")
         self.assertEqual((limit["status"], limit["exit_status"]), ("iteration limit", "2"))
         self.assertIn("stopped at its iteration limit", limit["message"])
         self.assertEqual((limit["steps"], limit["error_position_l2"]), ("0", ""))
@@ -321,7 +328,8 @@ class Studies(SceneTest):
                      Reference="Time/Step=0.01")
         before = set(self.directory.rglob("*"))
         run = self.call("--validate", "study.prm")
-        self.assertEqual((run.status, run.stderr), (0, ""))
+        self.assertEqual((run.status, run.stderr.count("Warning: ")), (0, 1))
+        self.assertIn("Warning: Runs will be refused, as their rows will say: study.prm:2, Vary: Material/Poisson's ratio = '0.6'", run.stderr)
         self.assertRegex(run.stdout, "^study.prm: valid; 4 combinations")
         self.assertEqual(set(self.directory.rglob("*")), before)
 

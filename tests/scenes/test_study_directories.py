@@ -128,6 +128,9 @@ class StudyDirectories(DirectoryTest):
         (self.runs / "running/thesis.txt").write_text("mine")
         self.assert_refused(STUDY, "running", "holds thesis.txt", "Move away")
 
+    def test_a_run_in_its_directory(self):
+        self.assert_refused(["scene.prm", "--output", "out"], "out holds a study. Give another one")
+
     def test_runs_is_a_file(self):
         shutil.rmtree(self.runs)
         self.runs.write_text("mine")

@@ -32,6 +32,13 @@ namespace Exemplar::Python
               const pybind11::object &mesh,
               const pybind11::object &poses);
 
+  /// What a function of Python returns. Of one that does not take such arguments the TypeError is
+  /// told, with `usage`. Throws what the function raises.
+  pybind11::object
+  call(const pybind11::object &function,
+       const pybind11::tuple  &arguments,
+       const std::string      &usage);
+
   /// A motion of a handle that calls function(rest (k,3), t) -> (k,3), with Python's lock held.
   /// `function` is looked at in each call and must outlive them. Exceptions of the function pass
   /// through; UserError is thrown if it returns anything else.

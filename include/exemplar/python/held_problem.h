@@ -4,6 +4,7 @@
 
 #include <exemplar/run/diagnostics.h>
 #include <exemplar/run/problem.h>
+#include <exemplar/run/state_review.h>
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -36,7 +37,7 @@ namespace Exemplar::Python
     run();
 
     void
-    set_motion(const pybind11::str &name, const pybind11::function &function);
+    set_motion(const pybind11::object &name, const pybind11::object &function);
 
     /// None: nothing is called.
     void
@@ -55,7 +56,7 @@ namespace Exemplar::Python
     const Problem &
     get() const;
 
-    /// What the program would warn of before the first step.
+    /// What the program would warn of, so far. Python is told each when it is found.
     const std::vector<std::string> &
     get_warnings() const
     {
@@ -101,6 +102,18 @@ namespace Exemplar::Python
     static void
     let_go(Vector &field, std::shared_ptr<Shown> &shown);
 
+    /// Throws what a filter of Python's warnings makes of them.
+    void
+    warn(const std::vector<std::string> &some);
+
+    /// That functions move handles too far in the next step; once until one is set anew.
+    void
+    warn_of_motions();
+
+    /// Throws RuntimeError while a step is made; `what` is called meanwhile.
+    void
+    require_no_step(const std::string &what) const;
+
     /// Called after each iteration; whether to go on.
     bool
     observe(const SolveReport &iteration);
@@ -114,10 +127,12 @@ namespace Exemplar::Python
     const std::shared_ptr<Problem>          problem;  ///< its memory is shared with arrays
     std::vector<std::string>                warnings;
     Diagnostics                             diagnostics;
+    StateReview                             review;
     SolveReport                             report;
     std::shared_ptr<Shown>                  shown_positions, shown_velocities;
-    std::thread::id stepping;           ///< the thread that makes a step; none: no step is made
-    bool            is_stopped = false; ///< by the callback
+    std::thread::id stepping; ///< the thread that makes a step; none: no step is made
+    bool            is_stopped           = false; ///< by the callback
+    bool            is_warned_of_motions = false;
   };
 } // namespace Exemplar::Python
 

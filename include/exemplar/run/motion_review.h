@@ -15,6 +15,11 @@ namespace Exemplar
   std::vector<std::string>
   motion_warnings(const Problem &problem);
 
+  /// The same of the handles in the next step alone: for motions that a program has set. Throws what
+  /// Handles::move() throws.
+  std::vector<std::string>
+  next_step_warnings(const Problem &problem);
+
   /// What the scene has that does nothing, for the header of a run, as it may be meant: nothing acts,
   /// or there are weights by region where there is one. All processes that share the body must call
   /// this.

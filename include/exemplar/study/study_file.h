@@ -44,6 +44,7 @@ namespace Exemplar
     unsigned int            threads = 1;
     /// Of statistics.csv; their values at the end are columns of the table.
     std::vector<std::string> columns;
+    std::string              columns_place;
     /// Where the displacement at the end is a column [m].
     std::optional<dealii::Point<3>> probe;
   };

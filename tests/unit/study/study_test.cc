@@ -159,7 +159,7 @@ namespace Exemplar::Testing
       expect_refusal({ "names no key" }, ": 1 2");
       expect_refusal({ "empty" }, "Time/Step: 1,, 2");
       expect_refusal({ "'1' twice" }, "Time/Step: 1 2 1");
-      expect_refusal({ "where 2 are needed" }, "Time/Step + Time/End: 1 2");
+      expect_refusal({ "where 2 are needed", "joined by '+', too" }, "Time/Step + Time/End: 1 2");
       expect_refusal({ "Time/Step is varied twice" }, "Time/Step: 1 2 | Time/Step: 3");
       expect_refusal({ "study.prm:3", "Base 'Time/End' has no '='" }, "Time/Step: 1",
                      "set Base = Time/End");
@@ -169,7 +169,15 @@ namespace Exemplar::Testing
                      "Time/Step: 1", "set Base = Time/Step=2");
       expect_refusal({ "Output/Directory", "--output" }, "Output/Directory: a b");
       expect_refusal({ "Repeats = '0'", "an integer >= 1" }, "Time/Step: 1", "set Repeats = 0");
-      expect_refusal({ "no parameter 'Repeat'", "'Repeats'" }, "Time/Step: 1", "set Repeat = 2");
+      expect_refusal({ "no key 'Repeat'", "'Repeats'", "exemplar study --print-parameters" },
+                     "Time/Step: 1", "set Repeat = 2");
+      expect_refusal({ "study.prm:4", "no subsections", "set Base = Time/End=3" }, "Time/Step: 1",
+                     "subsection Time\nset End = 3\nend\n");
+      expect_refusal({ "'1..4' is no value", "written out" }, "Time/Step: 1..4");
+      expect_refusal({ "'0.1:0.1:1' is no value" }, "Time/Step: 0.1:0.1:1");
+      expect_refusal({ "'0' twice", "in double quotes" }, "Handles/a/Motion: 0;0;t 0;0;2*t");
+      expect_refusal({ "joined by '+', too: 1 + newton." },
+                     "Time/Increments + Solver/Method: 1 newton, 2 newton");
     }
 
     TEST_F(StudyFile, NumbersOfValues)

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
+#include <exemplar/base/number_text.h>
+#include <exemplar/mesh/mesh_checks.h>
+#include <exemplar/python/arrays_from_python.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Exemplar::Python
+{
+  namespace py = pybind11;
+
+  namespace
+  {
+    using Cells = std::vector<std::array<unsigned int, 4>>;
+
+    /// The rows of an array (n, width), or any number of them where n is negative.
+    template <typename Number>
+    py::array_t<Number, py::array::c_style | py::array::forcecast>
+    rows_of(const py::handle  &object,
+            const std::string &what,
+            const py::ssize_t  n,
+            const py::ssize_t  width)
+    {
+      const auto any = py::array::ensure(object);
+      if (!any || any.ndim() != 2 || any.shape(1) != width || (n >= 0 && any.shape(0) != n))
+        throw UserError(what + " must be an array of shape (" + (n < 0 ? "n" : std::to_string(n))
+                        + ", " + std::to_string(width) + "), but is " + description(object) + ".");
+      const char kind = any.dtype().kind();
+      if (std::is_integral_v<Number> && kind != 'i' && kind != 'u')
+        throw UserError(what + " must be an array of integers.");
+      py::array_t<Number, py::array::c_style | py::array::forcecast> rows;
+      if (kind != 'c') // of which the real parts alone would be taken
+        rows = decltype(rows)::ensure(any);
+      if (kind == 'c' || !rows)
+        throw UserError(what + " must be an array of real numbers.");
+      return rows;
+    }
+
+    void
+    refuse_other_cells(const py::handle &cells)
+    {
+      const auto any = py::array::ensure(cells);
+      if (any && any.ndim() == 2 && any.shape(1) == 8)
+        throw UserError("mesh: cells has 8 nodes a row, as hexahedra have. Only tetrahedra, of 4 "
+                        "nodes, are taken: split each hexahedron into some.");
+      if (any && any.ndim() == 2 && any.shape(1) == 10)
+        throw UserError("mesh: cells has 10 nodes a row. Take the corners alone, cells[:, :4], and "
+                        "the nodes that these have; Model/Element = P2 puts nodes into the middles "
+                        "of edges.");
+    }
+
+    /// Refuses what is negative, which would become large.
+    unsigned int
+    index_of(const long long value, const std::string &what)
+    {
+      if (value < 0 || value > std::numeric_limits<unsigned int>::max())
+        throw UserError(what + " has " + std::to_string(value)
+                        + ", which is not allowed. Allowed: indices from 0; if 1 was subtracted "
+                          "from such ones, add it to all.");
+      return static_cast<unsigned int>(value);
+    }
+
+    Cells
+    cells_of(const py::handle &object)
+    {
+      refuse_other_cells(object);
+      const auto rows  = rows_of<long long>(object, "mesh: cells", -1, 4);
+      const auto nodes = rows.unchecked<2>();
+      Cells      cells(nodes.shape(0));
+      for (py::ssize_t c = 0; c < nodes.shape(0); ++c)
+        for (py::ssize_t v = 0; v < 4; ++v)
+          cells[c][v] = index_of(nodes(c, v), "mesh: cells");
+      return cells;
+    }
+
+    void
+    refuse_unused_nodes(const Cells &cells, const std::size_t n_nodes)
+    {
+      std::vector<bool> used(n_nodes, false);
+      for (const auto &cell : cells)
+        for (const unsigned int node : cell)
+          used[node] = true;
+      std::vector<std::size_t> unused;
+      for (std::size_t node = 0; node < n_nodes; ++node)
+        if (!used[node])
+          unused.push_back(node);
+      if (!unused.empty() && !cells.empty())
+        throw UserError("mesh: no cell has the nodes (counted from 0) " + list_numbers(unused)
+                        + ". Leave them out: used, new = np.unique(cells, return_inverse=True); "
+                          "nodes, cells = nodes[used], new.reshape(-1, 4).");
+    }
+
+    void
+    refuse_repeated_cells(const Cells &cells)
+    {
+      std::vector<std::pair<std::array<unsigned int, 4>, std::size_t>> sorted;
+      for (const auto &cell : cells)
+      {
+        sorted.emplace_back(cell, sorted.size());
+        std::sort(sorted.back().first.begin(), sorted.back().first.end());
+      }
+      std::sort(sorted.begin(), sorted.end());
+      const auto twin
+          = std::adjacent_find(sorted.begin(), sorted.end(),
+                               [](const auto &a, const auto &b) { return a.first == b.first; });
+      if (twin != sorted.end())
+        throw UserError("mesh: cells[" + std::to_string(std::next(twin)->second)
+                        + "] has the same nodes as cells[" + std::to_string(twin->second)
+                        + "]. Remove one of them.");
+    }
+
+    /// The parts of a tuple or list.
+    py::tuple
+    parts_of(const py::object &mesh)
+    {
+      const bool is_some    = py::isinstance<py::iterable>(mesh) && !py::isinstance<py::str>(mesh);
+      const py::tuple parts = is_some ? py::tuple(mesh) : py::tuple();
+      if (parts.size() == 2 || parts.size() == 3)
+        return parts;
+      throw UserError(
+          "mesh must be (nodes (n, 3), cells (m, 4)) or (nodes, cells, material ids "
+          "(m)), but "
+          + (is_some ? "has " + std::to_string(parts.size()) + " parts."
+                     : "is " + description(mesh) + ".")
+          + (py::hasattr(mesh, "points")
+                 ? " Of a mesh of meshio take (mesh.points, mesh.cells_dict[\"tetra\"])."
+                 : " A file is named by the scene: Mesh/File."));
+    }
+  } // namespace
+
+  std::string
+  description(const py::handle &object)
+  {
+    const auto array = py::array::ensure(object);
+    if (!array || array.ndim() == 0)
+      return "a " + std::string(py::str(py::type::of(object).attr("__name__")));
+    return "an array of shape " + std::string(py::str(array.attr("shape")));
+  }
+
+  std::vector<dealii::Point<3>>
+  points_of(const py::handle &object, const std::string &what, const py::ssize_t n)
+  {
+    const auto                    rows = rows_of<double>(object, what, n, 3);
+    const auto                    x    = rows.unchecked<2>();
+    std::vector<dealii::Point<3>> points;
+    for (py::ssize_t i = 0; i < x.shape(0); ++i)
+    {
+      if (!std::isfinite(x(i, 0)) || !std::isfinite(x(i, 1)) || !std::isfinite(x(i, 2)))
+        throw UserError(what + " must be finite numbers, but row " + std::to_string(i)
+                        + ", counted from 0, is (" + short_text(x(i, 0)) + ", "
+                        + short_text(x(i, 1)) + ", " + short_text(x(i, 2)) + ").");
+      points.emplace_back(x(i, 0), x(i, 1), x(i, 2));
+    }
+    return points;
+  }
+
+  MshFile
+  mesh_of(const py::object &mesh)
+  {
+    const py::tuple           parts = parts_of(mesh);
+    const Cells               cells = cells_of(parts[1]);
+    std::vector<unsigned int> material_ids;
+    if (parts.size() == 3)
+      for (const py::handle id : parts[2])
+        material_ids.push_back(index_of(id.cast<long long>(), "mesh: material ids"));
+    MshFile msh = make_msh(points_of(parts[0], "mesh: nodes"), cells, material_ids);
+    refuse_unused_nodes(cells, msh.nodes.size());
+    refuse_repeated_cells(cells);
+    return msh;
+  }
+} // namespace Exemplar::Python
