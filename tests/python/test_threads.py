@@ -106,6 +106,8 @@ expect(in_threads(dragged, 3 * [FREE]) == 3 * [alone], "threads differ")
     def test_python_ends_while_threads_solve(self):
         self.passes("""
 import time
+import warnings
+warnings.simplefilter("ignore")  # the handle goes far in that time
 LONG = {**BAR, "Scene": "dynamic", "Time": {"Step": 0.01, "End": 1000}}
 for _ in range(2):
     threading.Thread(target=solved, args=(LONG,), daemon=True).start()

@@ -191,7 +191,8 @@ namespace Exemplar::Testing
     {
       HandleParameters other = tip("0; 0; 0", "box 3.9 -1 -1 5 1 1");
       other.name             = "other";
-      EXPECT_THROW(Handles({ follow(mesh), other }, mesh, FESpace(mesh), increments(2), poses), UserError);
+      EXPECT_THROW(Handles({ follow(mesh), other }, mesh, FESpace(mesh), increments(2), poses),
+                   UserError);
       HandleParameters same = follow(mesh);
       same.name             = "other";
       EXPECT_NO_THROW(Handles({ follow(mesh), same }, mesh, FESpace(mesh), increments(2), poses));
@@ -272,11 +273,36 @@ namespace Exemplar::Testing
              rotation(angle_157 + "*(1-cos(pi*t))/2"), rotation(angle_157),
              rotation(angle_157, "t<0.5 ? 0 : 1") })
         for (const unsigned int n : { 1u, 2u, 3u, 10u, 50u })
-          EXPECT_TRUE(warnings_of_handles(motion, n).empty()) << motion << ", increments: " << n;
+          for (const std::string &warning : warnings_of_handles(motion, n))
+            EXPECT_EQ(warning.find("straight"), std::string::npos)
+                << motion << ", increments: " << n;
       EXPECT_TRUE(warnings_of_handles(rotation(angle_157, "t"), 10, "x, z").empty()); // y is free
       for (const char *line : { "box 3.9 -1 -1 5 -0.4 1", "sphere 4 0 0 0.1" })
         EXPECT_TRUE(warnings_of_handles(rotation(angle_157, "t"), 10, "x, y, z", line).empty())
             << line;
+    }
+
+    TEST(LargeTurn, IsWarnedOfFromHalfATurnInAStepOn)
+    {
+      for (const auto &[motion, n] : { std::pair(rotation("2*pi*t"), 1u),
+                                       { rotation("4*pi*t"), 2u },
+                                       { rotation("12*pi*t"), 1u },
+                                       { rotation("pi*t"), 1u },
+                                       { rotation("2*pi*sin(pi*t)"), 1u } })
+      {
+        const auto all = warnings_of_handles(motion, n);
+        ASSERT_EQ(all.size(), 1u) << motion << ", increments: " << n;
+        EXPECT_NE(all[0].find("degrees in a step"), std::string::npos) << all[0];
+      }
+      EXPECT_NE(warnings_of_handles(rotation("4*pi*t"), 2)[0].find("360 degrees in a step"),
+                std::string::npos);
+      for (const auto &[motion, n] : { std::pair(rotation("4*pi*t"), 10u),
+                                       { rotation(angle_157 + "*t"), 1u },
+                                       { std::string("-8*t; 0; 0"), 1u },
+                                       { std::string("0; -2*t*y; -2*t*z + x-x"), 1u },
+                                       { std::string("0; 0; 0"), 1u } })
+        for (const std::string &warning : warnings_of_handles(motion, n))
+          EXPECT_EQ(warning.find("in a step"), std::string::npos) << warning;
     }
   } // namespace
 } // namespace Exemplar::Testing
