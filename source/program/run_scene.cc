@@ -53,7 +53,7 @@ namespace Exemplar
                                { return read_shared_inputs(scene, MPI_COMM_WORLD, announce); }));
       log.warn(problem->warnings());
       log.warn(unit_warnings(*problem));
-      log.warn(motion_warnings(*problem));
+      log.warn(motion_warnings(*problem, options.resume || options.resume_from));
       return problem;
     }
 

@@ -162,13 +162,13 @@ namespace Exemplar
     }
 
     std::vector<std::string>
-    warnings_of_handles(const Problem &problem, const Travel &travel)
+    warnings_of_handles(const Problem &problem, const Travel &travel, const bool begins)
     {
       std::vector<std::string> warnings;
       const Handles           &handles = *problem.constraints.handles;
       Vector                   moved   = problem.body.fe_space.rest_positions();
       handles.move(problem.time_axis.time(0), moved);
-      for (unsigned int handle = 0; handle < handles.size() && problem.state.step == 0; ++handle)
+      for (unsigned int handle = 0; handle < handles.size() && begins; ++handle)
         if (const Warning warning = review_beginning(problem, handle, moved))
           warnings.push_back(*warning);
       if (const Warning warning = review_travel(problem, travel))
@@ -178,7 +178,7 @@ namespace Exemplar
   } // namespace
 
   std::vector<std::string>
-  motion_warnings(const Problem &problem)
+  motion_warnings(const Problem &problem, const bool is_resumed)
   {
     const Handles *const handles = problem.constraints.handles.get();
     const Loads *const   loads   = problem.actions.loads.get();
@@ -186,7 +186,7 @@ namespace Exemplar
       return {};
     std::vector<std::string> warnings;
     if (const std::optional<Travel> travel = travel_of(problem))
-      warnings = warnings_of_handles(problem, *travel);
+      warnings = warnings_of_handles(problem, *travel, !is_resumed);
     const std::vector<unsigned int> held = handles->held_dofs();
     for (unsigned int load = 0; loads != nullptr && load < loads->size(); ++load)
       if (!problem.body.exchange().any(!are_held(loads->nodes(load), held)))
@@ -208,7 +208,7 @@ namespace Exemplar
     handles->move(problem.time_axis.time(problem.state.step + 1), after);
     Travel travel;
     travel.in_step = problem.body.exchange().max(greatest_difference(before, after));
-    return warnings_of_handles(problem, travel);
+    return warnings_of_handles(problem, travel, problem.state.step == 0);
   }
 
   std::vector<std::string>

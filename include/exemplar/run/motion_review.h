@@ -11,9 +11,9 @@ namespace Exemplar
 {
   /// Warnings of handles that seem to be given places instead of displacements, that jump where a
   /// dynamic scene begins, or that move further than can be meant, and of loads that act on held nodes
-  /// alone. All processes that share the body must call this.
+  /// alone. `is_resumed`: the run begins elsewhere. All processes that share the body must call this.
   std::vector<std::string>
-  motion_warnings(const Problem &problem);
+  motion_warnings(const Problem &problem, bool is_resumed = false);
 
   /// The same of the handles in the next step alone: for motions that a program has set. Throws what
   /// Handles::move() throws.
