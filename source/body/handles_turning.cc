@@ -167,7 +167,7 @@ namespace Exemplar
   void
   Handles::look_for_large_turns(const TimeAxis &axis)
   {
-    constexpr std::size_t most_nodes = 20, most_steps = 100; // some milliseconds
+    constexpr std::size_t most_nodes = 8, most_steps = 20; // a millisecond
     for (const Handle &handle : handles)
     {
       if (handle.path || handle.function || handle.components.size() < 3)

@@ -161,16 +161,23 @@ namespace Exemplar
       return Travel{ exchange.max(travel.in_step), exchange.max(travel.in_all) };
     }
 
+    void
+    add_beginnings(const Problem &problem, std::vector<std::string> &warnings)
+    {
+      const Handles &handles = *problem.constraints.handles;
+      Vector         moved   = problem.body.fe_space.rest_positions();
+      handles.move(problem.time_axis.time(0), moved);
+      for (unsigned int handle = 0; handle < handles.size(); ++handle)
+        if (const Warning warning = review_beginning(problem, handle, moved))
+          warnings.push_back(*warning);
+    }
+
     std::vector<std::string>
     warnings_of_handles(const Problem &problem, const Travel &travel, const bool begins)
     {
       std::vector<std::string> warnings;
-      const Handles           &handles = *problem.constraints.handles;
-      Vector                   moved   = problem.body.fe_space.rest_positions();
-      handles.move(problem.time_axis.time(0), moved);
-      for (unsigned int handle = 0; handle < handles.size() && begins; ++handle)
-        if (const Warning warning = review_beginning(problem, handle, moved))
-          warnings.push_back(*warning);
+      if (begins)
+        add_beginnings(problem, warnings);
       if (const Warning warning = review_travel(problem, travel))
         warnings.push_back(*warning);
       return warnings;
@@ -187,8 +194,10 @@ namespace Exemplar
     std::vector<std::string> warnings;
     if (const std::optional<Travel> travel = travel_of(problem))
       warnings = warnings_of_handles(problem, *travel, !is_resumed);
+    if (loads == nullptr || !loads->has_named_loads())
+      return warnings;
     const std::vector<unsigned int> held = handles->held_dofs();
-    for (unsigned int load = 0; loads != nullptr && load < loads->size(); ++load)
+    for (unsigned int load = 0; load < loads->size(); ++load)
       if (!problem.body.exchange().any(!are_held(loads->nodes(load), held)))
         warnings.push_back(
             "Loads/" + loads->name(load)
@@ -214,11 +223,15 @@ namespace Exemplar
   std::vector<std::string>
   idle_notes(const Problem &problem)
   {
-    std::vector<std::string>    notes;
-    const std::optional<Travel> travel         = travel_of(problem);
-    const bool                  starts_at_rest = !problem.body.exchange().any(!is_at_rest(problem));
+    std::vector<std::string> notes;
+    const auto               is_anything_driven = [&]
+    {
+      const std::optional<Travel> travel = travel_of(problem);
+      return !travel || travel->in_all > 0.;
+    };
     if (problem.parameters.scene != SceneKind::interpolation && problem.actions.loads == nullptr
-        && problem.examples.poses == nullptr && travel && travel->in_all == 0. && starts_at_rest)
+        && problem.examples.poses == nullptr && !problem.body.exchange().any(!is_at_rest(problem))
+        && !is_anything_driven())
       notes.push_back("nothing will happen: no handle moves, no load acts, and the body starts at "
                       "rest (Handles/NAME/Motion, Loads/Gravity, Loads/Names)");
     const ExampleWeights *const weights = problem.examples.weights.get();
