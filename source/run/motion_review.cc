@@ -6,6 +6,7 @@
 #include <exemplar/run/motion_review.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
