@@ -323,11 +323,9 @@ namespace Exemplar
   {
     const BodyMeasures   measures = measure(problem.body);
     std::vector<Warning> found    = { review_size(problem, measures) };
-    if (masses_matter(problem)
-        || problem.actions.loads != nullptr) // else shapes do not depend on it
-      found.push_back(review_stiffness(measures));
     if (masses_matter(problem))
-      found.insert(found.end(), { review_density(measures), review_weight(problem, measures) });
+      found.insert(found.end(), { review_density(measures), review_stiffness(measures),
+                                  review_weight(problem, measures) });
     found.insert(found.end(),
                  { review_step(problem), review_frames(problem), review_damping(problem),
                    review_force(problem, measures), review_angles(problem, measures) });
