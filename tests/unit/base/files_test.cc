@@ -115,6 +115,7 @@ namespace Exemplar
       EXPECT_EQ(sha256(write(std::string(200000, 'x'))), sha256_of_text(std::string(200000, 'x')));
       EXPECT_THROW(sha256(directory / "nowhere"), UserError);
       EXPECT_THROW(sha256(directory), UserError);
+      EXPECT_THROW(sha256("/dev/zero"), UserError); // which has no end
       EXPECT_EQ(sha256_of_begin(write("abcde"), 3), abc);
       EXPECT_THROW(sha256_of_begin(write("ab"), 3), UserError);
     }
