@@ -125,7 +125,7 @@ NO_FILES = {
     "obj called ply": ("bad.ply", CUBE, ["bad.ply: the name ends in .ply", "ply"]),
     "STEP called obj": ("bad.obj", "ISO-10303-21;\n", ["bad.obj: the name ends in .obj", "It is a CAD model. Make a surface of it: gmsh -2 bad.step"]),
     "msh called obj": ("bad.obj", "$MeshFormat\n", ["It is a mesh of tetrahedra, not a surface", "Mesh/File"]),
-    "directory": ("bad.obj", None, ["bad.obj: ", "a directory", ".obj, .ply or .stl"]),
+    "directory": ("bad.obj", None, ["bad.obj: ", "a directory", "Give the path of a "]),
     "missing file": ("absent.obj", "absent", ["absent.obj: cannot be opened (No such file"]),
     "flat in a point": ("bad.obj", ([(0, 0, 0)] * 3, [(0, 1, 2)]), ["bad.obj", "area"]),
 }
