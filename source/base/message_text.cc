@@ -94,6 +94,15 @@ namespace Exemplar
   }
 
   std::string
+  joined(const std::vector<std::string> &words, const std::string_view separator)
+  {
+    std::string text;
+    for (std::size_t i = 0; i < words.size(); ++i)
+      text.append(i == 0 ? "" : separator).append(words[i]);
+    return text;
+  }
+
+  std::string
   message_text(const std::string_view message)
   {
     std::string text;

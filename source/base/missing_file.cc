@@ -2,6 +2,7 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/base/missing_file.h>
 #include <exemplar/base/nearest_word.h>
+#include <exemplar/base/text_file.h>
 
 #include <algorithm>
 #include <cctype>
@@ -117,12 +118,11 @@ namespace Exemplar
   void
   require_file(const fs::path &file, const std::string &what, const fs::path &not_meant)
   {
-    std::error_code ignored;
-    if (fs::is_directory(file, ignored))
-      throw UserError(file.string() + ": is a directory. Give the path of " + what + ".");
-    if (!fs::exists(file, ignored))
-      throw UserError(file.string()
-                      + ": cannot be opened (No such file or directory). Give the path of " + what
-                      + "." + missing_file_remedy(file, not_meant));
+    std::error_code   ignored;
+    const std::string reason
+        = fs::exists(file, ignored) ? reason_not_to_read(file) : "No such file or directory";
+    if (!reason.empty())
+      throw UserError(file.string() + ": cannot be opened (" + reason + "). Give the path of "
+                      + what + "." + missing_file_remedy(file, not_meant));
   }
 } // namespace Exemplar

@@ -27,7 +27,7 @@ namespace Exemplar
     std::error_code ignored;
     const auto      kind = std::filesystem::status(file, ignored).type();
     if (kind == std::filesystem::file_type::directory)
-      return "is it a directory?";
+      return "it is a directory";
     if (kind == std::filesystem::file_type::character || kind == std::filesystem::file_type::block)
       return "it is a device";
     return "";

@@ -2,6 +2,7 @@
 #include <exemplar/base/confinement.h>
 #include <exemplar/base/environment.h>
 #include <exemplar/base/errors.h>
+#include <exemplar/base/message_text.h>
 #include <exemplar/mesh/geo_meshing.h>
 #include <exemplar/mesh/gmsh_session.h>
 #include <exemplar/mesh/msh_comment.h>
@@ -127,7 +128,8 @@ namespace Exemplar
           if (is_used[tags[i]] != 0)
           {
             index[tags[i]] = msh.nodes.size();
-            msh.nodes.emplace_back(rounded(scale * places[3 * i]), rounded(scale * places[3 * i + 1]),
+            msh.nodes.emplace_back(rounded(scale * places[3 * i]),
+                                   rounded(scale * places[3 * i + 1]),
                                    rounded(scale * places[3 * i + 2]));
             msh.node_numbers.push_back(msh.nodes.size());
           }
@@ -147,15 +149,6 @@ namespace Exemplar
 
       double save_all = 0.;
     };
-
-    std::string
-    joined(const std::vector<std::string> &words)
-    {
-      std::string text;
-      for (const std::string &word : words)
-        text += (text.empty() ? "" : " ") + word;
-      return text;
-    }
 
     void
     confine_or_refuse(const std::filesystem::path &directory, std::vector<std::string> &walls)
@@ -181,7 +174,7 @@ namespace Exemplar
         gmsh::model::mesh::generate(3);
         std::string error;
         gmsh::logger::getLastError(error);
-        return error.empty() ? with_comment(msh_text(MeshTaking().msh), joined(walls)) : "";
+        return error.empty() ? with_comment(msh_text(MeshTaking().msh), joined(walls, " ")) : "";
       }
       catch (const std::exception &)
       {
@@ -216,6 +209,7 @@ namespace Exemplar
               const CopyTask              &task,
               CopyMessages                &messages)
   {
-    return in_process_copy([&] { return mesh_here(script, directory, confinement); }, task, &messages);
+    return in_process_copy([&] { return mesh_here(script, directory, confinement); }, task,
+                           &messages);
   }
 } // namespace Exemplar

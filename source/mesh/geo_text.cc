@@ -41,7 +41,7 @@ namespace Exemplar
         if (file.number < 0 || fstat(file.number, &status) != 0)
           throw std::runtime_error(std::strerror(errno));
         if (!S_ISREG(status.st_mode))
-          throw std::runtime_error(S_ISDIR(status.st_mode) ? "is it a directory?"
+          throw std::runtime_error(S_ISDIR(status.st_mode) ? "it is a directory"
                                                            : "it is a device");
         const FileIdentity identity(status.st_dev, status.st_ino);
         if (bytes.count(identity) == 0)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/message_text.h>
 #include <exemplar/prm/input_names.h>
 #include <exemplar/prm/key_table.h>
 #include <exemplar/prm/remedies.h>
@@ -47,15 +48,6 @@ namespace Exemplar
       return { static_cast<int>(bounds.low), bounds.high == Bounds().high
                                                  ? std::numeric_limits<int>::max()
                                                  : static_cast<int>(bounds.high) };
-    }
-
-    std::string
-    joined(const std::vector<std::string> &names)
-    {
-      std::string text;
-      for (const std::string &name : names)
-        text += (text.empty() ? "" : ", ") + name;
-      return text;
     }
   } // namespace
 

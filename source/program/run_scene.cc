@@ -9,6 +9,7 @@
 #include <exemplar/program/run_log.h>
 #include <exemplar/program/run_scene.h>
 #include <exemplar/program/run_texts.h>
+#include <exemplar/run/idle_review.h>
 #include <exemplar/run/motion_review.h>
 #include <exemplar/run/problem.h>
 #include <exemplar/run/run_directory.h>
@@ -54,6 +55,7 @@ namespace Exemplar
       log.warn(problem->warnings());
       log.warn(unit_warnings(*problem));
       log.warn(motion_warnings(*problem, options.resume || options.resume_from));
+      log.warn(idle_load_warnings(*problem));
       return problem;
     }
 

@@ -3,7 +3,7 @@
 #include <exemplar/base/message_text.h>
 #include <exemplar/program/run_texts.h>
 #include <exemplar/run/body_measures.h>
-#include <exemplar/run/motion_review.h>
+#include <exemplar/run/idle_review.h>
 
 #include <cmath>
 #include <iomanip>

@@ -6,6 +6,7 @@
 #include <exemplar/python/from_python.h>
 #include <exemplar/python/held_problem.h>
 #include <exemplar/python/unlocked_work.h>
+#include <exemplar/run/idle_review.h>
 #include <exemplar/run/motion_review.h>
 #include <exemplar/run/unit_review.h>
 
@@ -85,6 +86,7 @@ namespace Exemplar::Python
     warn(problem->warnings());
     warn(unit_warnings(*problem));
     warn(motion_warnings(*problem));
+    warn(idle_load_warnings(*problem));
   }
 
   void

@@ -116,28 +116,6 @@ namespace Exemplar
       return {};
     }
 
-    bool
-    is_at_rest(const Problem &problem)
-    {
-      const Vector &v = problem.state.velocities;
-      return greatest_difference(problem.state.positions, problem.body.fe_space.rest_positions())
-                 <= 1e-12 * problem.body.mesh.diameter()
-             && std::all_of(v.begin(), v.end(), [](const double x) { return x == 0.; });
-    }
-
-    /// Whether all of these nodes are held in all directions, in this process.
-    bool
-    are_held(const std::vector<unsigned int> &nodes, const std::vector<unsigned int> &held_dofs)
-    {
-      const auto is_held = [&](const unsigned int dof)
-      { return std::binary_search(held_dofs.begin(), held_dofs.end(), dof); };
-      return std::all_of(nodes.begin(), nodes.end(),
-                         [&](const unsigned int node) {
-                           return is_held(3 * node) && is_held(3 * node + 1)
-                                  && is_held(3 * node + 2);
-                         });
-    }
-
     /// Of the handles in all processes; nothing if one is not finite, which the step will say.
     std::optional<Travel>
     travel_of(const Problem &problem)
@@ -188,23 +166,10 @@ namespace Exemplar
   std::vector<std::string>
   motion_warnings(const Problem &problem, const bool is_resumed)
   {
-    const Handles *const handles = problem.constraints.handles.get();
-    const Loads *const   loads   = problem.actions.loads.get();
-    if (handles == nullptr)
+    const std::optional<Travel> travel = travel_of(problem);
+    if (problem.constraints.handles == nullptr || !travel)
       return {};
-    std::vector<std::string> warnings;
-    if (const std::optional<Travel> travel = travel_of(problem))
-      warnings = warnings_of_handles(problem, *travel, !is_resumed);
-    if (loads == nullptr || !loads->has_named_loads())
-      return warnings;
-    const std::vector<unsigned int> held = handles->held_dofs();
-    for (unsigned int load = 0; load < loads->size(); ++load)
-      if (!problem.body.exchange().any(!are_held(loads->nodes(load), held)))
-        warnings.push_back(
-            "Loads/" + loads->name(load)
-            + " moves nothing: handles hold all nodes that it acts on. Select others "
-              "in its Select, or in that of the handle.");
-    return warnings;
+    return warnings_of_handles(problem, *travel, !is_resumed);
   }
 
   std::vector<std::string>
@@ -221,24 +186,10 @@ namespace Exemplar
     return warnings_of_handles(problem, travel, problem.state.step == 0);
   }
 
-  std::vector<std::string>
-  idle_notes(const Problem &problem)
+  bool
+  is_any_handle_moved(const Problem &problem)
   {
-    std::vector<std::string> notes;
-    const auto               is_anything_driven = [&]
-    {
-      const std::optional<Travel> travel = travel_of(problem);
-      return !travel || travel->in_all > 0.;
-    };
-    if (problem.parameters.scene != SceneKind::interpolation && problem.actions.loads == nullptr
-        && problem.examples.poses == nullptr && !problem.body.exchange().any(!is_at_rest(problem))
-        && !is_anything_driven())
-      notes.push_back("nothing will happen: no handle moves, no load acts, and the body starts at "
-                      "rest (Handles/NAME/Motion, Loads/Gravity, Loads/Names)");
-    const ExampleWeights *const weights = problem.examples.weights.get();
-    if (problem.parameters.examples.weights_per_region && weights != nullptr
-        && weights->n_regions() == 1)
-      notes.push_back("Examples/Weights per region does nothing: the body has one region");
-    return notes;
+    const std::optional<Travel> travel = travel_of(problem);
+    return !travel || travel->in_all > 0.;
   }
 } // namespace Exemplar

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
+#include <exemplar/base/message_text.h>
 #include <exemplar/base/nearest_word.h>
 #include <exemplar/prm/key_table.h>
 #include <exemplar/run/named_subsections.h>
@@ -11,15 +12,6 @@ namespace Exemplar
 {
   namespace
   {
-    std::string
-    listed(const std::vector<std::string> &names)
-    {
-      std::string text;
-      for (const std::string &name : names)
-        text += (text.empty() ? "" : ", ") + name;
-      return text;
-    }
-
     /// What to say of a subsection that Names does not list.
     std::string
     remedy_of_name(const std::string              &name,
@@ -30,7 +22,7 @@ namespace Exemplar
       {
         const std::vector<std::string> words = split_trimmed(several, ' ');
         if (words.size() > 1 && std::find(words.begin(), words.end(), name) != words.end())
-          return "Names are separated by commas: set Names = " + listed(words) + ".";
+          return "Names are separated by commas: set Names = " + joined(words) + ".";
       }
       if (const std::string nearest = nearest_word(name, names); !nearest.empty())
         return "Did you mean " + section + "/" + nearest
@@ -66,7 +58,7 @@ namespace Exemplar
           && std::find(names.begin(), names.end(), a.subsections[1]) == names.end())
         throw UnknownKey(a.place + ": subsection " + section + "/" + a.subsections[1]
                          + " is not in " + section
-                         + "/Names (there: " + (names.empty() ? "none" : listed(names)) + "). "
+                         + "/Names (there: " + (names.empty() ? "none" : joined(names)) + "). "
                          + remedy_of_name(a.subsections[1], section, names));
   }
 } // namespace Exemplar

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/message_text.h>
 #include <exemplar/study/study_axes.h>
 
 #include <algorithm>
@@ -50,15 +51,6 @@ namespace Exemplar
         throw UserError(place
                         + ": a quotation mark is not closed. Put '\"' around values that "
                           "hold ';', '|', ',' or blanks.");
-    }
-
-    std::string
-    joined(const std::vector<std::string> &parts)
-    {
-      std::string text;
-      for (const std::string &part : parts)
-        text += (text.empty() ? "" : " + ") + part;
-      return text;
     }
 
     void
@@ -129,7 +121,8 @@ namespace Exemplar
     {
       const std::vector<std::string> words = split_at_blanks(value);
       return " Values of joined keys are joined by '+', too"
-             + (words.size() == n_keys ? ": " + joined(words) + "." : ", and separated by commas.");
+             + (words.size() == n_keys ? ": " + joined(words, " + ") + "."
+                                       : ", and separated by commas.");
     }
 
     /// "Section/Key: values", or "Key + Key: value + value, ...".
@@ -162,12 +155,12 @@ namespace Exemplar
         if (values.size() != axis.keys.size()
             || std::find(values.begin(), values.end(), "") != values.end())
           throw UserError(
-              place + ": " + axis.name() + " has the value '" + joined(values) + "', where "
+              place + ": " + axis.name() + " has the value '" + joined(values, " + ") + "', where "
               + std::to_string(axis.keys.size()) + " are needed, none of them empty."
-              + (axis.keys.size() > 1 ? remedy_of_joined(joined(values), axis.keys.size())
+              + (axis.keys.size() > 1 ? remedy_of_joined(joined(values, " + "), axis.keys.size())
                                       : remedy));
         if (std::count(axis.values.begin(), axis.values.end(), values) > 1)
-          throw UserError(place + ": " + axis.name() + " lists '" + joined(values)
+          throw UserError(place + ": " + axis.name() + " lists '" + joined(values, " + ")
                           + "' twice. Keep one."
                           + (find_unquoted(text, ';') == std::string::npos
                                  ? ""
@@ -181,13 +174,13 @@ namespace Exemplar
   std::string
   StudyAxis::name() const
   {
-    return joined(keys);
+    return joined(keys, " + ");
   }
 
   std::string
   StudyAxis::text(const unsigned int choice) const
   {
-    return joined(values[choice]);
+    return joined(values[choice], " + ");
   }
 
   std::vector<Assignment>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/message_text.h>
 #include <exemplar/base/nearest_word.h>
 #include <exemplar/base/number_text.h>
 #include <exemplar/mesh/mesh.h>
@@ -98,15 +99,6 @@ namespace Exemplar
           refusal = error.what();
         return false;
       }
-    }
-
-    std::string
-    listed(const std::vector<std::string> &words)
-    {
-      std::string text;
-      for (const std::string &word : words)
-        text += (text.empty() ? "" : ", ") + word;
-      return text;
     }
 
     /// Those of a study's columns that a run does not have.
@@ -213,7 +205,7 @@ namespace Exemplar
     const std::string near = nearest_word(missing[0], there);
     throw UserError(
         study.columns_place + ": no run has the column '" + missing[0] + "'. "
-        + (near.empty() ? "There are: " + listed(there) + "." : "Did you mean '" + near + "'?"));
+        + (near.empty() ? "There are: " + joined(there) + "." : "Did you mean '" + near + "'?"));
   }
 
   unsigned int

@@ -145,23 +145,16 @@ namespace Exemplar
         {
           value_column = index(column);
           if (value_column == none)
-            fail("there is no column " + in_quotes(column) + " (there: " + listed(names) + ")."
-                 + suggestion(names));
+            fail("there is no column " + in_quotes(column) + " (there: "
+                 + (names.empty() ? "none: its first line names no columns"
+                                  : printable(joined(names)))
+                 + ")." + suggestion(names));
           return;
         }
         if (width != (vertex_column == none ? 1 : 2))
           fail("there are several columns of values. Say which one by FILE.csv:COLUMN, with a name "
                "of the first line.");
         value_column = vertex_column == 0 ? 1 : 0;
-      }
-
-      static std::string
-      listed(const Cells &names)
-      {
-        std::string text;
-        for (const std::string &column_name : names)
-          text += (text.empty() ? "" : ", ") + printable(column_name);
-        return text.empty() ? "none: its first line names no columns" : text;
       }
 
       std::string

@@ -198,14 +198,9 @@ namespace Exemplar
     const auto &names = surface.group_names;
     const auto  found = std::find(names.begin(), names.end(), group);
     if (found == names.end())
-    {
-      std::string all;
-      for (const std::string &there : names)
-        all += (all.empty() ? "" : ", ") + printable(there);
-      throw UserError(choice + ": " + name
-                      + " has no group of this name (there: " + (all.empty() ? "none" : all)
+      throw UserError(choice + ": " + name + " has no group of this name (there: "
+                      + (names.empty() ? "none" : printable(joined(names)))
                       + "). Groups are those of g, usemtl or o of an .obj, labels of a .ply.");
-    }
     const auto       &triangles = boundary.get_surface();
     std::vector<bool> marked;
     for (const unsigned int of_triangle : triangles.groups)

@@ -98,7 +98,7 @@ SCENES = [
     ("two meshes", {**BAR, "Mesh/File": "bar.msh"},
      ["both File and Generator", "Mesh/File", "Mesh/Generator"]),
     ("missing mesh", {**FILE, "Mesh/File": "absent.msh"}, ["/absent.msh", "cannot be opened"]),
-    ("mesh is a directory", {**FILE, "Mesh/File": "a directory"}, ["Mesh/File: ", "/a directory: is a directory"]),
+    ("mesh is a directory", {**FILE, "Mesh/File": "a directory"}, ["Mesh/File: ", "/a directory: cannot be opened (it is a directory)"]),
     ("truncated mesh", {**FILE, "Mesh/File": "truncated.msh"},
      ["/truncated.msh", "within section $Elements", "truncated", "Copy it again"]),
     ("mesh is no .msh", {**FILE, "Mesh/File": "scene.prm"},

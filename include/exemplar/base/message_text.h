@@ -4,6 +4,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 // Messages quote what users and their files hold, which may be any bytes.
 
@@ -21,6 +22,10 @@ namespace Exemplar
   /// A word in quotes, printable and of a few characters at most.
   std::string
   in_quotes(std::string_view word);
+
+  /// Words with a separator between them.
+  std::string
+  joined(const std::vector<std::string> &words, std::string_view separator = ", ");
 
   /// A message as it may be shown: printable, without the middle of what is longer than a screen,
   /// and in one paragraph but for lists, whose lines begin with two blanks.

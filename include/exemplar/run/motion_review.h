@@ -10,8 +10,8 @@
 namespace Exemplar
 {
   /// Warnings of handles that seem to be given places instead of displacements, that jump where a
-  /// dynamic scene begins, or that move further than can be meant, and of loads that act on held nodes
-  /// alone. `is_resumed`: the run begins elsewhere. All processes that share the body must call this.
+  /// dynamic scene begins, or that move further than can be meant. `is_resumed`: the run begins
+  /// elsewhere. All processes that share the body must call this.
   std::vector<std::string>
   motion_warnings(const Problem &problem, bool is_resumed = false);
 
@@ -20,11 +20,10 @@ namespace Exemplar
   std::vector<std::string>
   next_step_warnings(const Problem &problem);
 
-  /// What the scene has that does nothing, for the header of a run, as it may be meant: nothing acts,
-  /// or there are weights by region where there is one. All processes that share the body must call
-  /// this.
-  std::vector<std::string>
-  idle_notes(const Problem &problem);
+  /// Whether a handle leaves its rest at any time, or its motion is not finite. All processes that
+  /// share the body must call this.
+  bool
+  is_any_handle_moved(const Problem &problem);
 } // namespace Exemplar
 
 #endif
