@@ -12,15 +12,15 @@ namespace Exemplar
   namespace
   {
     unsigned int
-    rank_in(const MPI_Comm communicator)
+    rank_in(const MPI_Comm mpi_communicator)
     {
-      return dealii::Utilities::MPI::this_mpi_process(communicator);
+      return dealii::Utilities::MPI::this_mpi_process(mpi_communicator);
     }
   } // namespace
 
-  MpiExchange::MpiExchange(const MPI_Comm communicator, SharedNodes shared_nodes)
-      : communicator(communicator), nodes(std::move(shared_nodes)),
-        own_process(rank_in(communicator))
+  MpiExchange::MpiExchange(const MPI_Comm mpi_communicator, SharedNodes shared_nodes)
+      : mpi_communicator(mpi_communicator), nodes(std::move(shared_nodes)),
+        own_process(rank_in(mpi_communicator))
   {
     for (const unsigned int number : nodes.numbers)
       is_owned.push_back(number >= nodes.first_numbers[own_process]
@@ -43,7 +43,7 @@ namespace Exemplar
       ghosts.add_index(nodes.numbers[node]);
     own.compress();
     ghosts.compress();
-    const Partitioner of_all_nodes(own, ghosts, communicator);
+    const Partitioner of_all_nodes(own, ghosts, mpi_communicator);
 
     std::vector<bool> is_shared(owned.size(), false);
     for (const auto &[begin, end] : of_all_nodes.import_indices())
@@ -53,9 +53,9 @@ namespace Exemplar
         shared_owned.push_back(owned[i]);
 
     const auto own_size = static_cast<unsigned int>(shared_owned.size());
-    MPI_Exscan(&own_size, &first_shared, 1, MPI_UNSIGNED, MPI_SUM, communicator);
+    MPI_Exscan(&own_size, &first_shared, 1, MPI_UNSIGNED, MPI_SUM, mpi_communicator);
     first_shared = own_process == 0 ? 0 : first_shared;
-    n_shared     = dealii::Utilities::MPI::sum(own_size, communicator);
+    n_shared     = dealii::Utilities::MPI::sum(own_size, mpi_communicator);
 
     // owners tell the others the new numbers
     std::vector<double> numbers(owned.size(), 0.), of_others(others.size()),
@@ -78,7 +78,7 @@ namespace Exemplar
   {
     std::vector<double> all(n * n_processes());
     MPI_Allgather(own, static_cast<int>(n), MPI_DOUBLE, all.data(), static_cast<int>(n), MPI_DOUBLE,
-                  communicator);
+                  mpi_communicator);
     for (std::size_t i = 0; i < n; ++i)
     {
       own[i] = all[i];
@@ -91,7 +91,7 @@ namespace Exemplar
   MpiExchange::max(const double own) const
   {
     std::vector<double> all(n_processes()); // MPI_MAX would lose a NaN
-    MPI_Allgather(&own, 1, MPI_DOUBLE, all.data(), 1, MPI_DOUBLE, communicator);
+    MPI_Allgather(&own, 1, MPI_DOUBLE, all.data(), 1, MPI_DOUBLE, mpi_communicator);
     double greatest = all[0];
     for (const double number : all)
       greatest = max_or_nan(greatest, number);
@@ -105,14 +105,14 @@ namespace Exemplar
     const double first = min(own.empty() ? none : own_process);
     if (first == none)
       return {};
-    return dealii::Utilities::MPI::broadcast(communicator, own, static_cast<unsigned int>(first));
+    return dealii::Utilities::MPI::broadcast(mpi_communicator, own, static_cast<unsigned int>(first));
   }
 
   std::vector<std::size_t>
   MpiExchange::collect(std::vector<std::size_t> own) const
   {
     std::vector<std::size_t> all;
-    for (const auto &part : dealii::Utilities::MPI::all_gather(communicator, own))
+    for (const auto &part : dealii::Utilities::MPI::all_gather(mpi_communicator, own))
       all.insert(all.end(), part.begin(), part.end());
     return all;
   }
@@ -137,7 +137,7 @@ namespace Exemplar
         ghosts.add_range(n * number, n * (number + 1));
       own.compress();
       ghosts.compress();
-      found = std::make_unique<Partitioner>(own, ghosts, communicator);
+      found = std::make_unique<Partitioner>(own, ghosts, mpi_communicator);
     }
     return *found;
   }
@@ -233,9 +233,9 @@ namespace Exemplar
       places.push_back(nodes.in_files[node]);
     }
     const auto all_values
-        = everywhere ? all_gather(communicator, values) : gather(communicator, values);
+        = everywhere ? all_gather(mpi_communicator, values) : gather(mpi_communicator, values);
     const auto all_places
-        = everywhere ? all_gather(communicator, places) : gather(communicator, places);
+        = everywhere ? all_gather(mpi_communicator, places) : gather(mpi_communicator, places);
     if (!everywhere && !is_root())
       return {};
     std::vector<double> all(n * static_cast<std::size_t>(nodes.first_numbers.back()));

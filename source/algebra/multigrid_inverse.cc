@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/algebra/long_vectors.h>
-#include <exemplar/algebra/mpi_exchange.h>
+#include <exemplar/algebra/exchange.h>
 #include <exemplar/algebra/multigrid_inverse.h>
 #include <exemplar/algebra/trilinos_lock.h>
 
@@ -109,7 +109,7 @@ namespace Exemplar
       own.compress();
       ghosts.compress();
       return std::make_shared<const dealii::Utilities::MPI::Partitioner>(
-          own, ghosts, dynamic_cast<const MpiExchange &>(exchange).get_communicator());
+          own, ghosts, exchange.communicator());
     }
 
     BlockMatrix
@@ -252,7 +252,7 @@ namespace Exemplar
       const MPI_Datatype type = std::is_same_v<Number, float> ? MPI_FLOAT : MPI_DOUBLE;
       MPI_Allgatherv(own.data(), static_cast<int>(own.size()), type, all.data(), counts.data(),
                      places.data(), type,
-                     dynamic_cast<const MpiExchange &>(exchange).get_communicator());
+                     exchange.communicator());
       return all;
     }
   } // namespace

@@ -25,10 +25,8 @@ namespace Exemplar
     class DistributedOperator : public MultigridOperator
     {
     public:
-      DistributedOperator(const FreeDofs    &free_dofs,
-                          const MpiExchange &exchange,
-                          const double       tolerance)
-          : MultigridOperator(free_dofs, tolerance), exchange(exchange)
+      DistributedOperator(const FreeDofs &free_dofs, const double tolerance)
+          : MultigridOperator(free_dofs, tolerance), exchange(free_dofs.exchange())
       {
         number_rows();
       }
@@ -39,7 +37,7 @@ namespace Exemplar
       {
         pattern = new_pattern;
         const ByProcess<int> received
-            = dealii::Utilities::MPI::some_to_some(exchange.get_communicator(), list_foreign());
+            = dealii::Utilities::MPI::some_to_some(exchange.communicator(), list_foreign());
         number_columns(received);
         insert_couplings(received);
         find_places(received);
@@ -172,7 +170,7 @@ namespace Exemplar
           longest     = std::max(longest, length[row]);
         }
 
-        const Epetra_MpiComm communicator(exchange.get_communicator());
+        const Epetra_MpiComm communicator(exchange.communicator());
         const Epetra_Map     rows(-1, static_cast<int>(n_rows()), 0, communicator);
         matrix = std::make_unique<Epetra_CrsMatrix>(Copy, rows, column_map(communicator),
                                                     length.data(), true);
@@ -283,13 +281,13 @@ namespace Exemplar
         for (const auto &[process, entries] : foreign_entries)
           for (const int entry : entries)
             values[process].push_back(lower_values[entry]);
-        values = dealii::Utilities::MPI::some_to_some(exchange.get_communicator(), values);
+        values = dealii::Utilities::MPI::some_to_some(exchange.communicator(), values);
         for (const auto &[process, places] : places_of_received) // in the order of the processes
           for (std::size_t k = 0; k < places.size(); ++k)
             value[places[k]] += values[process][k];
       }
 
-      const MpiExchange       &exchange;
+      const Exchange          &exchange;
       SymmetricPattern         pattern;
       std::vector<std::size_t> first_rows; ///< of each process, and the number of all rows
       int                      first_row = 0;
@@ -302,10 +300,8 @@ namespace Exemplar
   } // namespace
 
   std::unique_ptr<SpdOperator>
-  make_distributed_operator(const FreeDofs    &free_dofs,
-                            const MpiExchange &exchange,
-                            const double       tolerance)
+  make_distributed_operator(const FreeDofs &free_dofs, const double tolerance)
   {
-    return std::make_unique<DistributedOperator>(free_dofs, exchange, tolerance);
+    return std::make_unique<DistributedOperator>(free_dofs, tolerance);
   }
 } // namespace Exemplar

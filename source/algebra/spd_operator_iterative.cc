@@ -103,10 +103,8 @@ namespace Exemplar
   std::unique_ptr<SpdOperator>
   make_iterative_operator(const FreeDofs &free_dofs, const double tolerance)
   {
-    const Exchange &exchange = free_dofs.exchange();
-    if (exchange.n_processes() > 1)
-      return make_distributed_operator(free_dofs, dynamic_cast<const MpiExchange &>(exchange),
-                                       tolerance);
+    if (free_dofs.exchange().n_processes() > 1)
+      return make_distributed_operator(free_dofs, tolerance);
     return std::make_unique<IterativeOperator>(free_dofs, tolerance);
   }
 } // namespace Exemplar

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/algebra/mpi_exchange.h>
+#include <exemplar/algebra/exchange.h>
 #include <exemplar/mesh/distributed_triangulation.h>
 
 #include <deal.II/distributed/fully_distributed_tria.h>
@@ -32,7 +32,7 @@ namespace Exemplar
                                  const std::vector<unsigned int> &cells_in_file,
                                  const Exchange                  &exchange)
   {
-    const MPI_Comm communicator = dynamic_cast<const MpiExchange &>(exchange).get_communicator();
+    const MPI_Comm communicator = exchange.communicator();
     Description::Description<3, 3> description;
     description.comm                 = communicator;
     description.settings             = Description::default_setting;

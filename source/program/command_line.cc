@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/algebra/mpi_session.h>
+#include <exemplar/program/joint_run.h>
 #include <exemplar/algebra/spd_operator.h>
 #include <exemplar/base/environment.h>
 #include <exemplar/base/errors.h>
@@ -170,9 +170,9 @@ Exit status:
     {
       int status = 0;
       if (arguments.list_cases)
-        list_verification_cases();
+        list_verification_cases(JointRun::group());
       else
-        status = verify(arguments.cases);
+        status = verify(arguments.cases, JointRun::group());
       require_printed();
       return status;
     }
@@ -190,7 +190,7 @@ Exit status:
     void
     refuse_processes(const std::string &command)
     {
-      if (MpiSession::n_processes() > 1)
+      if (JointRun::group().n_processes > 1)
         throw UserError(command + " cannot be done by several processes. Call it without mpirun.");
     }
 
@@ -246,7 +246,7 @@ Exit status:
   {
     Arguments arguments;
     // each of several processes has one core
-    arguments.run.n_threads = MpiSession::n_processes() > 1 ? 1 : n_available_cores();
+    arguments.run.n_threads = JointRun::group().n_processes > 1 ? 1 : n_available_cores();
     arguments.study.stop    = is_interrupted;
     CLI::App app("Elastic solids that deform the way their examples say", "exemplar");
     app.set_version_flag("--version",
@@ -274,7 +274,7 @@ Exit status:
     }
     catch (const CLI::Success &request) // --help or --version
     {
-      return MpiSession::is_root() ? app.exit(request) : 0;
+      return JointRun::group().is_root() ? app.exit(request) : 0;
     }
     catch (const CLI::ParseError &error)
     {

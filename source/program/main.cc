@@ -7,6 +7,7 @@
 #include <exemplar/base/standard_streams.h>
 #include <exemplar/program/command_line.h>
 #include <exemplar/program/interrupt.h>
+#include <exemplar/program/joint_run.h>
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/multithread_info.h>
@@ -29,7 +30,7 @@ main(int argc, char *argv[])
   const Exemplar::MpiSession mpi; // scenes without multigrid on one process never start it
   const auto                 report = [](const std::string &message, const int status)
   {
-    return Exemplar::MpiSession::end(
+    return Exemplar::JointRun::end(
         status, [&](const std::string &where)
         { std::cerr << "exemplar: " << Exemplar::message_text(message) << where << std::endl; });
   };
@@ -37,9 +38,9 @@ main(int argc, char *argv[])
   {
     if (const Exemplar::Launch launch = Exemplar::find_launch(); !launch.is_alone())
       Exemplar::note_interrupts_together(launch.process == 0);
-    Exemplar::MpiSession::join(argc, argv);
+    Exemplar::JointRun::join(argc, argv);
     const int status = Exemplar::run_command_line(argc, argv);
-    return Exemplar::MpiSession::end(status, [](const std::string &) {});
+    return Exemplar::JointRun::end(status, [](const std::string &) {});
   }
   catch (const Exemplar::UserError &error)
   {

@@ -8,9 +8,9 @@
 #include <exemplar/mesh/mesh_parameters.h>
 #include <exemplar/mesh/msh_file.h>
 #include <exemplar/program/mesh_command.h>
-#include <exemplar/run/output_directory.h>
-#include <exemplar/surface/mesh_making.h>
-#include <exemplar/surface/surface_faults.h>
+#include <exemplar/run/output/output_directory.h>
+#include <exemplar/surface/filling/mesh_making.h>
+#include <exemplar/surface/shape/surface_faults.h>
 
 #include <algorithm>
 #include <iostream>

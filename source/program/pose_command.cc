@@ -8,10 +8,10 @@
 #include <exemplar/mesh/mesh_parameters.h>
 #include <exemplar/program/interrupt.h>
 #include <exemplar/program/pose_command.h>
-#include <exemplar/run/output_directory.h>
-#include <exemplar/surface/numbered_files.h>
-#include <exemplar/surface/pose_carrying.h>
-#include <exemplar/surface/surface_poses.h>
+#include <exemplar/run/output/output_directory.h>
+#include <exemplar/surface/files/numbered_files.h>
+#include <exemplar/surface/posing/pose_carrying.h>
+#include <exemplar/surface/shape/surface_poses.h>
 
 #include <chrono>
 #include <iomanip>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/algebra/mpi_session.h>
+#include <exemplar/program/joint_run.h>
 #include <exemplar/base/message_text.h>
 #include <exemplar/base/version.h>
 #include <exemplar/program/run_log.h>
-#include <exemplar/run/run_directory.h>
+#include <exemplar/run/output/run_directory.h>
 
 #include <array>
 #include <cerrno>
@@ -27,7 +27,7 @@ namespace Exemplar
     }
   } // namespace
 
-  RunLog::RunLog(const bool quiet) : speaks(MpiSession::is_root()), quiet(quiet) {}
+  RunLog::RunLog(const bool quiet) : speaks(JointRun::group().is_root()), quiet(quiet) {}
 
   void
   RunLog::say(const std::string &lines)

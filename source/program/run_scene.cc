@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/algebra/mpi_session.h>
+#include <exemplar/program/joint_run.h>
 #include <exemplar/base/environment.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/base/launcher.h>
@@ -9,14 +9,14 @@
 #include <exemplar/program/run_log.h>
 #include <exemplar/program/run_scene.h>
 #include <exemplar/program/run_texts.h>
-#include <exemplar/run/idle_review.h>
-#include <exemplar/run/motion_review.h>
-#include <exemplar/run/problem.h>
-#include <exemplar/run/run_directory.h>
-#include <exemplar/run/run_writer.h>
-#include <exemplar/run/shared_inputs.h>
-#include <exemplar/run/state_review.h>
-#include <exemplar/run/unit_review.h>
+#include <exemplar/run/inputs/shared_inputs.h>
+#include <exemplar/run/output/run_directory.h>
+#include <exemplar/run/output/run_writer.h>
+#include <exemplar/run/problem/idle_review.h>
+#include <exemplar/run/problem/motion_review.h>
+#include <exemplar/run/problem/problem.h>
+#include <exemplar/run/problem/state_review.h>
+#include <exemplar/run/problem/unit_review.h>
 
 #include <iostream>
 #include <memory>
@@ -44,9 +44,9 @@ namespace Exemplar
     {
       parameters.solver.n_threads    = n_threads;
       parameters.mesh.allow_commands = options.allow_commands;
-      const Announce announce        = announcer(options.quiet || !MpiSession::is_root());
+      const Announce announce        = announcer(options.quiet || !JointRun::group().is_root());
       auto           problem
-          = MpiSession::n_processes() == 1
+          = JointRun::group().n_processes == 1
                 ? make_problem(parameters, announce)
                 : make_problem(
                     parameters,
@@ -103,7 +103,7 @@ namespace Exemplar
       const std::string message = problem.failure_message(report);
       log.note(message_text(message) + '\n');
       writer.finish(status_name(report.status), log.get_warnings());
-      MpiSession::wait_for_all(); // while the root writes
+      JointRun::group().wait_for_all(); // while the root writes
       throw SolverFailure(message);
     }
 
@@ -140,7 +140,7 @@ namespace Exemplar
             = "Interrupted after step " + std::to_string(problem.state.step) + ".";
         log.note(message + '\n');
         writer.finish("interrupted", log.get_warnings());
-        MpiSession::wait_for_all(); // while the root writes
+        JointRun::group().wait_for_all(); // while the root writes
         throw Interrupted(message + " Go on with --resume.");
       }
       progress.finish();
@@ -156,7 +156,7 @@ namespace Exemplar
   run_scene(const RunOptions &options)
   {
     const SceneFile scene(options.scene_file, options.overrides);
-    MpiSession::require_same(scene.get_text(), "reads another scene than",
+    JointRun::require_same(scene.get_text(), "reads another scene than",
                              "Let all machines see the same files.");
     RunLog     log(options.quiet);
     const auto problem

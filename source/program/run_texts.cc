@@ -2,8 +2,8 @@
 #include <exemplar/base/environment.h>
 #include <exemplar/base/message_text.h>
 #include <exemplar/program/run_texts.h>
-#include <exemplar/run/body_measures.h>
-#include <exemplar/run/idle_review.h>
+#include <exemplar/run/problem/body_measures.h>
+#include <exemplar/run/problem/idle_review.h>
 
 #include <cmath>
 #include <iomanip>

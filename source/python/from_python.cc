@@ -3,7 +3,7 @@
 #include <exemplar/base/number_text.h>
 #include <exemplar/python/arrays_from_python.h>
 #include <exemplar/python/from_python.h>
-#include <exemplar/run/scene_file.h>
+#include <exemplar/run/scene/scene_file.h>
 #include <exemplar/study/study_file.h>
 
 #include <cmath>

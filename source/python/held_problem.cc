@@ -6,9 +6,9 @@
 #include <exemplar/python/from_python.h>
 #include <exemplar/python/held_problem.h>
 #include <exemplar/python/unlocked_work.h>
-#include <exemplar/run/idle_review.h>
-#include <exemplar/run/motion_review.h>
-#include <exemplar/run/unit_review.h>
+#include <exemplar/run/problem/idle_review.h>
+#include <exemplar/run/problem/motion_review.h>
+#include <exemplar/run/problem/unit_review.h>
 
 #include <algorithm>
 #include <utility>
@@ -317,9 +317,15 @@ namespace Exemplar::Python
   HeldProblem::statistics(const std::string &prefix) const
   {
     py::dict numbers;
-    for (const auto &[column, value] : diagnostics.row(get().state, report))
-      if (column.compare(0, prefix.size(), prefix) == 0 && column != "status")
-        numbers[py::str(column)] = py::float_(py::str(value));
+    for (const StatisticsCell &cell : diagnostics.row(get().state, report))
+      if (cell.column.compare(0, prefix.size(), prefix) == 0)
+        std::visit(
+            [&](const auto &value)
+            {
+              if constexpr (std::is_arithmetic_v<std::decay_t<decltype(value)>>)
+                numbers[py::str(cell.column)] = py::float_(static_cast<double>(value));
+            },
+            cell.value);
     return numbers;
   }
 } // namespace Exemplar::Python

@@ -5,9 +5,9 @@
 #include <exemplar/base/number_text.h>
 #include <exemplar/base/progress.h>
 #include <exemplar/mesh/mesh.h>
-#include <exemplar/run/inputs.h>
-#include <exemplar/run/run_directory.h>
-#include <exemplar/run/scene_file.h>
+#include <exemplar/run/inputs/inputs.h>
+#include <exemplar/run/output/run_directory.h>
+#include <exemplar/run/scene/scene_file.h>
 #include <exemplar/study/study.h>
 #include <exemplar/study/study_directory.h>
 #include <exemplar/study/study_plan.h>

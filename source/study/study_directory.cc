@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/atomic_file.h>
 #include <exemplar/base/errors.h>
-#include <exemplar/run/output_directory.h>
+#include <exemplar/run/output/output_directory.h>
 #include <exemplar/study/study_directory.h>
 #include <exemplar/study/study_runs.h>
 

@@ -3,9 +3,9 @@
 #include <exemplar/base/nearest_word.h>
 #include <exemplar/base/number_text.h>
 #include <exemplar/mesh/mesh.h>
-#include <exemplar/run/diagnostics.h>
-#include <exemplar/run/problem.h>
-#include <exemplar/run/scene_file.h>
+#include <exemplar/run/output/diagnostics.h>
+#include <exemplar/run/problem/problem.h>
+#include <exemplar/run/scene/scene_file.h>
 #include <exemplar/study/study_plan.h>
 #include <exemplar/study/study_table.h>
 
@@ -44,8 +44,8 @@ namespace Exemplar
       StatisticsRow row = Diagnostics(problem).row(problem.state, SolveReport());
       Diagnostics::append_seconds(row, {});
       std::vector<std::string> columns;
-      for (const auto &[column, value] : row)
-        columns.push_back(column);
+      for (const StatisticsCell &cell : row)
+        columns.push_back(cell.column);
       return columns;
     }
 

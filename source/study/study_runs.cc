@@ -5,8 +5,8 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
 #include <exemplar/base/text_file.h>
-#include <exemplar/run/output_directory.h>
-#include <exemplar/run/run_directory.h>
+#include <exemplar/run/output/output_directory.h>
+#include <exemplar/run/output/run_directory.h>
 #include <exemplar/study/study_runs.h>
 
 #include <nlohmann/json.hpp>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/algebra/mpi_session.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/base/nearest_word.h>
 #include <exemplar/verification/verification.h>
@@ -35,23 +34,23 @@ namespace Exemplar
     namespace
     {
       std::vector<Case>
-      all_cases()
+      all_cases(const unsigned int n_processes)
       {
         std::vector<Case> all;
         for (const auto &subject : { kernel_cases, derivative_cases, static_cases, beam_cases,
                                      space_cases, dynamic_cases, example_cases })
           for (Case &one : subject())
             all.push_back(std::move(one));
-        if (MpiSession::n_processes() > 1)
+        if (n_processes > 1)
           for (Case &one : process_cases())
             all.push_back(std::move(one));
         return all;
       }
 
       std::vector<Case>
-      select(const std::vector<std::string> &names)
+      select(const std::vector<std::string> &names, const unsigned int n_processes)
       {
-        const std::vector<Case> all = all_cases();
+        const std::vector<Case> all = all_cases(n_processes);
         if (names.empty())
           return all;
         std::vector<Case> selected;
@@ -154,7 +153,7 @@ namespace Exemplar
   {
     /// The names of the cases that have failed, at the root.
     std::vector<std::string>
-    run_all(const std::vector<Verification::Case> &cases)
+    run_all(const std::vector<Verification::Case> &cases, const ProcessGroup &processes)
     {
       std::vector<std::string> failed;
       for (const Verification::Case &one : cases)
@@ -163,26 +162,27 @@ namespace Exemplar
         if (one.is_shared) // what fails in one process alone ends all
         {
           const auto measurements = one.measure();
-          passes = !MpiSession::is_root() || Verification::print(one.name, measurements);
+          passes = !processes.is_root() || Verification::print(one.name, measurements);
         }
-        else if (MpiSession::is_root())
+        else if (processes.is_root())
           passes = Verification::run(one);
         if (!passes)
           failed.push_back(one.name);
-        MpiSession::wait_for_all();
+        processes.wait_for_all();
       }
       return failed;
     }
   } // namespace
 
   int
-  verify(const std::vector<std::string> &names)
+  verify(const std::vector<std::string> &names, const ProcessGroup &processes)
   {
-    const std::vector<Verification::Case> cases = Verification::select(names);
-    if (MpiSession::is_root())
+    const std::vector<Verification::Case> cases
+        = Verification::select(names, processes.n_processes);
+    if (processes.is_root())
       Verification::print_row("", "case (what)", "expected", "got", "tolerance");
-    const std::vector<std::string> failed = run_all(cases);
-    if (!MpiSession::is_root())
+    const std::vector<std::string> failed = run_all(cases, processes);
+    if (!processes.is_root())
       return 0;
     std::cout << cases.size() - failed.size() << " of " << cases.size() << " cases pass";
     for (std::size_t i = 0; i < failed.size(); ++i)
@@ -192,11 +192,11 @@ namespace Exemplar
   }
 
   void
-  list_verification_cases()
+  list_verification_cases(const ProcessGroup &processes)
   {
-    if (!MpiSession::is_root())
+    if (!processes.is_root())
       return;
-    for (const Verification::Case &one : Verification::all_cases())
+    for (const Verification::Case &one : Verification::all_cases(processes.n_processes))
       std::cout << std::left << std::setw(32) << one.name << one.description << '\n';
   }
 } // namespace Exemplar

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/algebra/long_vectors.h>
-#include <exemplar/algebra/mpi_session.h>
-#include <exemplar/run/scene_file.h>
-#include <exemplar/run/shared_inputs.h>
+#include <exemplar/run/inputs/shared_inputs.h>
+#include <exemplar/run/scene/scene_file.h>
 #include <exemplar/verification/verification.h>
 #include <exemplar/verification/verification_scene.h>
 
@@ -32,7 +31,7 @@ namespace Exemplar::Verification
       const auto   problem   = shared_problem(text);
       const State  together  = solve_all_steps(*problem);
       const Vector positions = whole(problem->body.exchange(), together.positions);
-      if (!MpiSession::is_root())
+      if (!problem->body.exchange().is_root())
         return {};
       Scene        scene(text);
       const Vector rest    = scene.problem.body.fe_space.rest_positions();

@@ -3,7 +3,7 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
 #include <exemplar/mesh/mesh_generation.h>
-#include <exemplar/run/scene_file.h>
+#include <exemplar/run/scene/scene_file.h>
 #include <exemplar/verification/verification_scene.h>
 
 #include <cmath>

@@ -145,7 +145,7 @@ namespace Exemplar::Verification
       const double           longest = *std::max_element(ways.begin(), ways.end());
       const double           mean    = std::accumulate(ways.begin(), ways.end(), 0.) / increments;
       dealii::Vector<double> aligned = p.state.positions;
-      align(p.examples.poses->pose(1), aligned);
+      align(p.examples.poses->pose(1), aligned, p.body.exchange());
       return { { "|S - I - E|", 1e-12, strain_error(p, p.state), Comparison::at_most },
                { "distance to the pose", 0.,
                  max_difference(aligned, p.examples.poses->pose(1)) / 4., Comparison::absolute,

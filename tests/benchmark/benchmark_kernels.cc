@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/environment.h>
-#include <exemplar/run/problem.h>
-#include <exemplar/run/scene_file.h>
+#include <exemplar/run/problem/problem.h>
+#include <exemplar/run/scene/scene_file.h>
 
 #include <deal.II/base/multithread_info.h>
 

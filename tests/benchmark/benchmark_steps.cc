@@ -2,8 +2,8 @@
 #include <exemplar/algebra/mpi_session.h>
 #include <exemplar/base/environment.h>
 #include <exemplar/base/errors.h>
-#include <exemplar/run/diagnostics.h>
-#include <exemplar/run/scene_file.h>
+#include <exemplar/run/output/diagnostics.h>
+#include <exemplar/run/scene/scene_file.h>
 
 #include "benchmark_unit.h"
 

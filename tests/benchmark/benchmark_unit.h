@@ -3,7 +3,7 @@
 #define exemplar_benchmark_unit_h
 
 #include <exemplar/base/median.h>
-#include <exemplar/run/problem.h>
+#include <exemplar/run/problem/problem.h>
 
 #include <ctime>
 #include <memory>

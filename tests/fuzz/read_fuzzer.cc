@@ -5,7 +5,7 @@
 #include <exemplar/mesh/mesh_inputs.h>
 #include <exemplar/mesh/msh_file.h>
 #include <exemplar/prm/expression.h>
-#include <exemplar/run/scene_file.h>
+#include <exemplar/run/scene/scene_file.h>
 #include <exemplar/study/study_axes.h>
 
 #include <sys/mman.h>

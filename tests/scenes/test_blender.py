@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What Blender (Debian: apt-get install blender) reads of a run, and what blender/exemplar_blender.py makes of it."""
+"""What Blender (Debian: apt-get install blender) reads of a run, and what source/blender/exemplar_blender.py makes of it."""
 
 import json
 import os
@@ -48,7 +48,7 @@ class Blender(SceneTest):
 
     def read(self, output, *shapes):
         status, said = self.call_blender(REPOSITORY / "tests/blender/read_run.py", "--", output,
-                                         REPOSITORY / "blender/exemplar_blender.py", self.directory / "result.json", *shapes)
+                                         REPOSITORY / "source/blender/exemplar_blender.py", self.directory / "result.json", *shapes)
         self.assertEqual(status, 0, said)
         return json.loads((self.directory / "result.json").read_text())
 
@@ -103,7 +103,7 @@ class Blender(SceneTest):
     def test_the_script_from_the_command_line(self):
         self.write("bar.obj", obj_text(bar_surface()))
         output = self.solve({**SCENE, "Output/Formats": "mdd", "Examples/Importance": "0", "Time/End": "0.4"})
-        script = REPOSITORY / "blender/exemplar_blender.py"
+        script = REPOSITORY / "source/blender/exemplar_blender.py"
         for file in output.glob("frame_*"):
             file.unlink()  # the steps are every so many then
         status, said = self.call_blender(script, "--", output, "--save", "run.blend", "--start", "10")

@@ -55,7 +55,7 @@ class LeftOut(SceneTest):
         """That these parts of the scene, and no others, hold memory."""
         memory = read_summary(self.solve(scene))["memory_mib"]
         self.assertEqual({part for part, mib in memory.items() if mib > 0},
-                         {"mesh", "cells", "linear solver", *parts})
+                         {"mesh", "cells", "gravity", "linear solver", *parts})
 
     def test_what_is_not_there_takes_no_memory(self):
         prescribed = {"Examples/Weights": "prescribed", "Examples/Prescribed weights": "0.5; 0.5"}

@@ -8,6 +8,5 @@ main(int argc, char *argv[])
 {
   testing::InitGoogleTest(&argc, argv);
   const Exemplar::MpiSession mpi; // for the tests of multigrid
-  Exemplar::MpiSession::join(argc, argv);
   return RUN_ALL_TESTS();
 }

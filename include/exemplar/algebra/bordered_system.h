@@ -121,7 +121,7 @@ namespace Exemplar
   std::unique_ptr<BorderedSystem>
   make_block_system(std::unique_ptr<SpdOperator> matrix,
                     const WeightForm            *form,
-                    const Exchange              &exchange = Exchange::serial());
+                    const Exchange              &exchange);
 
   /// The whole bordered matrix at once by UMFPACK; for checking.
   std::unique_ptr<BorderedSystem>

@@ -5,6 +5,7 @@
 #include <exemplar/algebra/vector.h>
 
 #include <cstddef>
+#include <mpi.h>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,13 @@ namespace Exemplar
     n_processes() const
     {
       return 1;
+    }
+
+    /// Of the processes.
+    virtual MPI_Comm
+    communicator() const
+    {
+      return MPI_COMM_SELF;
     }
 
     /// Whether this is the process that reads and writes files.

@@ -20,7 +20,7 @@ namespace Exemplar
     /// `exchange` must outlive this.
     FreeDofs(const unsigned int               n_dofs,
              const std::vector<unsigned int> &held_dofs,
-             const Exchange                  &exchange = Exchange::serial())
+             const Exchange                  &exchange)
         : index(n_dofs, 0), with_others(exchange)
     {
       for (const unsigned int dof : held_dofs)

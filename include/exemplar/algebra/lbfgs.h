@@ -19,7 +19,7 @@ namespace Exemplar
     static constexpr std::size_t max_pairs = 5;
 
     /// `exchange` must outlive this.
-    explicit Lbfgs(const Exchange &exchange = Exchange::serial()) : exchange(&exchange) {}
+    explicit Lbfgs(const Exchange &exchange) : exchange(&exchange) {}
 
     void
     clear()

@@ -20,7 +20,7 @@ namespace Exemplar
     static constexpr std::size_t max_vectors = 6;
 
     /// `exchange` must outlive this.
-    explicit LinearPrediction(const Exchange &exchange = Exchange::serial()) : exchange(&exchange)
+    explicit LinearPrediction(const Exchange &exchange) : exchange(&exchange)
     {
     }
 

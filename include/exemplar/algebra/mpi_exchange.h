@@ -99,15 +99,9 @@ namespace Exemplar
     part(std::vector<double> whole, unsigned int n) const override;
 
     MPI_Comm
-    get_communicator() const
+    communicator() const override
     {
-      return communicator;
-    }
-
-    const SharedNodes &
-    get_nodes() const
-    {
-      return nodes;
+      return mpi_communicator;
     }
 
   private:
@@ -126,7 +120,7 @@ namespace Exemplar
     void
     exchange_field(Number *field, unsigned int n, bool add_first) const;
 
-    const MPI_Comm            communicator;
+    const MPI_Comm            mpi_communicator;
     const SharedNodes         nodes;
     const unsigned int        own_process;
     std::vector<bool>         is_owned;             ///< of each node

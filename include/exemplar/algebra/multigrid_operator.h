@@ -2,7 +2,7 @@
 #ifndef exemplar_multigrid_operator_h
 #define exemplar_multigrid_operator_h
 
-#include <exemplar/algebra/mpi_exchange.h>
+#include <exemplar/algebra/exchange.h>
 #include <exemplar/algebra/spd_operator.h>
 
 #include <Epetra_CrsMatrix.h>
@@ -94,11 +94,9 @@ namespace Exemplar
     std::size_t multigrid_memory = 0; ///< what its making has left on the heap [bytes]
   };
 
-  /// make_iterative_operator() for the processes of `exchange`, which is that of `free_dofs`.
+  /// make_iterative_operator() for several processes, those of the unknowns' exchange.
   std::unique_ptr<SpdOperator>
-  make_distributed_operator(const FreeDofs    &free_dofs,
-                            const MpiExchange &exchange,
-                            double             tolerance);
+  make_distributed_operator(const FreeDofs &free_dofs, double tolerance);
 } // namespace Exemplar
 
 #endif

@@ -43,21 +43,21 @@ namespace Exemplar
   turn_to_support(const StaticallyDeterminateSupport &support,
                   double                              angle,
                   dealii::Vector<double>             &positions,
-                  const Exchange                     &exchange = Exchange::serial());
+                  const Exchange                     &exchange);
 
   /// Take the best-fitting infinitesimal rigid motion (translation and rotation, least
   /// squares over the nodes) out of a displacement [m] of `positions`.
   void
   remove_rigid_motion(const dealii::Vector<double> &positions,
                       dealii::Vector<double>       &displacement,
-                      const Exchange               &exchange = Exchange::serial());
+                      const Exchange               &exchange);
 
   /// Move `positions` rigidly so that it comes nearest to `reference` in the
   /// least-squares sense over the nodes (Kabsch 1976), Eq. (15).
   void
   align(const dealii::Vector<double> &reference,
         dealii::Vector<double>       &positions,
-        const Exchange               &exchange = Exchange::serial());
+        const Exchange               &exchange);
 } // namespace Exemplar
 
 #endif

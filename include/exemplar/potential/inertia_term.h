@@ -17,6 +17,12 @@ namespace Exemplar
     /// the energy has a column, energy_inertia.
     InertiaTerm(const Mass &mass, const TimeIntegrator &integrator, bool is_reported = false);
 
+    std::string
+    name() const override
+    {
+      return "inertia";
+    }
+
     void
     begin_step(const State & /*start*/) override
     {

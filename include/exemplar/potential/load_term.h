@@ -15,6 +15,12 @@ namespace Exemplar
     /// Both must outlive the term.
     LoadTerm(const Loads &loads, const Vector &rest_positions);
 
+    std::string
+    name() const override
+    {
+      return "loads";
+    }
+
     void
     set_time(double time) override;
 

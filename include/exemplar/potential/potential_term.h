@@ -20,6 +20,10 @@ namespace Exemplar
   public:
     virtual ~PotentialTerm() = default;
 
+    /// What it is, in a word.
+    virtual std::string
+    name() const = 0;
+
     /// A step begins at `start`; the term belongs to it until leave_step().
     virtual void
     begin_step(const State & /*start*/)

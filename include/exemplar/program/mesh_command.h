@@ -2,7 +2,7 @@
 #ifndef exemplar_mesh_command_h
 #define exemplar_mesh_command_h
 
-#include <exemplar/surface/surface_meshing.h>
+#include <exemplar/surface/filling/surface_meshing.h>
 
 namespace Exemplar
 {

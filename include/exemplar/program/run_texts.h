@@ -2,8 +2,8 @@
 #ifndef exemplar_run_texts_h
 #define exemplar_run_texts_h
 
-#include <exemplar/run/problem.h>
-#include <exemplar/run/run_writer.h>
+#include <exemplar/run/output/run_writer.h>
+#include <exemplar/run/problem/problem.h>
 
 #include <string>
 

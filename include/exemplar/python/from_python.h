@@ -3,8 +3,8 @@
 #define exemplar_from_python_h
 
 #include <exemplar/body/handles.h>
-#include <exemplar/run/inputs.h>
-#include <exemplar/run/scene_parameters.h>
+#include <exemplar/run/inputs/inputs.h>
+#include <exemplar/run/scene/scene_parameters.h>
 
 #include <pybind11/pybind11.h>
 

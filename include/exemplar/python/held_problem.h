@@ -2,9 +2,9 @@
 #ifndef exemplar_held_problem_h
 #define exemplar_held_problem_h
 
-#include <exemplar/run/diagnostics.h>
-#include <exemplar/run/problem.h>
-#include <exemplar/run/state_review.h>
+#include <exemplar/run/output/diagnostics.h>
+#include <exemplar/run/problem/problem.h>
+#include <exemplar/run/problem/state_review.h>
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>

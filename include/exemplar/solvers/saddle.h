@@ -21,7 +21,7 @@ namespace Exemplar
 
   /// The greatest extent of a body along an axis [m].
   double
-  extent(const Vector &positions, const Exchange &exchange = Exchange::serial());
+  extent(const Vector &positions, const Exchange &exchange);
 } // namespace Exemplar
 
 #endif

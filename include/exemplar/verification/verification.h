@@ -2,6 +2,8 @@
 #ifndef exemplar_verification_h
 #define exemplar_verification_h
 
+#include <exemplar/base/process_group.h>
+
 #include <functional>
 #include <string>
 #include <vector>
@@ -18,11 +20,11 @@ namespace Exemplar
   /// it: the root computes the cases while the others wait, but those of bodies that they share
   /// all compute together, and the status is the root's.
   int
-  verify(const std::vector<std::string> &names);
+  verify(const std::vector<std::string> &names, const ProcessGroup &processes);
 
   /// Print the cases, a line each: name, and what it compares with which source.
   void
-  list_verification_cases();
+  list_verification_cases(const ProcessGroup &processes);
 
   namespace Verification
   {

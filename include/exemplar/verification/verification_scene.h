@@ -2,7 +2,7 @@
 #ifndef exemplar_verification_scene_h
 #define exemplar_verification_scene_h
 
-#include <exemplar/run/problem.h>
+#include <exemplar/run/problem/problem.h>
 
 #include <array>
 #include <functional>

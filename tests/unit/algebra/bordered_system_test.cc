@@ -75,7 +75,7 @@ namespace Exemplar::Testing
     {
       auto matrix = make_cholesky_operator();
       matrix->reinit(pattern);
-      return make_block_system(std::move(matrix), form);
+      return make_block_system(std::move(matrix), form, Exchange::serial());
     }
 
     BorderedVector

@@ -43,7 +43,7 @@ namespace Exemplar::Testing
     {
       explicit BentBar(const std::vector<unsigned int> &held,
                        const MeshParameters            &mesh = fine_mesh())
-          : body(mesh), free_dofs(body.fe_space.n_dofs(), held),
+          : body(mesh), free_dofs(body.fe_space.n_dofs(), held, Exchange::serial()),
             elastic(body, ModelParameters(), {}, free_dofs),
             positions(body.fe_space.rest_positions())
       {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
-#include <exemplar/run/problem.h>
+#include <exemplar/run/problem/problem.h>
 
 #include "body.h"
 #include "scene.h"

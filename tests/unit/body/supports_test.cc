@@ -74,7 +74,7 @@ namespace Exemplar::Testing
         for (int c = 0; c < 3; ++c)
           moved[3 * node + c] = y[c] + 10. * c;
       }
-      align(rest, moved);
+      align(rest, moved, Exchange::serial());
       moved -= rest;
       EXPECT_LT(moved.linfty_norm(), 1e-13);
     }

@@ -92,7 +92,7 @@ namespace Exemplar::Testing
     {
       const ParametricBody body;
       const auto           examples = body.examples(two_examples());
-      const FreeDofs       free_dofs(body.fe_space.n_dofs(), {});
+      const FreeDofs       free_dofs(body.fe_space.n_dofs(), {}, Exchange::serial());
       BodyPotential        elastic(body, frozen_model(), examples, free_dofs);
       std::mt19937         generator(1);
       auto                 positions = body.random_positions(generator, 0.1);
@@ -123,7 +123,7 @@ namespace Exemplar::Testing
     {
       const ParametricBody body;
       const auto           examples = body.examples(two_examples());
-      const FreeDofs       free_dofs(body.fe_space.n_dofs(), { 0, 4, 8, 30 });
+      const FreeDofs       free_dofs(body.fe_space.n_dofs(), { 0, 4, 8, 30 }, Exchange::serial());
       const Mass           mass(body.fe_space, body.material, MassMatrix::consistent);
       TimeIntegrator       integrator{ TimeParameters() };
       InertiaTerm          inertia(mass, integrator);
@@ -192,7 +192,7 @@ namespace Exemplar::Testing
       parameters.weights_per_region  = test_case.per_region;
       parameters.region_blend_length = 2.;
       const auto      examples       = body.examples(parameters, test_case.strain);
-      const FreeDofs  free_dofs(body.fe_space.n_dofs(), { 0, 4, 8, 30 });
+      const FreeDofs  free_dofs(body.fe_space.n_dofs(), { 0, 4, 8, 30 }, Exchange::serial());
       ModelParameters model;
       model.strain = test_case.strain;
       BodyPotential elastic(body, model, examples, free_dofs);
@@ -288,7 +288,7 @@ namespace Exemplar::Testing
     {
       const ParametricBody body;
       const Examples       none;
-      const FreeDofs       free_dofs(body.fe_space.n_dofs(), { 0, 4, 8, 30 });
+      const FreeDofs       free_dofs(body.fe_space.n_dofs(), { 0, 4, 8, 30 }, Exchange::serial());
       BodyPotential        elastic(body, ModelParameters(), none, free_dofs);
       // long cells, a patch that pulls, both, and beyond
       for (Vector positions : { drawn(body, 2.3, 0.43), drawn(body, 1.08, 1.08),
@@ -335,7 +335,7 @@ namespace Exemplar::Testing
       const ParametricBody body;
       const Body     of_cells(box_mesh(4., 4, 1), MaterialParameters(), discretisation.element);
       const Examples none;
-      const FreeDofs free_dofs(body.fe_space.n_dofs(), {});
+      const FreeDofs free_dofs(body.fe_space.n_dofs(), {}, Exchange::serial());
       BodyPotential  elastic(body, ModelParameters(), none, free_dofs),
           cellwise(of_cells, ModelParameters(), none, free_dofs);
       const Vector      positions = drawn(body, 5., 0.3); // no cell is thin
@@ -360,7 +360,7 @@ namespace Exemplar::Testing
       parameters.include_rest_pose = false;
       parameters.weight_penalty    = "0";
       const auto     examples      = body.examples(parameters);
-      const FreeDofs free_dofs(body.fe_space.n_dofs(), {});
+      const FreeDofs free_dofs(body.fe_space.n_dofs(), {}, Exchange::serial());
       BodyPotential  elastic(body, ModelParameters(), examples, free_dofs);
       const Vector  &pose = examples.poses->pose(0);
       elastic.update_rotations(pose);
@@ -376,7 +376,7 @@ namespace Exemplar::Testing
       {
         const ParametricBody body;
         const auto           examples = body.examples(two_examples(), strain);
-        const FreeDofs       free_dofs(body.fe_space.n_dofs(), { 0, 4, 8, 30 });
+        const FreeDofs       free_dofs(body.fe_space.n_dofs(), { 0, 4, 8, 30 }, Exchange::serial());
         ModelParameters      model;
         model.strain = strain;
         BodyPotential             elastic(body, model, examples, free_dofs);
@@ -412,7 +412,7 @@ namespace Exemplar::Testing
     {
       const ParametricBody body;
       const auto           examples = body.examples(two_examples());
-      const FreeDofs       free_dofs(body.fe_space.n_dofs(), {});
+      const FreeDofs       free_dofs(body.fe_space.n_dofs(), {}, Exchange::serial());
       BodyPotential        elastic(body, frozen_model(), examples, free_dofs);
       std::mt19937         generator(3);
       const auto           positions = body.random_positions(generator, 0.2);
@@ -433,7 +433,7 @@ namespace Exemplar::Testing
     {
       const ParametricBody body;
       const Examples       none;
-      const FreeDofs       free_dofs(body.fe_space.n_dofs(), {});
+      const FreeDofs       free_dofs(body.fe_space.n_dofs(), {}, Exchange::serial());
       BodyPotential        elastic(body, ModelParameters(), none, free_dofs);
       std::mt19937         generator(6);
       auto                 positions = body.random_positions(generator, 0.1);
@@ -456,7 +456,7 @@ namespace Exemplar::Testing
       parameters.importance           = 1.;
       parameters.weight_penalty       = "0";
       const auto            examples  = body.examples(parameters);
-      const FreeDofs        free_dofs(body.fe_space.n_dofs(), {});
+      const FreeDofs        free_dofs(body.fe_space.n_dofs(), {}, Exchange::serial());
       BodyPotential         elastic(body, frozen_model(), examples, free_dofs);
       const Matrix3<double> Q         = rotation_about({ { 1., 1., 0. } }, 2.);
       auto                  positions = examples->pose(1);

@@ -17,6 +17,12 @@ namespace Exemplar::Testing
     class SpringTerm : public PotentialTerm
     {
     public:
+      std::string
+      name() const override
+      {
+        return "spring";
+      }
+
       SpringTerm(const unsigned int a, const unsigned int b, const double k) : a(a), b(b), k(k) {}
 
       double

@@ -36,7 +36,7 @@ namespace Exemplar::Testing
           if (std::abs(body.mesh.get_nodes()[node][c]) < 1e-12)
             rollers.push_back(3 * node + c);
       }
-      const FreeDofs free_dofs(body.fe_space.n_dofs(), rollers);
+      const FreeDofs free_dofs(body.fe_space.n_dofs(), rollers, Exchange::serial());
       BodyPotential  elastic(body, frozen_corotation(), examples, free_dofs);
       const auto    &rest = body.fe_space.rest_positions();
       elastic.update_rotations(rest); // R = I
@@ -47,7 +47,7 @@ namespace Exemplar::Testing
       elastic.evaluate(origin, { 1. }, evaluation);
       auto matrix = make_cholesky_operator();
       matrix->reinit(elastic.matrix_pattern);
-      const auto          solver = make_block_system(std::move(matrix), nullptr);
+      const auto          solver = make_block_system(std::move(matrix), nullptr, Exchange::serial());
       std::vector<double> columns;
       elastic.assemble_tangent(Tangent::convex, origin, { 1. }, solver->matrix_values(), columns);
       solver->factorize(origin);

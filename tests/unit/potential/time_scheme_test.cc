@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/run/problem.h>
+#include <exemplar/run/problem/problem.h>
 
 #include "body.h"
 #include "matrices.h"
@@ -119,7 +119,7 @@ namespace Exemplar::Testing
       for (const StrainMeasure strain : { StrainMeasure::corotational, StrainMeasure::green })
       {
         const Body      body;
-        const FreeDofs  free_dofs(body.fe_space.n_dofs(), {});
+        const FreeDofs  free_dofs(body.fe_space.n_dofs(), {}, Exchange::serial());
         ModelParameters model;
         model.strain = strain;
         BodyPotential         elastic(body, model, {}, free_dofs);
@@ -153,7 +153,7 @@ namespace Exemplar::Testing
     {
       // also where cells are mirrored so that the guard acts
       const Body     body;
-      const FreeDofs free_dofs(body.fe_space.n_dofs(), {});
+      const FreeDofs free_dofs(body.fe_space.n_dofs(), {}, Exchange::serial());
       BodyPotential  elastic(body, ModelParameters(), {}, free_dofs);
       Vector         x = body.fe_space.rest_positions();
       for (unsigned int node = 0; node < x.size() / 3; ++node)

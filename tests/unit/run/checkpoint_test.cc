@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/base/sealed_file.h>
-#include <exemplar/run/checkpoint.h>
-#include <exemplar/run/resume_checks.h>
+#include <exemplar/run/output/checkpoint.h>
+#include <exemplar/run/output/resume_checks.h>
 
 #include "expect_contains.h"
 #include "scene.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/mesh/mesh_generation.h>
-#include <exemplar/run/problem.h>
-#include <exemplar/run/scene_file.h>
+#include <exemplar/run/problem/problem.h>
+#include <exemplar/run/scene/scene_file.h>
 
 #include "expect_contains.h"
 #include "temporary_directory.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
-#include <exemplar/run/run_writer.h>
+#include <exemplar/run/output/run_writer.h>
 
 #include "expect_contains.h"
 #include "scene.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
-#include <exemplar/run/scene_file.h>
+#include <exemplar/run/scene/scene_file.h>
 
 #include "expect_contains.h"
 

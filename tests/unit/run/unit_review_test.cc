@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/run/unit_review.h>
+#include <exemplar/run/problem/unit_review.h>
 
 #include "scene.h"
 

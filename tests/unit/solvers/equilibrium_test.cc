@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/run/problem.h>
+#include <exemplar/run/problem/problem.h>
 
 #include "body.h"
 #include "scene.h"
@@ -34,7 +34,7 @@ namespace Exemplar::Testing
           + examples("set Pose functions = " + twist(180.) + "\n set Prescribed weights = t; 1-t\n")
           + "subsection Time\n set Increments = 10\nend\n");
       State state = scene.solve();
-      align(scene.problem.body.fe_space.rest_positions(), state.positions);
+      align(scene.problem.body.fe_space.rest_positions(), state.positions, Exchange::serial());
       EXPECT_LT(max_difference(state.positions, scene.problem.body.fe_space.rest_positions()),
                 1e-7);
     }

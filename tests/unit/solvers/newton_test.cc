@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
-#include <exemplar/run/problem.h>
+#include <exemplar/run/problem/problem.h>
 #include <exemplar/solvers/line_search.h>
 
 #include "body.h"
@@ -110,7 +110,7 @@ namespace Exemplar::Testing
                       + newton + "subsection Time\n set Increments = 20\nend\n",
                   { "Model/Dilatation=cells" }); // patches end beside it, doc/space.md
       State state = scene.solve();
-      align(scene.problem.examples.poses->pose(1), state.positions);
+      align(scene.problem.examples.poses->pose(1), state.positions, Exchange::serial());
       EXPECT_LT(max_difference(state.positions, scene.problem.examples.poses->pose(1)), 1e-9);
     }
 

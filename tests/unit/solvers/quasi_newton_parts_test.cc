@@ -19,7 +19,7 @@ namespace Exemplar::Testing
     std::vector<double>
     predict(const std::vector<std::vector<double>> &sequence)
     {
-      LinearPrediction prediction;
+      LinearPrediction prediction(Exchange::serial());
       for (const std::vector<double> &vector : sequence)
         prediction.add(vector);
       return prediction.next();
@@ -65,7 +65,7 @@ namespace Exemplar::Testing
     TEST(Lbfgs, MeetsItsPairs)
     {
       // the secant equation: what made a change y of the gradient was s
-      Lbfgs                     lbfgs;
+      Lbfgs                     lbfgs(Exchange::serial());
       const std::vector<double> s = { 1., -2., 0.5 }, y = { 2., -1., 0.3 };
       lbfgs.add_pair({ 0.1, 0.2, 0.3 }, { 0.2, 0.2, 0.9 });
       lbfgs.add_pair(s, y);
@@ -88,7 +88,7 @@ namespace Exemplar::Testing
     struct Factored
     {
       explicit Factored(const MeshParameters &mesh, const double degrees)
-          : body(mesh), free_dofs(body.fe_space.n_dofs(), { 0, 1, 2, 3, 4, 5, 16 }),
+          : body(mesh), free_dofs(body.fe_space.n_dofs(), { 0, 1, 2, 3, 4, 5, 16 }, Exchange::serial()),
             mass(body.fe_space, body.material, MassMatrix::consistent),
             integrator(TimeParameters()), inertia(mass, integrator),
             elastic(body, ModelParameters(), {}, free_dofs),
@@ -108,7 +108,7 @@ namespace Exemplar::Testing
         inertia.attach(elastic.matrix_pattern, free_dofs);
         auto matrix = make_cholesky_operator();
         matrix->reinit(elastic.matrix_pattern);
-        system = make_block_system(std::move(matrix), nullptr);
+        system = make_block_system(std::move(matrix), nullptr, Exchange::serial());
         inertia.add_tangent(positions, system->matrix_values());
         elastic.update_rotations(positions);
         std::vector<double> columns;

@@ -3,7 +3,7 @@
 #define exemplar_tests_fold_bodies_h
 
 #include <exemplar/mesh/mesh.h>
-#include <exemplar/surface/closest_points.h>
+#include <exemplar/surface/shape/closest_points.h>
 
 #include <functional>
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/surface/fold_energy.h>
+#include <exemplar/surface/posing/fold_energy.h>
 
 #include "matrices.h"
 

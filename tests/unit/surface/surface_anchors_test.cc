@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/surface/surface_anchors.h>
+#include <exemplar/surface/skin/surface_anchors.h>
 
 #include "fold_bodies.h"
 

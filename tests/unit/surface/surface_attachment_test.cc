@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
-#include <exemplar/surface/surface_attachment.h>
+#include <exemplar/surface/skin/surface_attachment.h>
 
 #include "fold_bodies.h"
 #include "matrices.h"

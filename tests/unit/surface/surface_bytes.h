@@ -3,7 +3,7 @@
 #define exemplar_tests_surface_bytes_h
 
 #include <exemplar/base/errors.h>
-#include <exemplar/surface/surface_mesh.h>
+#include <exemplar/surface/shape/surface_mesh.h>
 
 #include "temporary_directory.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/surface/surface_checks.h>
-#include <exemplar/surface/surface_geometry.h>
-#include <exemplar/surface/surface_repair.h>
-#include <exemplar/surface/vectors.h>
+#include <exemplar/surface/shape/surface_checks.h>
+#include <exemplar/surface/shape/surface_geometry.h>
+#include <exemplar/surface/shape/surface_repair.h>
+#include <exemplar/surface/shape/vectors.h>
 
 #include "expect_contains.h"
 #include "surfaces.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/surface/write_obj.h>
+#include <exemplar/surface/files/write_obj.h>
 
 #include "expect_contains.h"
 #include "surface_bytes.h"

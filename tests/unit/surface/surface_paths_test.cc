@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/surface/surface_paths.h>
+#include <exemplar/surface/shape/surface_paths.h>
 
 #include "surfaces.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
-#include <exemplar/surface/numbered_files.h>
-#include <exemplar/surface/surface_poses.h>
+#include <exemplar/surface/files/numbered_files.h>
+#include <exemplar/surface/shape/surface_poses.h>
 
 #include "temporary_directory.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
-#include <exemplar/surface/surface_anchors.h>
-#include <exemplar/surface/surface_skin.h>
-#include <exemplar/surface/vectors.h>
+#include <exemplar/surface/shape/vectors.h>
+#include <exemplar/surface/skin/surface_anchors.h>
+#include <exemplar/surface/skin/surface_skin.h>
 
 #include "expect_contains.h"
 #include "fold_bodies.h"

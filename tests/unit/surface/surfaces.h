@@ -2,7 +2,7 @@
 #ifndef exemplar_tests_surfaces_h
 #define exemplar_tests_surfaces_h
 
-#include <exemplar/surface/triangle_surface.h>
+#include <exemplar/surface/shape/triangle_surface.h>
 
 #include <utility>
 

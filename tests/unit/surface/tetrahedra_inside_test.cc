@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/surface/cell_angles.h>
-#include <exemplar/surface/surface_checks.h>
-#include <exemplar/surface/surface_geometry.h>
-#include <exemplar/surface/surface_remeshing.h>
+#include <exemplar/surface/filling/cell_angles.h>
+#include <exemplar/surface/filling/surface_remeshing.h>
+#include <exemplar/surface/shape/surface_checks.h>
+#include <exemplar/surface/shape/surface_geometry.h>
 
 #include "surfaces.h"
 

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_made_of_surfaces_h
+#define exemplar_made_of_surfaces_h
+
+#include <exemplar/surface/filling/surface_meshing.h>
+#include <exemplar/surface/posing/pose_quality.h>
+
+namespace Exemplar
+{
+  /// What of a scene's inputs was made of surfaces, for the user to judge.
+  struct MadeOfSurfaces
+  {
+    struct Pose
+    {
+      std::string file;
+      PoseQuality quality;
+    };
+
+    MeshingReport     mesh; ///< empty if the mesh was not made of one
+    std::vector<Pose> poses;
+    std::vector<std::string> warnings; ///< of the making
+  };
+
+  /// What to know of it, a line each.
+  std::vector<std::string>
+  lines_of(const MadeOfSurfaces &made);
+
+  /// What was wrong in the making, and poses that the mesh follows badly.
+  std::vector<std::string>
+  warnings_of(const MadeOfSurfaces &made);
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_surface_readings_h
+#define exemplar_surface_readings_h
+
+#include <exemplar/body/handles.h>
+#include <exemplar/body/material.h>
+#include <exemplar/run/inputs/inputs.h>
+
+#include <string>
+#include <vector>
+
+namespace Exemplar
+{
+  /// What the surface of the body says of its nodes and cells.
+  struct SurfaceReadings
+  {
+    NamedNodes                       nodes;    ///< of selections, by their texts
+    PaintedMaterial                  material; ///< empty: nothing is painted
+    std::vector<std::vector<double>> shares;   ///< of Examples/Weight maps, a value a cell
+    NamedMotions                     motions;  ///< of handles that follow a cache
+    std::vector<std::string>         warnings;
+  };
+
+  /// Read all that a scene asks for off the surface among the inputs; nothing if it asks for
+  /// nothing. Throws UserError for selections without nodes, values out of range, caches that are
+  /// damaged, and a surface that is not around the mesh.
+  SurfaceReadings
+  read_off_surface(const SceneParameters &scene, const Mesh &mesh, const Inputs &inputs);
+} // namespace Exemplar
+
+#endif

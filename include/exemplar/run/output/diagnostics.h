@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_diagnostics_h
+#define exemplar_diagnostics_h
+
+#include <exemplar/run/problem/problem.h>
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace Exemplar
+{
+  /// A cell of statistics.csv.
+  struct StatisticsCell
+  {
+    std::string column;
+
+    /// Nothing: not known.
+    std::variant<std::monostate, double, unsigned int, std::string> value = {};
+
+    bool is_of_report = false; ///< of a step that failed, it is known, too
+
+    /// As the file has it: numbers that are not finite are empty.
+    std::string
+    text() const;
+  };
+
+  using StatisticsRow = std::vector<StatisticsCell>;
+
+  /// Work done on the body since the first step [J]: end-of-step forces times
+  /// displacements.
+  struct Work
+  {
+    double handles = 0.;
+    double gravity = 0.;
+    double loads   = 0.;
+  };
+
+  /// Energies, momenta, reactions and work of a run. Columns that a scene does not
+  /// need are absent.
+  class Diagnostics
+  {
+  public:
+    /// The problem must outlive this.
+    explicit Diagnostics(const Problem &problem);
+
+    /// Add the work of the step that the problem has just made. To be called after each.
+    void
+    add_step();
+
+    /// Go on from the problem's state with work done before.
+    void
+    resume(const Work &earlier);
+
+    const Work &
+    get_work() const
+    {
+      return work;
+    }
+
+    /// A row for the problem's present energies and forces; `shown` has the step, the time, the
+    /// velocities and the weights.
+    StatisticsRow
+    row(const State &shown, const SolveReport &report) const;
+
+    /// The seconds of a step by part; without values in the row of the initial state.
+    static void
+    append_seconds(StatisticsRow &row, const std::optional<PartSeconds> &seconds);
+
+  private:
+    void
+    append_terms(StatisticsRow &row) const;
+
+    void
+    append_weights(StatisticsRow &row, const State &shown, const SolveReport &report) const;
+
+    void
+    append_work(StatisticsRow &row) const;
+
+    const Problem &problem;
+    Vector         last_positions; ///< before the next step [m]
+    Work           work;
+  };
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_summary_h
+#define exemplar_summary_h
+
+#include <exemplar/run/frames/space_error.h>
+#include <exemplar/run/output/checkpoint.h>
+#include <exemplar/run/problem/problem.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace Exemplar
+{
+  /// Write summary.json: the program, the scene's sizes, totals over all steps, the warnings of the
+  /// run, the error in space of the last step if it is known, what was used and what was left out.
+  void
+  write_summary(Problem                         &problem,
+                const RunTotals                 &totals,
+                const std::optional<SpaceError> &space_error,
+                const std::string               &mesh_sha256,
+                const std::string               &status,
+                const std::vector<std::string>  &warnings,
+                const std::filesystem::path     &file);
+} // namespace Exemplar
+
+#endif

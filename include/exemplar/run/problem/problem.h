@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_problem_h
+#define exemplar_problem_h
+
+#include <exemplar/algebra/conditioning.h>
+#include <exemplar/base/step_clock.h>
+#include <exemplar/run/problem/problem_parts.h>
+#include <exemplar/solvers/step_solver.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace Exemplar
+{
+  /// A scene made of its parts, in order of dependency. A part that the scene does
+  /// not need is not there.
+  class Problem
+  {
+  public:
+    /// `inputs` are what read_inputs() gives, or arrays that a program hands in: then the scene
+    /// needs no file. `clock` may run since the inputs are read. Throws UserError for whatever
+    /// is no valid scene; writes nothing.
+    Problem(SceneParameters scene, Inputs inputs, StepClock clock = StepClock(Part::read));
+
+    /// Solve the next step from `state`, which is replaced if the solve succeeds.
+    SolveReport
+    advance();
+
+    /// From the next step on `motion` moves a handle instead of its formulas. Throws UserError if
+    /// no handle has this name.
+    void
+    set_motion(const std::string &handle, Motion motion);
+
+    /// Go on from a state of an earlier run.
+    void
+    resume_from(const State &earlier, const std::string &solver_memory = "");
+
+    /// What the solver remembers beside the state, for resume_from().
+    std::string
+    solver_memory() const;
+
+    /// What to tell the user of a step that advance() could not make: what happened in which step,
+    /// and the remedy.
+    std::string
+    failure_message(const SolveReport &report) const;
+
+    /// Of the systems that were solved last.
+    Conditioning
+    conditioning() const;
+
+    /// Warnings of all parts.
+    std::vector<std::string>
+    warnings() const;
+
+    const SceneParameters                    parameters; ///< completed
+    StepClock                                clock;
+    const std::shared_ptr<const Inputs>      inputs; ///< null unless Output/Space error needs them
+    const TimeAxis                           time_axis;
+    const Body                               body;
+    const std::shared_ptr<const SurfaceMesh> surface; ///< of the body; null unless it is needed
+    const Constraints                        constraints;
+    const Examples                           examples;
+    const Actions                            actions;
+    IncrementalPotential                     potential;
+    StepSystem                               system;
+    const std::unique_ptr<StepSolver>        solver;
+    State                                    state;
+    Evaluation                               evaluation; ///< at the state
+
+  private:
+    /// Whether the body stands on a support of its own, which must not decide how it is turned.
+    bool
+    turns_freely() const;
+
+    void
+    start_interpolation();
+
+    /// `what` is not finite in this process, or what to call it if it is in another one; empty if all
+    /// is finite in all.
+    std::string
+    agreed(const std::string &what) const;
+
+    /// Throws UserError if the initial state is nothing to begin with.
+    void
+    check_start();
+
+    /// Make a failure of a report on a step to `next` if that, evaluated, is not finite.
+    void
+    refuse_what_is_not_finite(const State &next, SolveReport &report);
+
+    /// Evaluate at a state that no step has led to.
+    void
+    start(State &at);
+  };
+
+  /// Gives the inputs of a problem.
+  using ReadInputs = std::function<Inputs(const SceneParameters &)>;
+
+  /// The problem of a scene and of what `read` gives for it. Throws UserError whatever fails, as
+  /// the scene is to blame before the first step is solved.
+  std::unique_ptr<Problem>
+  make_problem(const SceneParameters &parameters, const ReadInputs &read);
+
+  /// The same with the files that the scene names. See read_inputs() for `announce`.
+  std::unique_ptr<Problem>
+  make_problem(const SceneParameters &parameters, const Announce &announce = {});
+} // namespace Exemplar
+
+#endif

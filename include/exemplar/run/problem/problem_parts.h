@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_problem_parts_h
+#define exemplar_problem_parts_h
+
+#include <exemplar/body/example_weights.h>
+#include <exemplar/body/handles.h>
+#include <exemplar/body/loads.h>
+#include <exemplar/body/mass.h>
+#include <exemplar/body/supports.h>
+#include <exemplar/body/time_integrator.h>
+#include <exemplar/potential/incremental_potential.h>
+#include <exemplar/run/inputs/inputs.h>
+#include <exemplar/run/inputs/surface_readings.h>
+#include <exemplar/run/scene/scene_parameters.h>
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+// The parts of a problem, grouped as they depend on each other. Pointers are null where a scene
+// does not need the part.
+
+namespace Exemplar
+{
+  TimeAxis
+  make_time_axis(const SceneParameters &parameters);
+
+  /// The elastic body at rest.
+  struct Body
+  {
+    /// Takes the mesh of the inputs, and adds to their nodes what is selected by the surface.
+    Body(const SceneParameters &parameters, Inputs &inputs);
+
+    /// With the processes that have other parts of the body.
+    const Exchange &
+    exchange() const
+    {
+      return mesh.exchange();
+    }
+
+    const Mesh                           mesh;
+    const SurfaceReadings                readings; ///< off the surface
+    const Material                       material;
+    const FESpace                        fe_space;
+    const std::unique_ptr<const Patches> patches; ///< of one mean dilatation each
+    /// How the mesh and its poses became of surfaces; null if none did.
+    const std::shared_ptr<const MadeOfSurfaces> made;
+    /// What stood around gmsh, see MshFile::geo_walls.
+    const std::optional<std::vector<std::string>> geo_walls;
+    const std::shared_ptr<const SharedBody>       shared; ///< null in one process
+  };
+
+  /// What holds the body, and what is left free.
+  struct Constraints
+  {
+    /// Throws UserError for handles that are none, or that hold everything.
+    Constraints(const SceneParameters &parameters,
+                const Body            &body,
+                const TimeAxis        &axis,
+                const Inputs          &inputs);
+
+    /// Throws UserError for a static scene in which the body could move rigidly.
+    void
+    check(const SceneParameters &parameters, const Body &body) const;
+
+    /// A warning of each handle of one node, and how to enlarge it. All processes must call this.
+    std::vector<std::string>
+    describe_single_nodes(const Body &body) const;
+
+    /// Handles that pull at the one node that a box or a sphere happens to hold, in sentences with the
+    /// remedy. All processes must call this.
+    std::vector<std::string>
+    describe_pulled_nodes(const SceneParameters &parameters, const Body &body) const;
+
+    const std::unique_ptr<Handles>                    handles;
+    const std::optional<StaticallyDeterminateSupport> support; ///< of an interpolation
+    const FreeDofs                                    free_dofs;
+  };
+
+  /// The example poses and the rule of their weights.
+  struct Examples
+  {
+    Examples(const SceneParameters &parameters,
+             const Body            &body,
+             const TimeAxis        &axis,
+             const Inputs          &inputs);
+
+    const std::unique_ptr<ExamplePoses>   poses;
+    const std::unique_ptr<ExampleWeights> weights;
+  };
+
+  /// What acts on the body beside its elasticity.
+  struct Actions
+  {
+    Actions(const SceneParameters &parameters, const Body &body, const Inputs &inputs);
+
+    /// The terms of the potential that stand for them.
+    std::vector<std::unique_ptr<PotentialTerm>>
+    make_terms(const Body &body) const;
+
+    const std::unique_ptr<Loads>          loads;
+    const std::unique_ptr<Mass>           mass;       ///< in dynamic scenes
+    const std::unique_ptr<TimeIntegrator> integrator; ///< in dynamic scenes
+
+    /// Whether the energy bound of doc/dynamics.md, Eq. (12), holds where handles rest.
+    const bool energy_is_bounded;
+  };
+
+  /// The bordered system of a step with the linear solver that a scene asks for or, if it leaves
+  /// the choice, the faster one.
+  std::unique_ptr<BorderedSystem>
+  make_bordered_system(const SolverParameters &solver, const IncrementalPotential &potential);
+} // namespace Exemplar
+
+#endif

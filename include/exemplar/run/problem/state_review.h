@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_state_review_h
+#define exemplar_state_review_h
+
+#include <exemplar/run/problem/problem.h>
+
+#include <string>
+#include <vector>
+
+namespace Exemplar
+{
+  /// What looks wrong in the states of a run, for warnings at its end.
+  class StateReview
+  {
+  public:
+    /// `problem` must outlive this.
+    explicit StateReview(const Problem &problem);
+
+    /// A step has been accepted.
+    void
+    add_step(const SolveReport &report);
+
+    /// In the order of their weight. Elements are named by the numbers of the mesh file.
+    std::vector<std::string>
+    warnings() const;
+
+  private:
+    /// Steps in which cells were inverted.
+    struct Inversions
+    {
+      unsigned int             first_step = 0, worst_step = 0, n_steps = 0;
+      unsigned int             n_cells = 0; ///< in the worst step
+      std::vector<std::size_t> elements;    ///< in the first step
+    };
+
+    const Problem &problem;
+    Inversions     inversions;
+    unsigned int   first_raised = 0; ///< the step whose loads were raised within it; 0: none
+  };
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_scene_parameters_h
+#define exemplar_scene_parameters_h
+
+#include <exemplar/body/example_parameters.h>
+#include <exemplar/body/handle_parameters.h>
+#include <exemplar/body/load_parameters.h>
+#include <exemplar/body/material_parameters.h>
+#include <exemplar/body/model_parameters.h>
+#include <exemplar/body/time_parameters.h>
+#include <exemplar/mesh/mesh_parameters.h>
+#include <exemplar/run/scene/initial_parameters.h>
+#include <exemplar/run/scene/output_parameters.h>
+#include <exemplar/solvers/solver_parameters.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace Exemplar
+{
+  enum class SceneKind
+  {
+    interpolation,
+    statics,
+    dynamic
+  };
+
+  /// What a scene is, in numbers and formulas. A SceneFile fills it from text; a program may
+  /// as well fill it by hand.
+  struct SceneParameters
+  {
+    std::string                   name  = "scene"; ///< stands for the scene in messages
+    SceneKind                     scene = SceneKind::dynamic;
+    MeshParameters                mesh;
+    MaterialParameters            material;
+    ModelParameters               model;
+    ExampleParameters             examples;
+    std::vector<HandleParameters> handles;
+    LoadsParameters               loads;
+    InitialParameters             initial;
+    TimeParameters                time;
+    SolverParameters              solver;
+    OutputParameters              output;
+    std::vector<std::string>      warnings; ///< of what the text of the scene says in vain
+
+    /// Set what the kind of scene decides: importance 1 and prescribed weights of an
+    /// interpolation, and the method and the dilatation that `automatic` stands for. To do so
+    /// twice changes nothing.
+    void
+    complete();
+
+    /// Throws UserError for values that contradict each other, which concern several sections,
+    /// or that no pattern can tell. To be called after complete().
+    void
+    check() const;
+
+    /// Whether a part of the scene needs the surface of the body.
+    bool
+    needs_surface() const;
+
+    /// Whether something is to be read off the surface: nodes, constants, shares or motions.
+    bool
+    reads_off_surface() const;
+
+  private:
+    /// The key that does, for messages; empty: none.
+    std::string
+    key_read_off_surface() const;
+
+    void
+    check_interpolation() const;
+
+    void
+    check_solver() const;
+
+    void
+    check_surface() const;
+  };
+} // namespace Exemplar
+
+#endif

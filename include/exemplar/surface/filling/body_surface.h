@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_body_surface_h
+#define exemplar_body_surface_h
+
+#include <exemplar/surface/shape/surface_checks.h>
+
+namespace Exemplar
+{
+  /// A surface that bounds a body: closed, oriented outwards, without intersections.
+  struct BodySurface
+  {
+    TriangleSurface          surface;  ///< without unused vertices
+    TriangleSurface          original; ///< as the file has it
+    std::vector<std::string> group_names;
+    std::vector<std::string> notes; ///< what was seen and mended
+  };
+
+  struct SurfaceMeshingOptions;
+
+  /// Read and check a surface. With `repair`, what is wrong is repaired, and if that does not do, the
+  /// surface is wrapped; the notes say what was done and how far the surface moved. Throws UserError
+  /// with all that is wrong and where.
+  BodySurface
+  read_body_surface(const SurfaceMeshingOptions &options);
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_cell_angles_h
+#define exemplar_cell_angles_h
+
+#include <exemplar/surface/filling/tetrahedra_inside.h>
+#include <exemplar/surface/shape/vectors.h>
+
+namespace Exemplar
+{
+  /// The smallest and the largest of the six angles between the faces of a tetrahedron [degrees].
+  std::pair<double, double>
+  dihedral_angles(const std::array<SpaceVector, 4> &corners);
+
+  std::array<SpaceVector, 4>
+  corners_of(const TetrahedralMesh &mesh, std::size_t cell);
+
+  /// How good the cells of a mesh are [degrees].
+  struct CellAngles
+  {
+    double      smallest = 180., percentile_1 = 0., median = 0.; ///< of the cells' smallest angles
+    double      largest            = 0.;
+    std::size_t n_boundary_slivers = 0; ///< cells with a boundary node and an angle below 3 degrees
+    std::size_t n_slivers          = 0; ///< all cells with such an angle
+  };
+
+  /// What counts as a sliver [degrees].
+  constexpr double sliver_angle = 3.;
+
+  CellAngles
+  measure_angles(const TetrahedralMesh &mesh);
+
+  /// Move inner nodes of cells with angles below 8 degrees to where the worst cell around them is
+  /// better, and take away flat cells that lie on the boundary with two faces, which flips the edge
+  /// between these. A node or cell is left alone where that helps nothing. Returns the number of
+  /// cells taken away.
+  std::size_t
+  remove_slivers(TetrahedralMesh &mesh);
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_surface_meshing_h
+#define exemplar_surface_meshing_h
+
+#include <exemplar/mesh/msh_file.h>
+#include <exemplar/surface/shape/surface_mesh.h>
+
+#include <utility>
+
+namespace Exemplar
+{
+  /// What to make of a surface.
+  struct SurfaceMeshingOptions
+  {
+    std::filesystem::path surface;
+    unsigned int          n_cells   = 0; ///< wanted
+    bool                  repair    = false;
+    std::filesystem::path materials = {}; ///< a table, see read_material_seeds(); or empty
+    /// What the user calls cells and repair, for messages.
+    std::string cells_option = "--cells", repair_option = "--repair";
+  };
+
+  /// How a mesh became.
+  struct MeshingReport
+  {
+    std::vector<std::pair<std::string, std::string>> table; ///< (what, how much)
+    std::vector<std::string>                         notes; ///< lines for the user
+  };
+
+  /// A mesh inside a surface, and how it became.
+  struct MeshedSurface
+  {
+    MshFile       mesh; ///< groups of faces are its physical surfaces, shells its physical volumes
+    MeshingReport report;
+  };
+
+  /// Read a surface, check it (and mend it, if that is wished), make its edges as long as the number
+  /// of cells wants, fill it with tetrahedra and remove flat ones. Places are those of the file, in
+  /// its unit and axes. Throws UserError for a surface that is no boundary of a body, with what is
+  /// wrong and where; SolverFailure if it cannot be filled.
+  MeshedSurface
+  mesh_surface(const SurfaceMeshingOptions &options);
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_surface_remeshing_h
+#define exemplar_surface_remeshing_h
+
+#include <exemplar/surface/shape/triangle_surface.h>
+
+namespace Exemplar
+{
+  /// A closed, oriented manifold surface with edges of about `edge_length`, its vertices on the
+  /// surface given (isotropic remeshing, Botsch and Kobbelt 2004, by CGAL). The borders of groups
+  /// stay where they are; with `keep_edges` so do edges sharper than 60 degrees, where they make
+  /// chains of several times the edge length: short ones are noise. The triangles that are `held`
+  /// stay as they are, but for vertices on edges that they share with others; none: all may change.
+  TriangleSurface
+  remesh(const TriangleSurface   &surface,
+         double                   edge_length,
+         bool                     keep_edges,
+         const std::vector<bool> &held = {});
+
+  /// The same with its shells in the order of those given, and without intersections: with edges a
+  /// little shorter than wanted where that does, else with the triangles held where sheets almost
+  /// touch, as the lips of a mouth do, because these intersect when each is made anew by itself. Throws
+  /// SolverFailure if nothing helps; `cells_option` is how the user asks for more cells.
+  TriangleSurface
+  remesh_without_intersections(const TriangleSurface &surface,
+                               double                 edge_length,
+                               bool                   keep_edges,
+                               const std::string     &cells_option);
+} // namespace Exemplar
+
+#endif

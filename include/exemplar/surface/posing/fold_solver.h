@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_fold_solver_h
+#define exemplar_fold_solver_h
+
+#include <exemplar/surface/posing/fold_potential.h>
+
+#include <memory>
+#include <vector>
+
+namespace Exemplar
+{
+  /// Minimises a FoldPotential so that no cell is inverted in the end.
+  class FoldSolver
+  {
+  public:
+    using Points = FoldPotential::Points;
+
+    /// det F of a cell that counts as not inverted is greater.
+    static constexpr double margin = 1e-3;
+
+    struct Result
+    {
+      Points       x;               ///< [m]
+      double       least_det  = 1.; ///< of F over the cells
+      unsigned int iterations = 0;  ///< of Newton's method
+      unsigned int releases   = 0;  ///< how often springs were softened
+    };
+
+    /// `potential` must outlive this; its springs may change between solutions.
+    explicit FoldSolver(FoldPotential &potential);
+
+    /// From the nearest rotations of the cells, which may invert some, through less and less
+    /// regularised energies to one that is infinite for inverted cells. Springs around cells that
+    /// stay inverted are softened, in the potential, and the search goes on. If that does not help
+    /// either, from `rest`, the nodes at rest, and never through an inverted cell. There remain
+    /// inverted cells only if Result::least_det is not greater than the margin.
+    Result
+    solve(const Points &rest);
+
+  private:
+    Points
+    nearest_rotations() const;
+    void
+    untangle(Result &result, double eps, double least_share, std::size_t n_left);
+    void
+    untangle_patches(Result &result, const Points &rest);
+    void
+    settle(Result &result);
+    double
+    step(Result &result, double eps);
+    void
+    factorize_shifted();
+    void
+    release(Result &result);
+
+    FoldPotential               &potential;
+    std::unique_ptr<SpdOperator> system;
+    SymmetricPattern             pattern;
+  };
+} // namespace Exemplar
+
+#endif

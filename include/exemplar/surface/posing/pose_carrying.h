@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_pose_carrying_h
+#define exemplar_pose_carrying_h
+
+#include <exemplar/mesh/mesh.h>
+#include <exemplar/surface/posing/pose_transfer.h>
+
+namespace Exemplar
+{
+  /// A surface at rest, with its name in messages.
+  struct RestSurface
+  {
+    explicit RestSurface(const std::filesystem::path &file);
+
+    std::string name;
+    SurfaceMesh surface;
+  };
+
+  /// Reads a pose of a surface. Throws UserError for one that is none, see surface_poses.h.
+  SurfaceMesh
+  read_pose_surface(const std::filesystem::path &file, const RestSurface &rest);
+
+  /// Carries poses of a surface onto a mesh of its inside; both stay where they are. Throws UserError
+  /// if the mesh is not of the surface's inside.
+  PoseTransfer
+  make_pose_transfer(const Mesh &mesh, const RestSurface &rest, double attach);
+
+  /// The numbers of the elements whose cells count as inverted at these places of the nodes, as a
+  /// list; empty if there are none.
+  std::string
+  inverted_elements(const PoseTransfer                  &transfer,
+                    const Mesh                          &mesh,
+                    const std::vector<dealii::Point<3>> &x);
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_pose_transfer_h
+#define exemplar_pose_transfer_h
+
+#include <exemplar/surface/posing/fold_solver.h>
+#include <exemplar/surface/posing/pose_quality.h>
+#include <exemplar/surface/skin/surface_attachment.h>
+#include <exemplar/surface/skin/surface_skin.h>
+
+#include <memory>
+
+namespace Exemplar
+{
+  /// Carries poses of a surface onto a tetrahedral mesh of its inside, without inverted cells.
+  class PoseTransfer
+  {
+  public:
+    using Points = FoldPotential::Points;
+
+    /// Nodes [m] and positive cells of the mesh, how its boundary hangs on the surface at rest, and
+    /// how strongly, over the stiffness of the body.
+    PoseTransfer(const Points               &nodes,
+                 const FoldPotential::Cells &cells,
+                 SurfaceAttachment           of_boundary,
+                 double                      attach);
+
+    /// From now on errors are those of all vertices that faces of the surface use, as runs carry them
+    /// (SurfaceSkin); before, of the boundary nodes.
+    void
+    measure_by(const SurfaceMesh &rest, const Mesh &mesh);
+
+    /// Places of the nodes [m] for a pose, given by its vertices [m].
+    Points
+    carry(const SurfaceAttachment::Vertices &vertices, PoseQuality &quality);
+
+    /// det F of each cell at these places of the nodes.
+    std::vector<double>
+    determinants(const Points &x) const
+    {
+      return potential->determinants(x);
+    }
+
+  private:
+    void
+    attach_to(const Points &targets);
+    void
+    measure(const Points &x, PoseQuality &quality) const;
+    void
+    measure_boundary(const Points &x, const Points &targets, PoseQuality &quality) const;
+    void
+    measure_surface(const Points                      &x,
+                    const SurfaceAttachment::Vertices &vertices,
+                    PoseQuality                       &quality) const;
+
+    Points                         nodes;
+    SurfaceAttachment              attachment;
+    std::unique_ptr<FoldPotential> potential; ///< stays where it is, for the solver
+    FoldSolver                     solver;
+    std::vector<double>            stiffness; ///< of the spring of each boundary node [1/m^2]
+    std::unique_ptr<SurfaceSkin>   skin;      ///< null: errors are of the boundary nodes
+    std::vector<std::size_t>       measured;  ///< vertices of the surface
+  };
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_cgal_surface_h
+#define exemplar_cgal_surface_h
+
+#include <exemplar/surface/shape/triangle_surface.h>
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Surface_mesh.h>
+
+// For files cgal_*.cc alone: CGAL's headers take long to compile.
+
+namespace Exemplar
+{
+  using CgalKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+  using CgalPoint  = CgalKernel::Point_3;
+  using CgalMesh   = CGAL::Surface_mesh<CgalPoint>;
+
+  inline CgalPoint
+  to_cgal(const SurfaceMesh::Vertex &place)
+  {
+    return { place[0], place[1], place[2] };
+  }
+
+  inline SurfaceMesh::Vertex
+  from_cgal(const CgalPoint &point)
+  {
+    return { { point.x(), point.y(), point.z() } };
+  }
+
+  /// A surface with manifold edges as CGAL has it, vertices and faces in their order.
+  inline CgalMesh
+  make_cgal_mesh(const TriangleSurface &surface)
+  {
+    CgalMesh mesh;
+    for (const auto &vertex : surface.vertices)
+      mesh.add_vertex(to_cgal(vertex));
+    for (const auto &t : surface.triangles)
+      mesh.add_face(CgalMesh::Vertex_index(t[0]), CgalMesh::Vertex_index(t[1]),
+                    CgalMesh::Vertex_index(t[2]));
+    return mesh;
+  }
+
+  /// Back, with the groups of `group_of`; vertices without a face are left out.
+  template <typename GroupMap>
+  TriangleSurface
+  from_cgal_mesh(CgalMesh &mesh, const GroupMap &group_of)
+  {
+    mesh.collect_garbage();
+    TriangleSurface           surface;
+    std::vector<unsigned int> index(mesh.number_of_vertices());
+    for (const auto vertex : mesh.vertices())
+      if (!mesh.is_isolated(vertex))
+      {
+        index[vertex] = static_cast<unsigned int>(surface.vertices.size());
+        surface.vertices.push_back(from_cgal(mesh.point(vertex)));
+      }
+    for (const auto face : mesh.faces())
+    {
+      std::array<unsigned int, 3> triangle;
+      auto                        halfedge = mesh.halfedge(face);
+      for (unsigned int &vertex : triangle)
+      {
+        vertex   = index[mesh.source(halfedge)];
+        halfedge = mesh.next(halfedge);
+      }
+      surface.triangles.push_back(triangle);
+      surface.groups.push_back(group_of(face));
+    }
+    return surface;
+  }
+} // namespace Exemplar
+
+#endif

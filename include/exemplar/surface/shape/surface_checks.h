@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_surface_checks_h
+#define exemplar_surface_checks_h
+
+#include <exemplar/surface/shape/triangle_surface.h>
+
+namespace Exemplar
+{
+  /// A triangle and what it is called in messages: the number of its face in the file, from 1.
+  struct CheckedSurface
+  {
+    TriangleSurface           surface;
+    std::vector<unsigned int> faces; ///< of each triangle, from 0; empty: the triangles are faces
+  };
+
+  /// A face or vertex of the file that is part of a fault.
+  struct FaultyElement
+  {
+    std::string  fault; ///< as in SurfaceFindings::faults
+    bool         is_face;
+    unsigned int index; ///< in the file, from 0
+  };
+
+  /// What is wrong with a surface that should bound a body.
+  struct SurfaceFindings
+  {
+    /// A line each of what forbids cells inside: what, how many, where.
+    std::vector<std::string> faults;
+    /// All of their faces, or of their vertices where these tell more; some more than once.
+    std::vector<FaultyElement> elements;
+    /// Whether all that is wrong is that there are several bodies, which no repair joins.
+    bool several_bodies = false;
+    /// A line each of what is harmless: vertices that no face uses, or of equal places.
+    std::vector<std::string> notes;
+    /// The shell of each triangle: those that hang together through edges; by first triangle.
+    std::vector<unsigned int> shells;
+    unsigned int              n_shells = 0;
+  };
+
+  /// Look for faces without area, holes, edges of more than two faces, vertices where several fans
+  /// of faces meet, faces that are turned against their neighbours, shells that are inside out,
+  /// intersecting faces and shells side by side. Intersections are looked for where edges and
+  /// vertices are as they should be; shells side by side are a fault, shells within shells are not.
+  SurfaceFindings
+  check_surface(const CheckedSurface &checked);
+
+  /// Turn faces against which most of their shell is turned. Faces meet through edges of two.
+  /// Returns the triangles that were turned.
+  std::vector<unsigned int>
+  turn_to_majority(TriangleSurface &surface);
+
+  /// Turn shells that are inside out and within no other. Precondition: closed shells that do not
+  /// intersect. Returns the number of shells turned.
+  unsigned int
+  turn_outermost_outwards(TriangleSurface &surface);
+
+  /// Drop vertices that no triangle uses.
+  void
+  drop_unused_vertices(TriangleSurface &surface);
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_surface_geometry_h
+#define exemplar_surface_geometry_h
+
+#include <exemplar/surface/shape/triangle_surface.h>
+
+#include <memory>
+#include <utility>
+
+// Questions of geometry that CGAL answers.
+
+namespace Exemplar
+{
+  /// Pairs of triangles that intersect, beyond the edge or vertex that they share. Precondition:
+  /// no edge has more than two triangles, and those go through it in opposite directions.
+  std::vector<std::pair<unsigned int, unsigned int>>
+  self_intersections(const TriangleSurface &surface);
+
+  /// Finds the nearest point of a surface.
+  class NearestTriangle
+  {
+  public:
+    explicit NearestTriangle(const TriangleSurface &surface);
+    ~NearestTriangle();
+
+    /// The distance to the surface, and the triangle that is nearest.
+    std::pair<double, unsigned int>
+    operator()(const SurfaceMesh::Vertex &place) const;
+
+  private:
+    struct Tree;
+    std::unique_ptr<Tree> tree;
+  };
+
+  /// The distances of one surface's vertices, edges' and triangles' middles to another one.
+  struct SurfaceDistance
+  {
+    double maximum = 0.;
+    double mean    = 0.; ///< weighted by area
+  };
+
+  SurfaceDistance
+  distance_to(const NearestTriangle &to, const TriangleSurface &from);
+
+  /// For shells that are closed and do not intersect: the smallest shell around each, or the number
+  /// of shells for those within none.
+  std::vector<unsigned int>
+  enclosing_shells(const TriangleSurface           &surface,
+                   const std::vector<unsigned int> &shells,
+                   unsigned int                     n_shells);
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_facing_points_h
+#define exemplar_facing_points_h
+
+#include <exemplar/surface/shape/closest_points.h>
+#include <exemplar/surface/shape/vectors.h>
+
+#include <optional>
+
+// Where limbs touch and lips almost do, the nearest point of a surface may be of another part of it,
+// which faces the other way.
+
+namespace Exemplar
+{
+  /// Whether a triangle faces so much against a normal of length 1 that it must be of another part.
+  bool
+  faces_away(const TriangleSurface &surface, unsigned int triangle, const SpaceVector &normal);
+
+  /// For each of `points`, of which `nearest` are the nearest on the surface: nothing, unless its nearest
+  /// triangle faces_away() from its normal. Then the point nearest to it on triangles that face the same way; nothing if that is farther than the
+  /// triangle is long.
+  std::vector<std::optional<SurfacePoint>>
+  facing_points(const TriangleSurface                  &surface,
+                const std::vector<SurfaceMesh::Vertex> &points,
+                const std::vector<SpaceVector>         &normals,
+                const std::vector<SurfacePoint>        &nearest);
+} // namespace Exemplar
+
+#endif

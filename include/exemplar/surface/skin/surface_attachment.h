@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_surface_attachment_h
+#define exemplar_surface_attachment_h
+
+#include <exemplar/mesh/mesh_inputs.h>
+#include <exemplar/surface/shape/closest_points.h>
+#include <exemplar/surface/shape/vectors.h>
+
+namespace Exemplar
+{
+  /// How the boundary nodes of a tetrahedral mesh hang on a surface: each at the nearest point of
+  /// the surface at rest that faces as the body does, and at a distance from it that turns with the
+  /// triangle. Surface and
+  /// boundary need not have the same resolution.
+  class SurfaceAttachment
+  {
+  public:
+    using Points   = std::vector<dealii::Point<3>>;
+    using Vertices = std::vector<SurfaceMesh::Vertex>;
+
+    /// The mesh's nodes [m] and boundary faces, and the surface at rest [m].
+    SurfaceAttachment(const Points                    &nodes,
+                      const std::vector<BoundaryFace> &faces,
+                      TriangleSurface                  surface);
+
+    /// The same for some nodes, which may lie inside, at the nearest points; their get_areas() are 0.
+    SurfaceAttachment(const Points             &nodes,
+                      std::vector<unsigned int> which,
+                      TriangleSurface           surface);
+
+    /// Boundary nodes, ascending, or those that were given.
+    const std::vector<unsigned int> &
+    get_nodes() const
+    {
+      return nodes;
+    }
+
+    /// The part of the boundary's area that belongs to each of get_nodes() [m^2].
+    const std::vector<double> &
+    get_areas() const
+    {
+      return areas;
+    }
+
+    /// Distance of each of get_nodes() from the surface at rest [m].
+    const std::vector<double> &
+    get_distances() const
+    {
+      return distances;
+    }
+
+    /// The point of the surface at rest that each of get_nodes() hangs on.
+    const std::vector<SurfacePoint> &
+    get_points() const
+    {
+      return points;
+    }
+
+    /// The surface at rest [m].
+    const TriangleSurface &
+    get_surface() const
+    {
+      return rest;
+    }
+
+    /// Where get_nodes() are to go in a pose, given by its vertices [m].
+    Points
+    targets(const Vertices &vertices) const;
+
+  private:
+    void
+    hang(const Points &nodes, const std::vector<SpaceVector> &normals);
+
+    dealii::Point<3>
+    place(const SurfacePoint &point, const Vertices &vertices) const;
+
+    std::vector<unsigned int>         nodes;
+    std::vector<double>               areas, distances;
+    TriangleSurface                   rest;
+    std::vector<SurfacePoint>         points;
+    std::vector<dealii::Tensor<1, 3>> offsets; ///< from point to node, at rest [m]
+  };
+
+  class Mesh;
+
+  /// Throws UserError if the mesh is not one of the inside of this surface: of another unit or
+  /// other axes, or far from it.
+  void
+  check_attachment(const SurfaceAttachment &attachment,
+                   const Mesh              &mesh,
+                   const std::string       &surface_name);
+} // namespace Exemplar
+
+#endif

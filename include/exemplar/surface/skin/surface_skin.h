@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_surface_skin_h
+#define exemplar_surface_skin_h
+
+#include <exemplar/algebra/vector.h>
+#include <exemplar/surface/shape/surface_mesh.h>
+#include <exemplar/surface/skin/motion_recovery.h>
+
+namespace Exemplar
+{
+  /// A surface that the body carries along. A vertex at X that belongs to the point P of the body (X
+  /// itself, inside; see find_anchors()) is displaced by
+  ///
+  ///   u = sum_a N_a(P) (u_a + 1/2 G_a (P - X_a) + G_a (X - P) + 1/2 (X - P) H_a (X - P))
+  ///
+  /// over the nodes a of the cell or face of P, with derivatives G_a and H_a of the displacement that
+  /// are recovered at the nodes. Quadratic motions are carried exactly, so that the cells' borders do
+  /// not show as in sum_a N_a u_a; and without displacement the vertices are what they are at rest,
+  /// to the last bit.
+  class SurfaceSkin
+  {
+  public:
+    /// Of a surface in the unit of the mesh's file. If it has a name, which stands for it in
+    /// messages, it is checked: UserError for a surface that is not that of the mesh.
+    SurfaceSkin(const SurfaceMesh &surface, const Mesh &mesh, const std::string &surface_name = "");
+
+    /// The places of the vertices in the unit of the mesh's file, in the file's order, where the
+    /// nodes are displaced [m] by three values each.
+    std::vector<SurfaceMesh::Vertex>
+    carry(const Vector &displacement) const;
+
+  private:
+    std::vector<SurfaceMesh::Vertex> rest;
+    double                           scale;  ///< makes metres of the file's unit
+    std::vector<NodalSum::Share>     shares; ///< of all vertices, one after the other
+    std::vector<std::size_t>         ends;   ///< of the shares of each vertex
+  };
+} // namespace Exemplar
+
+#endif

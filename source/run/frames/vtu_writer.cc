@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/atomic_file.h>
+#include <exemplar/mesh/mesh.h>
+#include <exemplar/run/frames/frame_formats.h>
+#include <exemplar/run/frames/vtu_pieces.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <cstdint>
+#include <cstring>
+#include <iomanip>
+#include <memory>
+#include <ostream>
+#include <sstream>
+#include <stdexcept>
+#include <zlib.h>
+
+namespace Exemplar
+{
+  namespace
+  {
+    /// VTK's "binary" encoding: a header [blocks, block size, size of the last block,
+    /// compressed size] and the compressed block, each in base64.
+    std::string
+    encode(const void *data, const std::size_t size)
+    {
+      uLongf                     compressed_size = compressBound(size);
+      std::vector<unsigned char> compressed(compressed_size);
+      if (compress2(compressed.data(), &compressed_size, static_cast<const Bytef *>(data), size,
+                    Z_BEST_SPEED)
+          != Z_OK)
+        throw std::runtime_error("zlib cannot compress a frame");
+      compressed.resize(compressed_size);
+
+      const std::uint64_t        header[4] = { 1, size, size, compressed_size };
+      std::vector<unsigned char> header_bytes(sizeof(header));
+      std::memcpy(header_bytes.data(), header, sizeof(header));
+      return dealii::Utilities::encode_base64(header_bytes)
+             + dealii::Utilities::encode_base64(compressed);
+    }
+
+    template <typename Number>
+    void
+    write_array(std::ostream      &out,
+                const std::string &type,
+                const std::string &name,
+                const int          n_components,
+                const Number      *data,
+                const std::size_t  size)
+    {
+      out << "<DataArray type=\"" << type << "\" Name=\"" << name << "\" NumberOfComponents=\""
+          << n_components << "\" format=\"binary\">" << encode(data, size * sizeof(Number))
+          << "</DataArray>\n";
+    }
+
+    std::string
+    head_of_grid()
+    {
+      std::ostringstream out;
+      out << "<?xml version=\"1.0\"?>\n"
+          << "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
+             "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n"
+          << "<UnstructuredGrid>\n";
+      return out.str();
+    }
+
+    std::string
+    piece_of(const FESpace &fe_space)
+    {
+      return "<Piece NumberOfPoints=\"" + std::to_string(fe_space.n_nodes()) + "\" NumberOfCells=\""
+             + std::to_string(fe_space.n_cells()) + "\">\n";
+    }
+
+    std::string
+    cells_of(const FESpace &fe_space)
+    {
+      const bool                is_linear = fe_space.element() == Element::P1;
+      std::vector<std::int32_t> connectivity, offsets;
+      connectivity.reserve(nodes_per_cell(fe_space.element()) * fe_space.n_cells());
+      offsets.reserve(fe_space.n_cells());
+      for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
+      {
+        const auto nodes = fe_space.nodes(cell);
+        connectivity.insert(connectivity.end(), nodes.begin(), nodes.end());
+        offsets.push_back(static_cast<std::int32_t>(connectivity.size()));
+      }
+      // VTK_TETRA or VTK_QUADRATIC_TETRA
+      const std::vector<std::uint8_t> types(fe_space.n_cells(), is_linear ? 10 : 24);
+      std::ostringstream              out;
+      out << "<Cells>\n";
+      write_array(out, "Int32", "connectivity", 1, connectivity.data(), connectivity.size());
+      write_array(out, "Int32", "offsets", 1, offsets.data(), offsets.size());
+      write_array(out, "UInt8", "types", 1, types.data(), types.size());
+      out << "</Cells>\n";
+      return out.str();
+    }
+
+    std::string
+    regions_of(const Mesh &mesh)
+    {
+      const std::vector<std::int32_t> region(mesh.get_material_ids().begin(),
+                                             mesh.get_material_ids().end());
+      std::ostringstream              out;
+      write_array(out, "Int32", "region", 1, region.data(), region.size());
+      return out.str();
+    }
+
+    void
+    write_vector(std::ostream &out, const std::string &name, const Vector &values)
+    {
+      write_array(out, "Float64", name, 3, values.begin(), values.size());
+    }
+
+    void
+    write_scalars(std::ostream &out, const std::string &name, const std::vector<double> &values)
+    {
+      write_array(out, "Float64", name, 1, values.data(), values.size());
+    }
+
+    /// Numbers of the whole frame.
+    void
+    write_errors(std::ostream &out, const SpaceError &error)
+    {
+      out << "<FieldData>\n";
+      const auto write = [&](const std::string &of_what, const double value)
+      {
+        out << "<DataArray type=\"Float64\" Name=\"space_error_" << of_what
+            << "\" NumberOfTuples=\"1\" format=\"binary\">" << encode(&value, sizeof(value))
+            << "</DataArray>\n";
+      };
+      write("displacement", error.displacement);
+      write("energy", error.energy);
+      if (error.weights)
+        write("weights", *error.weights);
+      out << "</FieldData>\n";
+    }
+
+    /// Writes VTU files: each node once and in the order of FESpace, and true cell data (deal.II's
+    /// DataOut repeats nodes cell by cell and has no cell data). Arrays are binary, compressed by
+    /// zlib. The animation is a ParaView collection.
+    class VtuWriter : public FrameWriter
+    {
+    public:
+      VtuWriter(const Mesh &mesh, const FESpace &fe_space)
+          : head(head_of_grid()), piece(piece_of(fe_space)), cells(cells_of(fe_space)),
+            regions(regions_of(mesh))
+      {
+      }
+
+      void
+      write(const Frame &frame, const std::filesystem::path &file) const override
+      {
+        AtomicFile    atomic_file(file);
+        std::ostream &out = atomic_file.stream();
+        out << head;
+        if (frame.space_error && frame.space_error->failure.empty())
+          write_errors(out, *frame.space_error);
+        out << piece << "<Points>\n";
+        write_vector(out, "Points", frame.positions);
+        out << "</Points>\n" << cells << "<PointData>\n";
+        write_vector(out, "displacement", frame.displacement);
+        if (frame.velocities.size() > 0)
+          write_vector(out, "velocity", frame.velocities);
+        out << "</PointData>\n<CellData>\n";
+        write_scalars(out, "strain_energy_density", frame.cells.strain_energy_density);
+        write_scalars(out, "det_F", frame.cells.det_F);
+        write_scalars(out, "von_mises_stress", frame.cells.von_mises_stress);
+        if (frame.space_error && frame.space_error->failure.empty())
+          write_scalars(out, "space_error", frame.space_error->energy_density);
+        out << regions << "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+        atomic_file.commit_without_sync();
+      }
+
+      void
+      write_animation(const std::vector<WrittenFrame> &frames,
+                      const std::filesystem::path     &file) const override
+      {
+        AtomicFile    atomic_file(file);
+        std::ostream &out = atomic_file.stream();
+        out << "<?xml version=\"1.0\"?>\n"
+            << "<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n"
+            << std::setprecision(12);
+        for (const auto &[time, frame] : frames)
+          out << "<DataSet timestep=\"" << time << "\" file=\"" << frame.filename().string()
+              << "\"/>\n";
+        out << "</Collection>\n</VTKFile>\n";
+        atomic_file.commit();
+      }
+
+    private:
+      const std::string head, piece;    ///< to the points
+      const std::string cells, regions; ///< encoded once, as no frame changes them
+    };
+  } // namespace
+
+  void
+  write_joint_vtu(const Frame                    &frame,
+                  const std::vector<std::string> &pieces,
+                  const std::filesystem::path    &file)
+  {
+    AtomicFile    atomic_file(file);
+    std::ostream &out     = atomic_file.stream();
+    const auto    declare = [&](const std::string &type, const std::string &name, const int n)
+    {
+      out << "<PDataArray type=\"" << type << "\" Name=\"" << name << "\" NumberOfComponents=\""
+          << n << "\"/>\n";
+    };
+    out << "<?xml version=\"1.0\"?>\n"
+        << "<VTKFile type=\"PUnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
+           "header_type=\"UInt64\">\n<PUnstructuredGrid GhostLevel=\"0\">\n<PPoints>\n";
+    declare("Float64", "Points", 3);
+    out << "</PPoints>\n<PPointData>\n";
+    declare("Float64", "displacement", 3);
+    if (frame.velocities.size() > 0)
+      declare("Float64", "velocity", 3);
+    out << "</PPointData>\n<PCellData>\n";
+    for (const std::string name : { "strain_energy_density", "det_F", "von_mises_stress" })
+      declare("Float64", name, 1);
+    declare("Int32", "region", 1);
+    out << "</PCellData>\n";
+    for (const std::string &piece : pieces)
+      out << "<Piece Source=\"" << piece << "\"/>\n";
+    out << "</PUnstructuredGrid>\n</VTKFile>\n";
+    atomic_file.commit_without_sync();
+  }
+
+  std::unique_ptr<const FrameWriter>
+  make_vtu_writer(const FrameSubject &subject)
+  {
+    return std::make_unique<const VtuWriter>(subject.mesh, subject.fe_space);
+  }
+} // namespace Exemplar

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
+#include <exemplar/base/missing_file.h>
+#include <exemplar/mesh/map_name.h>
+#include <exemplar/run/inputs/inputs.h>
+#include <exemplar/run/scene/scene_parameters.h>
+
+namespace Exemplar
+{
+  namespace
+  {
+    /// Whether cells are to be made inside of Mesh/File.
+    bool
+    is_to_be_filled(const MeshParameters &mesh)
+    {
+      return mesh.is_surface() && mesh.generator == MeshGenerator::none;
+    }
+
+    /// Names the key in what `act` throws.
+    template <typename Action>
+    auto
+    under_key(const std::string &key, const Action &act)
+    {
+      try
+      {
+        return act();
+      }
+      catch (const UserError &error)
+      {
+        throw UserError(key + ": " + error.what());
+      }
+    }
+
+    /// Adds to inputs what they do not hold.
+    class InputReader
+    {
+    public:
+      InputReader(const SceneParameters &scene, Inputs &inputs, const Announce &announce)
+          : scene(scene), name(scene.mesh.name()), inputs(inputs), surfaces(scene, announce)
+      {
+      }
+
+      void
+      read()
+      {
+        if (!scene.mesh.file.empty() && (is_to_be_filled(scene.mesh) || inputs.mesh.nodes.empty()))
+          under_key("Mesh/File",
+                    [this] {
+                      require_file(scene.mesh.file,
+                                   "a mesh (.msh or .geo) or of a surface (.obj, .ply or .stl)");
+                    });
+        for_each_pose([this](const std::string &file) { check(file); });
+        if (scene.needs_surface())
+          add_surface();
+        if (inputs.mesh.nodes.empty())
+          inputs.mesh = is_to_be_filled(scene.mesh) ? surfaces.make_mesh() : load_mesh(scene.mesh);
+        for (const HandleParameters &handle : scene.handles)
+          add_nodes(handle.select, "Handles/" + handle.name);
+        for (const LoadParameters &load : scene.loads.named)
+          add_nodes(load.select, "Loads/" + load.name);
+        for_each_pose([this](const std::string &file) { add(file); });
+        inputs.made      = surfaces.get_made();
+        inputs.geo_walls = inputs.mesh.geo_walls;
+      }
+
+    private:
+      /// Whatever pose the scene needs and the inputs do not hold.
+      template <typename Action>
+      void
+      for_each_pose(const Action &act)
+      {
+        const auto act_on_missing = [&](const std::string &file, const std::string &key)
+        {
+          if (!file.empty() && inputs.poses.count(file) == 0)
+            under_key(key, [&] { act(file); });
+        };
+        for (const HandleParameters &handle : scene.handles)
+          act_on_missing(handle.follow_pose, "Handles/" + handle.name + "/Follow pose");
+        if (scene.examples.in_use())
+          for (const std::string &pose : scene.examples.poses)
+            act_on_missing(pose, "Examples/Poses");
+        act_on_missing(scene.initial.pose, "Initial/Pose");
+      }
+
+      void
+      check(const std::string &file)
+      {
+        require_file(file, "a pose: a .msh file, or a surface",
+                     is_surface_file(file) ? scene.mesh.surface_file() : scene.mesh.file);
+        if (is_surface_file(file))
+          surfaces.read_pose(file);
+      }
+
+      void
+      add(const std::string &file)
+      {
+        inputs.poses[file] = is_surface_file(file) ? surfaces.carry(file, inputs.mesh)
+                                                   : read_pose(file, inputs.mesh, name);
+      }
+
+      void
+      add_nodes(const Selection &selection, const std::string &key)
+      {
+        const std::string file = selection.file();
+        if (!file.empty() && inputs.nodes.count(file) == 0)
+          inputs.nodes[file] = read_nodes(file, inputs.mesh, name, key + "/Select");
+      }
+
+      /// And what is painted on it, or moves it.
+      void
+      add_surface()
+      {
+        if (inputs.surface == nullptr)
+          inputs.surface
+              = std::make_shared<const SurfaceMesh>(read_surface(scene.mesh.surface_file()));
+        add_map(scene.material.youngs_modulus_map, "Material/Young's modulus map");
+        add_map(scene.material.poissons_ratio_map, "Material/Poisson's ratio map");
+        add_map(scene.material.density_map, "Material/Density map");
+        if (scene.examples.are_painted())
+          for (const std::string &map : scene.examples.weight_maps)
+            add_map(map, "Examples/Weight maps");
+        for (const HandleParameters &handle : scene.handles)
+        {
+          add_map(handle.select.map(), "Handles/" + handle.name + "/Select");
+          if (!handle.follow_cache.empty() && inputs.caches.count(handle.name) == 0)
+            inputs.caches[handle.name]
+                = under_key("Handles/" + handle.name + "/Follow cache",
+                            [&]
+                            {
+                              return open_point_cache(handle.follow_cache, handle.frames_per_second,
+                                                      *inputs.surface, scene.mesh.surface_file());
+                            });
+        }
+        for (const LoadParameters &load : scene.loads.named)
+          add_map(load.select.map(), "Loads/" + load.name + "/Select");
+      }
+
+      void
+      add_map(const std::string &text, const std::string &key)
+      {
+        if (text.empty())
+          return;
+        const MapName map = split_map_name(text, key);
+        if (inputs.maps.count(map.name()) == 0)
+          inputs.maps[map.name()]
+              = under_key(key,
+                          [&] {
+                            return read_painted_map(map.file, map.attribute, *inputs.surface,
+                                                    scene.mesh.surface_file());
+                          });
+      }
+
+      const SceneParameters &scene;
+      const std::string      name;
+      Inputs                &inputs;
+      SurfaceInputs          surfaces;
+    };
+  } // namespace
+
+  Inputs
+  read_inputs(SceneParameters scene, Inputs given, const Announce &announce)
+  {
+    scene.complete();
+    InputReader(scene, given, announce).read();
+    return given;
+  }
+
+  MshFile
+  load_or_make_mesh(const MeshParameters &parameters)
+  {
+    SceneParameters scene;
+    scene.mesh = parameters;
+    return is_to_be_filled(parameters) ? SurfaceInputs(scene, {}).make_mesh()
+                                       : load_mesh(parameters);
+  }
+} // namespace Exemplar

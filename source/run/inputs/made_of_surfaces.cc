@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/number_text.h>
+#include <exemplar/run/inputs/made_of_surfaces.h>
+
+#include <algorithm>
+
+namespace Exemplar
+{
+  namespace
+  {
+    /// Of the diagonal: what the boundary of a pose may be from its surface without a warning.
+    constexpr double tolerable_error = .02;
+
+    std::string
+    percent(const double share)
+    {
+      return short_text(100. * share) + " %";
+    }
+
+    std::string
+    value_of(const MeshingReport &report, const std::string &what)
+    {
+      const auto found = std::find_if(report.table.begin(), report.table.end(),
+                                      [&](const auto &entry) { return entry.first == what; });
+      return found == report.table.end() ? "?" : found->second;
+    }
+  } // namespace
+
+  std::vector<std::string>
+  lines_of(const MadeOfSurfaces &made)
+  {
+    std::vector<std::string> lines = made.mesh.notes;
+    const auto               value = [&](const char *what) { return value_of(made.mesh, what); };
+    if (!made.mesh.table.empty())
+      lines.push_back("made of the surface: smallest angles from " + value("angle_smallest")
+                      + ", median " + value("angle_median") + " degrees; "
+                      + value("surface_to_mesh_max") + " % of the diagonal from it at most, "
+                      + value("surface_to_mesh_mean") + " % on average");
+    for (const MadeOfSurfaces::Pose &pose : made.poses)
+      lines.push_back(pose.file + ": " + std::to_string(pose.quality.n_inverted)
+                      + " inverted cells, det F from " + short_text(pose.quality.least_det) + " to "
+                      + short_text(pose.quality.greatest_det) + "; "
+                      + percent(pose.quality.greatest_error) + " from the surface at most, "
+                      + percent(pose.quality.mean_error) + " on average");
+    return lines;
+  }
+
+  std::vector<std::string>
+  warnings_of(const MadeOfSurfaces &made)
+  {
+    std::vector<std::string> warnings = made.warnings;
+    for (const MadeOfSurfaces::Pose &pose : made.poses)
+      if (pose.quality.greatest_error > tolerable_error)
+        warnings.push_back(pose.file + ": the mesh is up to " + percent(pose.quality.greatest_error)
+                           + " of its diagonal away from this surface ("
+                           + percent(pose.quality.mean_error)
+                           + " on average). Attach it more strongly, by Examples/Attach, take "
+                             "more cells, or look where the surface passes through itself.");
+    return warnings;
+  }
+} // namespace Exemplar

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/atomic_file.h>
+#include <exemplar/base/errors.h>
+#include <exemplar/base/sealed_file.h>
+#include <exemplar/run/output/checkpoint.h>
+
+#include <boost/archive/binary_iarchive.hpp>
+#include <boost/archive/binary_oarchive.hpp>
+#include <boost/serialization/array.hpp>
+#include <boost/serialization/map.hpp>
+#include <boost/serialization/string.hpp>
+#include <boost/serialization/vector.hpp>
+
+#include <array>
+#include <fstream>
+#include <new>
+#include <sstream>
+#include <stdexcept>
+
+namespace Exemplar
+{
+  /// boost finds it by this name.
+  template <typename Archive>
+  void
+  serialize(Archive &archive, SceneEdit &edit, const unsigned int)
+  {
+    archive &edit.step &edit.before &edit.scene;
+  }
+
+  namespace
+  {
+    /// The first line. The number grows with every change of what follows.
+    const std::string format = "exemplar checkpoint 7";
+
+    const std::string without_resume = " Run the scene without --resume.";
+
+    template <typename Archive>
+    void
+    transfer(Archive &archive, Checkpoint &checkpoint)
+    {
+      State     &state  = checkpoint.state;
+      Work      &work   = checkpoint.work;
+      RunTotals &totals = checkpoint.totals;
+      archive &checkpoint.parameters &checkpoint.input_digests;
+      archive &state.step &state.time &state.positions &state.velocities &state
+          .previous_positions &state.previous_velocities &state.previous_step &state.weights &state
+          .multipliers;
+      archive &work.handles &work.gravity &work.loads;
+      archive &totals.iterations &totals.factorizations &totals.worst_residual;
+      for (double &seconds : totals.seconds)
+        archive &seconds;
+      archive &totals.first_scene &totals.edits;
+      archive &checkpoint.solver_memory &checkpoint.statistics_bytes &checkpoint.statistics_digest;
+    }
+
+    std::array<Vector *, 4>
+    vectors_of(State &state)
+    {
+      return { { &state.positions, &state.velocities, &state.previous_positions,
+                 &state.previous_velocities } };
+    }
+
+    /// What `load` returns. Throws UserError if it does not understand the bytes, which are as
+    /// they were written: then another build of the program has written them.
+    template <typename Load>
+    auto
+    guarded_load(const std::filesystem::path &file, const Load &load)
+    {
+      const UserError foreign(file.string()
+                              + " is a checkpoint that this build of exemplar cannot read."
+                              + without_resume);
+      try
+      {
+        return load();
+      }
+      catch (const boost::archive::archive_exception &)
+      {
+        throw foreign;
+      }
+      catch (const std::length_error &)
+      {
+        throw foreign;
+      }
+      catch (const std::bad_alloc &)
+      {
+        throw foreign;
+      }
+    }
+
+    /// Throws UserError unless `in`, which reads a sealed file, begins with the line of a
+    /// checkpoint of this version; goes behind it.
+    void
+    read_format(std::istream &in, const std::filesystem::path &file)
+    {
+      std::string found(format.size() + 1, '\0');
+      in.read(found.data(), static_cast<std::streamsize>(found.size()));
+      if (!in || found != format + '\n')
+        throw UserError(file.string() + " is no checkpoint of this version of exemplar."
+                        + without_resume);
+    }
+  } // namespace
+
+  void
+  save_checkpoint(const Checkpoint &checkpoint, const std::filesystem::path &file)
+  {
+    AtomicFile    atomic_file(file);
+    SealingBuffer buffer(atomic_file.stream());
+    buffer.sputn((format + '\n').data(), static_cast<std::streamsize>(format.size() + 1));
+    {
+      boost::archive::binary_oarchive archive(buffer);
+      transfer(archive, const_cast<Checkpoint &>(checkpoint)); // saving does not change it
+    }
+    buffer.seal();
+    atomic_file.commit();
+  }
+
+  Checkpoint
+  load_checkpoint(const std::filesystem::path &file)
+  {
+    if (!std::filesystem::exists(file))
+      throw UserError(
+          file.string()
+          + ": there is no checkpoint to resume from. Give the --output of the run that is "
+            "to go on, or run the scene without --resume.");
+    if (n_sealed_bytes(file) == 0) // before anything in it is believed
+      throw UserError(file.string()
+                      + " is damaged, or of another version: its checksum is missing or not that "
+                        "of its bytes."
+                      + without_resume);
+    std::ifstream in(file, std::ios::binary);
+    read_format(in, file);
+    return guarded_load(file,
+                        [&]
+                        {
+                          boost::archive::binary_iarchive archive(in);
+                          Checkpoint                      checkpoint;
+                          transfer(archive, checkpoint);
+                          return checkpoint;
+                        });
+  }
+
+  State
+  whole_state(const Problem &problem)
+  {
+    State state = problem.state;
+    for (Vector *vector : vectors_of(state))
+      if (vector->size() > 0)
+        *vector = whole(problem.body.exchange(), *vector);
+    return state;
+  }
+
+  void
+  share(const Exchange &exchange, Checkpoint &checkpoint)
+  {
+    if (exchange.n_processes() == 1)
+      return;
+    std::ostringstream out;
+    if (exchange.is_root())
+    {
+      boost::archive::binary_oarchive archive(out);
+      transfer(archive, checkpoint);
+    }
+    std::istringstream              in(exchange.first_text(out.str()));
+    boost::archive::binary_iarchive archive(in);
+    transfer(archive, checkpoint);
+  }
+
+  void
+  restore(const Checkpoint &checkpoint, const std::filesystem::path &file, Problem &problem)
+  {
+    guarded_load(file,
+                 [&]
+                 {
+                   const Exchange &exchange = problem.body.exchange();
+                   State           state    = checkpoint.state;
+                   for (Vector *vector : vectors_of(state))
+                     *vector = part(exchange, *vector);
+                   problem.resume_from(state, checkpoint.solver_memory);
+                   return true;
+                 });
+  }
+} // namespace Exemplar

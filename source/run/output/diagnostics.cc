@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/number_text.h>
+#include <exemplar/run/output/diagnostics.h>
+
+#include <numeric>
+
+namespace Exemplar
+{
+  namespace
+  {
+    void
+    append(StatisticsRow &row, const std::string &column, const double value)
+    {
+      row.push_back({ column, value });
+    }
+
+    void
+    append(StatisticsRow &row, const std::string &column, const dealii::Tensor<1, 3> &value)
+    {
+      for (unsigned int c = 0; c < 3; ++c)
+        append(row, column + "_" + "xyz"[c], value[c]);
+    }
+  } // namespace
+
+  std::string
+  StatisticsCell::text() const
+  {
+    if (const double *const number = std::get_if<double>(&value))
+      return shortest_text(*number);
+    if (const unsigned int *const number = std::get_if<unsigned int>(&value))
+      return std::to_string(*number);
+    const std::string *const word = std::get_if<std::string>(&value);
+    return word == nullptr ? "" : *word;
+  }
+
+  Diagnostics::Diagnostics(const Problem &problem)
+      : problem(problem), last_positions(problem.state.positions)
+  {
+  }
+
+  void
+  Diagnostics::resume(const Work &earlier)
+  {
+    work           = earlier;
+    last_positions = problem.state.positions;
+  }
+
+  void
+  Diagnostics::add_step()
+  {
+    const State   &state        = problem.state;
+    const Handles *handles      = problem.constraints.handles.get();
+    const Loads   *loads        = problem.actions.loads.get();
+    Vector         displacement = state.positions;
+    displacement -= last_positions;
+    const Exchange &exchange = problem.body.exchange();
+    if (handles != nullptr)
+    {
+      double own = exchange.is_root() ? work.handles : 0.;
+      for (const unsigned int dof : handles->held_dofs())
+        if (exchange.owns(dof / 3))
+          own += problem.evaluation.gradient[dof] * displacement[dof];
+      work.handles = exchange.sum(own);
+    }
+    if (loads != nullptr && loads->has_gravity())
+      work.gravity += loads->ramp_factor(state.time)
+                      * exchange.product(loads->gravity(), displacement);
+    if (loads != nullptr && loads->has_named_loads())
+    {
+      Vector force(displacement.size());
+      loads->named_loads(state.time, force);
+      work.loads += exchange.product(force, displacement);
+    }
+    last_positions = state.positions;
+  }
+
+  StatisticsRow
+  Diagnostics::row(const State &shown, const SolveReport &report) const
+  {
+    const ElasticEvaluation &elastic      = problem.evaluation.elastic;
+    const Mass              *mass         = problem.actions.mass.get();
+    const bool               has_examples = problem.examples.poses != nullptr;
+    const MotionSums         sums = mass != nullptr ? mass->motion_sums(shown) : MotionSums();
+    StatisticsRow            row  = { { "step", shown.step, true },
+                                      { "time", shown.time, true },
+                                      { "status", status_name(report.status), true },
+                                      { "iterations", report.iterations, true },
+                                      { "residual", report.residual, true } };
+    if (report.status == SolveStatus::failed)
+      row.back().value = std::monostate();
+    append(row, "energy_elastic", elastic.energy_elastic);
+    if (has_examples)
+      append(row, "energy_example", elastic.energy_example());
+    if (mass != nullptr)
+      append(row, "energy_kinetic", sums.kinetic_energy);
+    append_terms(row);
+    append_weights(row, shown, report);
+    append(row, "min_det_F", elastic.min_det_F);
+    row.push_back({ "inverted_cells", elastic.inverted_cells });
+    if (has_examples)
+      row.push_back({ "guarded_cells", elastic.guarded_cells });
+    if (mass != nullptr)
+    {
+      append(row, "momentum", sums.momentum);
+      append(row, "angular_momentum", sums.angular_momentum);
+    }
+    append_work(row);
+    if (const Handles *handles = problem.constraints.handles.get())
+      for (unsigned int h = 0; h < handles->size(); ++h)
+        append(row, "reaction_" + handles->name(h),
+               handles->sum_over(h, problem.evaluation.gradient));
+    return row;
+  }
+
+  void
+  Diagnostics::append_terms(StatisticsRow &row) const
+  {
+    const auto                                 &terms = problem.potential.get_terms();
+    std::vector<std::pair<std::string, double>> columns;
+    for (std::size_t i = 0; i < terms.size(); ++i)
+      terms[i]->append_columns(problem.evaluation.term_energies[i], columns);
+    for (const auto &[name, value] : columns)
+      append(row, name, value);
+  }
+
+  void
+  Diagnostics::append_weights(StatisticsRow     &row,
+                              const State       &shown,
+                              const SolveReport &report) const
+  {
+    const ExampleWeights *weights = problem.examples.weights.get();
+    for (unsigned int i = 0; i < shown.weights.size(); ++i)
+      append(row, weights->weight_name("weight", i), shown.weights[i]);
+    if (weights == nullptr || !weights->are_unknown())
+      return;
+    for (unsigned int region = 0; region < shown.multipliers.size(); ++region)
+      append(row, weights->region_name("multiplier", region), shown.multipliers[region]);
+    append(row, "kkt_residual", report.kkt_residual);
+  }
+
+  void
+  Diagnostics::append_work(StatisticsRow &row) const
+  {
+    const Loads *loads = problem.actions.loads.get();
+    if (problem.constraints.handles != nullptr)
+      append(row, "work_handles", work.handles);
+    if (loads != nullptr && loads->has_gravity())
+      append(row, "work_gravity", work.gravity);
+    if (loads != nullptr && loads->has_named_loads())
+      append(row, "work_loads", work.loads);
+  }
+
+  void
+  Diagnostics::append_seconds(StatisticsRow &row, const std::optional<PartSeconds> &seconds)
+  {
+    const auto append_one = [&](const std::string &name, const double value)
+    {
+      row.push_back({ "seconds_" + name });
+      if (seconds)
+        row.back().value = value;
+    };
+    append_one("step", seconds ? std::accumulate(seconds->begin(), seconds->end(), 0.) : 0.);
+    for (unsigned int part = 0; part < n_parts; ++part)
+      if (part != static_cast<unsigned int>(Part::read))
+        append_one(part_names[part], seconds ? (*seconds)[part] : 0.);
+  }
+} // namespace Exemplar

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/agreement.h>
+#include <exemplar/base/atomic_file.h>
+#include <exemplar/base/environment.h>
+#include <exemplar/base/errors.h>
+#include <exemplar/run/frames/vtu_pieces.h>
+#include <exemplar/run/output/frame_output.h>
+#include <exemplar/run/problem/finiteness.h>
+#include <exemplar/surface/files/write_obj.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Exemplar
+{
+  namespace fs = std::filesystem;
+
+  namespace
+  {
+    const FrameFormat &
+    find_format(const std::string &name, const std::vector<FrameFormat> &formats)
+    {
+      std::string allowed;
+      for (const FrameFormat &format : formats)
+      {
+        if (format.name == name)
+          return format;
+        allowed += (allowed.empty() ? "" : ", ") + format.name;
+      }
+      throw UserError("Output/Formats: there is no format '" + name + "'. Allowed: " + allowed
+                      + ".");
+    }
+  } // namespace
+
+  FrameOutput::FrameOutput(Problem                        &problem,
+                           const RunDirectory             &directory,
+                           const std::vector<FrameFormat> &formats)
+      : problem(problem), directory(directory), formats(formats), skin(make_skin()),
+        background(problem.parameters.solver.n_threads > 1)
+  {
+    const OutputParameters &output = problem.parameters.output;
+    for (const std::string &name : output.formats)
+      if (const FrameFormat &format = find_format(name, formats); output.every > 0)
+        writers.emplace_back(&format, format.make_writer({ problem.body.mesh, problem.body.fe_space,
+                                                           problem.surface.get(), playback() }));
+  }
+
+  Playback
+  FrameOutput::playback() const
+  {
+    const SceneParameters &scene = problem.parameters;
+    Playback               result;
+    result.interval = problem.time_axis.step_size(1) * scene.output.every;
+    if (scene.scene == SceneKind::dynamic) // without the last digits of 1 / 0.01
+      result.frames_per_second = std::round(1e6 / result.interval) / 1e6;
+    const auto &g  = scene.loads.gravity;
+    result.z_is_up = std::abs(g[2]) > std::abs(g[1]);
+    return result;
+  }
+
+  std::unique_ptr<const SurfaceSkin>
+  FrameOutput::make_skin() const
+  {
+    const SceneParameters &scene = problem.parameters;
+    if (!scene.output.shows_surface())
+      return nullptr;
+    return std::make_unique<const SurfaceSkin>(*problem.surface, problem.body.mesh,
+                                               scene.mesh.surface_file());
+  }
+
+  Vector
+  FrameOutput::displacement_of_weight(const unsigned int i) const
+  {
+    const ExamplePoses &poses    = *problem.examples.poses;
+    const FESpace      &fe_space = problem.body.fe_space;
+    const unsigned int  region   = i / poses.size();
+    Vector              u        = poses.pose(i % poses.size());
+    u -= fe_space.rest_positions();
+    if (poses.n_regions() == 1)
+      return u;
+    // at a node the mean share of its cells
+    std::vector<double> share(fe_space.n_nodes(), 0.), n_cells(fe_space.n_nodes(), 0.);
+    for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
+      for (const unsigned int node : fe_space.nodes(cell))
+      {
+        n_cells[node] += 1.;
+        share[node] += poses.share(cell, region);
+      }
+    for (unsigned int dof = 0; dof < u.size(); ++dof)
+      u[dof] *= n_cells[dof / 3] > 0. ? share[dof / 3] / n_cells[dof / 3] : 0.;
+    return u;
+  }
+
+  void
+  FrameOutput::write_shapes() const
+  {
+    if (skin == nullptr)
+      return;
+    const std::string faces = obj_faces(*problem.surface);
+    const auto        write = [&](const std::string &name, const Vector &displacement)
+    {
+      AtomicFile file(directory.get_path() / (name + ".obj"));
+      file.stream() << "# a shape by exemplar\n"
+                    << obj_vertices(skin->carry(displacement)) << faces;
+      file.commit();
+    };
+    write("rest", Vector(problem.body.fe_space.n_dofs()));
+    if (const auto &weights = problem.examples.weights; weights != nullptr)
+      for (unsigned int i = 0; i < problem.examples.poses->n_weights(); ++i)
+        write(weights->weight_name("weight", i), displacement_of_weight(i));
+  }
+
+  bool
+  FrameOutput::is_due(const unsigned int step) const
+  {
+    const unsigned int every = problem.parameters.output.every;
+    return every > 0 && (step % every == 0 || step == problem.time_axis.n_steps());
+  }
+
+  void
+  FrameOutput::write(std::optional<SpaceError> space_error)
+  {
+    const State &state = problem.state;
+    Frame        frame = {
+             state.step,       state.time,
+             state.positions,  state.positions,
+             state.velocities, problem.potential.get_cells().cell_results(state.positions, state.weights)
+    };
+    frame.displacement -= problem.body.fe_space.rest_positions();
+    frame.space_error        = std::move(space_error);
+    const Exchange &exchange = problem.body.exchange();
+    do_in_agreement(exchange,
+                    [&]
+                    {
+                      refuse_what_is_not_finite(frame);
+                      background.submit([this, frame = std::move(frame)]() mutable
+                                        { write_files(frame); });
+                    });
+  }
+
+  void
+  FrameOutput::refuse_what_is_not_finite(const Frame &frame)
+  {
+    if (const std::string what = what_is_not_finite(frame.cells); !what.empty())
+      throw SolverFailure("The frame of step " + std::to_string(frame.step) + " would hold " + what
+                          + " that are not finite numbers. Take smaller steps, and look at what "
+                            "handles, loads and Initial do.");
+  }
+
+  void
+  FrameOutput::write_files(Frame &frame) const
+  {
+    const Exchange &exchange = problem.body.exchange();
+    const bool      is_alone = exchange.n_processes() == 1;
+    if (skin != nullptr)
+      frame.surface = skin->carry(frame.displacement);
+    for (const auto &[format, writer] : writers)
+    {
+      directory.require_taken();
+      writer->write(frame, directory.get_path()
+                               / (is_alone ? format->frame_name(frame.step)
+                                           : format->piece_name(frame.step, exchange.process())));
+      if (is_alone || !exchange.is_root())
+        continue;
+      std::vector<std::string> pieces;
+      for (unsigned int process = 0; process < exchange.n_processes(); ++process)
+        pieces.push_back(format->piece_name(frame.step, process));
+      write_joint_vtu(frame, pieces, directory.get_path() / format->joint_name(frame.step));
+    }
+  }
+
+  fs::path
+  FrameOutput::file_of(const FrameFormat &format, const unsigned int step) const
+  {
+    if (const fs::path joint = directory.get_path() / format.joint_name(step);
+        !format.joint_ending.empty() && fs::exists(joint))
+      return joint;
+    return directory.get_path() / format.frame_name(step);
+  }
+
+  bool
+  FrameOutput::is_missing() const
+  {
+    return problem.body.exchange().any(
+        std::any_of(writers.begin(), writers.end(),
+                    [&](const Writer &writer)
+                    { return !fs::exists(file_of(*writer.first, problem.state.step)); }));
+  }
+
+  void
+  FrameOutput::drain()
+  {
+    do_in_agreement(problem.body.exchange(), [&] { background.drain(); });
+  }
+
+  void
+  FrameOutput::write_animations() const
+  {
+    for (const auto &[format, writer] : writers)
+      if (const auto written = written_frames(*format);
+          !format->animation.empty() && !written.empty())
+        writer->write_animation(written, directory.get_path() / format->animation);
+  }
+
+  std::vector<WrittenFrame>
+  FrameOutput::written_frames(const FrameFormat &format) const
+  {
+    std::vector<WrittenFrame> frames;
+    // every step, as Output/Every may have changed at a resume
+    for (unsigned int step = 0; step <= problem.state.step; ++step)
+      if (const fs::path file = file_of(format, step); fs::exists(file))
+        frames.push_back({ problem.time_axis.time(step), file });
+    return frames;
+  }
+
+  void
+  FrameOutput::remove(const unsigned int step) const
+  {
+    std::vector<fs::path> files;
+    for (const fs::directory_entry &entry : fs::directory_iterator(directory.get_path()))
+      for (const FrameFormat &format : formats)
+        if (format.step_of(entry.path().filename().string()) == step
+            && fs::is_regular_file(entry.symlink_status()))
+          files.push_back(entry.path());
+    for (const fs::path &file : files)
+      fs::remove(file);
+  }
+} // namespace Exemplar

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/atomic_file.h>
+#include <exemplar/base/environment.h>
+#include <exemplar/base/message_text.h>
+#include <exemplar/base/version.h>
+#include <exemplar/run/output/summary.h>
+#include <exemplar/run/problem/inventory.h>
+
+#include <deal.II/base/config.h>
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <numeric>
+
+namespace Exemplar
+{
+  namespace
+  {
+    using Json = nlohmann::ordered_json;
+
+    Json
+    support_nodes(const Problem &problem)
+    {
+      Json numbers = Json::array();
+      for (const unsigned int node : problem.constraints.support->nodes)
+        numbers.push_back(problem.body.mesh.contents_of_whole().node_numbers[node]);
+      return numbers;
+    }
+
+    Json
+    seconds_of(const PartSeconds &seconds)
+    {
+      Json json;
+      json["total"] = std::accumulate(seconds.begin(), seconds.end(), 0.);
+      for (unsigned int part = 0; part < n_parts; ++part)
+        json[part_names[part]] = seconds[part];
+      return json;
+    }
+
+    Json
+    memory_of(const std::vector<PartOfProblem> &parts)
+    {
+      Json json;
+      for (const PartOfProblem &part : parts)
+        if (part.bytes)
+          json[part.name] = std::round(static_cast<double>(*part.bytes) / 1048.576) / 1000.;
+      return json;
+    }
+
+    Json
+    errors_of(const SpaceError &error)
+    {
+      Json json;
+      if (!error.failure.empty())
+      {
+        json["failure"] = error.failure;
+        return json;
+      }
+      json["displacement"] = error.displacement;
+      json["energy"]       = error.energy;
+      if (error.weights)
+        json["weights"] = *error.weights;
+      return json;
+    }
+
+    Json
+    mesh_made(const MeshingReport &report)
+    {
+      Json json;
+      for (const auto &[what, value] : report.table)
+        json[what] = Json::parse(value, nullptr, false);
+      json["notes"] = report.notes;
+      return json;
+    }
+
+    /// The numbers that tell whether a pose is good, by the names of poses.csv.
+    Json
+    poses_carried(const std::vector<MadeOfSurfaces::Pose> &poses)
+    {
+      Json json = Json::array();
+      for (const auto &[file, quality] : poses)
+        json.push_back({ { "pose", printable(file) },
+                         { "inverted_cells", quality.n_inverted },
+                         { "min_det_F", quality.least_det },
+                         { "max_det_F", quality.greatest_det },
+                         { "stretch_1", quality.stretch_1 },
+                         { "stretch_99", quality.stretch_99 },
+                         { "surface_error_mean", 100. * quality.mean_error },
+                         { "surface_error_max", 100. * quality.greatest_error } });
+      return json;
+    }
+
+    Json
+    warnings_of(const std::vector<std::string> &warnings)
+    {
+      Json json = Json::array();
+      for (const std::string &warning : warnings)
+        json.push_back(message_text(warning));
+      return json;
+    }
+
+    /// Names of the parts that are there, or of those that are not.
+    Json
+    names_of(const std::vector<PartOfProblem> &parts, const bool is_there)
+    {
+      Json names = Json::array();
+      for (const PartOfProblem &part : parts)
+        if (part.is_there == is_there)
+          names.push_back(part.name);
+      return names;
+    }
+  } // namespace
+
+  void
+  write_summary(Problem                         &problem,
+                const RunTotals                 &totals,
+                const std::optional<SpaceError> &space_error,
+                const std::string               &mesh_sha256,
+                const std::string               &status,
+                const std::vector<std::string>  &warnings,
+                const std::filesystem::path     &file)
+  {
+    const BlasInfo                 blas     = blas_info();
+    const Exchange                &exchange = problem.body.exchange();
+    const double                   peak     = peak_memory_mib();
+    const auto                     n_nodes  = exchange.n_nodes(problem.body.fe_space.n_nodes());
+    const double                   n_free   = exchange.sum(problem.constraints.free_dofs.size());
+    const std::vector<std::size_t> peaks    = exchange.collect({ static_cast<std::size_t>(peak) });
+    const Conditioning             conditioning = problem.conditioning();
+
+    const std::vector<PartOfProblem> parts = inventory(problem);
+
+    Json json;
+    json["program"]      = "exemplar";
+    json["version"]      = EXEMPLAR_VERSION;
+    json["git"]          = EXEMPLAR_GIT_REVISION;
+    json["deal_ii"]      = DEAL_II_PACKAGE_VERSION;
+    json["blas"]         = blas.library;
+    json["blas_core"]    = blas.core;
+    json["blas_threads"] = blas.threads;
+    if (exchange.n_processes() > 1)
+      json["processes"] = exchange.n_processes();
+    json["threads"]          = problem.parameters.solver.n_threads;
+    json["scene"]            = printable(problem.parameters.name);
+    json["mesh"]             = printable(problem.body.mesh.get_name());
+    json["mesh_sha256"]      = mesh_sha256;
+    json["cells"]            = problem.body.mesh.whole().n_cells;
+    json["element"]          = problem.body.fe_space.element() == Element::P1 ? "P1" : "P2";
+    json["nodes"]            = n_nodes;
+    json["dofs"]             = 3 * n_nodes;
+    json["constrained_dofs"] = 3 * n_nodes - static_cast<unsigned int>(n_free);
+    if (problem.constraints.support && exchange.is_root())
+      json["support_nodes"] = support_nodes(problem);
+    if (const auto &made = problem.body.made; made != nullptr)
+    {
+      if (!made->mesh.table.empty())
+        json["mesh_made"] = mesh_made(made->mesh);
+      if (!made->poses.empty())
+        json["poses_carried"] = poses_carried(made->poses);
+    }
+    if (problem.body.geo_walls)
+      json["geo_confinement"] = *problem.body.geo_walls;
+    json["linear_solver"]  = problem.system.bordered().traits().name;
+    json["examples"]       = problem.examples.poses != nullptr ? problem.examples.poses->size() : 0;
+    json["steps"]          = problem.state.step;
+    json["iterations"]     = totals.iterations;
+    json["factorizations"] = totals.factorizations;
+    json["status"]         = status;
+    json["warnings"]       = warnings_of(warnings);
+    json["worst_residual"] = totals.worst_residual;
+    if (space_error)
+      json["space_error"] = errors_of(*space_error);
+    for (const SceneEdit &edit : totals.edits)
+      json["edits"].push_back({ { "step", edit.step }, { "scene_before", edit.before } });
+    if (conditioning.matrix > 0.)
+      json["condition_matrix"] = conditioning.matrix; // null: not definite
+    if (conditioning.schur > 0.)
+      json["condition_schur"] = conditioning.schur;
+    json["seconds"]         = seconds_of(totals.seconds);
+    json["peak_memory_mib"] = peak;
+    if (exchange.n_processes() > 1)
+      json["peak_memory_mib_of_processes"] = peaks;
+    json["bytes_per_cell"]
+        = std::round(1048576.
+                     * (exchange.n_processes() == 1
+                            ? peak
+                            : static_cast<double>(std::accumulate(peaks.begin(), peaks.end(), 0ul)))
+                     / problem.body.mesh.whole().n_cells);
+    json["memory_mib"] = memory_of(parts);
+    json["used"]       = names_of(parts, true);
+    json["left_out"]   = names_of(parts, false);
+
+    if (!exchange.is_root())
+      return;
+    AtomicFile atomic_file(file);
+    atomic_file.stream() << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+    atomic_file.commit();
+  }
+} // namespace Exemplar

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/run/problem/idle_review.h>
+#include <exemplar/run/problem/motion_review.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Exemplar
+{
+  namespace
+  {
+    bool
+    is_at_rest(const Problem &problem)
+    {
+      const Vector &x = problem.state.positions, &v = problem.state.velocities;
+      const Vector &rest   = problem.body.fe_space.rest_positions();
+      const double  little = 1e-12 * problem.body.mesh.diameter();
+      return std::equal(x.begin(), x.end(), rest.begin(),
+                        [&](const double a, const double b) { return std::abs(a - b) <= little; })
+             && std::all_of(v.begin(), v.end(), [](const double a) { return a == 0.; });
+    }
+
+    /// Whether all of these nodes are held in all directions, in this process.
+    bool
+    are_held(const std::vector<unsigned int> &nodes, const std::vector<unsigned int> &held_dofs)
+    {
+      const auto is_held = [&](const unsigned int dof)
+      { return std::binary_search(held_dofs.begin(), held_dofs.end(), dof); };
+      return std::all_of(nodes.begin(), nodes.end(),
+                         [&](const unsigned int node) {
+                           return is_held(3 * node) && is_held(3 * node + 1)
+                                  && is_held(3 * node + 2);
+                         });
+    }
+  } // namespace
+
+  std::vector<std::string>
+  idle_load_warnings(const Problem &problem)
+  {
+    const Handles *const handles = problem.constraints.handles.get();
+    const Loads *const   loads   = problem.actions.loads.get();
+    if (handles == nullptr || loads == nullptr || !loads->has_named_loads())
+      return {};
+    std::vector<std::string>        warnings;
+    const std::vector<unsigned int> held = handles->held_dofs();
+    for (unsigned int load = 0; load < loads->size(); ++load)
+      if (!problem.body.exchange().any(!are_held(loads->nodes(load), held)))
+        warnings.push_back(
+            "Loads/" + loads->name(load)
+            + " moves nothing: handles hold all nodes that it acts on. Select others "
+              "in its Select, or in that of the handle.");
+    return warnings;
+  }
+
+  std::vector<std::string>
+  idle_notes(const Problem &problem)
+  {
+    std::vector<std::string> notes;
+    if (problem.parameters.scene != SceneKind::interpolation && problem.actions.loads == nullptr
+        && problem.examples.poses == nullptr && !problem.body.exchange().any(!is_at_rest(problem))
+        && !is_any_handle_moved(problem))
+      notes.push_back("nothing will happen: no handle moves, no load acts, and the body starts at "
+                      "rest (Handles/NAME/Motion, Loads/Gravity, Loads/Names)");
+    const ExampleWeights *const weights = problem.examples.weights.get();
+    if (problem.parameters.examples.weights_per_region && weights != nullptr
+        && weights->n_regions() == 1)
+      notes.push_back("Examples/Weights per region does nothing: the body has one region");
+    return notes;
+  }
+} // namespace Exemplar

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/prm/expression.h>
+#include <exemplar/run/problem/initial_state.h>
+
+namespace Exemplar
+{
+  State
+  initial_state(const InitialParameters &parameters,
+                const Mesh              &mesh,
+                const FESpace           &fe_space,
+                const ExampleWeights    *weights,
+                const bool               dynamic,
+                const NamedPoses        &poses)
+  {
+    State state;
+    state.positions           = fe_space.rest_positions();
+    const auto set_node_field = [&](const Expression &expression, dealii::Vector<double> &field)
+    {
+      for (unsigned int node = 0; node < fe_space.n_nodes(); ++node)
+      {
+        const dealii::Tensor<1, 3> value = expression.vector(fe_space.rest_position(node), 0.);
+        for (unsigned int c = 0; c < 3; ++c)
+          field[3 * node + c] = value[c];
+      }
+    };
+    if (!parameters.pose.empty())
+    {
+      const auto nodes = fe_space.complete(mesh.find_pose(poses, parameters.pose, "Initial/Pose"),
+                                           "Initial/Pose");
+      for (unsigned int dof = 0; dof < fe_space.n_dofs(); ++dof)
+        state.positions[dof] = nodes[dof / 3][dof % 3];
+    }
+    else if (!parameters.pose_function.empty())
+      set_node_field(Expression("Initial/Pose function", parameters.pose_function, "xyz", 3),
+                     state.positions);
+    if (dynamic)
+    {
+      state.velocities.reinit(fe_space.n_dofs());
+      set_node_field(Expression("Initial/Velocity", parameters.velocity, "xyz", 3),
+                     state.velocities);
+    }
+    if (weights != nullptr)
+      state.weights = weights->initial();
+    if (weights != nullptr && weights->are_unknown())
+      state.multipliers.assign(weights->n_regions(), 0.);
+    return state;
+  }
+} // namespace Exemplar

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/run/problem/inventory.h>
+
+namespace Exemplar
+{
+  namespace
+  {
+    /// 0 if the potential has no term of this name.
+    std::size_t
+    memory_of_term(const Problem &problem, const std::string &name)
+    {
+      std::size_t bytes = 0;
+      for (const auto &term : problem.potential.get_terms())
+        bytes += term->name() == name ? term->memory_consumption() : 0;
+      return bytes;
+    }
+
+    std::size_t
+    memory_of_mass(const Problem &problem)
+    {
+      const Actions &actions = problem.actions;
+      return actions.mass == nullptr ? 0
+                                     : actions.mass->memory_consumption()
+                                           + actions.integrator->memory_consumption()
+                                           + memory_of_term(problem, "inertia");
+    }
+
+    std::size_t
+    memory_of_quasi_newton(const Problem &problem)
+    {
+      return problem.parameters.solver.method == Method::quasi_newton
+                 ? problem.solver->memory_consumption()
+                 : 0;
+    }
+  } // namespace
+
+  std::vector<PartOfProblem>
+  inventory(const Problem &problem)
+  {
+    const TimeParameters &time         = problem.parameters.time;
+    const Actions        &actions      = problem.actions;
+    const ExamplePoses   *poses        = problem.examples.poses.get();
+    const bool            is_dynamic   = actions.mass != nullptr;
+    const bool            has_weights  = problem.potential.unknown_weights() != nullptr;
+    const OperatorTraits  solver       = problem.system.bordered().traits();
+    const auto            solver_is    = [&](const char *name) { return solver.name == name; };
+    const bool            has_gravity  = actions.loads != nullptr && actions.loads->has_gravity();
+    const std::size_t     loads        = memory_of_term(problem, "loads");
+    const std::size_t     quasi_newton = memory_of_quasi_newton(problem);
+    const std::size_t     cells        = problem.body.fe_space.memory_consumption()
+                              + problem.potential.get_cells().memory_consumption();
+    std::vector<PartOfProblem> parts = {
+      { "mesh", {}, problem.body.mesh.memory_consumption() },
+      { "cells", {}, cells },
+      { "quadratic elements", problem.parameters.model.element == Element::P2, {} },
+      { "mass matrix", is_dynamic, memory_of_mass(problem) },
+      { "second-order time scheme", is_dynamic && time.scheme != TimeScheme::implicit_euler, {} },
+      { "mass damping", is_dynamic && time.mass_damping > 0., {} },
+      { "stiffness damping", is_dynamic && time.stiffness_damping > 0., {} },
+      { "handles", problem.constraints.handles != nullptr, {} },
+      { "own support of interpolation", problem.constraints.support.has_value(), {} },
+      { "gravity", has_gravity, has_gravity ? loads : 0 }, // one vector holds both
+      { "loads",
+        actions.loads != nullptr && actions.loads->has_named_loads(),
+        has_gravity ? 0 : loads },
+      { "mean dilatation by patches", problem.body.patches != nullptr, {} },
+      { "example poses", poses != nullptr, poses == nullptr ? 0 : poses->memory_consumption() },
+      { "weight block", has_weights, problem.system.memory_of_weights() },
+      { "weights per region",
+        poses != nullptr && problem.parameters.examples.weights_per_region,
+        {} },
+      { "Schur complement", has_weights && !solver_is("umfpack"), {} },
+      { "CHOLMOD", solver_is("cholesky"), {} },
+      { "algebraic multigrid", solver_is("iterative"), {} },
+      { "UMFPACK", solver_is("umfpack"), {} },
+      { "quasi-Newton method", quasi_newton > 0, quasi_newton },
+      { "estimate of the error in space", problem.inputs != nullptr, {} },
+      { "frame writer", problem.parameters.output.every > 0, {} }
+    };
+    if (solver.bytes > 0)
+      parts.push_back({ "linear solver", {}, solver.bytes });
+    return parts;
+  }
+} // namespace Exemplar

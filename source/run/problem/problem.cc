@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/long_vectors.h>
+#include <exemplar/base/errors.h>
+#include <exemplar/base/number_text.h>
+#include <exemplar/body/pose_checks.h>
+#include <exemplar/run/problem/finiteness.h>
+#include <exemplar/run/problem/initial_state.h>
+#include <exemplar/run/problem/problem.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace Exemplar
+{
+  namespace
+  {
+    /// Angle [rad] by which the cell that holds an interpolation may have turned before the body
+    /// is turned back, because the matrix becomes singular at 90 degrees. With frozen forces the
+    /// body is always turned back, because what they find depends on that cell's rotation.
+    constexpr double max_turn = 0.7;
+
+    SceneParameters
+    completed(SceneParameters parameters)
+    {
+      parameters.complete();
+      parameters.check();
+      return parameters;
+    }
+  } // namespace
+
+  Problem::Problem(SceneParameters scene, Inputs inputs, StepClock running_clock)
+      : parameters(completed(std::move(scene))), clock(std::move(running_clock)),
+        inputs(parameters.output.space_error == SpaceErrorUse::never
+                   ? nullptr
+                   : std::make_shared<const Inputs>(inputs)),
+        time_axis(make_time_axis(parameters)), body(parameters, inputs), surface(inputs.surface),
+        constraints(parameters, body, time_axis, inputs),
+        examples(parameters, body, time_axis, inputs), actions(parameters, body, inputs),
+        potential({ parameters.model, body.fe_space, body.material, body.patches.get(),
+                    examples.poses.get(), examples.weights.get(), constraints.free_dofs,
+                    parameters.solver.n_threads },
+                  actions.make_terms(body),
+                  actions.integrator.get()),
+        system(potential,
+               make_bordered_system(parameters.solver, potential),
+               clock,
+               turns_freely() && !parameters.model.is_frozen()),
+        solver(make_step_solver(
+            parameters.solver, potential, system, constraints.handles.get(), clock)),
+        state(initial_state(parameters.initial,
+                            body.mesh,
+                            body.fe_space,
+                            examples.weights.get(),
+                            parameters.scene == SceneKind::dynamic,
+                            inputs.poses))
+  {
+    constraints.check(parameters, body);
+    if (parameters.scene == SceneKind::interpolation)
+      start_interpolation();
+    start(state);
+    check_start();
+  }
+
+  void
+  Problem::check_start()
+  {
+    const CellResults cells = potential.get_cells().cell_results(state.positions, state.weights);
+    std::string       what  = agreed(what_is_not_finite(state, evaluation));
+    if (what.empty())
+      what = agreed(what_is_not_finite(cells));
+    if (what.empty() && actions.mass != nullptr
+        && !std::isfinite(actions.mass->motion_sums(state).kinetic_energy))
+      what = "kinetic energies";
+    try
+    {
+      potential.residual(state, evaluation);
+    }
+    catch (const SolverFailure &)
+    {
+      what = "forces"; // or the scales by which they are measured
+    }
+    if (!what.empty())
+      throw UserError(
+          parameters.name + ": the " + what
+          + " of the initial state are not finite numbers, or too large to compute with. "
+            "Mesh/Scale, Material, Loads or Initial are too large or too small by many powers of "
+            "ten: look at their units.");
+  }
+
+  std::string
+  Problem::agreed(const std::string &what) const
+  {
+    const bool is_any = body.exchange().any(!what.empty());
+    return is_any && what.empty() ? "numbers" : what;
+  }
+
+  void
+  Problem::start(State &at)
+  {
+    StepClock::Scope scope(clock, Part::evaluate);
+    potential.leave_step();
+    potential.set_time(at.time, at);
+    potential.evaluate(at, RotationUse::update, evaluation);
+  }
+
+  void
+  Problem::start_interpolation()
+  {
+    // the path begins at the pose that it begins with, unless another is asked for
+    if (parameters.initial.pose.empty() && parameters.initial.pose_function.empty())
+    {
+      const auto greatest = std::max_element(state.weights.begin(), state.weights.end());
+      state.positions
+          = examples.poses->pose((greatest - state.weights.begin()) % examples.poses->size());
+    }
+  }
+
+  bool
+  Problem::turns_freely() const
+  {
+    return constraints.support && traits_of(parameters.model.strain).turns_freely;
+  }
+
+  SolveReport
+  Problem::advance()
+  {
+    State              next = state;
+    const unsigned int step = state.step + 1;
+    next.step               = step;
+    if (turns_freely()
+        && turn_to_support(*constraints.support, parameters.model.is_frozen() ? 0. : max_turn,
+                           next.positions, body.exchange()))
+    {
+      solver->forget(); // what it remembers has not turned with the body
+      start(next);
+    }
+    SolveReport report
+        = solver->solve(next, evaluation, time_axis.time(step), time_axis.step_size(step));
+    if (is_success(report.status))
+    {
+      if (actions.integrator != nullptr)
+        actions.integrator->end_step(state, next);
+      if (turns_freely())
+      {
+        align(state.positions, next.positions, body.exchange());
+        start(next);
+      }
+      refuse_what_is_not_finite(next, report);
+    }
+    if (is_success(report.status))
+      state = std::move(next);
+    else
+      solver->forget(); // what it remembers has seen the step that failed
+    return report;
+  }
+
+  void
+  Problem::refuse_what_is_not_finite(const State &next, SolveReport &report)
+  {
+    std::string what
+        = std::isfinite(report.residual) ? what_is_not_finite(next, evaluation) : "residuals";
+    // cubes of such ratios of lengths may be none, where the energies, their squares, are numbers
+    const auto greatest
+        = [&](const Vector &x) { return body.exchange().max(max_entry(x.begin(), x.end())); };
+    what = agreed(what);
+    if (what.empty()
+        && !(greatest(next.positions) < 1e60 * greatest(body.fe_space.rest_positions())))
+      what = agreed(
+          what_is_not_finite(potential.get_cells().cell_results(next.positions, next.weights)));
+    if (what.empty())
+      return;
+    report.status  = SolveStatus::failed;
+    report.failure = "its " + what
+                     + " are not finite numbers, or too large to compute with. Take smaller steps, "
+                       "and look at what handles, loads and Initial do.";
+  }
+
+  void
+  Problem::set_motion(const std::string &handle, Motion motion)
+  {
+    if (constraints.handles == nullptr)
+      throw UserError("There is no handle '" + handle + "' to be moved. Add it to Handles/Names.");
+    constraints.handles->set_motion(handle, std::move(motion));
+  }
+
+  void
+  Problem::resume_from(const State &earlier, const std::string &solver_memory)
+  {
+    state = earlier;
+    solver->forget();
+    if (!solver_memory.empty())
+    {
+      std::istringstream              bytes(solver_memory);
+      boost::archive::binary_iarchive archive(bytes);
+      solver->load(archive);
+      if (bytes.peek() != std::char_traits<char>::eof())
+        throw boost::archive::archive_exception(
+            boost::archive::archive_exception::input_stream_error);
+    }
+    start(state);
+  }
+
+  std::string
+  Problem::solver_memory() const
+  {
+    std::ostringstream bytes;
+    {
+      boost::archive::binary_oarchive archive(bytes);
+      solver->save(archive);
+    }
+    return bytes.str();
+  }
+
+  std::string
+  Problem::failure_message(const SolveReport &report) const
+  {
+    const std::string step = "Step " + std::to_string(state.step + 1);
+    if (report.status == SolveStatus::failed || report.status == SolveStatus::indefinite)
+      return step + (report.status == SolveStatus::failed ? " failed: " : " has no descent: ")
+             + report.failure;
+    std::ostringstream message;
+    const bool         lacks_derivative
+        = parameters.solver.method == Method::fixed_point && examples.poses != nullptr
+          && traits_of(parameters.model.strain).has_rotations && !parameters.model.is_frozen();
+    message << step
+            << (report.status == SolveStatus::stalled ? " stalled"
+                                                      : " stopped at its iteration limit")
+            << ": residual " << report.residual << " after " << report.iterations
+            << " iterations, tolerance " << parameters.solver.tolerance
+            << (lacks_derivative
+                    ? ". The matrix of a fixed point lacks a part of the consistent force's "
+                      "derivative, so it may never converge: set Solver/Method = newton, "
+                      "or Model/Gradient = frozen."
+                : report.load_stages > 0 && parameters.scene == SceneKind::statics
+                    ? " and " + std::to_string(report.load_stages)
+                          + " stages in which the loads were raised. Let them grow over the "
+                            "increments (Loads/Ramp = increments, Time/Increments = 100), or look "
+                            "at the units of Young's modulus, density and lengths."
+                    : ". Take smaller steps (Time/Step or Time/Increments), or change "
+                      "Solver/Tolerance or Solver/Maximum iterations.");
+    return message.str();
+  }
+
+  Conditioning
+  Problem::conditioning() const
+  {
+    Conditioning result;
+    result.matrix                           = system.bordered().traits().pivot_ratio;
+    const dealii::FullMatrix<double> &schur = solver->schur_complement();
+    if (schur.m() > 0)
+      result.schur = condition_number(form_of_differences(schur, examples.weights->n_per_region()));
+    return result;
+  }
+
+  std::vector<std::string>
+  Problem::warnings() const
+  {
+    std::vector<std::string> all = parameters.warnings;
+    all.insert(all.end(), body.mesh.get_warnings().begin(), body.mesh.get_warnings().end());
+    if (parameters.model.gradient == GradientKind::frozen && !parameters.model.is_frozen())
+      all.push_back(
+          "Model/Gradient = frozen holds rotations, which this Model/Strain does not have: "
+          "its forces are the gradient of its energy.");
+    const auto append = [&all](const auto &part)
+    {
+      if (part != nullptr)
+        all.insert(all.end(), part->get_warnings().begin(), part->get_warnings().end());
+    };
+    all.insert(all.end(), body.readings.warnings.begin(), body.readings.warnings.end());
+    if (body.made != nullptr)
+      for (const std::string &warning : warnings_of(*body.made))
+        all.push_back(warning);
+    append(constraints.handles);
+    // statics refuse what can turn
+    for (const std::string &warning : actions.mass != nullptr
+                                          ? constraints.describe_single_nodes(body)
+                                          : constraints.describe_pulled_nodes(parameters, body))
+      all.push_back(warning);
+    if (const std::string &function = parameters.initial.pose_function;
+        !function.empty() && state.step == 0)
+      if (const std::string problem
+          = describe_displacements(function, body.mesh, body.fe_space, state.positions);
+          !problem.empty())
+        all.push_back("Initial/Pose function" + problem);
+    append(examples.poses);
+    append(examples.weights);
+    return all;
+  }
+
+  std::unique_ptr<Problem>
+  make_problem(const SceneParameters &parameters, const ReadInputs &read)
+  {
+    try
+    {
+      const StepClock clock(Part::read);
+      return std::make_unique<Problem>(parameters, read(parameters), clock);
+    }
+    catch (const SolverFailure &failure)
+    {
+      throw UserError(failure.what());
+    }
+  }
+
+  std::unique_ptr<Problem>
+  make_problem(const SceneParameters &parameters, const Announce &announce)
+  {
+    return make_problem(parameters, ReadInputs([&announce](const SceneParameters &scene)
+                                               { return read_inputs(scene, {}, announce); }));
+  }
+} // namespace Exemplar

@@ -1,0 +1,365 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
+#include <exemplar/base/number_text.h>
+#include <exemplar/potential/inertia_term.h>
+#include <exemplar/potential/load_term.h>
+#include <exemplar/run/inputs/shared_inputs.h>
+#include <exemplar/run/problem/problem_parts.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace Exemplar
+{
+  namespace
+  {
+    bool
+    is_dynamic(const SceneParameters &parameters)
+    {
+      return parameters.scene == SceneKind::dynamic;
+    }
+
+    std::unique_ptr<Handles>
+    make_handles(const SceneParameters &parameters,
+                 const Body            &body,
+                 const TimeAxis        &axis,
+                 const Inputs          &inputs)
+    {
+      if (parameters.handles.empty())
+        return nullptr;
+      return std::make_unique<Handles>(parameters.handles, body.mesh, body.fe_space, axis,
+                                       inputs.poses, inputs.nodes, body.readings.motions);
+    }
+
+    std::optional<StaticallyDeterminateSupport>
+    make_support(const SceneParameters &parameters, const Body &body)
+    {
+      if (parameters.scene != SceneKind::interpolation)
+        return {};
+      if (body.shared != nullptr)
+        return body.shared->support;
+      return support_near_centroid(body.mesh.get_nodes(), body.mesh.get_cells());
+    }
+
+    /// What this process has of degrees of freedom of the whole body.
+    std::vector<unsigned int>
+    dofs_here(const Exchange &exchange, const std::vector<unsigned int> &in_whole)
+    {
+      std::vector<unsigned int> here;
+      for (const unsigned int dof : in_whole)
+        if (const int node = exchange.node_here(dof / 3); node >= 0)
+          here.push_back(3 * static_cast<unsigned int>(node) + dof % 3);
+      return here;
+    }
+
+    std::string
+    names_of_selections(const std::vector<HandleParameters> &handles)
+    {
+      std::string names;
+      for (const HandleParameters &handle : handles)
+        names += (names.empty() ? "Handles/" : " or Handles/") + handle.name + "/Select";
+      return names;
+    }
+
+    /// The least radius about a node [m] within which a whole cell lies.
+    double
+    reach_of_a_cell(const Body &body, const unsigned int node)
+    {
+      double least = std::numeric_limits<double>::max();
+      for (const auto &cell : body.mesh.get_cells())
+        if (std::find(cell.begin(), cell.end(), node) != cell.end())
+        {
+          double reach = 0.;
+          for (const unsigned int corner : cell)
+            reach = std::max(reach,
+                             body.mesh.get_nodes()[corner].distance(body.mesh.get_nodes()[node]));
+          least = std::min(least, reach);
+        }
+      return least;
+    }
+
+    std::vector<unsigned int>
+    held_dofs(const SceneParameters &parameters, const Body &body, const Constraints &constraints)
+    {
+      if (constraints.support)
+        return dofs_here(body.exchange(), constraints.support->held_dofs);
+      if (constraints.handles == nullptr)
+        return {};
+      const std::vector<unsigned int> held = constraints.handles->held_dofs();
+      if (!body.exchange().any(held.size() < body.fe_space.n_dofs()))
+        throw UserError(parameters.name
+                        + ": the handles hold every node, so there is nothing to solve. Make "
+                        + names_of_selections(parameters.handles)
+                        + " smaller; it counts in metres, in which the body is "
+                        + short_text(body.mesh.diameter()) + " large.");
+      return held;
+    }
+
+    std::unique_ptr<Loads>
+    make_loads(const SceneParameters &parameters, const Body &body, const Inputs &inputs)
+    {
+      if (parameters.loads.empty())
+        return nullptr;
+      return std::make_unique<Loads>(parameters.loads, body.mesh, body.fe_space, body.material,
+                                     inputs.nodes, parameters.material.mass_matrix);
+    }
+
+    /// Whether steps descend on one energy, the same before and after a step.
+    bool
+    has_one_energy(const SceneParameters &parameters)
+    {
+      return !parameters.examples.in_use()
+             || (parameters.examples.weights != WeightRule::prescribed
+                 && !parameters.model.is_frozen());
+    }
+
+    std::unique_ptr<ExamplePoses>
+    make_poses(const SceneParameters &parameters, const Body &body, const Inputs &inputs)
+    {
+      if (!parameters.examples.in_use())
+        return nullptr;
+      return std::make_unique<ExamplePoses>(parameters.examples, parameters.model.strain, body.mesh,
+                                            body.fe_space, body.material, body.patches.get(),
+                                            inputs.poses, body.readings.shares);
+    }
+
+    std::unique_ptr<ExampleWeights>
+    make_weights(const SceneParameters &parameters,
+                 const Body            &body,
+                 const ExamplePoses    *poses,
+                 const TimeAxis        &axis)
+    {
+      if (poses == nullptr)
+        return nullptr;
+      return std::make_unique<ExampleWeights>(parameters.examples, *poses,
+                                              unit_energy(body.fe_space, body.material), axis);
+    }
+
+    /// Operations of a factorisation, for each value of the matrix, from which multigrid is faster:
+    /// measured, doc/speed.md. Columns of weights beside the right side take conjugate gradients as
+    /// long as that; quasi-Newton's method finds them with each new matrix alone.
+    double
+    operations_at_crossover(const Method method, const unsigned int n_examples)
+    {
+      return method == Method::quasi_newton ? 1e4 * (1. + 0.25 * n_examples)
+                                            : 1.75e4 * (1. + n_examples);
+    }
+
+    /// Residual of a linear solve over its right side. Newton's method and the fixed point
+    /// correct the rest in their next iteration; one pass has none, and Schur complements
+    /// are small differences of what these solves give.
+    constexpr double tolerance_of_iterations = 1e-4, tolerance_of_last_word = 1e-8;
+
+    /// A Cholesky factorisation for a pattern, unless it is to be chosen and is not worth it.
+    std::unique_ptr<SpdOperator>
+    find_cholesky_operator(const SolverParameters &solver,
+                           const unsigned int      n_processes,
+                           const unsigned int      n_examples,
+                           const SymmetricPattern &pattern)
+    {
+      if (solver.linear_solver == LinearSolver::iterative || n_processes > 1)
+        return nullptr;
+      const bool may_choose
+          = solver.linear_solver == LinearSolver::automatic && has_iterative_operator();
+      auto matrix = make_cholesky_operator();
+      try
+      {
+        matrix->reinit(pattern);
+      }
+      catch (const SolverFailure &)
+      {
+        if (!may_choose)
+          throw;
+        return nullptr; // too large for its library
+      }
+      if (may_choose
+          && matrix->traits().n_operations
+                 > operations_at_crossover(solver.method, n_examples) * pattern.n_values())
+        return nullptr;
+      return matrix;
+    }
+  } // namespace
+
+  TimeAxis
+  make_time_axis(const SceneParameters &parameters)
+  {
+    return is_dynamic(parameters) ? TimeAxis::of_dynamics(parameters.time)
+                                  : TimeAxis::of_increments(parameters.time);
+  }
+
+  namespace
+  {
+    Mesh
+    make_mesh(const MeshParameters &parameters, Inputs &inputs)
+    {
+      if (inputs.shared != nullptr)
+        return Mesh(std::move(inputs.shared->mesh), parameters.name(), parameters.scale);
+      return Mesh(std::move(inputs.mesh), parameters.name(), parameters.scale);
+    }
+
+    /// The root has read what processes share.
+    SurfaceReadings
+    make_readings(const SceneParameters &parameters, const Mesh &mesh, const Inputs &inputs)
+    {
+      if (inputs.shared == nullptr)
+        return read_off_surface(parameters, mesh, inputs);
+      return { {}, inputs.shared->material, inputs.shared->shares, {}, {} };
+    }
+
+    std::unique_ptr<const Patches>
+    make_patches(const SceneParameters &parameters,
+                 const Mesh            &mesh,
+                 const FESpace         &fe_space,
+                 const Material        &material,
+                 const SharedBody      *shared)
+    {
+      if (!parameters.model.has_patches())
+        return nullptr;
+      if (shared != nullptr)
+        return std::make_unique<const Patches>(shared->patches, fe_space, material);
+      return std::make_unique<const Patches>(mesh, fe_space, material);
+    }
+  } // namespace
+
+  Body::Body(const SceneParameters &parameters, Inputs &inputs)
+      : mesh(make_mesh(parameters.mesh, inputs)), readings(make_readings(parameters, mesh, inputs)),
+        material(parameters.material,
+                 mesh.get_material_ids(),
+                 mesh.get_contents(),
+                 readings.material,
+                 &mesh.whole().material_ids),
+        fe_space(mesh, parameters.model.element),
+        patches(make_patches(parameters, mesh, fe_space, material, inputs.shared.get())),
+        made(inputs.made), geo_walls(inputs.geo_walls), shared(inputs.shared)
+  {
+    inputs.nodes.insert(readings.nodes.begin(), readings.nodes.end());
+  }
+
+  Constraints::Constraints(const SceneParameters &parameters,
+                           const Body            &body,
+                           const TimeAxis        &axis,
+                           const Inputs          &inputs)
+      : handles(make_handles(parameters, body, axis, inputs)),
+        support(make_support(parameters, body)),
+        free_dofs(body.fe_space.n_dofs(), held_dofs(parameters, body, *this), body.exchange())
+  {
+    if (body.exchange().any(free_dofs.size() == 0))
+      throw UserError(parameters.name + ": of " + std::to_string(body.exchange().n_processes())
+                      + " processes some would have no node to move. Start fewer with mpirun -n.");
+  }
+
+  namespace
+  {
+    /// Of a handle with a single node.
+    std::string
+    remedy_of_single_node(const Handles &handles, const unsigned int h, const Body &body)
+    {
+      const auto  &nodes = handles.nodes(h);
+      const double reach = body.exchange().min(nodes.empty() ? std::numeric_limits<double>::max()
+                                                             : reach_of_a_cell(body, nodes[0]));
+      return "Enlarge Handles/" + handles.name(h) + "/Select by " + short_text(1.01 * reach)
+             + " m, and it holds a whole tetrahedron.";
+    }
+  } // namespace
+
+  std::vector<std::string>
+  Constraints::describe_single_nodes(const Body &body) const
+  {
+    std::vector<std::string> all;
+    for (unsigned int h = 0; handles != nullptr && h < handles->size(); ++h)
+      if (handles->n_nodes(h) == 1)
+        all.push_back("Handle '" + handles->name(h)
+                      + "' holds a single node, about which the body can turn. "
+                      + remedy_of_single_node(*handles, h, body));
+    return all;
+  }
+
+  std::vector<std::string>
+  Constraints::describe_pulled_nodes(const SceneParameters &parameters, const Body &body) const
+  {
+    const HandleParameters   usual;
+    std::vector<std::string> all;
+    for (unsigned int h = 0; handles != nullptr && h < handles->size(); ++h)
+      if (const HandleParameters &handle = parameters.handles[h];
+          handle.select.is_of_space() && handle.motion != usual.motion
+          && handle.components == usual.components && handles->n_nodes(h) == 1)
+        all.push_back("Handle '" + handle.name + "' pulls at the single node in its "
+                      + handle.select.text
+                      + ", so the strain there depends on the size of the cells. "
+                      + remedy_of_single_node(*handles, h, body));
+    return all;
+  }
+
+  void
+  Constraints::check(const SceneParameters &parameters, const Body &body) const
+  {
+    if (parameters.scene != SceneKind::statics)
+      return;
+    const unsigned int n_free = n_free_rigid_motions(body.mesh, body.fe_space.rest_positions(),
+                                                     held_dofs(parameters, body, *this));
+    std::string        single_nodes;
+    for (const std::string &sentence : describe_single_nodes(body))
+      single_nodes += " " + sentence;
+    if (n_free > 0)
+      throw UserError(
+          parameters.name + ": the handles leave " + std::to_string(n_free)
+          + " of 6 rigid motions free, so a static scene has no unique equilibrium." + single_nodes
+          + (single_nodes.empty() ? " Add" : " Or add")
+          + " a subsection of Handles that holds three nodes not on a line (a box, a sphere "
+            "or a boundary), or hold more Components.");
+  }
+
+  Examples::Examples(const SceneParameters &parameters,
+                     const Body            &body,
+                     const TimeAxis        &axis,
+                     const Inputs          &inputs)
+      : poses(make_poses(parameters, body, inputs)),
+        weights(make_weights(parameters, body, poses.get(), axis))
+  {
+  }
+
+  Actions::Actions(const SceneParameters &parameters, const Body &body, const Inputs &inputs)
+      : loads(make_loads(parameters, body, inputs)),
+        mass(is_dynamic(parameters) ? std::make_unique<Mass>(
+                 body.fe_space, body.material, parameters.material.mass_matrix)
+                                    : nullptr),
+        integrator(is_dynamic(parameters) ? std::make_unique<TimeIntegrator>(parameters.time)
+                                          : nullptr),
+        energy_is_bounded(integrator != nullptr && integrator->is_undamped_implicit_euler()
+                          && has_one_energy(parameters))
+  {
+  }
+
+  std::vector<std::unique_ptr<PotentialTerm>>
+  Actions::make_terms(const Body &body) const
+  {
+    std::vector<std::unique_ptr<PotentialTerm>> terms;
+    if (mass != nullptr)
+      terms.push_back(std::make_unique<InertiaTerm>(*mass, *integrator, energy_is_bounded));
+    if (loads != nullptr)
+      terms.push_back(std::make_unique<LoadTerm>(*loads, body.fe_space.rest_positions()));
+    return terms;
+  }
+
+  std::unique_ptr<BorderedSystem>
+  make_bordered_system(const SolverParameters &solver, const IncrementalPotential &potential)
+  {
+    const SymmetricPattern &pattern = potential.matrix_pattern();
+    const ExampleWeights   *weights = potential.unknown_weights();
+    const WeightForm       *form    = weights != nullptr ? &weights->weight_form() : nullptr;
+    if (solver.linear_solver == LinearSolver::umfpack)
+      return make_umfpack_system(pattern, form);
+    const unsigned int n_examples = form != nullptr ? form->coupled.size() : 0;
+    const Exchange    &exchange   = potential.get_free_dofs().exchange();
+    auto matrix = find_cholesky_operator(solver, exchange.n_processes(), n_examples, pattern);
+    if (matrix == nullptr)
+    {
+      const bool is_last_word = solver.method == Method::one_pass || n_examples > 0;
+      matrix                  = make_iterative_operator(potential.get_free_dofs(), is_last_word
+                                                                                       ? tolerance_of_last_word
+                                                                                       : tolerance_of_iterations);
+      matrix->reinit(pattern);
+    }
+    return make_block_system(std::move(matrix), form, exchange);
+  }
+} // namespace Exemplar

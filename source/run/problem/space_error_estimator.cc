@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
+#include <exemplar/body/supports.h>
+#include <exemplar/kernels/cell_model.h>
+#include <exemplar/run/problem/space_error_estimator.h>
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <stdexcept>
+
+namespace Exemplar
+{
+  namespace
+  {
+    /// The scene in quadratic elements, of which a system is solved and no step is made.
+    SceneParameters
+    quadratic_scene(SceneParameters scene)
+    {
+      scene.model.element = Element::P2;
+      if (traits_of(scene.model.strain).has_patches)
+        scene.model.dilatation = DilatationKind::patches;
+      scene.initial                = InitialParameters();
+      scene.output                 = OutputParameters();
+      scene.output.every           = 0;
+      scene.time.scheme            = TimeScheme::implicit_euler;
+      scene.time.mass_damping      = 0.;
+      scene.time.stiffness_damping = 0.;
+      return scene;
+    }
+
+    /// Of a linear field: in the middle of an edge the mean of its ends.
+    Vector
+    on_quadratic_nodes(const FESpace &fe_space, const Vector &linear)
+    {
+      Vector field(fe_space.n_dofs());
+      for (unsigned int dof = 0; dof < field.size(); ++dof)
+        if (dof < linear.size())
+          field[dof] = linear[dof];
+        else
+          for (const unsigned int end : fe_space.edge_of(dof / 3))
+            field[dof] += 0.5 * linear[3 * end + dof % 3];
+      return field;
+    }
+
+    /// The forces on linear shape functions, which are sums of quadratic ones [N].
+    Vector
+    on_linear_nodes(const FESpace &fe_space, const Vector &quadratic, const unsigned int n_dofs)
+    {
+      Vector forces(n_dofs);
+      for (unsigned int dof = 0; dof < quadratic.size(); ++dof)
+        if (dof < n_dofs)
+          forces[dof] += quadratic[dof];
+        else
+          for (const unsigned int end : fe_space.edge_of(dof / 3))
+            forces[3 * end + dof % 3] += 0.5 * quadratic[dof];
+      return forces;
+    }
+
+    /// The step of implicit Euler [s] in which an error's inertia is that of one which has grown
+    /// with the square of time since the scene began: d'' = 2 d / t^2.
+    double
+    growth_time(const Problem &problem)
+    {
+      return std::max(problem.state.time, problem.time_axis.step_size(1)) / std::sqrt(2.);
+    }
+
+    /// What the forces would accelerate free nodes by, with the mass of each lumped [m/s^2].
+    Vector
+    accelerations(const Problem &problem, const Vector &gradient)
+    {
+      Vector ones(gradient.size());
+      ones              = 1.;
+      const Vector mass = problem.actions.mass->times(ones);
+      Vector       a(gradient.size());
+      for (const unsigned int dof : problem.constraints.free_dofs.list())
+        a[dof] = -gradient[dof] / mass[dof];
+      return a;
+    }
+
+    /// (sum V |u|^2)^(1/2) with the volume of each node [m^(5/2)].
+    double
+    norm(const FESpace &fe_space, const Vector &u)
+    {
+      const NodeShares    shares = shares_in_cell(fe_space.element(), ShareRule::lumped);
+      std::vector<double> volumes(fe_space.n_nodes(), 0.);
+      for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
+        fe_space.share_out(fe_space.cell_volume(cell), shares, cell, volumes);
+      double sum = 0.;
+      for (unsigned int dof = 0; dof < u.size(); ++dof)
+        sum += volumes[dof / 3] * u[dof] * u[dof];
+      return std::sqrt(sum);
+    }
+
+    /// From the rest pose; of a body that nothing holds, from where a rigid motion brings that
+    /// nearest.
+    Vector
+    displacement(const Problem &quadratic, const Vector &positions)
+    {
+      Vector rest = quadratic.body.fe_space.rest_positions();
+      if (quadratic.constraints.handles == nullptr)
+        align(positions, rest, quadratic.body.exchange());
+      Vector u = positions;
+      u -= rest;
+      return u;
+    }
+
+    /// Of the strain that a small displacement from `positions` makes, by cell [J/m^3].
+    std::vector<double>
+    energy_densities(const Problem &linear,
+                     const Problem &quadratic,
+                     const Vector  &positions,
+                     const Vector  &displacement)
+    {
+      const FESpace &fe_space = quadratic.body.fe_space;
+      // dilatations that patches leave free within them are no error
+      const Patches      *patches = linear.body.patches.get();
+      std::vector<double> densities(fe_space.n_cells(), 0.);
+      std::vector<double> traces(patches == nullptr ? fe_space.n_cells() : patches->size(), 0.);
+      const auto          part_of = [&](const unsigned int cell)
+      { return patches == nullptr ? cell : patches->of_point(cell); };
+      const auto volume_of = [&](const unsigned int cell)
+      {
+        return patches == nullptr ? fe_space.cell_volume(cell)
+                                  : patches->volume(patches->of_point(cell));
+      };
+      for (unsigned int point = 0; point < fe_space.n_points(); ++point)
+      {
+        const unsigned int          cell = fe_space.cell_of(point);
+        const CellMaterial<double> &C    = quadratic.body.material.elasticity(cell);
+        const Matrix3<double>       F    = fe_space.deformation_gradient(point, positions);
+        // the change of R^T F, of Green's strain that of F^T F / 2
+        const StrainMeasure   strain = quadratic.parameters.model.strain;
+        const Matrix3<double> R = strain == StrainMeasure::green ? F : model_rotation(strain, F);
+        const Matrix3<double> e = symmetric_part(
+            transpose_times(R, fe_space.deformation_gradient(point, displacement)));
+        densities[cell] += 0.5 * fe_space.volume(point) / fe_space.cell_volume(cell)
+                           * contract(stress(C.without_dilatation(), e), e);
+        traces[part_of(cell)] += fe_space.volume(point) / volume_of(cell) * trace(e);
+      }
+      for (unsigned int cell = 0; cell < densities.size(); ++cell)
+        densities[cell] += 0.5 * std::abs(quadratic.body.material.elasticity(cell).lambda)
+                           * traces[part_of(cell)] * traces[part_of(cell)];
+      return densities;
+    }
+  } // namespace
+
+  struct SpaceErrorEstimator::Correction
+  {
+    State      from;  ///< of the linear elements
+    Vector     moves; ///< displacements from there [m]
+    State      to;
+    Evaluation at;        ///< the present state, with the forces that stay
+    Vector     forces;    ///< what is added to all gradients [N]
+    double     work = 0.; ///< of loads and inertia along the moves [J]
+  };
+
+  SpaceErrorEstimator::SpaceErrorEstimator(Problem &problem) : problem(problem) {}
+
+  SpaceErrorEstimator::~SpaceErrorEstimator() = default;
+
+  SpaceErrorEstimator::Correction
+  SpaceErrorEstimator::take_over(const Evaluation &linear)
+  {
+    const FESpace &fe_space = quadratic->body.fe_space;
+    State          at;
+    at.step      = problem.state.step;
+    at.positions = on_quadratic_nodes(fe_space, problem.state.positions);
+    at.weights   = problem.state.weights;
+    quadratic->potential.set_time(problem.state.time, at);
+    Vector inertia(fe_space.n_dofs());
+    if (problem.actions.mass != nullptr)
+    {
+      // a step from where its mass pulls with the force M a
+      const double time  = growth_time(problem);
+      const Vector a     = on_quadratic_nodes(fe_space, accelerations(problem, linear.gradient));
+      State        start = at;
+      start.velocities   = a;
+      start.velocities *= -time;
+      quadratic->potential.begin_step(start, time);
+      inertia = quadratic->actions.mass->times(a);
+    }
+    // linear shape functions see the equilibrium that the linear elements have
+    const Vector seen = on_linear_nodes(fe_space, inertia, linear.gradient.size());
+    Correction   result;
+    result.forces.reinit(fe_space.n_dofs());
+    for (const unsigned int dof : problem.constraints.free_dofs.list())
+      result.forces[dof] = -linear.gradient[dof] - seen[dof];
+    result.from = at;
+    result.to   = at;
+    result.moves.reinit(fe_space.n_dofs());
+    result.at = evaluate(result);
+    return result;
+  }
+
+  Evaluation
+  SpaceErrorEstimator::evaluate(const Correction &correction)
+  {
+    Evaluation evaluation;
+    quadratic->potential.evaluate(correction.to, RotationUse::update, evaluation);
+    evaluation.gradient += correction.forces;
+    evaluation.potential += correction.forces * correction.moves;
+    return evaluation;
+  }
+
+  BorderedVector
+  SpaceErrorEstimator::direction(const Correction &correction)
+  {
+    StepSystem &system = quadratic->system;
+    try
+    {
+      system.factorize(correction.to.positions, correction.to.weights, 0.);
+    }
+    catch (const SolverFailure &) // the exact tangent is not definite
+    {
+      system.factorize(correction.to.positions, correction.to.weights, 1.);
+    }
+    return system.solve(correction.to, correction.at);
+  }
+
+  bool
+  SpaceErrorEstimator::improve(Correction &correction)
+  {
+    const BorderedVector step  = direction(correction);
+    double               slope = quadratic->system.slope(correction.at, step);
+    for (std::size_t i = 0; i < step.weights.size(); ++i)
+      slope += correction.at.elastic.weight_gradient[i] * step.weights[i];
+    // frozen forces have no energy that could tell how long the step may be
+    const bool has_energy = !quadratic->parameters.model.is_frozen();
+    for (double length = 1.; length > 0.05; length *= 0.5)
+    {
+      Correction     trial  = correction;
+      BorderedVector scaled = step;
+      for (auto *part : { &scaled.positions, &scaled.weights })
+        for (double &entry : *part)
+          entry *= length;
+      Vector moves = quadratic->system.displacement(trial.to, scaled);
+      if (problem.constraints.handles == nullptr)
+        remove_rigid_motion(trial.to.positions, moves, problem.body.exchange());
+      trial.moves += moves;
+      trial.to.positions += moves;
+      if (const ExampleWeights *weights = quadratic->potential.unknown_weights())
+        weights->add(scaled.weights, trial.to.weights);
+      trial.at              = evaluate(trial);
+      const double decrease = correction.at.potential - trial.at.potential;
+      if (has_energy && !(decrease >= -1e-4 * length * slope))
+        continue;
+      correction = std::move(trial);
+      // where the potential is not the parabola that the tangent knows, a further step tells more
+      const double expected = -length * (1. - 0.5 * length) * slope;
+      return has_energy
+             && std::abs(decrease - expected) > 1e-3 * correction.at.elastic.energy_elastic;
+    }
+    return false;
+  }
+
+  SpaceErrorEstimator::Correction
+  SpaceErrorEstimator::correct(const Evaluation &linear)
+  {
+    Correction correction = take_over(linear);
+    Vector     forces     = correction.at.gradient; // loads and inertia, which stay as they are
+    forces -= correction.at.elastic.gradient;
+    for (unsigned int iteration = 0; iteration < 10 && improve(correction); ++iteration)
+    {
+    }
+    correction.work = -(forces * correction.moves);
+    return correction;
+  }
+
+  SpaceError
+  SpaceErrorEstimator::estimate()
+  {
+    SpaceError error;
+    try
+    {
+      if (quadratic == nullptr)
+        quadratic = std::make_unique<Problem>(quadratic_scene(problem.parameters), *problem.inputs);
+      const FESpace &fe_space = quadratic->body.fe_space;
+      Evaluation     linear;
+      problem.potential.leave_step();
+      problem.potential.evaluate(problem.state, RotationUse::update, linear);
+      const Correction correction = correct(linear);
+      Vector           u          = displacement(*quadratic, correction.from.positions);
+      u += correction.moves;
+      const ElasticEvaluation &corrected = correction.at.elastic;
+      // what rounding leaves of a body at rest is no error
+      const double length
+          = 1e-10 * problem.body.mesh.diameter() * std::sqrt(fe_space.total_volume());
+      const double energy = 1e-20 * unit_energy(fe_space, problem.body.material);
+      const auto   over   = [](const double part, const double whole, const double least)
+      { return part > least ? part / std::max(whole, part) : 0.; };
+      error.displacement = over(norm(fe_space, correction.moves), norm(fe_space, u), length);
+      error.energy = over(std::abs(corrected.energy - linear.elastic.energy - correction.work),
+                          std::max(corrected.energy_elastic, corrected.energy), energy);
+      if (quadratic->potential.unknown_weights() != nullptr)
+      {
+        error.weights = 0.;
+        for (std::size_t i = 0; i < correction.to.weights.size(); ++i)
+          error.weights = std::max(*error.weights,
+                                   std::abs(correction.to.weights[i] - correction.from.weights[i]));
+      }
+      error.energy_density
+          = energy_densities(problem, *quadratic, correction.from.positions, correction.moves);
+      if (!std::isfinite(error.displacement + error.energy + error.weights.value_or(0.)))
+        throw SolverFailure("its numbers are not finite");
+    }
+    catch (const std::bad_alloc &)
+    {
+      quadratic.reset();
+      error         = SpaceError();
+      error.failure = "there is not enough memory for quadratic elements";
+    }
+    catch (const std::runtime_error &failure) // UserError or SolverFailure
+    {
+      error         = SpaceError();
+      error.failure = failure.what();
+    }
+    return error;
+  }
+} // namespace Exemplar

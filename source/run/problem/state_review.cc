@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/long_vectors.h>
+#include <exemplar/base/number_text.h>
+#include <exemplar/mesh/mesh_checks.h>
+#include <exemplar/mesh/rigid_motion.h>
+#include <exemplar/run/problem/state_review.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <optional>
+
+namespace Exemplar
+{
+  namespace
+  {
+    using CellTest = std::function<bool(unsigned int cell, const Matrix3<double> &F)>;
+
+    /// Element numbers of the cells for which `test` holds somewhere at the problem's state.
+    std::vector<std::size_t>
+    elements_with(const Problem &problem, const CellTest &test)
+    {
+      std::vector<std::size_t> elements;
+      const FESpace           &fe_space = problem.body.fe_space;
+      for (unsigned int point = 0; point < fe_space.n_points(); ++point)
+      {
+        const unsigned int cell    = fe_space.cell_of(point);
+        const std::size_t  element = problem.body.mesh.element_number(cell);
+        if (test(cell, fe_space.deformation_gradient(point, problem.state.positions))
+            && (elements.empty() || elements.back() != element))
+          elements.push_back(element);
+      }
+      const Exchange &exchange = problem.body.exchange();
+      elements                 = exchange.collect(std::move(elements));
+      if (exchange.n_processes() > 1)
+        std::sort(elements.begin(), elements.end());
+      return elements;
+    }
+
+    std::vector<std::size_t>
+    inverted_elements(const Problem &problem)
+    {
+      return elements_with(problem, [](unsigned int, const Matrix3<double> &F)
+                           { return determinant(F) <= 0.; });
+    }
+
+    double
+    greatest_stretch(const Matrix3<double> &F)
+    {
+      const auto squares = symmetric_eigensystem(transpose_times(F, F)).values;
+      return std::sqrt(std::max({ squares[0], squares[1], squares[2] }));
+    }
+
+    /// 1 + 1/nu: a free cell that is stretched further would be thinner than nothing.
+    double
+    stretch_limit(const CellMaterial<double> &material)
+    {
+      return 3. + 2. * material.mu / std::max(material.lambda, 0.);
+    }
+
+    std::string
+    describe_end(const Problem &problem, const std::vector<std::size_t> &inverted)
+    {
+      const bool is_equilibrium = problem.parameters.scene != SceneKind::dynamic
+                                  && problem.parameters.solver.method != Method::one_pass;
+      return std::to_string(inverted.size()) + " cells are inverted at the end: element "
+             + list_numbers(inverted)
+             + (is_equilibrium ? ". The state is an equilibrium, but there may be one of less "
+                                 "energy: look at the frames, or take smaller steps ("
+                               : ". Look at the frames, or take smaller steps (")
+             + (problem.parameters.scene == SceneKind::dynamic
+                    ? "Time/Step"
+                    : "Time/Increments, now " + std::to_string(problem.parameters.time.increments))
+             + ").";
+    }
+
+    std::optional<std::string>
+    describe_stretched(const Problem &problem)
+    {
+      if (!traits_of(problem.parameters.model.strain).has_guard)
+        return {};
+      double     limit    = std::numeric_limits<double>::max();
+      const auto elements = elements_with(
+          problem,
+          [&](const unsigned int cell, const Matrix3<double> &F)
+          {
+            const double of_cell = stretch_limit(problem.body.material.elasticity(cell));
+            if (!(contract(F, F) > of_cell * of_cell && greatest_stretch(F) > of_cell))
+              return false;
+            limit = std::min(limit, of_cell);
+            return true;
+          });
+      limit = problem.body.exchange().min(limit);
+      if (elements.empty())
+        return {};
+      return std::to_string(elements.size())
+             + " cells are stretched to more than 1 + 1/nu = " + short_text(limit)
+             + " times their length at the end: element " + list_numbers(elements)
+             + ". Poisson's ratio nu would make them thinner than nothing, so their forces mean "
+               "little. Pull less, or take a smaller Material/Poisson's ratio.";
+    }
+
+    /// The example that prescribed weights name as the only one, if they do in all regions.
+    std::optional<unsigned int>
+    only_example(const Problem &problem)
+    {
+      const ExamplePoses *poses = problem.examples.poses.get();
+      if (poses == nullptr || poses->importance() != 1.)
+        return {};
+      std::optional<unsigned int> only;
+      for (unsigned int weight = 0; weight < problem.state.weights.size(); ++weight)
+      {
+        const double       value   = problem.state.weights[weight];
+        const unsigned int example = weight % poses->size();
+        if (std::abs(value) < 1e-12)
+          continue;
+        if (std::abs(value - 1.) > 1e-12 || (only && *only != example))
+          return {};
+        only = example;
+      }
+      return only;
+    }
+
+    std::vector<dealii::Point<3>>
+    points_of(const Vector &positions)
+    {
+      std::vector<dealii::Point<3>> points;
+      for (unsigned int dof = 0; dof < positions.size(); dof += 3)
+        points.emplace_back(positions[dof], positions[dof + 1], positions[dof + 2]);
+      return points;
+    }
+
+    /// An interpolation that has not arrived where it should.
+    std::optional<std::string>
+    describe_miss(const Problem &problem)
+    {
+      const auto example = only_example(problem);
+      if (problem.parameters.scene != SceneKind::interpolation || !example)
+        return {};
+      const Exchange &exchange = problem.body.exchange();
+      const auto      reached  = points_of(whole(exchange, problem.state.positions, true));
+      const auto pose = points_of(whole(exchange, problem.examples.poses->pose(*example), true));
+      const RigidMotion motion = best_rigid_motion(pose, reached);
+      double            miss   = 0.;
+      for (std::size_t node = 0; node < pose.size(); ++node)
+        miss = std::max(miss, reached[node].distance(motion(pose[node])));
+      miss /= problem.body.mesh.diameter();
+      if (!(miss > 1e-4))
+        return {};
+      return "The interpolation ends beside example " + std::to_string(*example) + " ("
+             + problem.examples.poses->name(*example) + "), by up to " + short_text(100. * miss)
+             + " % of the body's size: another state has its strains, or less energy, as where an "
+               "example has inverted cells. Look at the frames, or take smaller steps"
+             + (problem.body.patches != nullptr ? ", or Model/Dilatation = cells." : ".");
+    }
+
+    /// Whether nothing acts on the body that the rest pose could not bear without strain.
+    bool
+    is_unloaded(const Problem &problem)
+    {
+      const ExampleWeights *weights = problem.examples.weights.get();
+      if (problem.parameters.scene != SceneKind::statics || problem.actions.loads != nullptr
+          || (weights != nullptr && !weights->are_unknown()))
+        return false;
+      const Vector &rest = problem.body.fe_space.rest_positions();
+      Vector        held = rest;
+      problem.constraints.handles->move(problem.state.time, held);
+      held -= rest;
+      return problem.body.exchange().max(max_entry(held.begin(), held.end()))
+             < 1e-10 * problem.body.mesh.diameter();
+    }
+  } // namespace
+
+  StateReview::StateReview(const Problem &problem) : problem(problem) {}
+
+  void
+  StateReview::add_step(const SolveReport &report)
+  {
+    if (report.load_stages > 0 && first_raised == 0)
+      first_raised = problem.state.step;
+    const unsigned int n_cells = problem.evaluation.elastic.inverted_cells;
+    if (n_cells == 0)
+      return;
+    if (inversions.n_steps == 0)
+    {
+      inversions.first_step = problem.state.step;
+      inversions.elements   = inverted_elements(problem);
+    }
+    ++inversions.n_steps;
+    if (n_cells <= inversions.n_cells)
+      return;
+    inversions.n_cells    = n_cells;
+    inversions.worst_step = problem.state.step;
+  }
+
+  std::vector<std::string>
+  StateReview::warnings() const
+  {
+    std::vector<std::string> all;
+    if (const auto inverted = inverted_elements(problem); !inverted.empty())
+      all.push_back(describe_end(problem, inverted));
+    else if (inversions.n_steps > 0)
+      all.push_back("Cells were inverted in " + std::to_string(inversions.n_steps)
+                    + (inversions.n_steps == 1 ? " step" : " steps") + " on the way, up to "
+                    + std::to_string(inversions.n_cells) + " in step "
+                    + std::to_string(inversions.worst_step) + ", first in step "
+                    + std::to_string(inversions.first_step) + ": element "
+                    + list_numbers(inversions.elements)
+                    + ". At the end none is. Smaller steps may avoid it.");
+    if (first_raised > 0)
+      all.push_back("Step " + std::to_string(first_raised)
+                    + " stalled under its whole load, so its loads were raised in stages within "
+                      "the step. "
+                    + (problem.parameters.scene == SceneKind::statics
+                           ? "Loads/Ramp = increments raises them over the increments, with frames "
+                             "of the way."
+                           : "Smaller steps (Time/Step) may avoid it."));
+    for (const auto &warning : { describe_stretched(problem), describe_miss(problem) })
+      if (warning)
+        all.push_back(*warning);
+    // strains of 1e-4 are no accident
+    const double energy = problem.evaluation.elastic.energy;
+    if (is_unloaded(problem)
+        && energy > 1e-8 * unit_energy(problem.body.fe_space, problem.body.material))
+      all.push_back(
+          "Nothing loads the body, but it has come to rest in a local minimum of its energy at "
+          + shortest_text(energy)
+          + " J, where the rest pose has less: Initial/Pose may be too far from it.");
+    return all;
+  }
+} // namespace Exemplar

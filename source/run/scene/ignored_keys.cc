@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/run/scene/ignored_keys.h>
+
+#include <algorithm>
+
+namespace Exemplar
+{
+  namespace
+  {
+    /// Keys that do nothing in some scenes.
+    struct Ignored
+    {
+      bool                     are_ignored;
+      std::vector<std::string> keys;
+      std::string              why; ///< and the remedy, behind "does nothing "
+    };
+
+    std::vector<Ignored>
+    kinds_of_ignored(const SceneParameters &scene)
+    {
+      const bool is_dynamic = scene.scene == SceneKind::dynamic;
+      const bool has_examples
+          = scene.examples.n_examples() > (scene.examples.include_rest_pose ? 1 : 0);
+      return {
+        { !is_dynamic,
+          { "Time/Step", "Time/End", "Time/Scheme", "Time/Mass damping", "Time/Stiffness damping",
+            "Initial/Velocity" },
+          "in a scene that is not dynamic: its t goes from 0 to 1 in Time/Increments = "
+              + std::to_string(scene.time.increments)
+              + " steps. Remove it, or set Scene = dynamic." },
+        { is_dynamic,
+          { "Time/Increments" },
+          "in a dynamic scene, whose steps come from Time/Step and Time/End. Remove it, or "
+          "set Scene = static." },
+        { !has_examples && scene.examples.importance > 0.,
+          { "Examples/Importance", "Examples/Weights", "Examples/Energy" },
+          "without examples. Give Examples/Poses or Examples/Pose functions, or remove it." },
+        { scene.mesh.generator != MeshGenerator::box,
+          { "Mesh/Box size", "Mesh/Box cells" },
+          "without Mesh/Generator = box. Remove it, or set that instead of Mesh/File." },
+        { !scene.mesh.is_surface(),
+          { "Mesh/Cells", "Mesh/Repair" },
+          "unless Mesh/File is a surface. Remove it." }
+      };
+    }
+  } // namespace
+
+  std::vector<std::string>
+  warn_of_ignored_keys(const SceneParameters         &scene,
+                       const KeyTable                &keys,
+                       const std::vector<Assignment> &given)
+  {
+    std::vector<std::string>       warnings;
+    const std::vector<DeclaredKey> all    = keys.keys();
+    const auto                     n_keys = std::count_if(
+                            all.begin(), all.end(), [](const DeclaredKey &key) { return key.subsections.size() < 2; });
+    const bool is_printed
+        = static_cast<std::ptrdiff_t>(given.size()) >= n_keys; // as parameters.prm
+    for (const Ignored &kind : kinds_of_ignored(scene))
+      for (const DeclaredKey &key : all)
+      {
+        const bool is_one = std::count(kind.keys.begin(), kind.keys.end(), key.path()) > 0;
+        const bool is_set = !is_printed || key.value != key.default_value;
+        const Assignment *const first = find_assignment(given, key.path());
+        if (kind.are_ignored && is_one && is_set && first != nullptr)
+          warnings.push_back(first->place + ": " + key.path() + " = " + first->value
+                             + " does nothing " + kind.why);
+      }
+    for (const LoadParameters &load : scene.loads.named)
+      if (load.force == LoadParameters().force)
+        warnings.push_back("Loads/" + load.name + " does nothing: its Force is " + load.force
+                           + ". Set Loads/" + load.name + "/Force, or remove it from Loads/Names.");
+    const auto add_doubt = [&](const Selection &selection, const std::string &key)
+    {
+      if (const std::string doubt = selection.doubt(); !doubt.empty())
+        warnings.push_back(key + "/Select = '" + selection.text + "': " + doubt);
+    };
+    for (const HandleParameters &handle : scene.handles)
+      add_doubt(handle.select, "Handles/" + handle.name);
+    for (const LoadParameters &load : scene.loads.named)
+      add_doubt(load.select, "Loads/" + load.name);
+    return warnings;
+  }
+} // namespace Exemplar

@@ -1,0 +1,328 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
+#include <exemplar/base/nearest_word.h>
+#include <exemplar/mesh/map_name.h>
+#include <exemplar/run/scene/ignored_keys.h>
+#include <exemplar/run/scene/named_subsections.h>
+#include <exemplar/run/scene/scene_file.h>
+#include <exemplar/surface/files/numbered_files.h>
+
+#include <algorithm>
+#include <set>
+
+namespace Exemplar
+{
+  namespace
+  {
+    const EnumTable<SceneKind> scene_kinds = { { SceneKind::interpolation, "interpolation" },
+                                               { SceneKind::statics, "static" },
+                                               { SceneKind::dynamic, "dynamic" } };
+
+    std::vector<Assignment>
+    parse_overrides(const std::vector<std::string> &texts)
+    {
+      std::vector<Assignment> overrides;
+      for (const std::string &text : texts)
+        overrides.push_back(parse_override(text));
+      return overrides;
+    }
+
+    /// Named subsections are the ones two deep: Handles/NAME, Loads/NAME, Material/region N.
+    bool
+    is_named(const Assignment &assignment)
+    {
+      return assignment.subsections.size() > 1;
+    }
+
+    std::set<std::string>
+    sections_of(const std::vector<DeclaredKey> &keys)
+    {
+      std::set<std::string> sections;
+      for (const DeclaredKey &key : keys)
+        if (!key.subsections.empty())
+          sections.insert(key.subsections[0]);
+      return sections;
+    }
+
+    /// The regions that have subsections of Material, by material id or by name.
+    struct Regions
+    {
+      std::set<unsigned int> ids;
+      std::set<std::string>  names;
+    };
+
+    Regions
+    material_regions(const std::vector<Assignment> &assignments)
+    {
+      const std::string prefix = "region ";
+      Regions           regions;
+      for (const Assignment &a : assignments)
+        if (is_named(a) && a.subsections[0] == "Material")
+        {
+          const std::string &subsection = a.subsections[1];
+          if (subsection.compare(0, prefix.size(), prefix) != 0
+              || subsection.size() == prefix.size())
+            throw UnknownKey(a.place + ": subsection Material/" + subsection
+                             + " is not understood. Subsections of Material are 'region ID' with a "
+                               "material id of the mesh or the name of a Physical Volume.");
+          const std::string name = subsection.substr(prefix.size());
+          const bool        is_number
+              = name.size() < 10 && name.find_first_not_of("0123456789") == std::string::npos;
+          if (is_number)
+            regions.ids.insert(static_cast<unsigned int>(std::stoul(name)));
+          else
+            regions.names.insert(name);
+        }
+      return regions;
+    }
+
+    bool
+    ends_with(const std::string &text, const std::string &end)
+    {
+      return text.size() >= end.size()
+             && text.compare(text.size() - end.size(), end.size(), end) == 0;
+    }
+
+    /// The files of a sequence that are there.
+    void
+    append_sequence(const std::string &pattern, std::vector<std::filesystem::path> &files)
+    {
+      try
+      {
+        for (const std::filesystem::path &file : expand_patterns({ pattern }))
+          files.push_back(file);
+      }
+      catch (const UserError &)
+      {
+        files.emplace_back(pattern); // who reads it says that nothing matches
+      }
+    }
+
+    /// The files that a key names.
+    void
+    append_files(const DeclaredKey &key, std::vector<std::filesystem::path> &files)
+    {
+      const bool is_map = ends_with(key.key, " map") || ends_with(key.key, " maps");
+      if (key.is_input_file)
+        for (const std::string &file : split_trimmed(key.value, key.is_list ? ',' : '\n'))
+          if (is_map && !file.empty())
+            files.emplace_back(split_map_name(file, key.path()).file);
+          else if (key.key == "Follow cache" && !file.empty())
+            append_sequence(file, files);
+          else
+            files.emplace_back(file);
+      else if (const Selection selection{ key.value }; key.key == "Select")
+      {
+        if (!selection.file().empty())
+          files.emplace_back(selection.file());
+        if (!selection.map().empty())
+          files.emplace_back(split_map_name(selection.map(), key.path()).file);
+      }
+    }
+  } // namespace
+
+  SceneFile::SceneFile(const std::filesystem::path &file, const std::vector<std::string> &overrides)
+      : SceneFile(file, read_prm(file), overrides)
+  {
+  }
+
+  SceneFile::SceneFile(const std::filesystem::path    &file,
+                       const std::string              &text,
+                       const std::vector<std::string> &overrides)
+      : SceneFile(file, text, parse_overrides(overrides))
+  {
+  }
+
+  SceneFile::SceneFile(const std::filesystem::path   &file,
+                       const std::string             &text,
+                       const std::vector<Assignment> &overrides)
+      : file(file), text(text)
+  {
+    if (!file.empty())
+      parameters.name = file.string();
+    declare_sections();
+    std::vector<Assignment> assignments
+        = read_assignments(text, parameters.name, sections_of(keys.keys()));
+    assignments.insert(assignments.end(), overrides.begin(), overrides.end());
+
+    const auto first_named = std::stable_partition(
+        assignments.begin(), assignments.end(), [](const Assignment &a) { return !is_named(a); });
+    const std::vector<Assignment> named(first_named, assignments.end());
+    assignments.erase(first_named, assignments.end());
+
+    // refused when the named subsections are declared, so that their keys can be suggested, too
+    const auto first_unknown
+        = std::stable_partition(assignments.begin(), assignments.end(),
+                                [&](const Assignment &a) { return keys.declares(a.path()); });
+    const std::vector<Assignment> unknown(first_unknown, assignments.end());
+    assignments.erase(first_unknown, assignments.end());
+    keys.apply(assignments, directory());
+    check_names(handle_names, "Handles");
+    check_names(load_names, "Loads");
+    refuse_misspelt_names(unknown);
+    check_listed(named, "Handles", handle_names);
+    check_listed(named, "Loads", load_names);
+    declare_named_subsections(named);
+    keys.apply(unknown, directory());
+    keys.apply(named, directory());
+    if (find_assignment(assignments, "Scene") == nullptr) // after misspelt names of it
+      throw UserError(parameters.name
+                      + ": Scene is not set. Add a line 'set Scene = dynamic' (or static, or "
+                        "interpolation).");
+
+    make_selections_absolute();
+    const ExampleParameters given = parameters.examples;
+    parameters.complete(); // in the text auto stays, so that it says what the scene said
+    if (parameters.scene == SceneKind::interpolation)
+      set_interpolation(assignments, given);
+    if (parameters.output.directory.empty())
+      keys.set("Output/Directory",
+               "output/" + std::filesystem::path(parameters.name).stem().string());
+    parameters.check();
+    const auto is_overridden = [&](const std::string &key)
+    { return !text.empty() && find_assignment(overrides, key) != nullptr; };
+    if (!is_overridden("Scene") && !is_overridden("Mesh/Generator")) // else the rest may stay
+      parameters.warnings = warn_of_ignored_keys(parameters, keys, assignments);
+  }
+
+  void
+  SceneFile::refuse_misspelt_names(const std::vector<Assignment> &unknown)
+  {
+    for (const Assignment &a : unknown)
+      if (a.subsections == std::vector<std::string>{ "Handles" }
+          || a.subsections == std::vector<std::string>{ "Loads" })
+        if (is_near(a.key, "Names"))
+          keys.apply({ a }, directory());
+  }
+
+  std::filesystem::path
+  SceneFile::directory() const
+  {
+    return file.empty() ? file : std::filesystem::absolute(file).parent_path();
+  }
+
+  void
+  SceneFile::declare_sections()
+  {
+    keys.add("Scene", parameters.scene, scene_kinds,
+             "What to solve: interpolation between poses, static equilibrium in increments, or "
+             "dynamic. To be set in every scene.");
+    parameters.mesh.declare(keys);
+    parameters.material.declare(keys);
+    parameters.model.declare(keys);
+    parameters.examples.declare(keys);
+    keys.enter_subsection("Handles");
+    keys.add_names("Names", handle_names,
+                   "Names of the handles, separated by commas; each has a subsection.");
+    keys.leave_subsection();
+    keys.enter_subsection("Loads");
+    parameters.loads.declare(keys);
+    keys.add_names("Names", load_names,
+                   "Names of dead forces, separated by commas; each has a subsection.");
+    keys.leave_subsection();
+    parameters.initial.declare(keys);
+    parameters.time.declare(keys);
+    parameters.solver.declare(keys);
+    parameters.output.declare(keys);
+  }
+
+  void
+  SceneFile::declare_named_subsections(const std::vector<Assignment> &assignments)
+  {
+    const Regions regions = material_regions(assignments);
+    parameters.material.declare_regions(keys, regions.ids, regions.names);
+    // deal.II rounds the text of a default to six digits: take over the text that was set
+    const auto take_over = [&](const std::string &subsection)
+    {
+      for (const std::string key : { "Young's modulus", "Poisson's ratio", "Density" })
+        keys.set("Material/" + subsection + "/" + key, keys.get("Material/" + key));
+    };
+    for (const unsigned int id : regions.ids)
+      take_over(MaterialParameters::region_name(id));
+    for (const std::string &name : regions.names)
+      take_over(MaterialParameters::region_name(name));
+    parameters.handles.resize(handle_names.size()); // before binding: entries must not move
+    parameters.loads.named.resize(load_names.size());
+    keys.enter_subsection("Handles");
+    for (unsigned int i = 0; i < handle_names.size(); ++i)
+    {
+      parameters.handles[i].name = handle_names[i];
+      parameters.handles[i].declare(keys);
+    }
+    keys.leave_subsection();
+    keys.enter_subsection("Loads");
+    for (unsigned int i = 0; i < load_names.size(); ++i)
+    {
+      parameters.loads.named[i].name = load_names[i];
+      parameters.loads.named[i].declare(keys);
+    }
+    keys.leave_subsection();
+  }
+
+  void
+  SceneFile::make_selections_absolute()
+  {
+    for (const HandleParameters &handle : parameters.handles)
+      keys.set("Handles/" + handle.name + "/Select",
+               Selection::absolute(handle.select.text, directory()));
+    for (const LoadParameters &load : parameters.loads.named)
+      keys.set("Loads/" + load.name + "/Select",
+               Selection::absolute(load.select.text, directory()));
+  }
+
+  void
+  SceneFile::set_interpolation(const std::vector<Assignment> &assignments,
+                               const ExampleParameters       &given)
+  {
+    const auto require = [&](const std::string &key, const std::string &value, const bool agrees)
+    {
+      const Assignment *assignment = find_assignment(assignments, "Examples/" + key);
+      if (assignment != nullptr && !agrees)
+        throw UserError(assignment->place + ": Examples/" + key + " = " + assignment->value
+                        + ", but an interpolation has " + key + " = " + value
+                        + ". Remove the line, or choose Scene = static.");
+      keys.set("Examples/" + key, value);
+    };
+    require("Importance", "1", given.importance == parameters.examples.importance);
+    require("Weights", "prescribed", given.weights == parameters.examples.weights);
+    if (given.prescribed_weights.empty())
+      keys.set("Examples/Prescribed weights", parameters.examples.prescribed_weights);
+  }
+
+  std::vector<DeclaredKey>
+  SceneFile::reference()
+  {
+    SceneFile samples;
+    samples.declare_sections();
+    samples.handle_names = { "NAME" };
+    samples.load_names   = { "NAME" };
+    samples.declare_named_subsections({ { { "Material", "region 1" }, "", "", "" } });
+    return samples.get_keys();
+  }
+
+  std::vector<DeclaredKey>
+  SceneFile::get_keys() const
+  {
+    return keys.keys();
+  }
+
+  std::vector<std::filesystem::path>
+  SceneFile::input_files() const
+  {
+    std::vector<std::filesystem::path> files;
+    for (const DeclaredKey &key : get_keys())
+      if ((key.path() != "Examples/Poses" && key.path() != "Examples/Weight maps")
+          || parameters.examples.in_use())
+        append_files(key, files); // with importance 0 these need not be there
+    return files;
+  }
+
+  std::vector<std::filesystem::path>
+  SceneFile::named_files() const
+  {
+    std::vector<std::filesystem::path> files;
+    for (const DeclaredKey &key : get_keys())
+      append_files(key, files);
+    return files;
+  }
+} // namespace Exemplar

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
+#include <exemplar/base/message_text.h>
+#include <exemplar/base/missing_file.h>
+#include <exemplar/base/nearest_word.h>
+#include <exemplar/base/number_text.h>
+#include <exemplar/base/text_file.h>
+#include <exemplar/surface/files/painted_map.h>
+#include <exemplar/surface/files/surface_formats.h>
+#include <exemplar/surface/files/surface_scanner.h>
+#include <exemplar/surface/shape/vectors.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace Exemplar
+{
+  namespace
+  {
+    using Cells = std::vector<std::string>;
+
+    const char *const table_remedy
+        = " Write a line 'vertex,NAME' and then, for each vertex, its number from 1 and its value.";
+
+    Cells
+    cells_of(const std::string &line)
+    {
+      Cells             cells;
+      std::stringstream in(line);
+      for (std::string cell; std::getline(in, cell, ',');)
+      {
+        const auto begin = cell.find_first_not_of(" \t\r\""),
+                   end   = cell.find_last_not_of(" \t\r\"");
+        cells.push_back(begin < cell.size() ? cell.substr(begin, end - begin + 1) : "");
+      }
+      if (!line.empty() && line.back() == ',')
+        cells.emplace_back();
+      return cells;
+    }
+
+    bool
+    is_number(const std::string &cell)
+    {
+      char *end = nullptr;
+      std::strtod(cell.c_str(), &end);
+      return !cell.empty() && end == cell.c_str() + cell.size();
+    }
+
+    /// Reads a table of values of vertices.
+    class TableReader
+    {
+    public:
+      TableReader(const std::filesystem::path &file,
+                  const std::string           &column,
+                  const std::size_t            n_vertices,
+                  const std::string           &surface_name)
+          : name(file.string()), column(column), surface_name(surface_name),
+            values(n_vertices, std::nan(""))
+      {
+        std::string reason;
+        const auto  bytes = read_text_file(file, &reason);
+        if (!bytes)
+          throw UserError(name + ": cannot be opened (" + reason + "). Give the path of a map."
+                          + missing_file_remedy(name));
+        std::stringstream in(*bytes);
+        std::string       text;
+        while (std::getline(in, text))
+        {
+          if (line == 0 && text.compare(0, 3, "\xEF\xBB\xBF") == 0)
+            text.erase(0, 3); // a mark that spreadsheets put before UTF-8
+          ++line;
+          if (text.find_first_not_of(" \t\r") < text.size() && text[0] != '#')
+            read_line(cells_of(text));
+        }
+        if (n_rows == 0)
+          throw UserError(name + ": the map has no values." + table_remedy);
+        if (vertex_column == none && n_rows != n_vertices)
+          throw UserError(name + ": has " + std::to_string(n_rows) + " rows of values, but "
+                          + surface_name + " has " + std::to_string(n_vertices) + " vertices."
+                          + table_remedy);
+      }
+
+      std::vector<double> &
+      get_values()
+      {
+        return values;
+      }
+
+    private:
+      [[noreturn]] void
+      fail(const std::string &message) const
+      {
+        throw UserError(name + ", line " + std::to_string(line) + ": " + message);
+      }
+
+      void
+      read_line(const Cells &cells)
+      {
+        if (width == 0)
+        {
+          width                = cells.size();
+          const bool has_names = !std::all_of(cells.begin(), cells.end(), is_number);
+          find_columns(has_names ? cells : Cells());
+          if (has_names)
+            return;
+        }
+        if (cells.size() != width)
+          fail("has " + std::to_string(cells.size()) + " cells, the line before "
+               + std::to_string(width) + "." + table_remedy);
+        const std::size_t vertex = vertex_column == none ? n_rows : vertex_of(cells[vertex_column]);
+        const std::string &cell  = cells[value_column];
+        if (!is_number(cell) || !std::isfinite(parse_number(cell)))
+          fail(in_quotes(cell) + " is no finite number." + table_remedy);
+        if (vertex < values.size())
+        {
+          if (!std::isnan(values[vertex]))
+            fail("vertex " + std::to_string(vertex + 1) + " has a value already. Keep one.");
+          values[vertex] = parse_number(cell);
+        }
+        ++n_rows;
+      }
+
+      std::size_t
+      vertex_of(const std::string &cell) const
+      {
+        const double number = is_number(cell) ? parse_number(cell) : 0.;
+        if (!(number >= 1. && number <= static_cast<double>(values.size()))
+            || number != std::floor(number))
+          fail(in_quotes(cell) + " is no vertex of " + surface_name + ", whose "
+               + std::to_string(values.size()) + " vertices are counted from 1.");
+        return static_cast<std::size_t>(number) - 1;
+      }
+
+      void
+      find_columns(const Cells &names)
+      {
+        const auto index = [&](const std::string &wanted)
+        {
+          const auto found = std::find(names.begin(), names.end(), wanted);
+          return found == names.end() ? none : static_cast<std::size_t>(found - names.begin());
+        };
+        vertex_column = names.empty() ? (width == 2 ? 0 : none) : index("vertex");
+        if (!column.empty())
+        {
+          value_column = index(column);
+          if (value_column == none)
+            fail("there is no column " + in_quotes(column) + " (there: "
+                 + (names.empty() ? "none: its first line names no columns"
+                                  : printable(joined(names)))
+                 + ")." + suggestion(names));
+          return;
+        }
+        if (width != (vertex_column == none ? 1 : 2))
+          fail("there are several columns of values. Say which one by FILE.csv:COLUMN, with a name "
+               "of the first line.");
+        value_column = vertex_column == 0 ? 1 : 0;
+      }
+
+      std::string
+      suggestion(const Cells &names) const
+      {
+        const std::string nearest = nearest_word(column, names);
+        return nearest.empty() ? " Write one of them behind the ':'."
+                               : " Did you mean " + in_quotes(nearest) + "?";
+      }
+
+      static constexpr std::size_t none = static_cast<std::size_t>(-1);
+
+      const std::string   name, column, surface_name;
+      std::vector<double> values;
+      std::size_t         line = 0, n_rows = 0, width = 0;
+      std::size_t         vertex_column = none, value_column = none;
+    };
+
+    /// The distances from each vertex to the next do not depend on axes; their ratio is the unit's.
+    void
+    check_same_vertices(const std::vector<SurfaceMesh::Vertex> &found,
+                        const SurfaceMesh                      &surface,
+                        const std::string                      &name,
+                        const std::string                      &surface_name)
+    {
+      const auto &rest = surface.vertices;
+      if (found.size() != rest.size())
+        throw UserError(name + ": has " + std::to_string(found.size()) + " vertices, but "
+                        + surface_name + " has " + std::to_string(rest.size())
+                        + ". Export both from the same model, in the same order.");
+      const auto distances = [](const std::vector<SurfaceMesh::Vertex> &x)
+      {
+        std::vector<double> result;
+        for (std::size_t v = 0; v + 1 < x.size(); ++v)
+          result.push_back(norm(minus(x[v + 1], x[v])));
+        return result;
+      };
+      const auto ours = distances(found), theirs = distances(rest);
+      double     sum = 0., rest_sum = 0.;
+      for (std::size_t v = 0; v < ours.size(); ++v)
+      {
+        sum += ours[v];
+        rest_sum += theirs[v];
+      }
+      const double ratio = sum / rest_sum, mean = sum / static_cast<double>(ours.size());
+      for (std::size_t v = 0; v < ours.size(); ++v)
+        if (!(std::abs(ours[v] - ratio * theirs[v]) <= 1e-3 * mean + 1e-2 * ours[v]))
+          throw UserError(name + ": vertices " + std::to_string(v + 1) + " and "
+                          + std::to_string(v + 2) + " are not those of " + surface_name
+                          + ": their distance is another one. Export both from the same model, at "
+                            "rest and in the same order.");
+    }
+
+    std::vector<double>
+    read_ply_map(const std::filesystem::path &file,
+                 const std::string           &attribute,
+                 const SurfaceMesh           &surface,
+                 const std::string           &surface_name)
+    {
+      SurfaceScanner     in(file);
+      const PlyAttribute found = read_ply_attribute(in, attribute);
+      check_same_vertices(found.vertices, surface, file.string(), surface_name);
+      for (std::size_t v = 0; v < found.values.size(); ++v)
+        if (!std::isfinite(found.values[v]))
+          throw UserError(file.string() + ": " + in_quotes(attribute) + " of vertex "
+                          + std::to_string(v + 1)
+                          + " is no finite number. Paint it anew, or correct the file.");
+      return found.values;
+    }
+  } // namespace
+
+  std::vector<double>
+  read_painted_map(const std::filesystem::path &file,
+                   const std::string           &attribute,
+                   const SurfaceMesh           &surface,
+                   const std::string           &surface_name)
+  {
+    std::string extension = file.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](const unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (extension == ".ply")
+      return read_ply_map(file, attribute, surface, surface_name);
+    return TableReader(file, attribute, surface.vertices.size(), surface_name).get_values();
+  }
+} // namespace Exemplar

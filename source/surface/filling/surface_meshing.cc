@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
+#include <exemplar/base/number_text.h>
+#include <exemplar/surface/filling/body_surface.h>
+#include <exemplar/surface/filling/cell_angles.h>
+#include <exemplar/surface/filling/surface_meshing.h>
+#include <exemplar/surface/filling/surface_msh.h>
+#include <exemplar/surface/filling/surface_remeshing.h>
+#include <exemplar/surface/shape/surface_geometry.h>
+#include <exemplar/surface/shape/vectors.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Exemplar
+{
+  namespace
+  {
+    constexpr unsigned int n_attempts = 8;
+    /// Nearer to the wanted number of cells than this, nothing more is tried.
+    constexpr double near_enough = .05;
+
+    /// About how many triangles a surface has with edges of this length.
+    double
+    n_triangles(const TriangleSurface &surface, const double edge_length)
+    {
+      double area = 0.;
+      for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+        area += area_of(surface, t);
+      return 2.3 * area / (edge_length * edge_length);
+    }
+
+    /// Refuses edges so short that remeshing would make far more triangles than the body has cells:
+    /// the surface has a part that is very long and thin, whose long edges are divided.
+    void
+    require_few_triangles(const TriangleSurface &surface,
+                          const double           edge_length,
+                          const double           n_cells,
+                          const std::string     &cells_option)
+    {
+      double longest = 0.;
+      for (const auto &[a, b, c] : surface.triangles)
+        longest = std::max({ longest, norm(minus(surface.vertices[a], surface.vertices[b])),
+                             norm(minus(surface.vertices[b], surface.vertices[c])) });
+      const double n = n_triangles(surface, edge_length) + std::pow(longest / edge_length, 2);
+      if (!(n < 1e4 + 50. * n_cells))
+        throw SolverFailure("The surface has a part that is very long and thin: "
+                            + short_text(n_cells) + " cells are about " + short_text(edge_length)
+                            + " large, and would have " + short_text(n)
+                            + " triangles on it. Look for vertices far away from the others, or "
+                              "ask for more cells ("
+                            + cells_option + ").");
+    }
+
+    /// The mesh with the number of cells nearest to the one wanted: n ~ h^-p with p from the last
+    /// two attempts.
+    TetrahedralMesh
+    fill_with(const TriangleSurface &surface,
+              const double           n_cells,
+              const bool             keep_edges,
+              const std::string     &cells_option)
+    {
+      // a cell in gmsh's meshes has about a tenth of its edge's cube
+      double          h     = std::cbrt(10. * std::abs(enclosed_volume(surface)) / n_cells);
+      double          power = 3., last_h = 0., last_n = 0., best_error = 0.;
+      TetrahedralMesh best;
+      for (unsigned int attempt = 0; attempt < n_attempts; ++attempt)
+      {
+        TetrahedralMesh mesh;
+        try
+        {
+          require_few_triangles(surface, h, n_cells, cells_option);
+          mesh = fill(remesh_without_intersections(surface, h, keep_edges, cells_option));
+        }
+        catch (const SolverFailure &)
+        {
+          if (best.cells.empty() && attempt + 1 == n_attempts)
+            throw;
+          h *= .9; // finer surfaces are filled more easily
+          continue;
+        }
+        const auto   n     = static_cast<double>(mesh.cells.size());
+        const double error = std::abs(std::log(n / n_cells));
+        if (last_n > 0. && std::abs(std::log(h / last_h)) > 1e-3)
+          power = std::clamp(std::log(n / last_n) / std::log(last_h / h), 1.5, 4.);
+        if (best.cells.empty() || error < best_error)
+        {
+          best       = std::move(mesh);
+          best_error = error;
+        }
+        if (error < near_enough)
+          break;
+        last_h = h;
+        last_n = n;
+        h = std::min(h * std::pow(n / n_cells, 1. / power), .5 * diagonal_of(surface.vertices));
+        if (h == last_h)
+          break; // no number nearer
+      }
+      return best;
+    }
+
+    /// What a mesh is judged by.
+    struct Judgement
+    {
+      CellAngles      angles;
+      SurfaceDistance surface_to_mesh;
+      SurfaceDistance mesh_to_surface;
+      double          lost = 0.; ///< the farthest that a point of the mended surface is off
+    };
+
+    Judgement
+    judge(const BodySurface &body, const TetrahedralMesh &mesh)
+    {
+      TriangleSurface boundary = mesh.boundary;
+      boundary.vertices        = mesh.nodes;
+      const NearestTriangle to_mesh(boundary);
+      return { measure_angles(mesh), distance_to(to_mesh, body.original),
+               distance_to(NearestTriangle(body.original), boundary),
+               distance_to(to_mesh, body.surface).maximum };
+    }
+
+    struct JudgedMesh
+    {
+      TetrahedralMesh mesh;
+      Judgement       judgement;
+    };
+
+    /// Whether a mesh takes the place of the best one so far: with fewer slivers, and the surface
+    /// at most half as far away again.
+    bool
+    is_better(const Judgement &now, const JudgedMesh &best)
+    {
+      return best.mesh.cells.empty()
+             || (now.angles.n_slivers < best.judgement.angles.n_slivers
+                 && now.lost < 1.5 * best.judgement.lost);
+    }
+
+    /// With the sharp edges of the surface kept; without them where they are noise, where that
+    /// avoids slivers, or intersections. Of few cells a sliver may be the luck of their number:
+    /// then others are tried.
+    JudgedMesh
+    best_mesh(const BodySurface &body, const SurfaceMeshingOptions &options)
+    {
+      constexpr std::size_t few = 1000, quickly_remeshed = 20000;
+      const bool            is_quick
+          = options.n_cells <= few && body.surface.triangles.size() <= quickly_remeshed;
+      JudgedMesh best;
+      for (const double factor : { 1., 1.07, .93, 1.14, .88 })
+        for (const bool keep_edges : { true, false })
+          try
+          {
+            if (factor != 1. && !is_quick)
+              return best;
+            TetrahedralMesh mesh = fill_with(body.surface, factor * options.n_cells, keep_edges,
+                                             options.cells_option);
+            remove_slivers(mesh);
+            const Judgement now = judge(body, mesh);
+            if (is_better(now, best))
+              best = { std::move(mesh), now };
+            if (best.judgement.angles.n_slivers == 0)
+              return best;
+          }
+          catch (const SolverFailure &)
+          {
+            if (!keep_edges && best.mesh.cells.empty())
+              throw;
+          }
+      return best;
+    }
+
+    std::string
+    percent(const double part, const double whole)
+    {
+      return short_text(100. * part / whole);
+    }
+
+    void
+    add_counts(MeshingReport         &result,
+               const BodySurface     &body,
+               const TetrahedralMesh &mesh,
+               const std::size_t      n_materials)
+    {
+      const auto add = [&](const std::string &what, const std::size_t n)
+      { result.table.emplace_back(what, std::to_string(n)); };
+      add("surface_vertices", body.original.vertices.size());
+      add("surface_triangles", body.original.triangles.size());
+      add("nodes", mesh.nodes.size());
+      add("cells", mesh.cells.size());
+      add("boundary_triangles", mesh.boundary.triangles.size());
+      add("boundary_ids", std::max<std::size_t>(body.group_names.size(), 1));
+      add("material_ids", n_materials);
+    }
+
+    void
+    add_quality(MeshingReport &result, const BodySurface &body, const JudgedMesh &judged)
+    {
+      const TetrahedralMesh &mesh   = judged.mesh;
+      const CellAngles      &angles = judged.judgement.angles;
+      const auto             add    = [&](const std::string &what, const std::string &value)
+      { result.table.emplace_back(what, value); };
+      add("angle_smallest", short_text(angles.smallest));
+      add("angle_1_percent", short_text(angles.percentile_1));
+      add("angle_median", short_text(angles.median));
+      add("angle_largest", short_text(angles.largest));
+      add("slivers", std::to_string(angles.n_slivers));
+      add("boundary_slivers", std::to_string(angles.n_boundary_slivers));
+      double volume = 0.;
+      for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+      {
+        const auto p = corners_of(mesh, c);
+        volume += six_volumes(p[0], p[1], p[2], p[3]) / 6.;
+      }
+      add("volume", short_text(volume));
+      const double           diagonal = diagonal_of(body.original.vertices);
+      const SurfaceDistance &out      = judged.judgement.surface_to_mesh;
+      const SurfaceDistance &back     = judged.judgement.mesh_to_surface;
+      add("diagonal", short_text(diagonal));
+      add("surface_to_mesh_max", percent(out.maximum, diagonal));
+      add("surface_to_mesh_mean", percent(out.mean, diagonal));
+      add("mesh_to_surface_max", percent(back.maximum, diagonal));
+      add("mesh_to_surface_mean", percent(back.mean, diagonal));
+    }
+
+    /// Of the diagonal [%]: how far the mesh may be from the surface without a note.
+    constexpr double tolerable_distance = 5.;
+
+    void
+    add_notes(MeshingReport               &report,
+              const SurfaceMeshingOptions &options,
+              const BodySurface           &body,
+              const JudgedMesh            &judged)
+    {
+      const std::size_t n_slivers = judged.judgement.angles.n_slivers;
+      if (n_slivers > 0)
+        report.notes.push_back("Some cells are nearly flat: " + std::to_string(n_slivers)
+                               + " have an angle below 3 degrees. More cells may help ("
+                               + options.cells_option + ").");
+      const double distance
+          = 100. * judged.judgement.surface_to_mesh.maximum / diagonal_of(body.original.vertices);
+      if (distance > tolerable_distance)
+        report.notes.push_back("Parts of the surface are " + short_text(distance)
+                               + " % of its diagonal away from the mesh. More cells follow it more "
+                                 "closely ("
+                               + options.cells_option + ").");
+      const std::size_t n_cells = judged.mesh.cells.size();
+      if (std::abs(static_cast<double>(n_cells) / options.n_cells - 1.) > .1)
+        report.notes.push_back("The mesh has " + std::to_string(n_cells) + " cells, not "
+                               + std::to_string(options.n_cells)
+                               + ": its shape allows no number nearer to it.");
+    }
+  } // namespace
+
+  MeshedSurface
+  mesh_surface(const SurfaceMeshingOptions &options)
+  {
+    std::vector<MaterialSeed> seeds;
+    if (!options.materials.empty())
+      seeds = read_material_seeds(options.materials);
+    const BodySurface body    = read_body_surface(options);
+    const JudgedMesh  judged  = best_mesh(body, options);
+    const auto        regions = names_of_regions(judged.mesh, body.group_names);
+    const Materials   materials
+        = seeds.empty() ? materials_by_regions(judged.mesh, regions)
+                        : materials_by_seeds(judged.mesh, seeds, regions, options.materials);
+    MeshedSurface  result{ make_surface_msh(judged.mesh, body.group_names, materials), {} };
+    MeshingReport &report = result.report;
+    report.notes          = body.notes;
+    add_counts(report, body, judged.mesh, materials.names.size());
+    add_quality(report, body, judged);
+    add_notes(report, options, body, judged);
+    return result;
+  }
+} // namespace Exemplar

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/kernels/polar_decomposition.h>
+#include <exemplar/surface/posing/fold_energy.h>
+#include <exemplar/surface/posing/fold_potential.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Exemplar
+{
+  namespace
+  {
+    /// The cell with its volume [m^3].
+    Tetrahedron<double>
+    tetrahedron_at_rest(const FoldPotential::Points &nodes, const std::array<unsigned int, 4> &cell)
+    {
+      Matrix3<double> edges; // in columns
+      for (int a = 0; a < 3; ++a)
+        for (int d = 0; d < 3; ++d)
+          edges[d][a] = nodes[cell[a + 1]][d] - nodes[cell[0]][d];
+      const double          det = determinant(edges);
+      const Matrix3<double> cof = cofactors(edges);
+      Tetrahedron<double>   result{};
+      result.volume = det / 6.;
+      for (int a = 0; a < 3; ++a)
+        for (int d = 0; d < 3; ++d)
+        {
+          result.shape_gradient[a + 1][d] = cof[d][a] / det;
+          result.shape_gradient[0][d] -= cof[d][a] / det;
+        }
+      return result;
+    }
+
+    /// The least curvature of a mode that a Newton step counts on, as a share of the stiffness at
+    /// rest: flatter and concave ones would make it long without making it better.
+    constexpr double least_stiffness = 1e-3;
+  } // namespace
+
+  FoldPotential::FoldPotential(const Points &nodes, const Cells &cells)
+      : attachment{ std::vector<double>(nodes.size(), 0.), nodes }, cells(cells)
+  {
+    for (const auto &cell : cells)
+    {
+      rest.push_back(tetrahedron_at_rest(nodes, cell));
+      volume += rest.back().volume;
+    }
+    for (Tetrahedron<double> &cell : rest)
+      cell.volume /= volume;
+    build_pattern(nodes.size());
+  }
+
+  void
+  FoldPotential::build_pattern(const std::size_t n_nodes)
+  {
+    std::vector<std::vector<int>> rows(n_nodes);
+    for (const auto &cell : cells)
+      for (const unsigned int i : cell)
+        for (const unsigned int j : cell)
+          if (i >= j)
+            rows[j].push_back(static_cast<int>(i));
+    pattern.column_start = { 0 };
+    for (auto &column : rows)
+    {
+      std::sort(column.begin(), column.end());
+      column.erase(std::unique(column.begin(), column.end()), column.end());
+      pattern.row.insert(pattern.row.end(), column.begin(), column.end());
+      pattern.column_start.push_back(static_cast<int>(pattern.row.size()));
+    }
+    for (const auto &cell : cells)
+    {
+      std::array<int, 10> of_cell;
+      int                 pair = 0;
+      for (int a = 0; a < 4; ++a)
+        for (int b = a; b < 4; ++b)
+          of_cell[pair++] = pattern.position(static_cast<int>(std::max(cell[a], cell[b])),
+                                             static_cast<int>(std::min(cell[a], cell[b])));
+      positions.push_back(of_cell);
+    }
+  }
+
+  SymmetricPattern
+  FoldPotential::block_pattern() const
+  {
+    SymmetricPattern blocks;
+    blocks.column_start = { 0 };
+    for (unsigned int j = 0; j < pattern.n(); ++j)
+      for (int c = 0; c < 3; ++c)
+      {
+        for (int p = pattern.column_start[j]; p < pattern.column_start[j + 1]; ++p)
+          for (int r = (pattern.row[p] == static_cast<int>(j) ? c : 0); r < 3; ++r)
+            blocks.row.push_back(3 * pattern.row[p] + r);
+        blocks.column_start.push_back(static_cast<int>(blocks.row.size()));
+      }
+    return blocks;
+  }
+
+  Matrix3<double>
+  FoldPotential::gradient_of_cell(const Points &x, const std::size_t cell) const
+  {
+    Vector3<double> corners[4];
+    for (int a = 0; a < 4; ++a)
+      for (int d = 0; d < 3; ++d)
+        corners[a][d] = x[cells[cell][a]][d];
+    return deformation_gradient(rest[cell], corners);
+  }
+
+  double
+  FoldPotential::value(const Points &x, const double eps) const
+  {
+    double sum = 0.;
+    for (std::size_t c = 0; c < cells.size(); ++c)
+      sum += rest[c].volume * fold_energy(gradient_of_cell(x, c), eps);
+    for (std::size_t i = 0; i < x.size(); ++i)
+      sum += 0.5 * attachment.stiffness[i] * x[i].distance_square(attachment.target[i]);
+    return sum;
+  }
+
+  std::vector<double>
+  FoldPotential::gradient(const Points &x, const double eps) const
+  {
+    std::vector<double> result(3 * x.size(), 0.);
+    for (std::size_t c = 0; c < cells.size(); ++c)
+    {
+      const Matrix3<double> P = fold_stress(gradient_of_cell(x, c), eps);
+      for (int a = 0; a < 4; ++a)
+      {
+        const Vector3<double> force = P * rest[c].shape_gradient[a];
+        for (int d = 0; d < 3; ++d)
+          result[3 * cells[c][a] + d] += rest[c].volume * force[d];
+      }
+    }
+    for (std::size_t i = 0; i < x.size(); ++i)
+      for (int d = 0; d < 3; ++d)
+        result[3 * i + d] += attachment.stiffness[i] * (x[i][d] - attachment.target[i][d]);
+    return result;
+  }
+
+  std::vector<double>
+  FoldPotential::determinants(const Points &x) const
+  {
+    std::vector<double> result(cells.size());
+    for (std::size_t c = 0; c < cells.size(); ++c)
+      result[c] = determinant(gradient_of_cell(x, c));
+    return result;
+  }
+
+  /// Block (i, j) of nodes at `position` of the node pattern, j its column; see block_pattern().
+  void
+  FoldPotential::add_to_block(const int              position,
+                              const int              j,
+                              const Matrix3<double> &block,
+                              std::vector<double>   &values) const
+  {
+    const int begin = pattern.column_start[j], n_rows = pattern.column_start[j + 1] - begin;
+    const int first = 9 * begin - 3 * j, row = position - begin;
+    for (int c = 0; c < 3; ++c)
+    {
+      const int column = first + 3 * n_rows * c - (c == 2 ? 1 : 0);
+      for (int r = (row == 0 ? c : 0); r < 3; ++r)
+        values[column + 3 * row + r - c] += block[r][c];
+    }
+  }
+
+  void
+  FoldPotential::add_cell_modes(const std::size_t    c,
+                                const Points        &x,
+                                const double         eps,
+                                std::vector<double> &values) const
+  {
+    const FoldModes modes = fold_modes(gradient_of_cell(x, c), eps);
+    double          pushes[9][4][3]; // of a mode on a node
+    double          stiffness[9];
+    for (int m = 0; m < 9; ++m)
+    {
+      stiffness[m] = rest[c].volume * std::max(modes.stiffness[m], least_stiffness);
+      for (int a = 0; a < 4; ++a)
+      {
+        const Vector3<double> push = modes.direction[m] * rest[c].shape_gradient[a];
+        std::copy(push.value, push.value + 3, pushes[m][a]);
+      }
+    }
+    int pair = 0;
+    for (int a = 0; a < 4; ++a)
+      for (int b = a; b < 4; ++b, ++pair)
+      {
+        const bool      a_first = cells[c][a] >= cells[c][b]; // a has the rows
+        const int       i = a_first ? a : b, j = a_first ? b : a;
+        Matrix3<double> block{};
+        for (int m = 0; m < 9; ++m)
+          for (int r = 0; r < 3; ++r)
+            for (int s = 0; s < 3; ++s)
+              block[r][s] += stiffness[m] * pushes[m][i][r] * pushes[m][j][s];
+        add_to_block(positions[c][pair], static_cast<int>(cells[c][j]), block, values);
+      }
+  }
+
+  void
+  FoldPotential::assemble(const Points &x, const double eps, std::vector<double> &values) const
+  {
+    std::fill(values.begin(), values.end(), 0.);
+    for (std::size_t c = 0; c < cells.size(); ++c)
+      add_cell_modes(c, x, eps, values);
+    for (std::size_t i = 0; i < x.size(); ++i)
+    {
+      Matrix3<double> block{};
+      for (int d = 0; d < 3; ++d)
+        block[d][d] = attachment.stiffness[i];
+      add_to_block(pattern.column_start[i], static_cast<int>(i), block, values);
+    }
+  }
+
+  void
+  FoldPotential::assemble_rotations(std::vector<double> &values) const
+  {
+    std::fill(values.begin(), values.end(), 0.);
+    for (std::size_t c = 0; c < cells.size(); ++c)
+    {
+      const auto &g    = rest[c].shape_gradient;
+      int         pair = 0;
+      for (int a = 0; a < 4; ++a)
+        for (int b = a; b < 4; ++b)
+          values[positions[c][pair++]] += 2. * rest[c].volume * dot(g[a], g[b]);
+    }
+    for (unsigned int i = 0; i < pattern.n(); ++i)
+      values[pattern.column_start[i]] += attachment.stiffness[i];
+  }
+
+  std::vector<double>
+  FoldPotential::rotated_rest(const Points *x) const
+  {
+    const std::size_t   n = pattern.n();
+    std::vector<double> result(3 * n, 0.);
+    for (std::size_t c = 0; c < cells.size(); ++c)
+    {
+      const Matrix3<double> R
+          = x == nullptr ? identity_matrix<double>() : closest_rotation(gradient_of_cell(*x, c));
+      for (int a = 0; a < 4; ++a)
+      {
+        const Vector3<double> force = R * rest[c].shape_gradient[a];
+        for (int d = 0; d < 3; ++d)
+          result[d * n + cells[c][a]] += 2. * rest[c].volume * force[d];
+      }
+    }
+    for (std::size_t i = 0; i < n; ++i)
+      for (int d = 0; d < 3; ++d)
+        result[d * n + i] += attachment.stiffness[i] * attachment.target[i][d];
+    return result;
+  }
+} // namespace Exemplar

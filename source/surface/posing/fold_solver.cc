@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/surface/posing/fold_patch.h>
+#include <exemplar/surface/posing/fold_solver.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Exemplar
+{
+  namespace
+  {
+    using Points = FoldPotential::Points;
+
+    constexpr unsigned int n_rotation_steps = 10;
+    constexpr unsigned int max_settling     = 40;
+    constexpr unsigned int max_attempts     = 20;
+
+    /// Settled if a step lowers the energy by no more than this share of it.
+    constexpr double settled = 1e-5;
+
+    /// The least share by which the energy counts as lowered when eps is reduced. Garanzha et al.
+    /// take .1; four times as much is faster and mostly does, where a step changes the energy by no
+    /// more than a calm share.
+    constexpr double hasty = 0.4, patient = 0.1, calm = 4e-4;
+
+    /// Cells that are inverted at a smaller eps stay so.
+    constexpr double least_eps = 5e-3;
+
+    /// Eps to begin with: from far away, and near a solution.
+    constexpr double far_eps = 1., near_eps = 0.1;
+
+    /// With a node in so many in inverted cells these are looked at alone.
+    constexpr std::size_t few = 200;
+
+    constexpr unsigned int first_rings = 4; ///< around inverted cells
+
+    double
+    least(const std::vector<double> &values)
+    {
+      return *std::min_element(values.begin(), values.end());
+    }
+
+    Points
+    moved(Points x, const std::vector<double> &direction, const double factor)
+    {
+      for (std::size_t i = 0; i < x.size(); ++i)
+        for (int d = 0; d < 3; ++d)
+          x[i][d] += factor * direction[3 * i + d];
+      return x;
+    }
+
+    /// The nodes of inverted cells, or nearly inverted ones.
+    std::vector<char>
+    nodes_of_inverted(const FoldPotential &potential, const Points &x)
+    {
+      const std::vector<double> determinants = potential.determinants(x);
+      std::vector<char>         nodes(x.size(), 0);
+      for (std::size_t c = 0; c < determinants.size(); ++c)
+        if (determinants[c] <= 2. * FoldSolver::margin)
+          for (const unsigned int i : potential.get_cells()[c])
+            nodes[i] = 1;
+      return nodes;
+    }
+
+    std::size_t
+    count(const std::vector<char> &marked)
+    {
+      return static_cast<std::size_t>(std::count(marked.begin(), marked.end(), 1));
+    }
+  } // namespace
+
+  FoldSolver::FoldSolver(FoldPotential &potential)
+      : potential(potential), system(make_cholesky_operator()), pattern(potential.block_pattern())
+  {
+    system->reinit(pattern);
+  }
+
+  /// As-rigid-as-possible (Sorkine and Alexa 2007) on tetrahedra, from the harmonic filling.
+  Points
+  FoldSolver::nearest_rotations() const
+  {
+    const auto laplacian = make_cholesky_operator();
+    laplacian->reinit(potential.node_pattern());
+    potential.assemble_rotations(laplacian->values());
+    laplacian->factorize({});
+    const std::size_t n = potential.node_pattern().n();
+    Points            x(n);
+    for (unsigned int k = 0; k < n_rotation_steps; ++k)
+    {
+      std::vector<double> columns = potential.rotated_rest(k == 0 ? nullptr : &x);
+      laplacian->solve(columns);
+      for (std::size_t i = 0; i < n; ++i)
+        for (int d = 0; d < 3; ++d)
+          x[i][d] = columns[d * n + i];
+    }
+    return x;
+  }
+
+  /// The matrix is positive, but nearly collapsed cells may be so stiff that rounding makes pivots
+  /// negative: a shift of the diagonal then helps.
+  void
+  FoldSolver::factorize_shifted()
+  {
+    const std::vector<double> values = system->values();
+    for (double shift = 1e-14; shift < 1.; shift *= 100.)
+      try
+      {
+        system->factorize({});
+        return;
+      }
+      catch (const SolverFailure &)
+      {
+        for (unsigned int k = 0; k < pattern.n(); ++k)
+          system->values()[pattern.column_start[k]]
+              = (1. + shift) * values[pattern.column_start[k]];
+      }
+    throw indefinite_matrix();
+  }
+
+  /// One step of Newton's method, halved until the energy falls as it should (Armijo). Returns the
+  /// share of the energy, counted from -5, that is gone.
+  double
+  FoldSolver::step(Result &result, const double eps)
+  {
+    potential.assemble(result.x, eps, system->values());
+    factorize_shifted();
+    const std::vector<double> gradient  = potential.gradient(result.x, eps);
+    std::vector<double>       direction = gradient;
+    system->solve(direction);
+    double slope = 0.;
+    for (std::size_t k = 0; k < gradient.size(); ++k)
+      slope -= gradient[k] * direction[k];
+    const double before = potential.value(result.x, eps);
+    ++result.iterations;
+    for (double length = 1.; length > 1e-10; length *= 0.5)
+    {
+      Points       x     = moved(result.x, direction, -length);
+      const double after = potential.value(x, eps);
+      if (after <= before + 1e-4 * length * slope)
+      {
+        result.x         = std::move(x);
+        result.least_det = least(potential.determinants(result.x));
+        return (before - after) / (before + 5.);
+      }
+    }
+    return 0.;
+  }
+
+  /// Eps is reduced as Garanzha et al. (2021) do it, Eq. (6).
+  void
+  FoldSolver::untangle(Result           &result,
+                       double            eps,
+                       const double      least_share,
+                       const std::size_t n_left)
+  {
+    while (eps > least_eps && result.least_det <= margin)
+    {
+      if (eps < near_eps && count(nodes_of_inverted(potential, result.x)) <= n_left)
+        return;
+      const double gone = std::max(0., step(result, eps));
+      const double share
+          = std::max({ gone, patient, std::min(least_share, least_share * calm / gone) });
+      const double det = result.least_det, root = std::hypot(det, eps);
+      eps *= det >= 0. ? 1. - share : 1. - share * root / (std::abs(det) + root);
+    }
+  }
+
+  void
+  FoldSolver::settle(Result &result)
+  {
+    for (unsigned int k = 0; k < max_settling && step(result, 0.) > settled; ++k)
+    {
+    }
+  }
+
+  /// Springs of the cells that are inverted and of their neighbours' nodes hold half as much.
+  void
+  FoldSolver::release(Result &result)
+  {
+    const std::vector<char> around
+        = grown(potential.get_cells(), nodes_of_inverted(potential, result.x), 1);
+    ++result.releases;
+    for (std::size_t i = 0; i < around.size(); ++i)
+      if (around[i] != 0)
+        potential.attachment.stiffness[i] *= 0.5;
+  }
+
+  /// Once more around the cells that are inverted, with the patience that would be dear for the
+  /// whole body, with more and more of the body free to move and softer and softer springs.
+  void
+  FoldSolver::untangle_patches(Result &result, const Points &rest)
+  {
+    for (unsigned int attempt = 0; attempt < max_attempts && result.least_det <= margin; ++attempt)
+    {
+      if (attempt > 0)
+        release(result);
+      FoldPatch  patch(potential, rest, result.x, nodes_of_inverted(potential, result.x),
+                       first_rings + attempt);
+      FoldSolver solver(patch.get_potential());
+      Result     local{ patch.get_start() };
+      local.least_det = least(patch.get_potential().determinants(local.x));
+      solver.untangle(local, far_eps, patient, 0);
+      patch.copy_back(local.x, result.x);
+      result.least_det = least(potential.determinants(result.x));
+      result.iterations += local.iterations;
+    }
+  }
+
+  FoldSolver::Result
+  FoldSolver::solve(const Points &rest)
+  {
+    const Attachment given = potential.attachment;
+    Result           result{ nearest_rotations() };
+    result.least_det = least(potential.determinants(result.x));
+    untangle(result, far_eps, hasty, rest.size() / few);
+    for (unsigned int attempt = 0; attempt < 3; ++attempt)
+    {
+      untangle_patches(result, rest);
+      if (result.least_det <= margin)
+        break;
+      settle(result);
+      if (result.least_det > margin)
+        return result;
+    }
+    potential.attachment = given;
+    result.x             = rest;
+    for (unsigned int k = 0; k < 5; ++k)
+      settle(result);
+    return result;
+  }
+} // namespace Exemplar

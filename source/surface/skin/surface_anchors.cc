@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
+#include <exemplar/base/number_text.h>
+#include <exemplar/mesh/mesh.h>
+#include <exemplar/surface/skin/cell_finder.h>
+#include <exemplar/surface/skin/facing_points.h>
+#include <exemplar/surface/skin/surface_anchors.h>
+
+#include <algorithm>
+
+namespace Exemplar
+{
+  namespace
+  {
+    using Normals = std::vector<SpaceVector>;
+
+    /// Of the vertices from the boundary, and on average of the boundary from the surface, over the
+    /// size of the body.
+    constexpr double greatest_outside = 0.1, mean_outside = 0.02, mean_between = 0.1;
+
+    /// The surface of the mesh at rest; a triangle's number is that of the mesh's face.
+    TriangleSurface
+    boundary_triangles(const Mesh &mesh)
+    {
+      TriangleSurface boundary;
+      for (const dealii::Point<3> &node : mesh.get_nodes())
+        boundary.vertices.push_back({ { node[0], node[1], node[2] } });
+      for (const BoundaryFace &face : mesh.get_boundary_faces())
+        boundary.triangles.push_back(face.nodes);
+      return boundary;
+    }
+
+    /// Normals of the vertices, those of their faces (Newell's) by area, pointing outwards if
+    /// the surface is closed; 0 where no face uses a vertex.
+    Normals
+    vertex_normals(const SurfaceMesh &surface)
+    {
+      const auto &X      = surface.vertices;
+      double      volume = 0.;
+      Normals     normals(X.size(), { { 0., 0., 0. } });
+      for (const auto &face : surface.faces)
+      {
+        SpaceVector normal{ { 0., 0., 0. } };
+        for (std::size_t i = 2; i < face.size(); ++i)
+        {
+          normal = plus(normal, 1.,
+                        cross(minus(X[face[i - 1]], X[face[0]]), minus(X[face[i]], X[face[0]])));
+          volume += six_volumes(X[0], X[face[0]], X[face[i - 1]], X[face[i]]);
+        }
+        for (const unsigned int vertex : face)
+          normals[vertex] = plus(normals[vertex], 1., normal);
+      }
+      for (SpaceVector &normal : normals)
+        if (const double length = norm(normal); length > 0.)
+          normal = plus({ { 0., 0., 0. } }, (volume < 0. ? -1. : 1.) / length, normal);
+      return normals;
+    }
+
+    dealii::Point<3>
+    point_at(const SpaceVector &x)
+    {
+      return { x[0], x[1], x[2] };
+    }
+
+    class AnchorFinder
+    {
+    public:
+      explicit AnchorFinder(const Mesh &mesh)
+          : mesh(mesh), cells(mesh), boundary(boundary_triangles(mesh))
+      {
+      }
+
+      std::vector<SurfaceAnchor>
+      find(const SurfaceMesh &surface) const;
+
+    private:
+      SurfaceAnchor
+      on_boundary(const SurfacePoint &point) const;
+
+      /// Whether some of the way between two points is outside the mesh.
+      bool
+      has_gap(const dealii::Point<3> &a, const dealii::Point<3> &b) const;
+
+      const Mesh           &mesh;
+      const CellFinder      cells;
+      const TriangleSurface boundary;
+    };
+
+    SurfaceAnchor
+    AnchorFinder::on_boundary(const SurfacePoint &point) const
+    {
+      const auto   &t = boundary.triangles[point.triangle];
+      SurfaceAnchor anchor{ { { t[0], t[1], t[2], t[0] } },
+                            { { point.share[0], point.share[1], point.share[2], 0. } },
+                            {} };
+      for (int a = 0; a < 3; ++a)
+        anchor.place += point.share[a] * mesh.get_nodes()[t[a]];
+      return anchor;
+    }
+
+    bool
+    AnchorFinder::has_gap(const dealii::Point<3> &a, const dealii::Point<3> &b) const
+    {
+      const int n = 16;
+      for (int i = 1; i < n; ++i)
+        if (!cells.find(a + double(i) / n * (b - a)))
+          return true;
+      return false;
+    }
+
+    std::vector<SurfaceAnchor>
+    AnchorFinder::find(const SurfaceMesh &surface) const
+    {
+      const Normals              normals = vertex_normals(surface);
+      const auto                 nearest = closest_points(boundary, surface.vertices);
+      std::vector<SurfaceAnchor> anchors;
+      for (std::size_t v = 0; v < surface.vertices.size(); ++v)
+      {
+        const dealii::Point<3> X = point_at(surface.vertices[v]);
+        if (const auto cell = cells.find(X))
+          anchors.push_back({ mesh.get_cells()[cell->cell], cell->shares, X });
+        else
+          anchors.push_back(on_boundary(nearest[v]));
+      }
+      const auto facing = facing_points(boundary, surface.vertices, normals, nearest);
+      for (std::size_t v = 0; v < facing.size(); ++v)
+      {
+        if (!facing[v])
+          continue;
+        const SurfaceAnchor    other     = on_boundary(*facing[v]);
+        const dealii::Point<3> X         = point_at(surface.vertices[v]);
+        const bool             is_inside = anchors[v].place == X;
+        if (!is_inside || has_gap(X, other.place))
+          anchors[v] = other;
+      }
+      return anchors;
+    }
+
+    /// Of the nodes on the mesh's boundary from a surface, on average.
+    double
+    mean_distance_of_boundary(const Mesh &mesh, const TriangleSurface &surface)
+    {
+      std::vector<bool> is_on_boundary(mesh.n_nodes(), false);
+      for (const BoundaryFace &face : mesh.get_boundary_faces())
+        for (const unsigned int node : face.nodes)
+          is_on_boundary[node] = true;
+      std::vector<SpaceVector> places;
+      for (unsigned int node = 0; node < mesh.n_nodes(); ++node)
+        if (const auto &x = mesh.get_nodes()[node]; is_on_boundary[node])
+          places.push_back({ { x[0], x[1], x[2] } });
+      const auto nearest = closest_points(surface, places);
+      double     sum     = 0.;
+      for (std::size_t i = 0; i < places.size(); ++i)
+      {
+        SpaceVector x{ { 0., 0., 0. } };
+        for (int a = 0; a < 3; ++a)
+          x = plus(x, nearest[i].share[a],
+                   surface.vertices[surface.triangles[nearest[i].triangle][a]]);
+        sum += norm(minus(x, places[i]));
+      }
+      return sum / static_cast<double>(places.size());
+    }
+
+    /// " Its size is ... times that of the body.", unless that is nearly 1.
+    std::string
+    size_text(const double ratio)
+    {
+      return ratio > .5 && ratio < 2.
+                 ? ""
+                 : " The surface is " + short_text(ratio) + " times as large as the body.";
+    }
+
+    [[noreturn]] void
+    refuse(const std::string &surface_name, const Mesh &mesh, const std::string &why)
+    {
+      throw UserError(
+          "Mesh/Surface: " + surface_name + " is not the surface of " + mesh.get_name() + ": " + why
+          + " Both files must have the same unit, axes and place (Mesh/Scale makes metres "
+            "of both): set Mesh/Surface to the surface that the mesh was made from, "
+            "without what does not belong to the body, or scale one of the files.");
+    }
+  } // namespace
+
+  std::vector<SurfaceAnchor>
+  find_anchors(const SurfaceMesh &surface, const Mesh &mesh)
+  {
+    return AnchorFinder(mesh).find(surface);
+  }
+
+  void
+  check_anchors(const SurfaceMesh                &surface,
+                const std::vector<SurfaceAnchor> &anchors,
+                const Mesh                       &mesh,
+                const double                      scale,
+                const std::string                &surface_name)
+  {
+    std::vector<bool> is_used(surface.vertices.size(), false);
+    for (const auto &face : surface.faces)
+      for (const unsigned int vertex : face)
+        is_used[vertex] = true;
+    const double size = mesh.diameter();
+    double       sum = 0., greatest = 0.;
+    std::size_t  n_used = 0, farthest = 0;
+    for (std::size_t v = 0; v < anchors.size(); ++v)
+      if (is_used[v])
+      {
+        const double distance = anchors[v].place.distance(point_at(surface.vertices[v]));
+        sum += distance;
+        ++n_used;
+        if (distance > greatest)
+        {
+          greatest = distance;
+          farthest = v;
+        }
+      }
+    const auto percent
+        = [&](const double length) { return short_text(100. * length / size) + " %"; };
+    const std::string ratio = size_text(diagonal_of(surface.vertices) / size);
+    if (greatest > greatest_outside * size
+        || sum > mean_outside * size * static_cast<double>(n_used))
+      refuse(surface_name, mesh,
+             "its vertex " + std::to_string(farthest + 1) + " is farthest outside the body, by "
+                 + percent(greatest) + " of the body's size (" + short_text(greatest / scale)
+                 + " in the unit of the files), the mean is "
+                 + percent(sum / static_cast<double>(n_used)) + "." + ratio);
+    const TriangleSurface triangles = triangulate(surface);
+    for (std::size_t t = 0; t < triangles.triangles.size(); ++t)
+      if (area_of(triangles, t) > 0.)
+      {
+        if (const double mean = mean_distance_of_boundary(mesh, triangles);
+            mean > mean_between * size)
+          refuse(surface_name, mesh,
+                 "the boundary of the body is " + percent(mean) + " of the body's size ("
+                     + short_text(mean / scale) + " in the unit of the files) from it on average."
+                     + ratio);
+        break;
+      }
+  }
+} // namespace Exemplar
