@@ -132,7 +132,7 @@ namespace Exemplar
       {
         const Matrix3<double> F = fe_space.deformation_gradient(point, positions[i]);
         const Matrix3<double> E = model_strain(measure, model_rotation(measure, F), F);
-        add_to_stored(strains.data(), point, n_strained(), i - first_strained, 1., E);
+        add_to_stored(strains.data(), point, n_strained(), i - first_strained, eta, E);
         if (traits_of(measure).has_guard)
           p_0 = min_or_nan(p_0, 0.5 * guard_product(E));
       }

@@ -66,9 +66,9 @@ namespace Exemplar
     }
     const double eta = poses.importance();
     if (parameters.energy != ExampleEnergy::scaled)
-      penalty.add(blended_part(parameters.energy) * eta * (1. - eta), poses.gram_matrix());
+      penalty.add(blended_part(parameters.energy) * (1. - eta) / eta, poses.gram_matrix());
     form.H = penalty;
-    form.H.add(eta * eta, poses.gram_matrix());
+    form.H.add(1., poses.gram_matrix());
     for (unsigned int weight = 0; weight < n; ++weight)
     {
       form.N(weight / poses.size(), weight) = 1.;

@@ -4,6 +4,7 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/body/example_weights.h>
 
+#include <cmath>
 #include <sstream>
 
 // Examples that are combinations of others: their weights are not determined.
@@ -31,7 +32,8 @@ namespace Exemplar
     const dealii::FullMatrix<double> differences = form_of_differences(poses.gram_matrix(), k);
     const auto second = [k](const unsigned int d) { return d + d / (k - 1) + 1; };
     // strains of 1e-10 are the rounding of a rest pose
-    const LeastPivot least = least_pivot(differences, 1e-20 * unit_energy);
+    const double     of_rounding = std::pow(1e-10 * poses.importance(), 2) * unit_energy;
+    const LeastPivot least       = least_pivot(differences, of_rounding);
     if (differences.m() == 0 || least.ratio > 1e-8)
       return;
     const unsigned int example = second(least.row) % k;

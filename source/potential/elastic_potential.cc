@@ -135,8 +135,8 @@ namespace Exemplar
   {
     double greatest = 0.;
     for (unsigned int weight = 0; weight < parts.examples->n_weights(); ++weight)
-      greatest = max_or_nan(greatest, parts.examples->importance() * rounding.stress_norm
-                                          * parts.examples->strain_norm(weight));
+      greatest
+          = max_or_nan(greatest, rounding.stress_norm * parts.examples->strain_norm(weight));
     return greatest;
   }
 
@@ -178,10 +178,8 @@ namespace Exemplar
   ElasticPotential::example_strain(const unsigned int         point,
                                    const std::vector<double> &weights) const
   {
-    if (parts.examples == nullptr)
-      return Matrix3<double>{};
-    const Matrix3<double> E = parts.examples->strain(point, weights);
-    return combine(parts.examples->importance(), E, 0., E);
+    return parts.examples == nullptr ? Matrix3<double>{}
+                                     : parts.examples->strain(point, weights);
   }
 
   void
@@ -199,7 +197,7 @@ namespace Exemplar
       result.energy += 0.5 * penalty * weights[v];
       result.weight_gradient[v] += penalty;
       result.weight_scale = max_or_nan(result.weight_scale,
-                                       examples.importance() * stress_norm * examples.strain_norm(v)
+                                       stress_norm * examples.strain_norm(v)
                                            + std::abs(penalty));
     }
   }

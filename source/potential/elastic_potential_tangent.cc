@@ -80,7 +80,7 @@ namespace Exemplar
           if (result.weight_gradient.empty())
             return;
           const Matrix3<double> dT = stress(elasticity(point), de);
-          const double factor      = parts.examples->importance() * parts.fe_space.volume(point);
+          const double factor      = parts.fe_space.volume(point);
           parts.examples->for_each_weight(
               point,
               [&](const unsigned int weight, const unsigned int i, const double share)
@@ -162,8 +162,7 @@ namespace Exemplar
           add_force(point, state.response(M), result.gradient);
           if (result.weight_gradient.empty())
             return;
-          const double factor = parts.examples->importance() / (1. + damping.factor(point))
-                                * parts.fe_space.volume(point);
+          const double factor = parts.fe_space.volume(point) / (1. + damping.factor(point));
           parts.examples->for_each_weight(
               point,
               [&](const unsigned int weight, const unsigned int i, const double share)

@@ -87,7 +87,7 @@ namespace Exemplar
     double sum = 0.;
     for (unsigned int weight = 0; weight < weights.size(); ++weight)
       sum += weights[weight] * examples->patch_dilatation(patch, weight);
-    return examples->importance() * sum;
+    return sum;
   }
 
   void
@@ -135,8 +135,8 @@ namespace Exemplar
       result.energy_elastic += 0.5 * stiffness(patch) * means[patch] * means[patch];
       result.energy += 0.5 * stiffness(patch) * deviation * deviation;
       for (unsigned int weight = 0; weight < result.weight_gradient.size(); ++weight)
-        result.weight_gradient[weight] -= examples->importance() * stiffness(patch) * deviation
-                                          * examples->patch_dilatation(patch, weight);
+        result.weight_gradient[weight]
+            -= stiffness(patch) * deviation * examples->patch_dilatation(patch, weight);
       if (const double s = damping_factor(patch); s > 0.)
       {
         const double change = means[patch] - past_means[patch];
@@ -166,8 +166,8 @@ namespace Exemplar
     find_means(cells, positions);
     for (unsigned int patch = 0; patch < patches.size(); ++patch)
       for (unsigned int weight = 0; weight < linear_term.size(); ++weight)
-        linear_term[weight] += examples->importance() * stiffness(patch) * means[patch]
-                               * examples->patch_dilatation(patch, weight);
+        linear_term[weight]
+            += stiffness(patch) * means[patch] * examples->patch_dilatation(patch, weight);
   }
 
   double
@@ -259,9 +259,8 @@ namespace Exemplar
       for (unsigned int weight = 0; weight < examples->n_weights(); ++weight)
         if (examples->is_strained(weight))
           scatter.add_column(
-              patch,
-              examples->importance() * stiffness(patch) * examples->patch_dilatation(patch, weight),
-              b, &columns[free_dofs.local_list().size() * examples->strained_index(weight)]);
+              patch, stiffness(patch) * examples->patch_dilatation(patch, weight), b,
+              &columns[free_dofs.local_list().size() * examples->strained_index(weight)]);
     }
   }
 
@@ -299,8 +298,8 @@ namespace Exemplar
         add(1., forces);
       }
       for (unsigned int weight = 0; weight < result.weight_gradient.size(); ++weight)
-        result.weight_gradient[weight] -= examples->importance() * stiffness(patch) * change
-                                          * examples->patch_dilatation(patch, weight);
+        result.weight_gradient[weight]
+            -= stiffness(patch) * change * examples->patch_dilatation(patch, weight);
     }
   }
 

@@ -23,7 +23,8 @@ namespace Exemplar
   double
   unit_energy(const FESpace &fe_space, const Material &material);
 
-  /// The example poses and their strains E_i at every quadrature point, Eq. (4), computed once.
+  /// The example poses and the strains that they ask for, eta E_i at every quadrature point, Eqs. (4)
+  /// and (5), computed once; eta is Examples/Importance.
   /// Example 0 is the rest pose where it is included. Each example has one weight or,
   /// with Weights per region, one a region: weight r * size() + i is that of example i in
   /// region r.
@@ -94,7 +95,7 @@ namespace Exemplar
       return positions[i];
     }
 
-    /// E_i at a quadrature point.
+    /// eta E_i at a quadrature point.
     Matrix3<double>
     strain(const unsigned int point, const unsigned int i) const
     {
@@ -111,7 +112,6 @@ namespace Exemplar
                first_strained,
                size(),
                n_weights(),
-               eta,
                strains.data(),
                regions ? regions->starts().data() : nullptr,
                regions ? regions->list().data() : nullptr };
@@ -152,7 +152,7 @@ namespace Exemplar
       return weight / size() * n_strained() + weight % size() - first_strained;
     }
 
-    /// E(w) = sum_i w_i E_i at a point.
+    /// eta E(w) = eta sum_i w_i E_i at a point.
     Matrix3<double>
     strain(const unsigned int point, const std::vector<double> &weights) const
     {
@@ -163,14 +163,14 @@ namespace Exemplar
       return sum;
     }
 
-    /// (sum V |dE/dw|^2)^(1/2) over the cells [m^(3/2)] for a weight.
+    /// (sum V |eta dE/dw|^2)^(1/2) over the cells [m^(3/2)] for a weight.
     double
     strain_norm(const unsigned int weight) const
     {
       return strain_norms[weight];
     }
 
-    /// dtheta_p/dw of a patch, the mean of tr E over its volume, for a weight; Eq. (25).
+    /// eta dtheta_p/dw of a patch, the mean of eta tr E over its volume, for a weight; Eq. (25).
     double
     patch_dilatation(const unsigned int patch, const unsigned int weight) const
     {
@@ -184,7 +184,7 @@ namespace Exemplar
       return p_0;
     }
 
-    /// sum V E_i : C : E_j for all pairs of weights [J]; with patches, the volume part by Eq. (25).
+    /// eta^2 sum V E_i : C : E_j for all pairs of weights [J]; with patches, the volume part by Eq. (25).
     const dealii::FullMatrix<double> &
     gram_matrix() const
     {
@@ -227,10 +227,10 @@ namespace Exemplar
     std::vector<std::string>            names;
     std::vector<dealii::Vector<double>> positions;
     const unsigned int                  first_strained;
-    dealii::AlignedVector<double>       strains; ///< as ExampleArrays has them
+    dealii::AlignedVector<double>       strains; ///< eta E_i, as ExampleArrays has them
     std::vector<double>                 strain_norms;
     dealii::FullMatrix<double>          patch_dilatations; ///< patch, weight; empty without patches
-    dealii::FullMatrix<double>          gram;              ///< sum V E_i : C : E_j
+    dealii::FullMatrix<double>          gram;
     double                              p_0 = default_guard_bound;
     std::vector<std::string>            warnings;
   };

@@ -52,8 +52,7 @@ namespace Exemplar
     unsigned int       first       = 0; ///< number of the first among all examples
     unsigned int       n_all       = 0; ///< of all
     unsigned int       n_weights   = 0;
-    double             importance  = 0.;      ///< eta
-    const double      *strains     = nullptr; ///< 6 n: xx, yy, zz, yz, xz, xy of each
+    const double      *strains     = nullptr; ///< 6 n: xx, yy, zz, yz, xz, xy of each eta E_i
     const std::size_t *share_start = nullptr; ///< of a cell's shares; null: weights are global
     const RegionShare *shares      = nullptr;
   };

@@ -36,10 +36,9 @@ namespace Exemplar::Loops
     const auto                 tet      = load_tetrahedron<n_nodes>(task.cells, group);
     const Matrix3<Number>      R        = load_rotation(task.cells, group);
     const CellMaterial<Number> material = load_material(task.cells, group);
-    const Number               factor   = Number(task.examples.importance);
     for (unsigned int i = 0; i < task.examples.n; ++i)
       store_coupling(
-          group, tet, R, factor,
+          group, tet, R, Number(1.),
           stress(material, load_strain(task.examples.strains, group, task.examples.n, i)), i,
           forces);
   }
@@ -54,7 +53,7 @@ namespace Exemplar::Loops
   {
     const auto            tet    = load_tetrahedron<n_nodes>(task.cells, group);
     const Matrix3<Number> R      = load_rotation(task.cells, group);
-    Number                factor = Number(task.examples.importance);
+    Number                factor = Number(1.);
     // the damped target moves by 1/(1+s) of what the examples' does, see damped_target()
     if (task.damping.factors != nullptr)
       factor /= Number(1.) + load(task.damping.factors, group, 1, 0);

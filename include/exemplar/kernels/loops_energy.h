@@ -226,8 +226,7 @@ namespace Exemplar::Loops
       {
         P = cell.weight_stress(D);
         if (task.with_weight_sums)
-          add_weight_sums(task, group, Number(-task.examples.importance) * tet.volume, P,
-                          weight_sums);
+          add_weight_sums(task, group, -tet.volume, P, weight_sums);
       }
     }
     else
@@ -306,8 +305,8 @@ namespace Exemplar::Loops
                 if constexpr (Cell::traits.has_patches)
                   if (task.dilatation.traces != nullptr)
                     store_dilatation(task, group, cell.strain(), F);
-                add_weight_sums(task, group, Number(task.examples.importance) * tet.volume,
-                                cell.weight_stress(Matrix3<Number>{}), weight_sums);
+                add_weight_sums(task, group, tet.volume, cell.weight_stress(Matrix3<Number>{}),
+                                weight_sums);
               });
         });
   }

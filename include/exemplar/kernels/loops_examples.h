@@ -40,7 +40,7 @@ namespace Exemplar::Loops
     {
       if (examples.share_start == nullptr && task.weights[examples.first + i] == 0.)
         continue; // of many examples with bounded weights most have weight 0
-      const Number w = weight(task, group, i) * Number(examples.importance);
+      const Number w = weight(task, group, i);
       for (std::size_t k = 0; k < n_symmetric; ++k)
         sum[k] += w * load(examples.strains, group, n_symmetric * examples.n, n_symmetric * i + k);
     }
@@ -67,13 +67,13 @@ namespace Exemplar::Loops
               += examples.shares[s].value * of_cell[lane];
   }
 
-  /// Add factor T:E_i to the sums of the weights, for every example i. Each pair of off-diagonal
+  /// Add factor T : eta E_i to the sums of the weights, for every example i. Each pair of off-diagonal
   /// entries of T is added up once, because E_i is symmetric.
   template <typename Number>
   inline void
   add_weight_sums(const CellTask          &task,
                   const LaneGroup<Number> &group,
-                  const Number            &factor, ///< eta V or -eta V
+                  const Number            &factor, ///< V or -V
                   const Matrix3<Number>   &T,
                   double                  *weight_sums)
   {
