@@ -19,9 +19,11 @@ namespace Exemplar
                 ? file
                 : std::filesystem::absolute(directory / file).lexically_normal().string();
       if (path.find_first_of(unwanted) != std::string::npos)
-        throw UserError("The path " + path + " holds one of the signs " + unwanted
-                        + " which mean something else in scene files. Rename the file or its "
-                          "directory.");
+        throw UserError("The path " + path
+                        + (path.find('#') == std::string::npos
+                               ? " holds a comma, which separates the names of a list"
+                               : " holds a #, which begins a comment in scene files")
+                        + ". Rename the file or its directory.");
       if (find_unprintable(path) != std::string::npos)
         throw UserError("The path " + path
                         + " holds bytes that are no text in UTF-8, which a scene file cannot hold. "
