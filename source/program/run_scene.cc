@@ -14,6 +14,7 @@
 #include <exemplar/run/problem.h>
 #include <exemplar/run/run_directory.h>
 #include <exemplar/run/run_writer.h>
+#include <exemplar/run/scene_review.h>
 #include <exemplar/run/shared_inputs.h>
 #include <exemplar/run/state_review.h>
 #include <exemplar/run/unit_review.h>
@@ -54,6 +55,7 @@ namespace Exemplar
                                { return read_shared_inputs(scene, MPI_COMM_WORLD, announce); }));
       log.warn(problem->warnings());
       log.warn(unit_warnings(*problem));
+      log.warn(scene_warnings(*problem));
       log.warn(motion_warnings(*problem, options.resume || options.resume_from));
       log.warn(idle_load_warnings(*problem));
       return problem;
