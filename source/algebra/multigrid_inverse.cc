@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/algebra/long_vectors.h>
 #include <exemplar/algebra/exchange.h>
+#include <exemplar/algebra/long_vectors.h>
 #include <exemplar/algebra/multigrid_inverse.h>
 #include <exemplar/algebra/trilinos_lock.h>
 

@@ -249,6 +249,16 @@ namespace Exemplar
     return shared;
   }
 
+  std::string
+  Handles::remedy_of_overlap(const Handle &first, const Handle &second) const
+  {
+    for (const Handle *const handle : { &first, &second })
+      if (handle->nodes.size() == fe_space.n_nodes())
+        return ". Handles/" + handle->name
+               + "/Select selects all nodes of the body: make it smaller.";
+    return ". Change Handles/" + second.name + "/Select so that they do not overlap.";
+  }
+
   void
   Handles::check_agreement(const std::set<unsigned int> &shared,
                            const Displacements          &displacements,
@@ -275,8 +285,7 @@ namespace Exemplar
             throw UserError("Handles '" + handles[first->second.handle].name + "' and '"
                             + handles[h].name + "' both hold " + name_of_node(node)
                             + ", but move it differently at t = " + shortest_text(time)
-                            + ". Change Handles/" + handles[h].name
-                            + "/Select so that they do not overlap.");
+                            + remedy_of_overlap(handles[first->second.handle], handles[h]));
         }
       }
   }

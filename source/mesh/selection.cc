@@ -82,6 +82,10 @@ namespace Exemplar
     {
       bool       are_all = false;
       const auto values  = parse_numbers(words.rest, are_all);
+      if (words.rest.find('|') != std::string::npos)
+        throw UserError(key + "/Select = '" + words.kind + " " + words.rest
+                        + "': there is one selection alone, and | joins none. Make a subsection of "
+                          "its own for each.");
       if (!are_all || values.size() != n)
         throw UserError(key + "/Select = '" + words.kind + " " + words.rest + "': '" + words.kind
                         + "' takes " + std::to_string(n)

@@ -160,9 +160,12 @@ namespace Exemplar
         if (name.empty())
           fail("the subsection has no name. Write 'subsection NAME'.");
         if (name.find('/') != std::string::npos && name.compare(0, 7, "region ") != 0)
-          fail("'" + name + "' is no name of a subsection. Write 'subsection "
-               + name.substr(0, name.find('/')) + "' and within it 'subsection "
-               + name.substr(name.find('/') + 1) + "', each closed by a line 'end'.");
+          fail("'" + name + "' is no name of a subsection. "
+               + (open.empty()
+                      ? "Write 'subsection " + name.substr(0, name.find('/'))
+                            + "' and within it 'subsection " + name.substr(name.find('/') + 1)
+                            + "', each closed by a line 'end'."
+                      : "A name has letters, digits, blanks, - and _, but no /."));
         // in files without indentation only the names tell
         const bool is_outer = sections.count(name) > 0 || (!open.empty() && subsections[0] == name);
         if (!open.empty()

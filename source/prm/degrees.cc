@@ -7,6 +7,9 @@ namespace Exemplar
 {
   namespace
   {
+    /// Of what people write; to look into all nested calls of a program's text would take long.
+    constexpr std::size_t longest_by_hand = 2000;
+
     /// What stands between the parenthesis that opens at `begin` and the one that closes it.
     std::string
     in_parentheses(const std::string &text, const std::size_t begin)
@@ -44,6 +47,8 @@ namespace Exemplar
   {
     static const std::regex     call("\\b(sin|cos|tan)\\s*\\("), over_180("/\\s*180(?![\\w.])");
     std::vector<AngleInDegrees> all;
+    if (formulas.size() > longest_by_hand)
+      return all;
     for (std::sregex_iterator found(formulas.begin(), formulas.end(), call), end; found != end;
          ++found)
     {

@@ -68,6 +68,11 @@ namespace Exemplar
         return " Remove the ';' at the end.";
       if (texts.size() == 1 && has_outer_comma(texts[0]))
         return " Commas do not separate formulas.";
+      if (texts.size() == 1 && n_components > 1)
+        return std::string(are_of_places ? " They are for x, y and z; write 0 where nothing is." : "")
+               + " On a command line the whole needs quotes, as a shell ends its commands at ';'.";
+      if (texts.size() > n_components && texts.size() % n_components == 0)
+        return " If they are of several poses, separate these by '|': x; y; z | x; y; z.";
       if (texts.size() < n_components && are_of_places)
         return " They are for x, y and z; write 0 where nothing is.";
       return "";
@@ -82,6 +87,8 @@ namespace Exemplar
               { "\\b(np|numpy|math|std|Math)\\b", "Functions have no prefix: sin(t)." },
               { "\\bdeg(rees?)?\\b|\xC2\xB0", "Angles are in radians: 90 degrees are 90*pi/180." },
               { "\\b(heaviside|Heaviside|step) *\\(", "A step is written t > 0.5 ? 1 : 0." },
+              { "[0-9.] *(m|cm|mm|s|ms|N|kN|kg|Pa)\\b",
+                "Numbers have no unit: lengths are in m, times in s, forces in N." },
               { "(^|[^a-zA-Z0-9_.])[0-9.]+ *(?![eE][-+0-9])[a-zA-Z(]",
                 "Products are written 2*t." },
               { "\\bif *\\(", "A choice is written c ? a : b." },
@@ -93,12 +100,21 @@ namespace Exemplar
               { "\xE2\x88\x92|\xE2\x80\x93", "The sign of minus is -, not a dash." },
               { "\xC2\xB2|\xC2\xB3", "Powers are written x^2." },
               { "\xC2\xB7|\xC3\x97", "The sign of products is *." },
-              { "^$", "Write 0 where nothing is." } };
+              { "^$", "Write 0 where nothing is. (A shell replaces $ in double quotes.)" } };
       if (text.size() < 200)
         for (const auto &[pattern, remedy] : habits)
           if (std::regex_search(text, std::regex(pattern)))
             return " " + remedy;
       return "";
+    }
+
+    /// Of an empty formula, which shows nothing of where it stands.
+    std::string
+    place_among(const unsigned int i, const std::string &all, const unsigned int n)
+    {
+      if (n == 1 || !split_trimmed(all, ';')[i].empty())
+        return "";
+      return ", number " + std::to_string(i + 1) + " of '" + all + "',";
     }
 
     double
@@ -165,8 +181,8 @@ namespace Exemplar
         for (const char variable : variables)
           names += std::string(names.empty() ? "" : ", ") + variable;
         throw UserError(
-            key + ": the formula '" + parsers->texts[i]
-            + "' is not understood: " + std::regex_replace(error.GetMsg(), std::regex("[. ]*$"), "")
+            key + ": the formula '" + parsers->texts[i] + "'" + place_among(i, text, n_components)
+            + " is not understood: " + std::regex_replace(error.GetMsg(), std::regex("[. ]*$"), "")
             + "." + remedy_of_formula(parsers->texts[i])
             + (variables.size() == 1 ? " Allowed: the variable " : " Allowed: the variables ")
             + names

@@ -111,12 +111,16 @@ namespace Exemplar
     section_in_words(const std::string &section, const std::vector<DeclaredKey> &keys)
     {
       const std::string names = section.empty() ? "" : keys_of(section, keys);
-      return names.empty() ? ""
-                           : "Section " + section + " has the keys " + names
-                                 + (names.find("Names") == std::string::npos
-                                        ? ". "
-                                        : "; what Names lists has keys of its own, in a subsection "
-                                          "each. ");
+      return names.empty()
+                 ? ""
+                 : "Section " + section + " has the keys " + names
+                       + (names.find("Names") == std::string::npos
+                              ? ". "
+                              : "; what Names lists has keys of its own, in a subsection "
+                                "each, such as "
+                                    + section + "/NAME/Select"
+                                    + (section == "Loads" ? " and Loads/NAME/Force. "
+                                                          : " and " + section + "/NAME/Motion. "));
     }
 
     // What common mistakes become when they are undone.
@@ -330,11 +334,15 @@ namespace Exemplar
     const std::string usual_remedy = "exemplar --print-parameters lists them all.";
     if (path.size() > 200) // no key of a person, and too much for regular expressions
       return usual_remedy;
+    if (letters(path) == "threads" || letters(path) == "nthreads")
+      return "The number of threads is given by --threads, behind the scene.";
     const bool        has_slash = path.find('/') != std::string::npos;
     const std::string usual     = has_slash ? path : replaced(path, "[.:>]+", "/");
     std::string       remedy    = usual == path ? "" : "Sections and keys are separated by '/'. ";
     const Path        written   = split_path(usual);
     const std::vector<std::string> nearest = nearest_keys(written, keys);
+    if (written.section.rfind("Handles/", 0) == 0 && letters(written.key) == "velocity")
+      remedy += "A handle is moved by Motion, displacements [m] that are formulas of t. ";
     if (!nearest.empty())
     {
       for (std::size_t i = 0; i < std::min<std::size_t>(nearest.size(), 4); ++i)

@@ -213,6 +213,8 @@ namespace Exemplar
       if (what.rfind(begin, 0) == 0)
         return what.substr(begin.size()) + " is not understood. A whole number is needed, with all "
                + "its digits and nothing else";
+      if (what.rfind("--set: 1 required", 0) == 0)
+        return "--set has nothing behind it. Write --set \"Section/Key=value\"";
       if (what.find("At Most 1 required") != std::string::npos)
         return what.substr(0, what.find(':')) + " is given twice. Give it once";
       if (dynamic_cast<const CLI::RequiredError *>(&error) != nullptr)

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/program/joint_run.h>
 #include <exemplar/algebra/spd_operator.h>
 #include <exemplar/base/environment.h>
 #include <exemplar/base/errors.h>
@@ -10,6 +9,7 @@
 #include <exemplar/program/argument_remedies.h>
 #include <exemplar/program/command_line.h>
 #include <exemplar/program/interrupt.h>
+#include <exemplar/program/joint_run.h>
 #include <exemplar/program/mesh_command.h>
 #include <exemplar/program/number_option.h>
 #include <exemplar/program/pose_command.h>

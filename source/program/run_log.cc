@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/program/joint_run.h>
 #include <exemplar/base/message_text.h>
 #include <exemplar/base/version.h>
+#include <exemplar/program/joint_run.h>
 #include <exemplar/program/run_log.h>
 #include <exemplar/run/output/run_directory.h>
 

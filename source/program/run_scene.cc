@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/program/joint_run.h>
 #include <exemplar/base/environment.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/base/launcher.h>
 #include <exemplar/base/message_text.h>
 #include <exemplar/base/progress.h>
 #include <exemplar/program/interrupt.h>
+#include <exemplar/program/joint_run.h>
 #include <exemplar/program/run_log.h>
 #include <exemplar/program/run_scene.h>
 #include <exemplar/program/run_texts.h>
@@ -15,6 +15,7 @@
 #include <exemplar/run/problem/idle_review.h>
 #include <exemplar/run/problem/motion_review.h>
 #include <exemplar/run/problem/problem.h>
+#include <exemplar/run/problem/scene_review.h>
 #include <exemplar/run/problem/state_review.h>
 #include <exemplar/run/problem/unit_review.h>
 
@@ -54,6 +55,7 @@ namespace Exemplar
                                { return read_shared_inputs(scene, MPI_COMM_WORLD, announce); }));
       log.warn(problem->warnings());
       log.warn(unit_warnings(*problem));
+      log.warn(scene_warnings(*problem));
       log.warn(motion_warnings(*problem, options.resume || options.resume_from));
       log.warn(idle_load_warnings(*problem));
       return problem;

@@ -8,6 +8,7 @@
 #include <exemplar/python/unlocked_work.h>
 #include <exemplar/run/problem/idle_review.h>
 #include <exemplar/run/problem/motion_review.h>
+#include <exemplar/run/problem/scene_review.h>
 #include <exemplar/run/problem/unit_review.h>
 
 #include <algorithm>
@@ -85,6 +86,7 @@ namespace Exemplar::Python
     problem->solver->observe = [this](const SolveReport &iteration) { return observe(iteration); };
     warn(problem->warnings());
     warn(unit_warnings(*problem));
+    warn(scene_warnings(*problem));
     warn(motion_warnings(*problem));
     warn(idle_load_warnings(*problem));
   }

@@ -32,7 +32,8 @@ def room_of(folder):
 
 
 def files_of(folder):
-    return sorted([*(TOP / "include/exemplar" / folder).glob("*.h*"), *(TOP / "source" / folder).glob("*.cc")])
+    return sorted([*(TOP / "include/exemplar" / folder).glob("*.h*"), *(TOP / "source" / folder).glob("*.cc"),
+                   *(TOP / "source" / folder).glob("*.py")])
 
 
 def includes_of(file):

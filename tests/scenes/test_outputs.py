@@ -253,7 +253,8 @@ class Outputs(SceneTest):
         run = self.call("scene.prm", "--set", "Time/Increments=3", "--set",
                         "Handles/left/Motion=0; 0; t", "--set", "Time/Increments = 1",
                         "--output", "out")
-        self.assertEqual((run.status, run.stderr), (0, ""))
+        self.assertEqual((run.status, run.stderr),
+                         (0, "Warning: --set Time/Increments is given twice, as '3' and '1': the last one holds.\n"))
         output = self.directory / "out"
         self.assertEqual(len(read_csv(output)), 2)
         self.assertIn("set Motion = 0; 0; t\n", (output / "parameters.prm").read_text())
@@ -337,6 +338,31 @@ class Outputs(SceneTest):
             ({**pulled, motion: "0; 0; 0.5", "Scene": "dynamic", "Time/Increments": None, "Time/Step": "0.01", "Time/End": "0.02"},
              ["Handles/right: at t = 0 the held nodes are up to 0.5 m from where the body starts"]),
             ({**BAR, "Loads/Names": "tip", "Loads/tip/Select": "boundary 1", "Loads/tip/Force": "0; 0; 1"}, ["Loads/tip moves nothing: handles hold"]),
+            ({**pulled, motion: "0; 0; t", "Handles/right/Components": "z", "Loads/Names": "tip", "Loads/tip/Select": "boundary 2",
+              "Loads/tip/Force": "0; 0; 1"}, ["Loads/tip moves nothing", "in its direction", "free a component"]),
+            ({**pulled, motion: "0; 0; t", "Handles/right/Components": "z", "Loads/Names": "tip", "Loads/tip/Select": "boundary 2",
+              "Loads/tip/Force": "0; .1; 1"}, []),
+            ({**pulled, motion: ".5*t; 0; t", "Handles/right/Components": "z"}, ["moves along x, too", "Add x to Components"]),
+            ({**pulled, motion: "0; 0; z+.1*t", "Handles/right/Components": "z"}, ["as if it gave places"]),
+            ({**pulled, motion: "0; 0; .1"}, ["up to 0.1 m from where the body starts", "in the first increment", "begin with 0"]),
+            ({**pulled, motion: "0; 0; .1", "Time/Increments": "1"}, []),
+            ({**pulled, motion: "0; 0; .2*sin(20*pi*t)", "Time/Increments": "20"}, ["swing to and fro within a step", "twenty for each swing"]),
+            ({**pulled, motion: "0; 0; .2*sin(20*pi*t)", "Time/Increments": "100"}, []),
+            ({**BAR, "Examples/Pose functions": "1.1*x; y; z", "Examples/Include rest pose": "false"},
+             ["There is one example", "pulls at the body all the time", "Include rest pose = true"]),
+            ({**BAR, "Scene": "dynamic", "Time/Increments": None, "Time/Step": "0.01", "Time/End": "0.02", "Time/Mass damping": "1e6"},
+             ["Time/Mass damping = 1e+06 per s stops all motion within 1e-06 s", "a rate in 1/s"]),
+            ({**pulled, "Model/Strain": "linear", motion: "0; 0; 4*t"}, ["Cells have turned by up to", "Model/Strain = corotational"]),
+            ({**pulled, "Model/Strain": "linear", motion: "0; 0; .1*t"}, []),
+            ({**BAR, "Solver/Tolerance": "0.5"}, ["out of balance by 50 %", "The default is 1e-08"]),
+            ({**BAR, "Examples/Pose functions": "1.1*x; y; z", "Examples/Weights": "prescribed", "Examples/Prescribed weights": "1-2*t; 2*t"},
+             ["go from -1 to 2", "extrapolated", "min(t, 1)"]),
+            ({**BAR, "Mesh/Box size": "2, 1, .001"}, ["The cells of the box have edges of", "proportions of Mesh/Box size"]),
+            ({**BAR, "Material/Poisson's ratio": ".4999", "Model/Dilatation": "cells"}, ["linear tetrahedra without patches lock"]),
+            ({**BAR, "Material/Poisson's ratio": ".4999"}, []),
+            ({**BAR, "Material/Poisson's ratio": ".49999"}, ["Poisson's ratio of 0.49999 is beyond 0.4999"]),
+            ({**BAR, "Solver/Step tolerance": "1e-6"}, ["Solver/Step tolerance = 1e-6 does nothing", "Solver/Tolerance"]),
+            ({**BAR, "Examples/Pose functions": "1.1*x; y; z", "Examples/Attach": "100"}, ["Examples/Attach = 100 does nothing without a pose by a surface"]),
             ({**BAR, "Loads/Names": "tip", "Loads/tip/Select": "boundary 2", "Loads/tip/Force": "0; 0; 1e8"},
              ["The loads add up to 1e+08 N", "times E times the body's section", "a pressure is to be multiplied"]),
             ({**BAR, "Material/Young's modulus": "210"}, ["Young's modulus of 210 Pa is less than that of jelly", "210 GPa 2.1e11"]),

@@ -172,6 +172,9 @@ namespace Exemplar
     Displacements
     displacements(double time) const;
 
+    std::string
+    remedy_of_overlap(const Handle &first, const Handle &second) const;
+
     void
     check_agreement(const std::set<unsigned int> &shared,
                     const Displacements          &displacements,

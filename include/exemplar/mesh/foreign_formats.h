@@ -13,9 +13,9 @@ namespace Exemplar
   std::string
   remedy_of_mesh(const std::filesystem::path &file, std::string_view bytes);
 
-  /// The same of a file that is none of the surfaces that can be read; without bytes by its name.
+  /// The same of a file that is none of the surfaces that can be read.
   std::string
-  remedy_of_surface(const std::filesystem::path &file, std::string_view bytes = {});
+  remedy_of_surface(const std::filesystem::path &file, std::string_view bytes);
 
   /// The same of a file that is called like a surface, if its bytes are of another format.
   std::string

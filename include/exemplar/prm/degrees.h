@@ -17,7 +17,7 @@ namespace Exemplar
   };
 
   /// Those in formulas whose argument holds a whole number of fifteens, 30 or more, that is not
-  /// divided by, and no pi: 30, 45, 60, 90, 180, ...
+  /// divided by, and no pi: 30, 45, 60, 90, 180, ... None in what is too long to be written by hand.
   std::vector<AngleInDegrees>
   find_degrees(const std::string &formulas);
 } // namespace Exemplar

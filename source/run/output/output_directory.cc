@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <fstream>
+#include <regex>
 
 namespace Exemplar
 {
@@ -14,6 +15,15 @@ namespace Exemplar
   void
   require_writable(const fs::path &path, const std::string &remedy)
   {
+    static const std::regex unusual("~.*|[a-zA-Z]:\\\\.*");
+    if (std::regex_match(path.string(), unusual))
+      throw UserError(
+          "Output directory " + path.string()
+          + (path.string()[0] == '~'
+                 ? ": ~ is not replaced here; write the path in full."
+                 : " is a path of Windows: directories are separated by /, and there is "
+                   "no drive.")
+          + remedy);
     fs::path parent = fs::absolute(path);
     while (!fs::exists(parent))
       parent = parent.parent_path();

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/number_text.h>
+#include <exemplar/prm/assignments.h>
 #include <exemplar/run/problem/idle_review.h>
 #include <exemplar/run/problem/motion_review.h>
 
@@ -20,17 +22,42 @@ namespace Exemplar
              && std::all_of(v.begin(), v.end(), [](const double a) { return a == 0.; });
     }
 
-    /// Whether all of these nodes are held in all directions, in this process.
-    bool
-    are_held(const std::vector<unsigned int> &nodes, const std::vector<unsigned int> &held_dofs)
+    /// The components of a force that are not 0 as they are written.
+    std::vector<unsigned int>
+    directions_of(const LoadParameters &load)
     {
-      const auto is_held = [&](const unsigned int dof)
-      { return std::binary_search(held_dofs.begin(), held_dofs.end(), dof); };
+      const std::vector<std::string> formulas = split_trimmed(load.force, ';');
+      std::vector<unsigned int>      directions;
+      for (unsigned int c = 0; c < formulas.size(); ++c)
+        if (parse_number(formulas[c]) != 0.)
+          directions.push_back(c);
+      return directions;
+    }
+
+    /// Whether all of these nodes are held in these directions, in this process.
+    bool
+    are_held(const std::vector<unsigned int> &nodes,
+             const std::vector<unsigned int> &directions,
+             const std::vector<unsigned int> &held_dofs)
+    {
       return std::all_of(nodes.begin(), nodes.end(),
-                         [&](const unsigned int node) {
-                           return is_held(3 * node) && is_held(3 * node + 1)
-                                  && is_held(3 * node + 2);
+                         [&](const unsigned int node)
+                         {
+                           return std::all_of(directions.begin(), directions.end(),
+                                              [&](const unsigned int c) {
+                                                return std::binary_search(held_dofs.begin(),
+                                                                          held_dofs.end(),
+                                                                          3 * node + c);
+                                              });
                          });
+    }
+
+    /// Whether the examples leave the rest pose an equilibrium.
+    bool
+    may_rest(const Examples &examples)
+    {
+      return examples.poses == nullptr
+             || (examples.weights->are_unknown() && !examples.poses->is_strained(0));
     }
   } // namespace
 
@@ -44,11 +71,13 @@ namespace Exemplar
     std::vector<std::string>        warnings;
     const std::vector<unsigned int> held = handles->held_dofs();
     for (unsigned int load = 0; load < loads->size(); ++load)
-      if (!problem.body.exchange().any(!are_held(loads->nodes(load), held)))
+      if (const auto directions = directions_of(problem.parameters.loads.named[load]);
+          !directions.empty()
+          && !problem.body.exchange().any(!are_held(loads->nodes(load), directions, held)))
         warnings.push_back(
             "Loads/" + loads->name(load)
-            + " moves nothing: handles hold all nodes that it acts on. Select others "
-              "in its Select, or in that of the handle.");
+            + " moves nothing: handles hold all nodes that it acts on, in its direction. Select "
+              "others in its Select or in that of the handle, or free a component by Components.");
     return warnings;
   }
 
@@ -57,7 +86,7 @@ namespace Exemplar
   {
     std::vector<std::string> notes;
     if (problem.parameters.scene != SceneKind::interpolation && problem.actions.loads == nullptr
-        && problem.examples.poses == nullptr && !problem.body.exchange().any(!is_at_rest(problem))
+        && may_rest(problem.examples) && !problem.body.exchange().any(!is_at_rest(problem))
         && !is_any_handle_moved(problem))
       notes.push_back("nothing will happen: no handle moves, no load acts, and the body starts at "
                       "rest (Handles/NAME/Motion, Loads/Gravity, Loads/Names)");

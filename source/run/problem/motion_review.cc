@@ -23,6 +23,9 @@ namespace Exemplar
     // What is less than so many times the body's size is nothing.
     constexpr double small_way = 1e-3;
 
+    // Where within a step to look: no fraction at which what swings is where it was, too.
+    constexpr double within = 0.381966;
+
     double
     greatest_difference(const Vector &a, const Vector &b)
     {
@@ -36,6 +39,7 @@ namespace Exemplar
     struct Travel
     {
       double in_step = 0., in_all = 0.;
+      double beside_step = 0.; ///< within a step, from the straight way
     };
 
     /// Of the nodes that this process has, in a few of the steps.
@@ -44,7 +48,7 @@ namespace Exemplar
     {
       const unsigned int n_looks = std::min(axis.n_steps(), 8u);
       Travel             travel;
-      Vector             before = rest, after = rest;
+      Vector             before = rest, after = rest, middle = rest;
       for (unsigned int look = 1; look <= n_looks; ++look)
       {
         const auto step = static_cast<unsigned int>(std::size_t(look) * axis.n_steps() / n_looks);
@@ -52,6 +56,9 @@ namespace Exemplar
         handles.move(axis.time(step), after);
         travel.in_step = std::max(travel.in_step, greatest_difference(before, after));
         travel.in_all  = std::max(travel.in_all, greatest_difference(rest, after));
+        handles.move((1. - within) * axis.time(step - 1) + within * axis.time(step), middle);
+        before.sadd(1. - within, within, after);
+        travel.beside_step = std::max(travel.beside_step, greatest_difference(before, middle));
       }
       return travel;
     }
@@ -69,13 +76,18 @@ namespace Exemplar
       if (travel.in_all > great_way * size)
         return "Handles move by up to " + short_text(travel.in_all) + " m, "
                + short_text(travel.in_all / size) + of_size + ". Motions are in metres.";
+      if (travel.beside_step > small_way * size && travel.beside_step > 4. * travel.in_all)
+        return "Handles swing to and fro within a step: they are up to "
+               + short_text(travel.beside_step)
+               + " m beside the way from its beginning to its end, and a run sees these two alone. "
+                 "Take smaller steps: twenty for each swing.";
       return {};
     }
 
     /// How a handle begins: its nodes' greatest distances [m], by component.
     struct Beginning
     {
-      double from_rest;        ///< of rest from the origin
+      double from_rest;        ///< of what is moved, at rest, from the origin
       double from_double_rest; ///< of t = 0 from twice the places at rest
       double from_start;       ///< of t = 0 from where the body starts
     };
@@ -88,10 +100,11 @@ namespace Exemplar
       for (const unsigned int node : problem.constraints.handles->nodes(handle))
         for (unsigned int dof = 3 * node; dof < 3 * node + 3; ++dof)
         {
+          if (moved[dof] == rest[dof])
+            continue; // not held, or not moved
           greatest[0].add(rest[dof]);
           greatest[1].add(moved[dof] - 2. * rest[dof]);
-          if (moved[dof] != rest[dof]) // held, and moved
-            greatest[2].add(moved[dof] - problem.state.positions[dof]);
+          greatest[2].add(moved[dof] - problem.state.positions[dof]);
         }
       const Exchange &exchange = problem.body.exchange();
       return { exchange.max(greatest[0].value()), exchange.max(greatest[1].value()),
@@ -109,11 +122,15 @@ namespace Exemplar
                + ": at t = 0 its motion moves every node by the node's own place, as if it gave "
                  "places. It gives displacements from rest: take x; y; z off (in Python rest).";
       const bool follows_cache = !problem.parameters.handles[handle].follow_cache.empty();
-      if (problem.actions.mass != nullptr && !follows_cache && at.from_start > small_way * size)
-        return key + ": at t = 0 the held nodes are up to " + short_text(at.from_start)
-               + " m from where the body starts, so they jump in the first step. Let its motion "
-                 "begin with 0, or set Initial/Pose.";
-      return {};
+      if (follows_cache || !(at.from_start > small_way * size) || problem.time_axis.n_steps() == 1)
+        return {};
+      return key + ": at t = 0 the held nodes are up to " + short_text(at.from_start)
+             + " m from where the body starts, so they "
+             + (problem.actions.mass != nullptr
+                    ? "jump in the first step. Let its motion begin with 0, or set Initial/Pose."
+                    : "go all of this way in the first increment. A motion gives displacements "
+                      "from rest: let it begin with 0, such as t times what is there, or set "
+                      "Initial/Pose.");
     }
 
     /// Of the handles in all processes; nothing if one is not finite, which the step will say.
@@ -137,7 +154,8 @@ namespace Exemplar
       {
         return {};
       }
-      return Travel{ exchange.max(travel.in_step), exchange.max(travel.in_all) };
+      return Travel{ exchange.max(travel.in_step), exchange.max(travel.in_all),
+                     exchange.max(travel.beside_step) };
     }
 
     void

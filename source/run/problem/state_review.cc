@@ -101,6 +101,31 @@ namespace Exemplar
                "little. Pull less, or take a smaller Material/Poisson's ratio.";
     }
 
+    /// Angles [rad] beyond which the linear strain is far from one.
+    constexpr double great_turn = M_PI / 9.;
+
+    std::optional<std::string>
+    describe_turned(const Problem &problem)
+    {
+      if (problem.parameters.model.strain != StrainMeasure::linear)
+        return {};
+      double         greatest = 0.;
+      const FESpace &fe_space = problem.body.fe_space;
+      for (unsigned int point = 0; point < fe_space.n_points(); ++point)
+      {
+        const Matrix3<double> R
+            = closest_rotation(fe_space.deformation_gradient(point, problem.state.positions));
+        greatest = std::max(greatest, std::acos(std::clamp(0.5 * (trace(R) - 1.), -1., 1.)));
+      }
+      greatest = problem.body.exchange().max(greatest);
+      if (!(greatest > great_turn))
+        return {};
+      return "Cells have turned by up to " + short_text(greatest * 180. / M_PI)
+             + " degrees, but Model/Strain = linear takes turns for strains: beyond some 10 "
+               "degrees "
+               "its shapes mean little. Set Model/Strain = corotational.";
+    }
+
     /// The example that prescribed weights name as the only one, if they do in all regions.
     std::optional<unsigned int>
     only_example(const Problem &problem)
@@ -216,7 +241,8 @@ namespace Exemplar
                            ? "Loads/Ramp = increments raises them over the increments, with frames "
                              "of the way."
                            : "Smaller steps (Time/Step) may avoid it."));
-    for (const auto &warning : { describe_stretched(problem), describe_miss(problem) })
+    for (const auto &warning :
+         { describe_stretched(problem), describe_turned(problem), describe_miss(problem) })
       if (warning)
         all.push_back(*warning);
     // strains of 1e-4 are no accident

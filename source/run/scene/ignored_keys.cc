@@ -15,6 +15,17 @@ namespace Exemplar
       std::string              why; ///< and the remedy, behind "does nothing "
     };
 
+    bool
+    has_pose_by_surface(const SceneParameters &scene)
+    {
+      const std::vector<std::string> &poses = scene.examples.poses;
+      return std::any_of(poses.begin(), poses.end(), is_surface_file)
+             || is_surface_file(scene.initial.pose)
+             || std::any_of(scene.handles.begin(), scene.handles.end(),
+                            [](const HandleParameters &handle)
+                            { return is_surface_file(handle.follow_pose); });
+    }
+
     std::vector<Ignored>
     kinds_of_ignored(const SceneParameters &scene)
     {
@@ -35,6 +46,13 @@ namespace Exemplar
         { !has_examples && scene.examples.importance > 0.,
           { "Examples/Importance", "Examples/Weights", "Examples/Energy" },
           "without examples. Give Examples/Poses or Examples/Pose functions, or remove it." },
+        { !is_dynamic,
+          { "Solver/Step tolerance" },
+          "in a scene that is not dynamic, whose steps are solved to Solver/Tolerance. Set that "
+          "instead, or remove it." },
+        { !has_pose_by_surface(scene),
+          { "Examples/Attach" },
+          "without a pose by a surface (.obj, .ply, .stl) in Examples/Poses. Remove it." },
         { scene.mesh.generator != MeshGenerator::box,
           { "Mesh/Box size", "Mesh/Box cells" },
           "without Mesh/Generator = box. Remove it, or set that instead of Mesh/File." },

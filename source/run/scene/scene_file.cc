@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
+#include <exemplar/base/message_text.h>
 #include <exemplar/base/nearest_word.h>
 #include <exemplar/mesh/map_name.h>
 #include <exemplar/run/scene/ignored_keys.h>
@@ -25,6 +26,20 @@ namespace Exemplar
       for (const std::string &text : texts)
         overrides.push_back(parse_override(text));
       return overrides;
+    }
+
+    /// Of keys that the command line sets more than once.
+    std::vector<std::string>
+    warnings_of_doubles(const std::vector<Assignment> &overrides)
+    {
+      std::vector<std::string> warnings;
+      for (auto later = overrides.begin(); later != overrides.end(); ++later)
+        for (auto earlier = overrides.begin(); earlier != later; ++earlier)
+          if (later->path() == earlier->path() && later->value != earlier->value)
+            warnings.push_back(later->place + " " + later->path() + " is given twice, as "
+                               + in_quotes(earlier->value) + " and " + in_quotes(later->value)
+                               + ": the last one holds.");
+      return warnings;
     }
 
     /// Named subsections are the ones two deep: Handles/NAME, Loads/NAME, Material/region N.
@@ -183,6 +198,8 @@ namespace Exemplar
     { return !text.empty() && find_assignment(overrides, key) != nullptr; };
     if (!is_overridden("Scene") && !is_overridden("Mesh/Generator")) // else the rest may stay
       parameters.warnings = warn_of_ignored_keys(parameters, keys, assignments);
+    const std::vector<std::string> doubles = warnings_of_doubles(overrides);
+    parameters.warnings.insert(parameters.warnings.end(), doubles.begin(), doubles.end());
   }
 
   void

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/base/message_text.h>
+#include <exemplar/base/text_file.h>
 #include <exemplar/mesh/foreign_formats.h>
 #include <exemplar/mesh/mesh_parameters.h>
 #include <exemplar/surface/files/surface_formats.h>
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <fstream>
 #include <limits>
 
 namespace Exemplar
@@ -23,13 +25,31 @@ namespace Exemplar
       return text;
     }
 
+    /// As many as tell a format; empty if the file cannot be read.
+    std::string
+    first_bytes(const std::filesystem::path &file)
+    {
+      if (!reason_not_to_read(file).empty())
+        return "";
+      std::ifstream in(file, std::ios::binary);
+      std::string   bytes(4096, '\0');
+      in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+      bytes.resize(static_cast<std::size_t>(in.gcount()));
+      return bytes;
+    }
+
     SurfaceMesh
     read_by_extension(const std::filesystem::path &file)
     {
       const std::string extension = lower_case(file.extension().string());
       if (!is_surface_file(file.string()))
       {
-        const std::string remedy = remedy_of_surface(file);
+        const std::string bytes = first_bytes(file);
+        if (bytes.empty() && std::filesystem::is_regular_file(file))
+          throw UserError(
+              file.string()
+              + ": the file is empty. Export the surface again, as .obj, .ply or .stl.");
+        const std::string remedy = remedy_of_surface(file, bytes);
         throw UserError(file.string() + ": a surface must be an .obj, .ply or .stl file, found "
                         + in_quotes(extension) + ". "
                         + (remedy.empty() ? "Export it in one of these formats." : remedy));

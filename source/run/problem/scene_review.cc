@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/message_text.h>
+#include <exemplar/base/number_text.h>
+#include <exemplar/prm/assignments.h>
+#include <exemplar/run/problem/scene_review.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace Exemplar
+{
+  namespace
+  {
+    using Warning = std::optional<std::string>;
+
+    // Up to the first, elements are verified (doc/stability.md); beyond the second, linear elements
+    // lock that have no patches.
+    constexpr double greatest_verified_ratio = 0.4999, locking_ratio = 0.49;
+
+    // Forces out of balance by more than this are no equilibrium, and steps beside their limit by
+    // more than that no steps.
+    constexpr double great_tolerance = 0.05, great_step_tolerance = 0.2;
+
+    // So many time constants of damping in a step leave nothing of a motion.
+    constexpr double great_damping = 100.;
+
+    // Edges that differ so much in length make bad cells.
+    constexpr double great_aspect = 50.;
+
+    Warning
+    review_poissons_ratio(const Problem &problem)
+    {
+      const MaterialParameters &material = problem.parameters.material;
+      double                    greatest = material.everywhere.poissons_ratio;
+      for (const auto &[id, constants] : material.regions)
+        greatest = std::max(greatest, constants.poissons_ratio);
+      for (const auto &[name, constants] : material.named_regions)
+        greatest = std::max(greatest, constants.poissons_ratio);
+      if (greatest > greatest_verified_ratio * (1. + 1e-9))
+        return "A Poisson's ratio of " + shortest_text(greatest)
+               + " is beyond 0.4999, up to which the program is verified: steps take many more "
+                 "iterations, and hardly differ. Take 0.4999 at most.";
+      const bool may_lock
+          = problem.parameters.model.element == Element::P1 && problem.body.patches == nullptr;
+      if (may_lock && greatest > locking_ratio)
+        return "With a Poisson's ratio of " + shortest_text(greatest)
+               + " linear tetrahedra without patches lock: the body is far too stiff. Set "
+                 "Model/Dilatation = auto, or Model/Element = P2.";
+      return {};
+    }
+
+    Warning
+    review_mass_damping(const Problem &problem)
+    {
+      const TimeParameters &time = problem.parameters.time;
+      if (problem.actions.mass == nullptr || !(time.mass_damping * time.step > great_damping))
+        return {};
+      return "Time/Mass damping = " + shortest_text(time.mass_damping)
+             + " per s stops all motion within " + short_text(1. / time.mass_damping)
+             + " s, a small part of Time/Step = " + shortest_text(time.step)
+             + ": the body hardly moves. It is a rate in 1/s.";
+    }
+
+    Warning
+    review_tolerance(const Problem &problem)
+    {
+      const SolverParameters &solver = problem.parameters.solver;
+      if (solver.method == Method::one_pass)
+        return {};
+      if (solver.method != Method::quasi_newton && solver.tolerance > great_tolerance)
+        return "Solver/Tolerance = " + shortest_text(solver.tolerance)
+               + " accepts forces that are out of balance by " + short_text(100. * solver.tolerance)
+               + " %: steps may end before their first iteration. The default is "
+               + shortest_text(SolverParameters().tolerance) + ".";
+      if (solver.method == Method::quasi_newton && solver.step_tolerance > great_step_tolerance)
+        return "Solver/Step tolerance = " + shortest_text(solver.step_tolerance)
+               + " accepts steps that are off by " + short_text(100. * solver.step_tolerance)
+               + " %. The default is " + shortest_text(SolverParameters().step_tolerance) + ".";
+      return {};
+    }
+
+    Warning
+    review_prescribed_weights(const Problem &problem)
+    {
+      const ExampleWeights *weights = problem.examples.weights.get();
+      if (weights == nullptr || weights->are_unknown())
+        return {};
+      double             least = 0., greatest = 1.;
+      const unsigned int n_looks = std::min(problem.time_axis.n_steps(), 100u);
+      for (unsigned int look = 0; look <= n_looks; ++look)
+      {
+        const auto step
+            = static_cast<unsigned int>(std::size_t(look) * problem.time_axis.n_steps() / n_looks);
+        const auto values = weights->at(problem.time_axis.time(step));
+        least             = std::min(least, *std::min_element(values.begin(), values.end()));
+        greatest          = std::max(greatest, *std::max_element(values.begin(), values.end()));
+      }
+      if (least > -0.01 && greatest < 1.01)
+        return {};
+      return "Examples/Prescribed weights go from " + short_text(least) + " to "
+             + short_text(greatest)
+             + ": beyond 0 and 1 the examples are extrapolated. If t is to go further, bound them, "
+               "as by min(t, 1).";
+    }
+
+    /// A motion along what is not held is not made.
+    Warning
+    review_components(const HandleParameters &handle)
+    {
+      const std::vector<std::string> formulas   = split_trimmed(handle.motion, ';');
+      const std::vector<std::string> components = split_trimmed(handle.components, ',');
+      std::vector<std::string>       ignored;
+      for (std::size_t c = 0; c < std::min<std::size_t>(formulas.size(), 3); ++c)
+        if (const std::string name(1, "xyz"[c]);
+            parse_number(formulas[c]) != 0.
+            && std::count(components.begin(), components.end(), name) == 0)
+          ignored.push_back(name);
+      if (ignored.empty())
+        return {};
+      return "Handles/" + handle.name + "/Motion = '" + handle.motion + "' moves along "
+             + joined(ignored) + ", too, but Handles/" + handle.name + "/Components = '"
+             + handle.components + "' leaves that free: this part of the motion does nothing. Add "
+             + joined(ignored) + " to Components, or write 0 there.";
+    }
+
+    Warning
+    review_box(const MeshParameters &mesh)
+    {
+      if (mesh.generator != MeshGenerator::box)
+        return {};
+      std::array<double, 3> edge;
+      for (unsigned int c = 0; c < 3; ++c)
+        edge[c] = mesh.box_size[c] / mesh.box_cells[c];
+      const double aspect = *std::max_element(edge.begin(), edge.end())
+                            / *std::min_element(edge.begin(), edge.end());
+      if (!(aspect > great_aspect))
+        return {};
+      return "The cells of the box have edges of " + short_text(edge[0]) + ", "
+             + short_text(edge[1]) + " and " + short_text(edge[2])
+             + " m: so long ones for their width compute badly. Choose Mesh/Box cells in the "
+               "proportions of Mesh/Box size.";
+    }
+
+    Warning
+    review_lone_example(const Problem &problem)
+    {
+      const ExamplePoses *poses = problem.examples.poses.get();
+      if (poses == nullptr || poses->size() > 1
+          || problem.parameters.scene == SceneKind::interpolation)
+        return {};
+      return "There is one example, and Examples/Include rest pose is false: its weight is always "
+             "1, "
+             "so it pulls at the body all the time. Set Examples/Include rest pose = true for a "
+             "body that rests in its rest pose.";
+    }
+  } // namespace
+
+  std::vector<std::string>
+  scene_warnings(const Problem &problem)
+  {
+    std::vector<Warning> found
+        = { review_poissons_ratio(problem), review_mass_damping(problem),
+            review_tolerance(problem),      review_prescribed_weights(problem),
+            review_lone_example(problem),   review_box(problem.parameters.mesh) };
+    for (const HandleParameters &handle : problem.parameters.handles)
+      found.push_back(review_components(handle));
+    std::vector<std::string> warnings;
+    for (const Warning &warning : found)
+      if (warning)
+        warnings.push_back(*warning);
+    return warnings;
+  }
+} // namespace Exemplar
