@@ -188,13 +188,15 @@ namespace Exemplar
   void
   Handles::look_for_progress_beyond(const TimeAxis &axis)
   {
-    constexpr double most = 2.; // a swing goes beyond its pose, but not twice as far
+    constexpr double  most      = 2.; // a swing goes beyond its pose, but not twice as far
+    const std::size_t n_samples = std::min<std::size_t>(axis.n_steps(), 1000);
     for (const Handle &handle : handles)
     {
       double farthest = 0.5;
-      for (unsigned int step = 0; handle.path && step <= axis.n_steps(); ++step)
+      for (std::size_t k = 0; handle.path && k <= n_samples; ++k)
       {
-        const double progress = handle.progress.values({}, axis.time(step))[0];
+        const double time = axis.time(static_cast<unsigned int>(k * axis.n_steps() / n_samples));
+        const double progress = handle.progress.values({}, time)[0];
         if (std::abs(progress - 0.5) > std::abs(farthest - 0.5))
           farthest = progress;
       }

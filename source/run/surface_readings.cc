@@ -77,9 +77,10 @@ namespace Exemplar
     double
     divisor_of(const double greatest)
     {
-      return greatest > 1. && greatest <= 100.   ? 100.
-             : greatest > 1. && greatest <= 255. ? 255.
-                                                 : greatest;
+      for (const double unit : { 100., 255. })
+        if (greatest > 0.8 * unit && greatest <= unit)
+          return unit;
+      return greatest;
     }
 
     /// Reads what a scene asks for off one surface.
@@ -327,9 +328,12 @@ namespace Exemplar
     std::string
     turn_text(const AxisAngle &turn)
     {
-      return std::to_string(std::lround(turn.angle * in_degrees)) + " degrees about ("
-             + short_text(turn.axis[0]) + ", " + short_text(turn.axis[1]) + ", "
-             + short_text(turn.axis[2]) + ")";
+      constexpr double rounding = 1e-3;
+      std::string      axis;
+      for (unsigned int d = 0; d < 3; ++d)
+        axis += (d == 0 ? "" : ", ")
+                + short_text(std::abs(turn.axis[d]) < rounding ? 0. : turn.axis[d]);
+      return std::to_string(std::lround(turn.angle * in_degrees)) + " degrees about (" + axis + ")";
     }
 
     /// Of the nodes of a handle that are turned as a whole in one step of the cache, which lasts no

@@ -208,6 +208,21 @@ namespace Exemplar
     check_mirror(at_rest, posed, prefix);
   }
 
+  std::string
+  axis_of_right_angle(const SurfaceMesh &rest, const SurfaceMesh &pose)
+  {
+    constexpr double tolerance = 0.14; // 8 degrees, as a bent body may seem to be turned
+    const AxisAngle  turn      = axis_and_angle(
+              best_rigid_motion(points_of(triangulate(rest)), points_of({ pose.vertices, {}, {} }))
+                  .rotation);
+    if (std::abs(turn.angle - std::acos(0.)) > tolerance)
+      return "";
+    for (unsigned int d = 0; d < 3; ++d)
+      if (std::abs(turn.axis[d]) > std::cos(tolerance))
+        return { "xyz"[d] };
+    return "";
+  }
+
   bool
   is_at_rest(const SurfaceMesh &rest, const SurfaceMesh &pose)
   {
