@@ -165,12 +165,10 @@ namespace Exemplar
     declare_named_subsections(named);
     keys.apply(unknown, directory());
     keys.apply(named, directory());
-    if (find_assignment(assignments, "Scene") == nullptr && trim(text).empty() && !file.empty())
-      throw UserError(parameters.name
-                      + ": the file is empty. Was it saved? README.md begins with a scene.");
     if (find_assignment(assignments, "Scene") == nullptr) // after misspelt names of it
-      throw UserError(parameters.name
-                      + ": Scene is not set. Add a line 'set Scene = dynamic' (or static, or "
+      throw UserError(parameters.name + ": Scene is not set"
+                      + (trim(text).empty() && !file.empty() ? ", as the file is empty" : "")
+                      + ". Add a line 'set Scene = dynamic' (or static, or "
                         "interpolation).");
 
     make_selections_absolute();

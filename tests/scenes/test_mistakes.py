@@ -121,7 +121,7 @@ SCENES = {
     "END": ("subsection Mesh\nEND\n", ["small letters"]),
     "include": ("include other.prm\n", ["--set"]),
     "value over two lines": ("set Scene = static\n0; 0;\n", ["backslash"]),
-    "empty": ("\n", ["scene.prm: the file is empty", "Was it saved?"]),
+    "empty": ("\n", ["scene.prm: Scene is not set, as the file is empty. Add a line"]),
     "script of Python": ("import exemplar\n", ["a script of Python, not like a scene: run it by python3"]),
     "packed": (b"PK\x03\x04\x14\x00", ["is a packed file", "Unpack it"]),
     "UTF-16": (prm(BAR).encode("utf-16"), ["saved as UTF-16", "UTF-8"]),
