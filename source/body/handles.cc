@@ -86,6 +86,7 @@ namespace Exemplar
       check_agreement(shared, displacements(axis.time(step)), axis.time(step));
     look_for_straight_turns(axis);
     look_for_large_turns(axis);
+    look_for_progress_beyond(axis);
   }
 
   Handles::Handle

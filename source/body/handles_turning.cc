@@ -88,18 +88,6 @@ namespace Exemplar
       return smaller > 0. ? std::sqrt(std::max(least, 0.) / smaller) : 1.;
     }
 
-    /// Of the way from some points to others: the angle if it is a rigid motion, but for a tenth.
-    double
-    rigid_angle(const Points &from, const Points &to)
-    {
-      const RigidMotion motion = best_rigid_motion(from, to);
-      const Arms        size   = arms(from);
-      double            miss   = 0.;
-      for (std::size_t i = 0; i < from.size(); ++i)
-        miss += (to[i] - motion(from[i])).norm_square();
-      return miss <= 0.01 * product(size, size) ? axis_and_angle(motion.rotation).angle : 0.;
-    }
-
     std::string
     rounded(const double value)
     {
@@ -158,7 +146,7 @@ namespace Exemplar
       for (dealii::Point<3> &place : now)
         place += motion.vector(place, begin + part * (end - begin) / n_parts);
       if (part > 0)
-        angle += rigid_angle(before, now);
+        angle += rigid_turn(before, now).angle;
       before = std::move(now);
     }
     return angle;
@@ -194,6 +182,28 @@ namespace Exemplar
                              "the shorter way. Take "
                            + rounded(std::ceil(greatest / (30. * degree)))
                            + " times as many steps (Time/Increments, or Time/Step).");
+    }
+  }
+
+  void
+  Handles::look_for_progress_beyond(const TimeAxis &axis)
+  {
+    constexpr double  most      = 2.; // a swing goes beyond its pose, but not twice as far
+    const std::size_t n_samples = std::min<std::size_t>(axis.n_steps(), 1000);
+    for (const Handle &handle : handles)
+    {
+      double farthest = 0.5;
+      for (std::size_t k = 0; handle.path && k <= n_samples; ++k)
+      {
+        const double time = axis.time(static_cast<unsigned int>(k * axis.n_steps() / n_samples));
+        const double progress = handle.progress.values({}, time)[0];
+        if (std::abs(progress - 0.5) > std::abs(farthest - 0.5))
+          farthest = progress;
+      }
+      if (std::abs(farthest - 0.5) > most - 0.5)
+        warnings.push_back("Handles/" + handle.name + "/Progress goes to " + short_text(farthest)
+                           + ", but 0 is at rest and 1 in the pose: the way is extrapolated far "
+                             "beyond it. Let Progress end at 1, as t does in a static scene.");
     }
   }
 

@@ -61,6 +61,24 @@ namespace Exemplar
       return pose;
     }
 
+    /// Where one cell of so many is inverted, or more, the nodes make no sense.
+    constexpr std::size_t inverted_share = 4;
+
+    /// Displacements make no cells, are small, and make a pose of the places at rest.
+    bool
+    may_be_displacements(const PoseMeasures           &pose,
+                         const Mesh                   &mesh,
+                         const FESpace                &fe_space,
+                         const dealii::Vector<double> &positions)
+    {
+      constexpr double large = 0.75; // a body that is made flat has .8
+      if (inverted_share * pose.inverted.size() < mesh.whole().n_cells || pose.size_ratio > large)
+        return false;
+      dealii::Vector<double> sum = positions;
+      sum += fe_space.rest_positions();
+      return measure(mesh, fe_space, sum).inverted.empty();
+    }
+
     std::string
     describe_inverted(const PoseMeasures &pose, const unsigned int n_cells)
     {
@@ -71,7 +89,11 @@ namespace Exemplar
         return "is a mirror image: all of its cells are inside out, and their strain is ambiguous. "
                "Mirror it back: negate one coordinate.";
       return "has " + std::to_string(pose.inverted.size()) + " inverted cells: element "
-             + list_numbers(pose.inverted) + "; their strain is ambiguous.";
+             + list_numbers(pose.inverted) + "; their strain is ambiguous."
+             + (inverted_share * pose.inverted.size() < n_cells
+                    ? ""
+                    : " So many are inverted where the nodes are in another order than the mesh's. "
+                      "Take a pose that was made on this mesh, such as a final.msh.");
     }
   } // namespace
 
@@ -107,6 +129,9 @@ namespace Exemplar
   {
     const PoseMeasures pose  = measure(mesh, fe_space, positions);
     const std::string  ratio = short_text(pose.size_ratio);
+    if (may_be_displacements(pose, mesh, fe_space, positions))
+      return "makes flat or inverted cells, but is a pose when it is added to the rest pose: is it "
+             "displacements? A pose is positions: rest + displacements.";
     if (pose.size_ratio * max_size_ratio < 1.)
       return "has collapsed: it has " + ratio
              + " of the rest pose's size. If its unit of length is another one, scale it.";

@@ -82,6 +82,9 @@ namespace Exemplar
     {
       if (msh.empty() || messages.find("Error ") != std::string::npos)
         throw UserError(geo.string() + ": gmsh could not mesh it:" + telling_lines(messages)
+                        + (messages.find("only available with OpenCASCADE") < messages.size()
+                               ? "\n  Write as its first line: SetFactory(\"OpenCASCADE\");"
+                               : "")
                         + "\n  Try it with: gmsh -3 " + geo.string());
     }
 

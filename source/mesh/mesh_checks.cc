@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
+#include <exemplar/base/number_text.h>
 #include <exemplar/mesh/mesh_checks.h>
 
 #include <algorithm>
@@ -48,6 +49,21 @@ namespace Exemplar
                       + " of other kinds: " + list_numbers(refused)
                       + "). Mesh with tetrahedra of first order: Mesh.ElementOrder = 1, no "
                         "Recombine, no Transfinite Volume with Recombine.");
+    }
+
+    /// Of which one coordinate is the same everywhere.
+    void
+    refuse_flat_mesh(const MshFile &contents, const std::string &name)
+    {
+      for (unsigned int d = 0; d < 3; ++d)
+      {
+        const double first = contents.nodes.front()[d];
+        if (std::all_of(contents.nodes.begin(), contents.nodes.end(),
+                        [&](const dealii::Point<3> &node) { return node[d] == first; }))
+          throw UserError(name + ": the mesh is flat: " + "xyz"[d] + " is " + short_text(first)
+                          + " at all nodes. Only bodies in space have a volume: look at what wrote "
+                            "the coordinates, or mesh an extruded body.");
+      }
     }
 
     double
@@ -99,6 +115,11 @@ namespace Exemplar
         tetrahedra.material_ids.push_back(static_cast<unsigned int>(std::abs(element.physical)));
         tetrahedra.element_numbers.push_back(element.number);
       }
+    if (tetrahedra.nodes.empty() && contents.geo_walls)
+      throw UserError(name
+                      + ": has no tetrahedra. It needs a Volume: Extrude a surface, or close a "
+                        "Surface Loop around one. If it has Physical groups, it needs a Physical "
+                        "Volume, too: gmsh keeps only what is in them.");
     if (tetrahedra.nodes.empty())
       throw UserError(name
                       + ": has no tetrahedra. Mesh in three dimensions (gmsh -3) and, if "
@@ -129,6 +150,8 @@ namespace Exemplar
         swapped.push_back(tetrahedra.element_numbers[cell]);
       }
     }
+    if (!flat.empty() && flat.size() == tetrahedra.nodes.size())
+      refuse_flat_mesh(contents, name);
     if (!flat.empty())
       throw UserError(name + ": " + in_words(flat.size(), "tetrahedron")
                       + " without volume (at "

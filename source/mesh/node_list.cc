@@ -128,6 +128,12 @@ namespace Exemplar
         const std::string       header = bytes.substr(begin, header_size);
         static const std::regex type_pattern("'descr': *'[<|]([iuf][1248])'");
         std::smatch             type;
+        if (header.find("'|b1'") < header.size())
+          throw UserError(key + ": " + file.string()
+                          + " holds True and False. Save the numbers of the nodes that are meant, "
+                            "which are counted from "
+                          + std::to_string(least) + ": numpy.save(FILE, numpy.flatnonzero(mask) + "
+                          + std::to_string(least) + ").");
         if (!std::regex_search(header, type, type_pattern))
           fail_npy("holds no numbers of this machine's byte order");
         const std::string data = bytes.substr(begin + header_size);

@@ -159,6 +159,19 @@ namespace Exemplar
     return { flip ? -axis : axis, 2. * std::atan2(sine, flip ? -w : w) };
   }
 
+  AxisAngle
+  rigid_turn(const std::vector<dealii::Point<3>> &from, const std::vector<dealii::Point<3>> &to)
+  {
+    const RigidMotion motion = best_rigid_motion(from, to);
+    double            miss = 0., size = 0.;
+    for (std::size_t i = 0; i < from.size(); ++i)
+    {
+      miss += (to[i] - motion(from[i])).norm_square();
+      size += (from[i] - motion.from).norm_square();
+    }
+    return miss <= 0.01 * size ? axis_and_angle(motion.rotation) : AxisAngle{ {}, 0. };
+  }
+
   RigidMotion
   interpolate(const RigidMotion &motion, const double progress)
   {

@@ -57,6 +57,7 @@ namespace Exemplar
       static const std::regex section("(?:section|\\[)\\s*(.+?)\\s*\\]?", std::regex::icase);
       static const std::regex brace("([^=:]+?)\\s*\\{");
       static const std::regex value("([^=:]+?)\\s*[:=]\\s*(.*)");
+      static const std::regex python("(import|from|def|class|print)\\b.*");
       static const std::regex continued("[^=:]*[;,]|[-+.0-9(].*");
       std::smatch             parts;
       if (line.size() > 200) // no line of a person, and too much for regular expressions
@@ -68,6 +69,8 @@ namespace Exemplar
         return " A comment begins with #.";
       if (line[0] == '{' || line[0] == '<' || line[0] == '$')
         return " This looks like a file of another kind, not like a scene or a study.";
+      if (std::regex_match(line, python) && line.find('{') == std::string::npos)
+        return " This looks like a script of Python, not like a scene: run it by python3.";
       if (starts_with_word(line, "include"))
         return " Scenes do not include others: copy its lines, or give values by --set.";
       if (line == "}")

@@ -17,6 +17,7 @@
 #include <iomanip>
 #include <iostream>
 #include <map>
+#include <set>
 #include <unistd.h>
 
 namespace Exemplar
@@ -95,6 +96,20 @@ namespace Exemplar
                         + ", and give these.");
     }
 
+    /// Of poses that are all turned alike by a right angle, as a body that lies down is in one.
+    void
+    warn_of_axes(const RestSurface &rest, const std::vector<PoseFile> &poses)
+    {
+      std::set<std::string> axes;
+      for (const PoseFile &pose : poses)
+        axes.insert(axis_of_right_angle(rest.surface, pose.surface));
+      if (axes.size() == 1 && !axes.begin()->empty())
+        show_warning(
+            poses[0].file.string() + (poses.size() > 1 ? " and the others are" : " is")
+            + " turned by 90 degrees about the " + *axes.begin() + " axis against " + rest.name
+            + ". If another axis points upwards in one of the exports, export both alike.");
+    }
+
     void
     warn(const Mesh &mesh, const RestSurface &rest, const std::vector<PoseFile> &poses)
     {
@@ -104,6 +119,27 @@ namespace Exemplar
         if (is_at_rest(rest.surface, pose.surface))
           show_warning(pose.file.string() + " is the same as " + rest.name
                        + ": the pose is the mesh at rest.");
+      warn_of_axes(rest, poses);
+    }
+
+    /// Where the surface at rest is not that of the mesh, but the pose is.
+    PoseTransfer
+    make_transfer(const PoseOptions           &options,
+                  const Mesh                  &mesh,
+                  const RestSurface           &rest,
+                  const std::vector<PoseFile> &poses)
+    {
+      try
+      {
+        return make_pose_transfer(mesh, rest, options.attach);
+      }
+      catch (const UserError &error)
+      {
+        if (poses.empty() || !is_surface_of(mesh, poses[0].surface))
+          throw;
+        throw UserError(std::string(error.what()) + " It is that of " + poses[0].file.string()
+                        + ": --rest and --pose seem to be swapped.");
+      }
     }
 
     void
@@ -178,7 +214,7 @@ namespace Exemplar
     const RestSurface rest(options.rest);
     for (PoseFile &pose : poses)
       pose.surface = read_pose_surface(pose.file, rest);
-    PoseTransfer transfer = make_pose_transfer(mesh, rest, options.attach);
+    PoseTransfer transfer = make_transfer(options, mesh, rest, poses);
     warn(mesh, rest, poses);
     make_directory(options.output, remedy);
 

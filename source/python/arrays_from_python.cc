@@ -112,22 +112,56 @@ namespace Exemplar::Python
                         + "]. Remove one of them.");
     }
 
+    void
+    refuse_repeated_nodes(const Cells &cells)
+    {
+      for (std::size_t c = 0; c < cells.size(); ++c)
+        for (unsigned int v = 1; v < 4; ++v)
+          if (std::find(cells[c].begin(), cells[c].begin() + v, cells[c][v])
+              != cells[c].begin() + v)
+            throw UserError("mesh: cells[" + std::to_string(c) + "] has node "
+                            + std::to_string(cells[c][v])
+                            + " twice. A tetrahedron has four different nodes: remove the cell, or "
+                              "correct it.");
+    }
+
+    /// What else `mesh` may be by mistake, and how that is handed in.
+    std::string
+    remedy_for_mesh(const py::object &mesh)
+    {
+      if (py::hasattr(mesh, "points"))
+        return " Of a mesh of meshio take (mesh.points, mesh.cells_dict[\"tetra\"]).";
+      if (py::isinstance<py::dict>(mesh))
+        return " Of a dictionary take its entries: (mesh[\"nodes\"], mesh[\"cells\"]).";
+      return " A file is named by the scene: Mesh/File.";
+    }
+
+    void
+    refuse_exchanged_parts(const py::tuple &parts)
+    {
+      const auto nodes = py::array::ensure(parts[0]), cells = py::array::ensure(parts[1]);
+      if (!nodes || !cells || nodes.ndim() != 2 || cells.ndim() != 2)
+        PyErr_Clear();
+      else if (nodes.shape(1) == 4 && cells.shape(1) == 3)
+        throw UserError("mesh: nodes has the shape " + std::string(py::str(nodes.attr("shape")))
+                        + " and cells " + std::string(py::str(cells.attr("shape")))
+                        + ": these seem to be exchanged. Give (nodes (n, 3), cells (m, 4)).");
+    }
+
     /// The parts of a tuple or list.
     py::tuple
     parts_of(const py::object &mesh)
     {
-      const bool is_some    = py::isinstance<py::iterable>(mesh) && !py::isinstance<py::str>(mesh);
+      const bool is_some = py::isinstance<py::iterable>(mesh) && !py::isinstance<py::str>(mesh)
+                           && !py::isinstance<py::dict>(mesh);
       const py::tuple parts = is_some ? py::tuple(mesh) : py::tuple();
       if (parts.size() == 2 || parts.size() == 3)
         return parts;
-      throw UserError(
-          "mesh must be (nodes (n, 3), cells (m, 4)) or (nodes, cells, material ids "
-          "(m)), but "
-          + (is_some ? "has " + std::to_string(parts.size()) + " parts."
-                     : "is " + description(mesh) + ".")
-          + (py::hasattr(mesh, "points")
-                 ? " Of a mesh of meshio take (mesh.points, mesh.cells_dict[\"tetra\"])."
-                 : " A file is named by the scene: Mesh/File."));
+      throw UserError("mesh must be (nodes (n, 3), cells (m, 4)) or (nodes, cells, material ids "
+                      "(m)), but "
+                      + (is_some ? "has " + std::to_string(parts.size()) + " parts."
+                                 : "is " + description(mesh) + ".")
+                      + remedy_for_mesh(mesh));
     }
   } // namespace
 
@@ -160,7 +194,8 @@ namespace Exemplar::Python
   MshFile
   mesh_of(const py::object &mesh)
   {
-    const py::tuple           parts = parts_of(mesh);
+    const py::tuple parts = parts_of(mesh);
+    refuse_exchanged_parts(parts);
     const Cells               cells = cells_of(parts[1]);
     std::vector<unsigned int> material_ids;
     if (parts.size() == 3)
@@ -169,6 +204,7 @@ namespace Exemplar::Python
     MshFile msh = make_msh(points_of(parts[0], "mesh: nodes"), cells, material_ids);
     for (MshElement &element : msh.elements)
       --element.number; // of its cell
+    refuse_repeated_nodes(cells);
     refuse_unused_nodes(cells, msh.nodes.size());
     refuse_repeated_cells(cells);
     return msh;

@@ -118,6 +118,22 @@ namespace Exemplar::Python
       assignments.push_back({ path, "Names", names, "scene" });
     }
 
+    /// Of handles or loads, which need keys of their own.
+    void
+    require_no_list_of_names(const py::handle               &value,
+                             const std::vector<std::string> &path,
+                             const std::string              &what)
+    {
+      if (!path.empty() || !is_list(value))
+        return;
+      for (const py::handle entry : value)
+        if (!py::isinstance<py::str>(entry))
+          return;
+      throw UserError(what
+                      + " is a list of names. Sections are dictionaries, and so is each handle "
+                        "and load: \"Handles\": {\"left\": {\"Select\": ...}}.");
+    }
+
     void
     add_section(const py::dict                 &given,
                 const std::vector<std::string> &path,
@@ -133,6 +149,7 @@ namespace Exemplar::Python
         const std::string name = text_of(key, where + "a key");
         if (!py::isinstance<py::dict>(value))
         {
+          require_no_list_of_names(value, path, where + name);
           assignments.push_back({ path, name, text_for_key(value, name, where + name), "scene" });
           continue;
         }
@@ -146,8 +163,8 @@ namespace Exemplar::Python
       }
     }
 
-    /// A scene that was written for Python. Files are also read by the program, for which such keys
-    /// are.
+    /// A scene that was written for Python; `assignments` put the poses= that are given in place of
+    /// its own. Files are also read by the program, for which keys are that do nothing in Python.
     SceneParameters
     read_dictionary(const py::dict                &scene,
                     const std::vector<Assignment> &assignments,
@@ -166,6 +183,10 @@ namespace Exemplar::Python
                  && !is_surface_file(a.value)) // that may be the skin of the mesh
           warnings.push_back(a.path() + " = " + a.value
                              + " does nothing, as mesh= is given, too. Remove one of them.");
+        else if (!assignments.empty() && a.path() == "Examples/Poses")
+          warnings.push_back(a.path() + " = " + a.value
+                             + " does nothing, as poses= is given, too. Remove one of them, or "
+                               "hand in all poses as arrays.");
       sections.insert(sections.end(), assignments.begin(), assignments.end());
       SceneParameters parameters = SceneFile({}, "", sections).get_parameters();
       parameters.warnings.insert(parameters.warnings.end(), warnings.begin(), warnings.end());
@@ -191,6 +212,15 @@ namespace Exemplar::Python
                         + ". In Python a loop varies a scene: doc/python/sweep.py.");
       return SceneFile(text, read_prm(text), assignments).get_parameters();
     }
+    /// Where arrays are needed, as in `poses`.
+    void
+    refuse_file_name(const py::handle &object, const std::string &what)
+    {
+      if (py::isinstance<py::str>(object) || py::hasattr(object, "__fspath__"))
+        throw UserError(what
+                        + " names a file, but poses= takes arrays (n, 3), such as "
+                          "poses=[bent]. Files are named by the scene: Examples/Poses.");
+    }
   } // namespace
 
   Given
@@ -198,6 +228,7 @@ namespace Exemplar::Python
   {
     Given                   given;
     std::vector<Assignment> assignments;
+    refuse_file_name(poses, "poses");
     if (py::isinstance<py::dict>(poses)
         || (py::isinstance<py::array>(poses)
             && py::reinterpret_borrow<py::array>(poses).ndim() != 3))
@@ -213,8 +244,11 @@ namespace Exemplar::Python
     }
     given.scene = read_scene(scene, assignments, !mesh.is_none());
     for (std::size_t i = 0; i < list.size(); ++i)
-      given.inputs.poses[given.scene.examples.poses[i]]
-          = points_of(list[i], "poses[" + std::to_string(i) + "]");
+    {
+      const std::string what = "poses[" + std::to_string(i) + "]";
+      refuse_file_name(list[i], what);
+      given.inputs.poses[given.scene.examples.poses[i]] = points_of(list[i], what);
+    }
     if (!mesh.is_none())
       given.inputs.mesh = mesh_of(mesh);
     return given;

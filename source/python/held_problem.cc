@@ -212,6 +212,9 @@ namespace Exemplar::Python
   SolveReport
   HeldProblem::run()
   {
+    if (problem->state.step >= problem->time_axis.n_steps())
+      warn({ "run() does nothing: all " + std::to_string(problem->time_axis.n_steps())
+             + " steps of the scene are made. A new Problem begins anew." });
     while (problem->state.step < problem->time_axis.n_steps())
       step();
     return report;

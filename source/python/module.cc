@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/environment.h>
 #include <exemplar/base/errors.h>
+#include <exemplar/base/nearest_word.h>
 #include <exemplar/base/version.h>
+#include <exemplar/python/from_python.h>
 #include <exemplar/python/problem_type.h>
 #include <exemplar/python/unlocked_work.h>
 
@@ -9,6 +11,8 @@
 #include <deal.II/base/multithread_info.h>
 
 #include <pybind11/stl.h>
+
+#include <algorithm>
 
 namespace py = pybind11;
 
@@ -79,19 +83,71 @@ namespace Exemplar::Python
 
     using Class = py::class_<HeldProblem, std::shared_ptr<HeldProblem>>;
 
+    /// For calls that fit nothing else; pybind11 would print all that it was given, arrays too.
+    void
+    refuse_other_arguments(Class &problem, const char *name, const std::string &usage)
+    {
+      problem.def(name, [usage](const HeldProblem &, const py::args &, const py::kwargs &)
+                  { throw py::type_error(usage); });
+    }
+
+    /// What is wrong with the arguments of exemplar.Problem, by their names and number.
+    std::string
+    describe_arguments(const py::args &given, const py::kwargs &named)
+    {
+      const std::vector<std::string> names{ "scene", "mesh", "poses" };
+      const std::string usage = "It is called as exemplar.Problem(scene, mesh=None, poses=None).";
+      for (const auto &argument : named)
+      {
+        const std::string name     = text_of(argument.first, "Problem: the name of an argument");
+        const auto        position = std::find(names.begin(), names.end(), name) - names.begin();
+        const std::string nearest  = nearest_word(name, names);
+        if (static_cast<std::size_t>(position) < given.size() && position < 3)
+          return "Problem has got its argument '" + name + "' twice. " + usage;
+        if (position == 3)
+          return "Problem has no argument '" + name + "'. "
+                 + (!nearest.empty() ? "Did you mean '" + nearest + "'? " : "")
+                 + (name.find("thread") != std::string::npos
+                        ? "A problem uses one thread; several are solved at once in as many "
+                          "threads of Python, as in doc/python/sweep.py. "
+                        : "All else is said by the keys of the scene. ")
+                 + usage;
+      }
+      return given.size() > names.size()
+                 ? "Problem has got " + std::to_string(given.size()) + " arguments. " + usage
+                 : "Problem has got no scene. " + usage;
+    }
+
+    /// What Python's own setting of an attribute does, but a method that is set is told to be called.
+    void
+    set_attribute(const py::object &problem, const py::str &name, const py::object &value)
+    {
+      if (PyObject_GenericSetAttr(problem.ptr(), name.ptr(), value.ptr()) == 0)
+        return;
+      py::error_already_set error;
+      const py::object      attribute = py::getattr(py::type::of(problem), name, py::none());
+      if (error.matches(PyExc_AttributeError) && PyCallable_Check(attribute.ptr()) != 0)
+        throw py::attribute_error(std::string(name) + " is called, not set: problem."
+                                  + std::string(name) + "(...).");
+      throw error;
+    }
+
     void
     add_actions(Class &problem)
     {
       problem.def(
           "step", &HeldProblem::step,
+          "step() -> exemplar.Report\n\n"
           "Make the next step and return its Report. Raises SolverFailure if it cannot be\n"
           "solved, Interrupted if a callback stopped it, KeyboardInterrupt, and whatever a\n"
           "callback raises; the problem is then as it was before, unless step_number says\n"
           "that the step was made. Other Python threads run meanwhile.");
       problem.def("run", &HeldProblem::run,
-                  "Make all steps that are left; return the last Report.");
+                  "run() -> exemplar.Report\n\n"
+                  "Make all steps that are left; return the last Report. Warns if none is left.");
       problem.def(
           "set_motion", &HeldProblem::set_motion, py::arg("name"), py::arg("function"),
+          "set_motion(name, function)\n\n"
           "From the next step on let a function move the handle `name`.\n\n"
           "function(rest, t) gets the rest positions (k, 3) [m] of the handle's nodes and the\n"
           "time t [s], and returns their displacements (k, 3) [m]. It may be called several\n"
@@ -99,9 +155,21 @@ namespace Exemplar::Python
           "that is no handle's.");
       problem.def(
           "on_iteration", &HeldProblem::on_iteration, py::arg("function"),
+          "on_iteration(function)\n\n"
           "Call function(report) after each iteration of a step; None: call nothing.\n\n"
           "If it returns False, the step is left and Interrupted raised; methods that cannot\n"
           "stop within a step finish it before.");
+      refuse_other_arguments(problem, "step",
+                             "step() takes no argument. How long a step is, the scene says: "
+                             "Time/Step, or in a static scene Time/Increments.");
+      refuse_other_arguments(problem, "run",
+                             "run() takes no argument: it makes all steps that are left. Some of "
+                             "them: for _ in range(5): problem.step().");
+      refuse_other_arguments(problem, "set_motion",
+                             "set_motion is called as set_motion(name, function).");
+      refuse_other_arguments(problem, "on_iteration",
+                             "on_iteration is called as on_iteration(function), or with None.");
+      problem.def("__setattr__", &set_attribute);
     }
 
     void
@@ -130,11 +198,13 @@ namespace Exemplar::Python
           [](const HeldProblem &held)
           {
             const std::vector<double> &weights = held.get().state.weights;
-            return py::array_t<double>(static_cast<py::ssize_t>(weights.size()), weights.data());
+            py::array_t<double> copy(static_cast<py::ssize_t>(weights.size()), weights.data());
+            copy.attr("flags").attr("writeable") = false; // it would change nothing
+            return copy;
           },
           "Weights of the examples, the rest pose first if it is one; of each region one after "
           "the\n"
-          "other if there are several. Empty without examples. A copy.");
+          "other if there are several. Empty without examples. A copy, read only.");
       problem.def_property_readonly(
           "time", [](const HeldProblem &held) { return held.get().state.time; },
           "[s] in a dynamic scene, else from 0 to 1.");
@@ -146,17 +216,48 @@ namespace Exemplar::Python
           "How many steps the scene has.");
     }
 
+    /// A type of dictionaries that say what they hold where a name is not among it.
+    py::object
+    make_measures_type()
+    {
+      py::dict members;
+      members["__module__"] = "exemplar";
+      members["__doc__"]    = "A dictionary of numbers by their columns in statistics.csv.";
+      py::object type
+          = py::module_::import("builtins")
+                .attr("type")("Measures", py::make_tuple(py::type::of(py::dict())), members);
+      const auto missing = [](const py::dict &measures, const py::object &name)
+      {
+        std::vector<std::string> names;
+        std::string              list;
+        for (const auto &entry : measures)
+        {
+          names.emplace_back(py::str(entry.first));
+          list += (list.empty() ? "" : ", ") + names.back();
+        }
+        const std::string nearest = nearest_word(py::str(name), names);
+        throw py::key_error("there is no " + std::string(py::repr(name))
+                            + (nearest.empty() ? "" : ". Did you mean '" + nearest + "'?")
+                            + " (there: " + list + ")");
+      };
+      type.attr("__missing__")
+          = py::cpp_function(missing, py::name("__missing__"), py::is_method(type));
+      return type;
+    }
+
     void
-    add_measures(Class &problem)
+    add_measures(Class &problem, const py::object &measures)
     {
       problem.def_property_readonly(
           "residual", [](const HeldProblem &held) { return held.get_report().residual; },
           "Relative residual of the last step, doc/solver.md, Eq. (13); 0 before the first.");
       problem.def_property_readonly(
-          "energies", [](const HeldProblem &held) { return held.statistics("energy_"); },
+          "energies",
+          [measures](const HeldProblem &held) { return measures(held.statistics("energy_")); },
           "The energies [J] of the state by their columns in statistics.csv: energy_elastic, ...");
       problem.def_property_readonly(
-          "statistics", [](const HeldProblem &held) { return held.statistics(""); },
+          "statistics",
+          [measures](const HeldProblem &held) { return measures(held.statistics("")); },
           "All numbers of the state's row in statistics.csv, seconds aside: reactions of handles,\n"
           "work, momenta, ... doc/output.md explains them.");
       problem.def_property_readonly("warnings", &HeldProblem::get_warnings,
@@ -172,9 +273,12 @@ namespace Exemplar::Python
       Class problem(module, "Problem",
                     "An elastic body with example poses, as a scene describes it.",
                     py::custom_type_setup(support_garbage_collection));
+      py::options options;
+      options.disable_function_signatures(); // which would show what refuses other arguments
       problem.def(
           py::init<const py::object &, const py::object &, const py::object &>(), py::arg("scene"),
           py::arg("mesh") = py::none(), py::arg("poses") = py::none(),
+          "Problem(scene, mesh=None, poses=None)\n\n"
           "scene: the path of a .prm file, its text (of several lines), or a dictionary of "
           "sections\n"
           "with the keys of doc/parameters.md. Lists are joined as the key needs it; Handles and\n"
@@ -184,9 +288,14 @@ namespace Exemplar::Python
           "instead of a file; in metres, unless Mesh/Scale makes metres of them.\n"
           "poses: a list of arrays (n, 3) as the nodes, instead of Examples/Poses.\n"
           "Raises UserError.");
+      problem.def(py::init(
+          [](const py::args &given, const py::kwargs &named) -> std::shared_ptr<HeldProblem>
+          { throw py::type_error(describe_arguments(given, named)); }));
       add_actions(problem);
       add_state(problem);
-      add_measures(problem);
+      const py::object measures = make_measures_type();
+      module.attr("Measures")   = measures; // where pickle looks for it
+      add_measures(problem, measures);
     }
   } // namespace
 } // namespace Exemplar::Python

@@ -125,6 +125,23 @@ namespace Exemplar
                                        : ", and separated by commas.");
     }
 
+    /// Values that are three numbers each, separated by commas, are not values by commas.
+    void
+    refuse_split_triples(const StudyAxis &axis, const std::string &text, const std::string &place)
+    {
+      static const std::set<std::string> keys{ "Mesh/Box size", "Mesh/Box cells", "Loads/Gravity" };
+      const std::size_t                  n = axis.values.size();
+      if (axis.keys.size() > 1 || keys.count(axis.keys[0]) == 0 || n % 3 != 0
+          || find_unquoted(text, ';') != std::string::npos || text.find('"') != std::string::npos)
+        return;
+      std::string remedy;
+      for (std::size_t i = 0; i < n; ++i)
+        remedy += (i == 0 ? "" : i % 3 == 0 ? "; " : ", ") + axis.values[i][0];
+      throw UserError(place + ": each value of " + axis.keys[0]
+                      + " has three numbers, separated by commas. Separate the values by ';': "
+                      + remedy + (n == 3 ? ";" : "") + ".");
+    }
+
     /// "Section/Key: values", or "Key + Key: value + value, ...".
     StudyAxis
     parse_axis(const std::string &text, const std::string &place)
@@ -150,6 +167,7 @@ namespace Exemplar
       }
       if (axis.values.empty())
         throw UserError(place + ": " + axis.name() + " has no values." + remedy);
+      refuse_split_triples(axis, trim(text.substr(colon + 1)), place);
       for (const auto &values : axis.values)
       {
         if (values.size() != axis.keys.size()

@@ -146,6 +146,7 @@ namespace Exemplar
       return (assignment == nullptr ? file.string() : assignment->place) + ", " + key;
     };
     scene         = entries.scene;
+    scene_place   = place("Scene");
     base          = parse_settings(entries.base, place("Base"));
     reference     = parse_settings(entries.reference, place("Reference"));
     vary_place    = place("Vary");

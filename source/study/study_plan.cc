@@ -111,10 +111,23 @@ namespace Exemplar
                   asked.end());
       return asked;
     }
+
+    std::string
+    text_of_scene(const Study &study)
+    {
+      try
+      {
+        return read_prm(study.scene);
+      }
+      catch (const UserError &error)
+      {
+        throw UserError(study.scene_place + ": " + error.what());
+      }
+    }
   } // namespace
 
   StudyPlan::StudyPlan(const Study &study)
-      : study(study), scene_text(read_prm(study.scene)), named_files{ study.file, study.scene }
+      : study(study), scene_text(text_of_scene(study)), named_files{ study.file, study.scene }
   {
     check_extra_columns(study);
     read_assignments(scene_text, study.scene.string()); // its syntax concerns all runs

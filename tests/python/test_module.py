@@ -2,6 +2,7 @@
 """Drive the Python module: arrays, errors, motions, views, callbacks, threads."""
 import gc
 import os
+import pickle
 import signal
 import subprocess
 import sys
@@ -131,6 +132,12 @@ class Scenes(unittest.TestCase):
             "Examples/Poses names files. Arrays are .*poses=": ({**BAR, "Examples": {"Poses": [nodes]}},),
             "Time/Increments is None. Leave the key out": ({**BAR, "Time": {"Increments": None}},),
             "has 3 nodes, the mesh 45": (bare, (nodes, cells), [nodes[:3]]),
+            "is a dict. Of a dictionary take its entries: \\(mesh\\[\"nodes\"\\]": (bare, {"nodes": nodes, "cells": cells}),
+            "nodes has the shape \\(96, 4\\) and cells \\(45, 3\\): these seem to be exchanged": (bare, (cells, nodes)),
+            "cells\\[1\\] has node 3 twice": (bare, (nodes, np.array([[0, 1, 2, 3], [3, 4, 5, 3]]))),
+            "poses names a file.*Examples/Poses": (bare, (nodes, cells), "bent.msh"),
+            "poses\\[0\\] names a file.*arrays \\(n, 3\\)": (bare, (nodes, cells), [Path("bent.msh")]),
+            "Handles is a list of names. .*\"Handles\": {\"left\": {": ({**BAR, "Handles": ["left"]},),
         }.items():
             with self.subTest(message), self.assertRaisesRegex(exemplar.UserError, message):
                 exemplar.Problem(*arguments)
@@ -147,6 +154,33 @@ class Scenes(unittest.TestCase):
         problem = solved(BAR)
         with self.assertRaisesRegex(exemplar.UserError, "All 3 steps"):
             problem.step()
+        with self.assertWarnsRegex(UserWarning, "run\\(\\) does nothing: all 3 steps"):
+            problem.run()
+
+    def test_arguments(self):
+        nodes, cells = box()
+        problem = exemplar.Problem(BAR)
+        for words, call in (("no argument 'threads'. A problem uses one thread", lambda: exemplar.Problem(BAR, mesh=(nodes, cells), threads=4)),
+                            ("no argument 'pose'. Did you mean 'poses'", lambda: exemplar.Problem(BAR, pose=[nodes])),
+                            ("got no scene", exemplar.Problem), ("got 4 arguments", lambda: exemplar.Problem(BAR, None, None, nodes)),
+                            ("'scene' twice", lambda: exemplar.Problem(BAR, scene=BAR)),
+                            ("run\\(\\) takes no argument.*range", lambda: problem.run(5)),
+                            ("step\\(\\) takes no argument.*Time/Step", lambda: problem.step(0.1)),
+                            ("set_motion\\(name, function\\)", lambda: problem.set_motion("left")),
+                            ("on_iteration\\(function\\)", problem.on_iteration)):
+            with self.subTest(words), self.assertRaisesRegex(TypeError, words) as caught:
+                call()
+            self.assertLess(len(str(caught.exception)), 400)
+
+    def test_displacements_for_a_pose(self):
+        nodes, cells = box()
+        with self.assertWarnsRegex(UserWarning, "Example 1 .*is it displacements\\? A pose is positions"):
+            exemplar.Problem(without_mesh(BAR), (nodes, cells), [twisted(nodes) - nodes])
+
+    def test_shuffled_nodes_of_a_pose(self):
+        nodes, cells = box()
+        with self.assertWarnsRegex(UserWarning, "inverted cells: .*nodes are in another order than the mesh's"):
+            exemplar.Problem(without_mesh(BAR), (nodes, cells), [nodes[np.arange(45) * 7 % 45]])
 
     def test_unused_nodes_are_left_out_as_the_message_says(self):
         nodes, cells = box()
@@ -192,6 +226,9 @@ class Scenes(unittest.TestCase):
                                    ("Mesh/Generator = box does nothing", BAR, (nodes, cells))):
             with self.subTest(words), self.assertWarnsRegex(UserWarning, words):
                 self.assertEqual(len(exemplar.Problem(scene, mesh).warnings), 1)
+        with self.assertWarnsRegex(UserWarning, "Examples/Poses = absent.msh does nothing, as poses= is given"):
+            problem = exemplar.Problem({**BAR, "Examples": {"Poses": ["absent.msh"]}}, poses=[twisted(nodes)])
+        self.assertEqual((len(problem.warnings), len(problem.weights)), (1, 2))
 
     def test_dictionaries_without_end(self):
         section, entries = {}, []
@@ -236,6 +273,33 @@ class State(unittest.TestCase):
         problem = exemplar.Problem(BAR)
         with self.assertRaisesRegex(AttributeError, "positions cannot be set.*Initial"):
             problem.positions = box()[0]
+
+    def test_what_is_no_way_to_change_a_problem(self):
+        problem = exemplar.Problem(BAR, poses=[twisted(box()[0])])
+        with self.assertRaisesRegex(AttributeError, "on_iteration is called, not set: problem.on_iteration"):
+            problem.on_iteration = print
+        for name, words in ("weights", "set"), ("tolerance", "no attribute 'tolerance'"):
+            with self.assertRaisesRegex(AttributeError, words):
+                setattr(problem, name, 1)
+        with self.assertRaisesRegex(ValueError, "read-only"):
+            problem.weights[0] = 1
+
+        class Subclass(exemplar.Problem):
+            pass
+
+        subclass = Subclass(BAR)
+        subclass.mine = 1
+        self.assertEqual(subclass.mine, 1)
+        del subclass.mine
+
+    def test_names_of_measures(self):
+        problem = exemplar.Problem(BAR)
+        with self.assertRaisesRegex(KeyError, "no 'elastic' .there: energy_elastic"):
+            problem.energies["elastic"]
+        with self.assertRaisesRegex(KeyError, "Did you mean 'energy_elastic'"):
+            problem.statistics["energy_elastc"]
+        self.assertIsNone(problem.energies.get("elastic"))
+        self.assertEqual(pickle.loads(pickle.dumps(problem.energies)), problem.energies)
 
     def test_measures(self):
         problem = exemplar.Problem(DYNAMIC, poses=[twisted(box()[0])])

@@ -144,6 +144,7 @@ NO_BODIES = {
     "touching in a vertex": (joined(cube(), (moved(cube()[0], (1, 1, 1)), cube()[1])), ["body"]),
     "flat, without volume": (([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [(0, 1, 2), (0, 2, 3), (2, 1, 0), (3, 2, 0)]),
                              ["does not bound a body"]),
+    "a sheet": (([(0, 0, 0), (1, 0, 1), (1, 1, 2), (0, 1, 1)], [(0, 1, 2), (0, 2, 3)]), ["holes: 1", "lies in a plane", "a thickness"]),
     "one side, open (Moebius)": (moebius(), ["one-sided", "holes"]),
     "one side, closed (Klein)": (klein(), ["one-sided"]),
     "a soup of triangles": (([cube()[0][i] for f in cube()[1] for i in f], [(3 * i, 3 * i + 1, 3 * i + 2) for i in range(12)]),
@@ -259,6 +260,7 @@ class BadSurfaces(SceneTest):
             "millimetres": ([tuple(1000 * c for c in x) for x in bow], self.faces, [" times larger", "same unit"]),
             "kilometres": ([tuple(.001 * c for c in x) for x in bow], self.faces, [" times smaller", "same unit"]),
             "all in a point": ([(1., 2., 3.)] * n, self.faces, ["without area"]),
+            "shuffled vertices": ([bow[(37 * i) % n] for i in range(n)], self.faces, ["its vertices are in another order", ORDER]),
             "no number": ([*bow[:-1], (NAN, 0, 0)], self.faces, [f"vertex {n} of {n}", "no finite number"]),
         }
 
@@ -280,15 +282,25 @@ class BadSurfaces(SceneTest):
         self.refused(self.scene({"Mesh/File": "rest.stl", "Examples/Poses": "touching.stl"}), ["it has 7 vertices"])
 
     def test_surface_and_mesh_of_different_bodies(self):
-        inside = ["body.msh is no mesh of the inside of ", "node "]
+        inside = ["body.msh is no mesh of the inside of "]
         self.surface("mm.obj", [tuple(1000 * c for c in x) for x in self.vertices])
         self.surface("axes.obj", [(y, -x, z) for x, y, z in self.vertices])
         surfaces.write_obj(self.directory / "ball.obj", *surfaces.sphere(2))
         for rest in ("mm.obj", "axes.obj", "ball.obj"):
             with self.subTest(rest):
-                self.refused(self.pose(rest, rest=rest), [*inside, rest])
+                self.refused(self.pose(rest, rest=rest), [*inside, rest, "is 1000 times as large" if rest == "mm.obj" else ": node "])
                 self.refused(self.scene({"Mesh/File": "body.msh", "Mesh/Surface": rest, "Examples/Poses": rest},
                                         "--quiet"), [*inside, rest])
+
+    def test_rest_and_pose_are_swapped(self):
+        run = self.refused(self.pose("rest.obj", rest="good.obj"), ["It is that of rest.obj: --rest and --pose seem to be swapped."])
+        self.assertIn("no mesh of the inside of good.obj", run.stderr)
+
+    def test_pose_with_another_axis_upwards(self):
+        self.surface("up.obj", [(x, z, -y) for x, y, z in (bent(*x, .1) for x in self.vertices)])
+        run = self.call(*self.pose("up.obj"))
+        self.assertEqual(run.status, 0, run.stderr)
+        self.assertIn("up.obj is turned by 90 degrees about the x axis", run.stderr)
 
     def test_places_and_names(self):
         self.refused(["mesh", "--surface", "rest.obj", "--cells", 100, "--output", "none/made.msh"], ["there is no directory"])
@@ -315,6 +327,7 @@ class BadSurfaces(SceneTest):
     def test_tables_of_materials(self):
         for text, words in (("", ["there is no row", "x,y,z,id,name"]), ("x,y,z,id,name\n", ["there is no row"]),
                             ("1,2,3,4\n", ["m.csv, line 1: expected the header"]),
+                            ("x;y;z;id\n", ["found 'x;y;z;id'. Columns are separated by commas"]),
                             ("x,y,z,id\n1,0,0\n", ["m.csv, line 2: expected x,y,z,id", "found 3 columns"]),
                             ("x,y,z,id\n1,0,nan,1\n", ["m.csv, line 2: expected a coordinate, found 'nan'"]),
                             ("x,y,z,id\n\n1,0,0,0\n", ["m.csv, line 3: expected a material id", "'0'"]),

@@ -194,6 +194,8 @@ class Selections(BySurface):
                 "map nan.csv": ("nan.csv, line 3", "no finite number"),
                 "map twice.csv": ("has a value already",),
                 "map far.csv": ("is no vertex of", "counted from 1"),
+                "map wide.csv": ("wide.csv: the map is saved as UTF-16", "UTF-8"),
+                "map semicolons.csv": ("line 1: the cells are separated by semicolons", "by commas"),
                 "map rows.csv": ("has 2 rows",)}.items():
             self.write("paint.ply", ply([.5] * len(VERTICES)))
             self.write("long.ply", ply([.5] * 75, vertices=[*VERTICES, (9., 9., 9.)]))
@@ -201,6 +203,8 @@ class Selections(BySurface):
             self.write("nan.csv", "vertex,paint\n1,0.5\n2,nan\n")
             self.write("twice.csv", "vertex,paint\n1,0.5\n1,0.6\n")
             self.write("far.csv", "vertex,paint\n1000,0.5\n")
+            self.write_bytes("wide.csv", "vertex,paint\n1,0.5\n".encode("utf-16"))
+            self.write("semicolons.csv", "vertex;paint\n1;0,5\n")
             self.write("rows.csv", "1\n2\n")
             with self.subTest(choice):
                 self.refused(held(choice), *words)
@@ -249,6 +253,9 @@ class Painted(BySurface):
             self.assertEqual(run.stderr == "", words == "", run.stderr)
         run = self.attempt({**hold, "Material/Young's modulus": "1", "Material/Young's modulus map": "map.csv from 1e5 to 1e6"})
         self.assertEqual(run.stderr, "")
+        self.write("bytes.csv", table({v: 255. * v / (len(VERTICES) - 1) for v in range(len(VERTICES))}))
+        run = self.attempt({**hold, "Material/Young's modulus map": "bytes.csv from 1 to 20"})
+        self.assertRegex(run.stderr, "the map has 255, of which 4846 is made. Divide its values by 255")
 
     def test_shares_of_weights(self):
         n = len(VERTICES)
@@ -281,6 +288,7 @@ class Painted(BySurface):
         self.write("few.csv", table({0: 1.}))
         self.write("big.csv", table({v: 2. for v in range(n)}))
         self.write("none.csv", table({v: 0. for v in range(n)}))
+        self.write("percent.csv", table({v: 100. * v / n for v in range(n)}))
         hold = {"Handles/Names": "left", "Handles/left/Select": "boundary 1"}
         for key, text, words in (
                 ("Material/Young's modulus map", "zero.csv", ("vertex 7 has the value 0", "from A to B")),
@@ -290,7 +298,8 @@ class Painted(BySurface):
                 ("Material/Young's modulus map", "paint.png", ("names no painted map",)),
                 ("Material/Density map", "absent.csv", ("Material/Density map: ", "/absent.csv: cannot be opened")),
                 ("Material/Density map", "big.csv:pant", ("no column 'pant' (there: vertex, paint). Did you mean 'paint'?",)),
-                ("Examples/Weight maps", "big.csv", ("vertex 1 has the value 2", "between 0 and 1")),
+                ("Examples/Weight maps", "big.csv", ("vertex 1 has the value 2", "between 0 and 1", "divide all by 2,")),
+                ("Examples/Weight maps", "percent.csv", ("The greatest value is 98.6: divide all by 100",)),
                 ("Examples/Weight maps", "zero.csv, none.csv", ("map 2 is 0 in all cells",)),
                 ("Examples/Weight maps", "zero.csv above 1", ("is not understood",))):
             with self.subTest(f"{key} = {text}"):
@@ -354,6 +363,8 @@ class Caches(BySurface):
         nan = [list(x) for x in VERTICES]
         nan[4][1] = float("nan")
         far = [(1e5 * x, y, z) for x, y, z in VERTICES]
+        self.write("b_001.obj", obj(VERTICES))
+        self.write("b_002.obj", obj([tuple(1000 * c for c in x) for x in VERTICES]))
         for name, content, words in (
                 ("a.mdd", good[:-4], ("truncated", "Save or copy it anew")),
                 ("b.mdd", good[:11], ("truncated",)),
@@ -373,6 +384,7 @@ class Caches(BySurface):
                 ("a.abc", b"x", ("a point cache is a .mdd or .pc2 file",)),
                 ("a_1.obj", obj(VERTICES[:-1] + [(9., 9., 9.)]).replace("f 1 ", "f 2 ").encode(), ("is no pose of", "face")),
                 ("l.mdd", mdd([0., 1.], 2 * [[tuple(100 * c for c in x) for x in VERTICES]]), ("100 times as large as at rest", "same unit")),
+                ("b_*.obj", None, ("b_002.obj the surface is 1000 times as large",)),
                 ("none_*.obj", None, ("Handles/right/Follow cache: No file matches",)),
                 ("none.mdd", None, ("Handles/right/Follow cache: ", "there is no such file"))):
             with self.subTest(name):
@@ -395,6 +407,13 @@ class Caches(BySurface):
         self.write_bytes("rig.mdd", mdd([0., 1.], [self.samples()[4], self.samples()[8]]))
         run = self.attempt({**BAR, **self.scene({"Handles/right/Follow cache": "rig.mdd"})})
         self.assertIn("they jump in the first step", run.stderr)
+        sideways = [(x, z, -y) for x, y, z in VERTICES]
+        self.write_bytes("rig.mdd", mdd([0., 1.], [sideways, sideways]))
+        run = self.attempt({**BAR, **self.scene({"Handles/right/Follow cache": "rig.mdd"})})
+        self.assertRegex(run.stderr, r"surface is the one at rest, turned by 90 degrees about \(-1, 0, 0\): export both with the same axes")
+        self.write_bytes("rig.mdd", mdd([0., .04], [VERTICES, sideways]))  # in one step
+        run = self.attempt({**BAR, **self.scene({"Handles/right/Follow cache": "rig.mdd"})})
+        self.assertRegex(run.stderr, r"Follow cache turns the held nodes by 90 degrees about .* from sample 1 to the next. .*axes")
         self.write_bytes("rig.mdd", mdd([0., 1., 2.], 3 * [VERTICES]))
         run = self.attempt({**BAR, **self.scene({"Handles/right/Follow cache": "rig.mdd"})})
         self.assertIn("goes to t = 2 s, but t of a static scene ends at 1, after 2 of 3 samples. Set Scene = dynamic and Time/End = 2.", run.stderr)

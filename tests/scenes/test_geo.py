@@ -80,6 +80,14 @@ class Meshing(GeoTest):
             self.assertEqual(run.status, 1)
             self.assertIn("gmsh leaves out, without a word, a group of which no surface or volume exists", run.stderr)
 
+    def test_what_a_script_lacks(self):
+        for geo, words in (("Box(1) = {0, 0, 0, 1, 1, 1};\n", 'Write as its first line: SetFactory("OpenCASCADE");'),
+                           ("Point(1) = {0, 0, 0}; Extrude {1, 0, 0} { Point{1}; } Extrude {0, 1, 0} { Curve{1}; }\n",
+                            "box.geo: has no tetrahedra. It needs a Volume: Extrude a surface")):
+            run = self.run_with(geo)
+            self.assertEqual(run.status, 1, run.stderr)
+            self.assertIn(words, run.stderr)
+
     def test_a_disguised_script_is_no_data(self):
         trace = self.directory / "trace"
         self.write("part.obj", f'SystemCall "touch {trace}";')

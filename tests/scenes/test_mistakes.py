@@ -121,6 +121,8 @@ SCENES = {
     "END": ("subsection Mesh\nEND\n", ["small letters"]),
     "include": ("include other.prm\n", ["--set"]),
     "value over two lines": ("set Scene = static\n0; 0;\n", ["backslash"]),
+    "empty": ("\n", ["scene.prm: Scene is not set, as the file is empty. Add a line"]),
+    "script of Python": ("import exemplar\n", ["a script of Python, not like a scene: run it by python3"]),
     "packed": (b"PK\x03\x04\x14\x00", ["is a packed file", "Unpack it"]),
     "UTF-16": (prm(BAR).encode("utf-16"), ["saved as UTF-16", "UTF-8"]),
     # formulas
@@ -266,6 +268,7 @@ COMMANDS = [
     (["Scene.prm"], ["Did you mean scene.prm?"]),
     (["bar.msh"], ["a mesh or a surface, not a scene", "set File = bar.msh"]),
     (["study", "scene.prm"], ["Vary is not set", "exemplar scene.prm"]),
+    (["study", "lost.prm"], ["lost.prm:1, Scene: ", "absent.prm: cannot be read"]),
     (["study", "study.prm", "--outptu", "x"], ["exemplar study has no option '--outptu'", "'--output'"]),
     (["verify", "--lits"], ["exemplar verify has no option '--lits'", "'--list'"]),
     (["verify", "scene.prm"], ["cases by their names", "run by: exemplar scene.prm"]),
@@ -330,6 +333,7 @@ class Mistakes(BadInputTest):
     def test_commands(self):
         self.write("scene.prm", prm({**TWO, "Examples/Pose functions": "1.1*x; y; z"}))
         self.write("study.prm", prm({"Scene": "scene.prm", "Vary": "Time/Increments: 1 2"}))
+        self.write("lost.prm", prm({"Scene": "absent.prm", "Vary": "Time/Increments: 1 2"}))
         before = self.tree()
         for arguments, words in COMMANDS:
             with self.subTest(arguments):

@@ -188,6 +188,10 @@ namespace Exemplar
     void
     look_for_large_turns(const TimeAxis &axis);
 
+    /// Warn of poses that are followed far beyond their place.
+    void
+    look_for_progress_beyond(const TimeAxis &axis);
+
     /// The mesh file's number of a node, or those of the ends of its edge.
     std::string
     name_of_node(unsigned int node) const;

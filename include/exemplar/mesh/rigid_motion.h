@@ -49,6 +49,11 @@ namespace Exemplar
   AxisAngle
   axis_and_angle(const Matrix3<double> &rotation);
 
+  /// Of the way from some points to others, as many: how it turns them if it is a rigid motion, but
+  /// for a tenth of their size; else no rotation.
+  AxisAngle
+  rigid_turn(const std::vector<dealii::Point<3>> &from, const std::vector<dealii::Point<3>> &to);
+
   /// A part of the motion: `to` on the straight way from `from`, the rotation about the
   /// same axis by `progress` times the angle (slerp). 0 gives the identity, 1 the motion;
   /// any other progress is allowed.

@@ -38,7 +38,7 @@ namespace Exemplar
     std::vector<Assignment> base;
     std::vector<Assignment> reference; ///< empty: there is none
     std::vector<StudyAxis>  axes;
-    std::string             vary_place;
+    std::string             scene_place, vary_place;
     unsigned int            repeats = 3;
     double                  timeout = 0.; ///< [s], 0: none
     unsigned int            threads = 1;

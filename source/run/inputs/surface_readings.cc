@@ -3,6 +3,7 @@
 #include <exemplar/base/message_text.h>
 #include <exemplar/base/number_text.h>
 #include <exemplar/mesh/map_name.h>
+#include <exemplar/mesh/rigid_motion.h>
 #include <exemplar/run/inputs/surface_readings.h>
 #include <exemplar/run/scene/scene_parameters.h>
 #include <exemplar/surface/skin/surface_selector.h>
@@ -20,6 +21,7 @@ namespace Exemplar
     {
       MapName map;
       bool    is_factor = true;
+      bool    has_range = false;    ///< from A to B
       double  at_0 = 0., at_1 = 1.; ///< what values 0 and 1 stand for
     };
 
@@ -34,8 +36,9 @@ namespace Exemplar
           use.is_factor = false;
         else if (std::string low, to, high; word == "from" && in >> low >> to >> high && to == "to")
         {
-          use.at_0 = parse_number(low);
-          use.at_1 = parse_number(high);
+          use.has_range = true;
+          use.at_0      = parse_number(low);
+          use.at_1      = parse_number(high);
         }
         else
           is_understood = false;
@@ -68,6 +71,16 @@ namespace Exemplar
       for (const auto &region : material.named_regions)
         values.push_back(region.second.*member);
       return values;
+    }
+
+    /// What makes shares of per cent, of bytes, and of other values.
+    double
+    divisor_of(const double greatest)
+    {
+      for (const double unit : { 100., 255. })
+        if (greatest > 0.8 * unit && greatest <= unit)
+          return unit;
+      return greatest;
     }
 
     /// Reads what a scene asks for off one surface.
@@ -125,6 +138,8 @@ namespace Exemplar
         const std::string   key    = "Material/" + name + " map";
         const MapUse        use    = parse_use(text, key);
         std::vector<double> values = find_map(use.map, inputs, key);
+        if (use.has_range)
+          doubt_range(key + " = '" + text + "'", values, use);
         const auto          factors
             = use.is_factor ? values_in_scene(scene.material, member) : std::vector<double>{ 1. };
         for (std::size_t v = 0; v < values.size(); ++v)
@@ -147,6 +162,29 @@ namespace Exemplar
         if (low == 0. && use.is_factor != scales_one)
           doubt(key + " = '" + text + "'", values, use.is_factor);
         return { selector.at_cells(values), use.is_factor };
+      }
+
+      /// Warn of values that a range goes beyond its ends for.
+      void
+      doubt_range(const std::string &map, const std::vector<double> &values, const MapUse &use)
+      {
+        constexpr double rounding = 1e-3; // of a painting program
+        double           least = 0., greatest = 1.;
+        for (const double value : values)
+        {
+          least    = std::min(least, value); // not if it is no number
+          greatest = std::max(greatest, value);
+        }
+        if (least >= -rounding && greatest <= 1. + rounding)
+          return;
+        const double farthest = greatest > 1. + rounding ? greatest : least;
+        readings.warnings.push_back(
+            map + ": 'from A to B' says what the values 0 and 1 stand for, but the map has "
+            + short_text(farthest) + ", of which "
+            + short_text(use.at_0 + farthest * (use.at_1 - use.at_0)) + " is made. "
+            + (greatest > 1. + rounding
+                   ? "Divide its values by " + short_text(divisor_of(greatest)) + "."
+                   : std::string("Paint values from 0 to 1.")));
       }
 
       /// Warn of values that look like those of the other use of a map. Nobody paints a body a hundred
@@ -175,14 +213,21 @@ namespace Exemplar
         if (!map.rest.empty())
           throw UserError(key + ": " + in_quotes(text)
                           + " is not understood. Give FILE.ply:ATTRIBUTE or FILE.csv[:COLUMN].");
-        std::vector<double> values = find_map(map, inputs, key);
+        std::vector<double> values   = find_map(map, inputs, key);
+        double              greatest = 0.;
+        for (const double value : values)
+          greatest = std::max(greatest, value); // not if it is no number
         for (std::size_t v = 0; v < values.size(); ++v)
         {
           values[v] = std::isnan(values[v]) ? 0. : values[v]; // not in the table
           if (!(values[v] >= 0. && values[v] <= 1. + 1e-6))
-            throw UserError(key + ": in " + map.name() + " vertex " + std::to_string(v + 1)
-                            + " has the value " + short_text(values[v])
-                            + ", but shares lie between 0 and 1. Paint it anew.");
+            throw UserError(
+                key + ": in " + map.name() + " vertex " + std::to_string(v + 1) + " has the value "
+                + short_text(values[v]) + ", but shares lie between 0 and 1. "
+                + (values[v] > 1.
+                       ? "The greatest value is " + short_text(greatest) + ": divide all by "
+                             + short_text(divisor_of(greatest)) + ", or paint it anew."
+                       : std::string("Paint it anew.")));
         }
         return selector.at_cells(values);
       }
@@ -191,7 +236,12 @@ namespace Exemplar
       add_motion(const HandleParameters &handle);
 
       void
-      check_unit(const PointCache &cache, const std::string &key) const;
+      check_unit(const PointCache::Vertices &vertices,
+                 const std::string          &sample,
+                 const std::string          &key) const;
+
+      std::string
+      remedy_for_jump(const PointCache::Vertices &first, const std::string &key) const;
 
       void
       warn_of_unreached(const std::vector<double> &times, const HandleParameters &handle);
@@ -249,12 +299,76 @@ namespace Exemplar
     constexpr double other_unit = 20.;
 
     void
-    SurfaceReader::check_unit(const PointCache &cache, const std::string &key) const
+    SurfaceReader::check_unit(const PointCache::Vertices &vertices,
+                              const std::string          &sample,
+                              const std::string          &key) const
     {
-      const double ratio = spread(cache.sample(0)) / spread(inputs.surface->vertices);
+      const double ratio = spread(vertices) / spread(inputs.surface->vertices);
       if (!(ratio < other_unit && ratio > 1. / other_unit))
-        throw UserError(key + ": in its first sample the surface is " + short_text(ratio)
+        throw UserError(key + ": in " + sample + " the surface is " + short_text(ratio)
                         + " times as large as at rest. Export both in the same unit of length.");
+    }
+
+    using Points = std::vector<dealii::Point<3>>;
+
+    Points
+    points_of(const PointCache::Vertices &vertices)
+    {
+      Points points;
+      for (const auto &x : vertices)
+        points.emplace_back(x[0], x[1], x[2]);
+      return points;
+    }
+
+    constexpr double in_degrees = 180. / 3.14159265358979324;
+
+    /// Between two samples. A rig is sampled more often than it turns by so much.
+    constexpr double great_turn = 60. / in_degrees;
+
+    std::string
+    turn_text(const AxisAngle &turn)
+    {
+      constexpr double rounding = 1e-3;
+      std::string      axis;
+      for (unsigned int d = 0; d < 3; ++d)
+        axis += (d == 0 ? "" : ", ")
+                + short_text(std::abs(turn.axis[d]) < rounding ? 0. : turn.axis[d]);
+      return std::to_string(std::lround(turn.angle * in_degrees)) + " degrees about (" + axis + ")";
+    }
+
+    /// Of the nodes of a handle that are turned as a whole in one step of the cache, which lasts no
+    /// longer than one of the scene: of longer ones the handle itself tells.
+    std::string
+    describe_great_turn(const Points &rest, const Track &track, const double scene_step)
+    {
+      for (std::size_t k = 1; k < track.samples.size(); ++k)
+      {
+        if (track.times[k] - track.times[k - 1] > scene_step)
+          continue;
+        Points before = rest, after = rest;
+        for (std::size_t i = 0; i < rest.size(); ++i)
+        {
+          before[i] += track.samples[k - 1][i];
+          after[i] += track.samples[k][i];
+        }
+        if (const AxisAngle turn = rigid_turn(before, after); turn.angle > great_turn)
+          return "/Follow cache turns the held nodes by " + turn_text(turn) + " from sample "
+                 + std::to_string(k)
+                 + " to the next. Give the cache more samples, or, if its axes "
+                   "are others from there on, export all with those of Mesh/Surface.";
+      }
+      return "";
+    }
+
+    std::string
+    SurfaceReader::remedy_for_jump(const PointCache::Vertices &first, const std::string &key) const
+    {
+      const AxisAngle turn = rigid_turn(points_of(inputs.surface->vertices), points_of(first));
+      if (turn.angle > great_turn)
+        return " In its first sample the surface is the one at rest, turned by " + turn_text(turn)
+               + ": export both with the same axes.";
+      return " Let the cache begin with the surface at rest, or set " + key
+             + "/Cache start or Initial/Pose.";
     }
 
     /// A cache that goes on when t of the scene has come to its end, which is 1 but in dynamics.
@@ -296,12 +410,12 @@ namespace Exemplar
         for (double &time : track->times)
           time += shift;
       }
-      check_unit(*cache->second, key + "/Follow cache");
       warn_of_unreached(track->times, handle);
       const double farthest = 1e3 * mesh.diameter();
       for (std::size_t k = 0; k < track->times.size(); ++k)
       {
         auto vertices = cache->second->sample(k);
+        check_unit(vertices, cache->second->name_of(k), key + "/Follow cache");
         for (auto &vertex : vertices)
           for (double &x : vertex)
             x *= scene.mesh.scale;
@@ -322,9 +436,15 @@ namespace Exemplar
           && scene.initial.pose_function.empty())
         readings.warnings.push_back(
             key + "/Follow cache: at t = 0 the held nodes are up to " + short_text(jump)
-            + " m from their rest, where the body starts, so they jump in the first step. Let the "
-              "cache begin with the surface at rest, or set "
-            + key + "/Cache start or Initial/Pose.");
+            + " m from their rest, where the body starts, so they jump in the first step."
+            + remedy_for_jump(cache->second->sample(0), key));
+      Points rest;
+      for (const unsigned int node : nodes)
+        rest.push_back(mesh.get_nodes()[node]);
+      const double step
+          = scene.scene == SceneKind::dynamic ? scene.time.step : 1. / scene.time.increments;
+      if (const std::string turn = describe_great_turn(rest, *track, step); !turn.empty())
+        readings.warnings.push_back(key + turn);
       readings.motions[handle.name] = [track](const std::vector<dealii::Point<3>> &,
                                               const double time) { return track->at(time); };
     }

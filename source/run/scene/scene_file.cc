@@ -181,8 +181,9 @@ namespace Exemplar
     keys.apply(unknown, directory());
     keys.apply(named, directory());
     if (find_assignment(assignments, "Scene") == nullptr) // after misspelt names of it
-      throw UserError(parameters.name
-                      + ": Scene is not set. Add a line 'set Scene = dynamic' (or static, or "
+      throw UserError(parameters.name + ": Scene is not set"
+                      + (trim(text).empty() && !file.empty() ? ", as the file is empty" : "")
+                      + ". Add a line 'set Scene = dynamic' (or static, or "
                         "interpolation).");
 
     make_selections_absolute();

@@ -63,6 +63,8 @@ namespace Exemplar
         if (!bytes)
           throw UserError(name + ": cannot be opened (" + reason + "). Give the path of a map."
                           + missing_file_remedy(name));
+        if (bytes->compare(0, 2, "\xFF\xFE") == 0 || bytes->compare(0, 2, "\xFE\xFF") == 0)
+          throw UserError(name + ": the map is saved as UTF-16. Save it as UTF-8.");
         std::stringstream in(*bytes);
         std::string       text;
         while (std::getline(in, text))
@@ -99,6 +101,7 @@ namespace Exemplar
       {
         if (width == 0)
         {
+          refuse_other_separators(cells);
           width                = cells.size();
           const bool has_names = !std::all_of(cells.begin(), cells.end(), is_number);
           find_columns(has_names ? cells : Cells());
@@ -119,6 +122,17 @@ namespace Exemplar
           values[vertex] = parse_number(cell);
         }
         ++n_rows;
+      }
+
+      /// Of spreadsheets where the comma is the decimal sign.
+      void
+      refuse_other_separators(const Cells &cells) const
+      {
+        for (const std::string &cell : cells)
+          if (cell.find_first_of(";\t") < cell.size())
+            fail(
+                "the cells are separated by semicolons or tabs. Separate them by commas, and write "
+                "numbers with a point.");
       }
 
       std::size_t

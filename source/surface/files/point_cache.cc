@@ -191,6 +191,12 @@ namespace Exemplar
         return std::move(surface.vertices);
       }
 
+      std::string
+      name_of(const std::size_t k) const override
+      {
+        return files[k].string();
+      }
+
     private:
       const std::vector<std::filesystem::path> files;
       const SurfaceMesh                       &rest;

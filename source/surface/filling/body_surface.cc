@@ -5,6 +5,7 @@
 #include <exemplar/surface/filling/surface_meshing.h>
 #include <exemplar/surface/shape/surface_geometry.h>
 #include <exemplar/surface/shape/surface_repair.h>
+#include <exemplar/surface/shape/vectors.h>
 
 #include <algorithm>
 #include <cmath>
@@ -96,6 +97,26 @@ namespace Exemplar
         body.notes.push_back(movement_text(body.original, body.surface));
       return faults;
     }
+    /// Whether all vertices lie in a plane.
+    bool
+    is_flat(const TriangleSurface &surface)
+    {
+      const double size   = diagonal_of(surface.vertices);
+      SpaceVector  normal = { { 0., 0., 0. } };
+      for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+      {
+        const auto       &corner = surface.triangles[t];
+        const SpaceVector a      = surface.vertices[corner[0]];
+        const SpaceVector n
+            = cross(minus(surface.vertices[corner[1]], a), minus(surface.vertices[corner[2]], a));
+        normal = norm(n) > norm(normal) ? n : normal;
+      }
+      return std::all_of(surface.vertices.begin(), surface.vertices.end(),
+                         [&](const SpaceVector &x) {
+                           return std::abs(dot(minus(x, surface.vertices[0]), normal))
+                                  <= 1e-9 * size * norm(normal);
+                         });
+    }
   } // namespace
 
   BodySurface
@@ -110,6 +131,11 @@ namespace Exemplar
     if (findings.several_bodies)
       throw UserError(file.string() + ": this is more than one body:" + list_lines(findings.faults)
                       + "\n  A scene has one. Join them where they were made, or mesh each alone.");
+    if (is_flat(checked.surface))
+      throw UserError(file.string()
+                      + ": the surface does not bound a body:" + list_lines(findings.faults)
+                      + "\n  It lies in a plane, and a sheet has no inside: give it a thickness "
+                        "where it was made.");
     if (!findings.faults.empty() && !options.repair)
       throw UserError(
           file.string() + ": the surface does not bound a body:" + list_lines(findings.faults)

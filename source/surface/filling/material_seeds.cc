@@ -155,7 +155,9 @@ namespace Exemplar
       {
         if (row != "x,y,z,id" && row != "x,y,z,id,name")
           fail(file, line,
-               "expected the header x,y,z,id or x,y,z,id,name, found " + in_quotes(row) + ".");
+               "expected the header x,y,z,id or x,y,z,id,name, found " + in_quotes(row) + "."
+                   + (row.find_first_of(";\t") < row.size() ? " Columns are separated by commas."
+                                                            : ""));
         headed = true;
         continue;
       }

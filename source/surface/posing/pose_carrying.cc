@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
 #include <exemplar/mesh/mesh_checks.h>
 #include <exemplar/surface/posing/pose_carrying.h>
 #include <exemplar/surface/shape/surface_poses.h>
@@ -39,6 +40,21 @@ namespace Exemplar
     PoseTransfer transfer(mesh.get_nodes(), mesh.get_cells(), attachment, attach);
     transfer.measure_by(rest.surface, mesh);
     return transfer;
+  }
+
+  bool
+  is_surface_of(const Mesh &mesh, const SurfaceMesh &surface)
+  {
+    try
+    {
+      check_attachment({ mesh.get_nodes(), mesh.get_boundary_faces(), triangulate(surface) }, mesh,
+                       "");
+      return true;
+    }
+    catch (const UserError &)
+    {
+      return false;
+    }
   }
 
   std::string

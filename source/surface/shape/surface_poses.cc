@@ -4,6 +4,7 @@
 #include <exemplar/mesh/rigid_motion.h>
 #include <exemplar/surface/shape/surface_poses.h>
 #include <exemplar/surface/shape/triangle_surface.h>
+#include <exemplar/surface/shape/vectors.h>
 
 #include <algorithm>
 #include <cmath>
@@ -67,6 +68,53 @@ namespace Exemplar
       for (std::size_t i = 0; i < points.size(); ++i)
         sum += motion(points[i]).distance_square(targets[i]);
       return sum;
+    }
+
+    /// The root of the mean squared distance from the middle.
+    double
+    spread(const std::vector<dealii::Point<3>> &points)
+    {
+      const dealii::Point<3> middle = centroid(points);
+      double                 sum    = 0.;
+      for (const auto &point : points)
+        sum += point.distance_square(middle);
+      return std::sqrt(sum / static_cast<double>(points.size()));
+    }
+
+    /// How much longer most sides of the faces are than at rest.
+    double
+    median_stretch(const TriangleSurface &rest, const TriangleSurface &pose)
+    {
+      std::vector<double> ratios;
+      for (const auto &t : rest.triangles)
+        for (unsigned int k = 0; k < 3; ++k)
+        {
+          const auto length = [&](const TriangleSurface &s)
+          { return norm(minus(s.vertices[t[(k + 1) % 3]], s.vertices[t[k]])); };
+          if (const double at_rest = length(rest); at_rest > 0.)
+            ratios.push_back(length(pose) / at_rest);
+        }
+      if (ratios.empty())
+        return 1.;
+      const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
+      std::nth_element(ratios.begin(), middle, ratios.end());
+      return *middle;
+    }
+
+    /// A surface of the same size whose faces reach across it has its vertices in another order.
+    void
+    check_vertex_order(const TriangleSurface &rest,
+                       const TriangleSurface &pose,
+                       const std::string     &prefix)
+    {
+      constexpr double great_stretch = 3., greatest_growth = 1.5;
+      const double     growth  = spread(points_of(pose)) / spread(points_of(rest));
+      const double     stretch = median_stretch(rest, pose);
+      if (growth < greatest_growth && growth > 1. / greatest_growth && stretch > great_stretch)
+        throw UserError(prefix + "most sides of its faces are " + short_text(stretch)
+                        + " times as long or longer, though it is as large as the surface at rest: "
+                          "its vertices are in another order."
+                        + order_remedy);
     }
 
     void
@@ -155,8 +203,24 @@ namespace Exemplar
     const TriangleSurface at_rest = triangulate(rest);
     TriangleSurface       posed   = at_rest;
     posed.vertices                = pose.vertices;
+    check_vertex_order(at_rest, posed, prefix);
     check_unit(at_rest, posed, prefix);
     check_mirror(at_rest, posed, prefix);
+  }
+
+  std::string
+  axis_of_right_angle(const SurfaceMesh &rest, const SurfaceMesh &pose)
+  {
+    constexpr double tolerance = 0.14; // 8 degrees, as a bent body may seem to be turned
+    const AxisAngle  turn      = axis_and_angle(
+              best_rigid_motion(points_of(triangulate(rest)), points_of({ pose.vertices, {}, {} }))
+                  .rotation);
+    if (std::abs(turn.angle - std::acos(0.)) > tolerance)
+      return "";
+    for (unsigned int d = 0; d < 3; ++d)
+      if (std::abs(turn.axis[d]) > std::cos(tolerance))
+        return { "xyz"[d] };
+    return "";
   }
 
   bool

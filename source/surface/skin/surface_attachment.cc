@@ -181,6 +181,12 @@ namespace Exemplar
     const double size = mesh.diameter();
     if (*farthest < greatest_distance * size && mean < mean_distance * size)
       return;
+    constexpr double other_unit = 8.; // a body is as large as its surface
+    if (const double ratio = diagonal_of(attachment.get_surface().vertices) / size;
+        ratio > other_unit || ratio < 1. / other_unit)
+      throw UserError(mesh.get_name() + " is no mesh of the inside of " + surface_name
+                      + ": the surface is " + short_text(ratio)
+                      + " times as large. Give both in the same unit of length.");
     const unsigned int node = attachment.get_nodes()[farthest - distances.begin()];
     throw UserError(
         mesh.get_name() + " is no mesh of the inside of " + surface_name + ": node "

@@ -130,6 +130,21 @@ namespace Exemplar::Testing
                   1e-11);
     }
 
+    TEST_F(FollowPose, WarnsOfProgressFarBeyondThePose)
+    {
+      HandleParameters parameters = follow(mesh);
+      const auto       warnings   = [&](const std::string &progress)
+      {
+        parameters.progress = progress;
+        return Handles({ parameters }, mesh, FESpace(mesh), increments(4), poses).get_warnings();
+      };
+      ASSERT_EQ(warnings("100*t").size(), 1u);
+      EXPECT_NE(warnings("100*t")[0].find("tip/Progress goes to 100, but"), std::string::npos);
+      EXPECT_NE(warnings("-3*t")[0].find("goes to -3"), std::string::npos);
+      EXPECT_TRUE(warnings("1.5*t").empty());
+      EXPECT_TRUE(warnings("sin(2*pi*t)").empty());
+    }
+
     TEST_F(FollowPose, MovesTheHeldComponentsOnly)
     {
       const HandleParameters all = follow(mesh);

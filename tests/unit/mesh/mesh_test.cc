@@ -77,11 +77,21 @@ namespace Exemplar::Testing
       EXPECT_EQ(error_of(msh), ""); // all cells are mirrored: only the order of nodes is another
     }
 
+    TEST(MeshTest, RefusesAFlatMesh)
+    {
+      MshFile msh = two_tetrahedra();
+      for (auto &node : msh.nodes)
+        node[1] = 3.;
+      expect_contains(error_of(msh), "the mesh is flat: y is 3 at all nodes");
+    }
+
     TEST(MeshTest, RefusesOtherElements)
     {
       MshFile msh = two_tetrahedra();
       msh.elements.erase(msh.elements.begin() + 1, msh.elements.end());
       expect_contains(error_of(msh), "bar.msh: has no tetrahedra");
+      msh.geo_walls = std::vector<std::string>();
+      expect_contains(error_of(msh), "needs a Volume: Extrude a surface");
 
       for (const unsigned int type : { 3U, 5U, 6U, 7U, 9U, 11U })
       {

@@ -81,6 +81,7 @@ namespace Exemplar::Testing
       EXPECT_EQ(read(npy<double>("<f8", "(2,)", { 10., 12. })), (Nodes{ 0, 2 }));
       expect_contains(refusal(npy<std::int64_t>("<i8", "(2,)", { 10, 77 })), "'77'");
       expect_contains(refusal(npy<double>("<f8", "(1,)", { 10.5 })), "is no node number");
+      expect_contains(refusal(npy<char>("|b1", "(2,)", { 1, 0 })), "numpy.flatnonzero(mask) + 10)");
       expect_contains(refusal(npy<std::int64_t>(">i8", "(1,)", { 10 })), "byte order");
       expect_contains(refusal(npy<std::int64_t>("<i8", "(3,)", { 10, 11 })), "truncated");
       expect_contains(refusal(npy<std::int64_t>("<i8", "(0,)", {})), "holds no node number");

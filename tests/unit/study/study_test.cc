@@ -159,6 +159,9 @@ namespace Exemplar::Testing
       expect_refusal({ "names no key" }, ": 1 2");
       expect_refusal({ "empty" }, "Time/Step: 1,, 2");
       expect_refusal({ "'1' twice" }, "Time/Step: 1 2 1");
+      expect_refusal({ "three numbers", "by ';': 8, 2, 2; 4, 1, 1." },
+                     "Mesh/Box cells: 8, 2, 2, 4, 1, 1");
+      expect_refusal({ "three numbers", "by ';': 0, 0, -1;." }, "Loads/Gravity: 0, 0, -1");
       expect_refusal({ "where 2 are needed", "joined by '+', too" }, "Time/Step + Time/End: 1 2");
       expect_refusal({ "Time/Step is varied twice" }, "Time/Step: 1 2 | Time/Step: 3");
       expect_refusal({ "study.prm:3", "Base 'Time/End' has no '='" }, "Time/Step: 1",

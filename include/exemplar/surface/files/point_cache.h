@@ -31,6 +31,13 @@ namespace Exemplar
     virtual Vertices
     sample(std::size_t k) const = 0;
 
+    /// Of a sample, for messages: its file, if each has one.
+    virtual std::string
+    name_of(const std::size_t k) const
+    {
+      return "sample " + std::to_string(k + 1);
+    }
+
   protected:
     explicit PointCache(std::vector<double> sample_times) : times(std::move(sample_times)) {}
 

@@ -25,6 +25,10 @@ namespace Exemplar
   PoseTransfer
   make_pose_transfer(const Mesh &mesh, const RestSurface &rest, double attach);
 
+  /// Whether the mesh is one of the inside of this surface.
+  bool
+  is_surface_of(const Mesh &mesh, const SurfaceMesh &surface);
+
   /// The numbers of the elements whose cells count as inverted at these places of the nodes, as a
   /// list; empty if there are none.
   std::string

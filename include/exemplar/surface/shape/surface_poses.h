@@ -30,6 +30,11 @@ namespace Exemplar
              const SurfaceMesh &pose,
              const std::string &pose_name);
 
+  /// x, y or z if a pose is turned against the surface at rest by a right angle about this axis, to 8
+  /// degrees, as one with another axis upwards is; else empty.
+  std::string
+  axis_of_right_angle(const SurfaceMesh &rest, const SurfaceMesh &pose);
+
   /// Whether all vertices of a pose lie where they lie at rest, to 1e-9 of the size.
   bool
   is_at_rest(const SurfaceMesh &rest, const SurfaceMesh &pose);
