@@ -102,7 +102,7 @@ namespace Exemplar
     }
 
     /// Angles [rad] beyond which the linear strain is far from one.
-    constexpr double great_turn = M_PI / 9.;
+    constexpr double great_linear_turn = M_PI / 9.;
 
     std::optional<std::string>
     describe_turned(const Problem &problem)
@@ -118,7 +118,7 @@ namespace Exemplar
         greatest = std::max(greatest, std::acos(std::clamp(0.5 * (trace(R) - 1.), -1., 1.)));
       }
       greatest = problem.body.exchange().max(greatest);
-      if (!(greatest > great_turn))
+      if (!(greatest > great_linear_turn))
         return {};
       return "Cells have turned by up to " + short_text(greatest * 180. / M_PI)
              + " degrees, but Model/Strain = linear takes turns for strains: beyond some 10 "
