@@ -11,7 +11,7 @@ import xml.etree.ElementTree
 from math import cos, sin
 
 from exemplar_runner import (EXEMPLAR, REPOSITORY, SceneTest, bend, greatest_distance, has_trilinos, nodes_of, read_csv, read_msh,
-                             read_pvd, read_summary, read_vtu, results, timeless_statistics, twist, without_sagging,
+                             read_pvd, read_summary, read_vtu, results, timeless_statistics, twist, without_what_is_meant,
                              write_msh, write_scene)
 
 MPI_ENVIRONMENT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
@@ -81,7 +81,7 @@ def launch(n, *arguments, environment=None, timeout=240):
                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=timeout,
                           env={**os.environ, **MPI_ENVIRONMENT, **(environment or {})})
     own = [line for line in done.stderr.splitlines() if line.startswith(("exemplar: ", "Warning: "))]
-    return done.returncode, without_sagging(own), done
+    return done.returncode, without_what_is_meant(own), done
 
 
 @unittest.skipUnless(shutil.which("mpirun") and has_trilinos(), "without mpirun, or built without Trilinos")

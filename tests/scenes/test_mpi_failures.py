@@ -11,7 +11,7 @@ import time
 import unittest
 from pathlib import Path
 
-from exemplar_runner import EXEMPLAR, Run, SceneTest, has_trilinos, prm, read_csv, read_summary, results, without_sagging
+from exemplar_runner import EXEMPLAR, Run, SceneTest, has_trilinos, prm, read_csv, read_summary, results, without_what_is_meant
 
 N = 3
 BODY = {
@@ -157,7 +157,7 @@ class Start(MpiTest):
         for scene, status, message in (({**STATIC, "Scene": "x"}, 1, "^scene.prm:[0-9]+: Scene"), (FAILING, 2, "^Step 1 stopped"),
                                        ({**FAILING, "Solver/Linear solver": "iterative"}, 2, "^Step 1 stopped")):
             run = self.run_all(scene, "--quiet", **alone)
-            self.assertEqual((run.status, len(without_sagging(run.stderr.splitlines()))), (status, 1), run.stderr)
+            self.assertEqual((run.status, len(without_what_is_meant(run.stderr.splitlines()))), (status, 1), run.stderr)
             self.check_end(run, status, message)
         # mpirun lives on with who has started the program
         run = self.run_all({**STATIC, "Scene": "x"}, script='"$0" "$@"; echo "status $?"; exit 0', **alone)
@@ -219,7 +219,7 @@ class Start(MpiTest):
         self.assertEqual((run.status, run.stderr), (1, ""))
         self.write("scene.prm", prm(STATIC))
         run = self.call("scene.prm", SLURM_STEP_NUM_TASKS="2", SLURM_PROCID="0", SLURM_PTY_PORT="1")  # a shell of srun --pty
-        self.assertEqual((run.status, without_sagging(run.stderr.splitlines())), (0, []))
+        self.assertEqual((run.status, without_what_is_meant(run.stderr.splitlines())), (0, []))
 
 
 class Input(MpiTest):

@@ -5,7 +5,7 @@ interpolations end at their examples, and examples change what the same drag doe
 import unittest
 
 from exemplar_runner import REPOSITORY, SceneTest, bent, distance, greatest_distance, nodes_of, read_csv, twisted, \
-    without_sagging
+    without_what_is_meant
 
 PAPER = REPOSITORY / "prm/paper"
 
@@ -22,7 +22,7 @@ class PrmScenes(SceneTest):
         for scene in files("prm/**/*.prm"):
             with self.subTest(scene.name):
                 run = self.call("--validate", scene)
-                self.assertEqual((run.status, without_sagging(run.stderr.splitlines())), (0, []))
+                self.assertEqual((run.status, without_what_is_meant(run.stderr.splitlines())), (0, []))
                 opening = scene.read_text().split("\n\n")[0]
                 self.assertTrue(opening.startswith("#") and "Expect" in opening, opening)
 

@@ -35,8 +35,9 @@ namespace Exemplar
       std::vector<std::string> warnings;
       for (auto later = overrides.begin(); later != overrides.end(); ++later)
         for (auto earlier = overrides.begin(); earlier != later; ++earlier)
-          if (later->path() == earlier->path() && later->value != earlier->value)
-            warnings.push_back(later->place + " " + later->path() + " is given twice, as "
+          if (later->place == "--set" && earlier->place == "--set"
+              && later->path() == earlier->path() && later->value != earlier->value)
+            warnings.push_back("--set " + later->path() + " is given twice, as "
                                + in_quotes(earlier->value) + " and " + in_quotes(later->value)
                                + ": the last one holds.");
       return warnings;
