@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/extent.h>
 #include <exemplar/algebra/long_vectors.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/solvers/newton.h>
-#include <exemplar/solvers/saddle.h>
 
 #include <boost/serialization/vector.hpp>
 #include <deal.II/base/memory_consumption.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/extent.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/solvers/newton.h>
 #include <exemplar/solvers/saddle.h>
@@ -98,7 +99,7 @@ namespace Exemplar
   {
     const State  start = state;
     const Merit  before(potential, evaluation);
-    const Vector down = downward_curvature(system, potential, start, evaluation);
+    const Vector down = downward_curvature(system, potential, start);
     const double size = extent(start.positions, potential.get_free_dofs().exchange());
     for (const double length : { 1e-4 * size, -1e-4 * size, 1e-2 * size, -1e-2 * size })
     {

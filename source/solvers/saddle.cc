@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/extent.h>
 #include <exemplar/algebra/long_vectors.h>
 #include <exemplar/solvers/saddle.h>
 
@@ -30,9 +31,9 @@ namespace Exemplar
     Vector
     times_tangent(IncrementalPotential &potential,
                   const State          &at,
-                  const Vector         &displacement,
-                  Evaluation           &evaluation)
+                  const Vector         &displacement)
     {
+      Evaluation   evaluation;
       const double length = 1e-6 * extent(at.positions, potential.get_free_dofs().exchange());
       Vector       change;
       for (const double side : { length, -length })
@@ -62,18 +63,17 @@ namespace Exemplar
   Vector
   downward_curvature(StepSystem           &system,
                      IncrementalPotential &potential,
-                     const State          &at,
-                     Evaluation           &evaluation)
+                     const State          &at)
   {
-    Vector v = arbitrary_displacement(potential, at.positions.size());
+    const std::vector<double> none(potential.unknown_weights() == nullptr ? 0 : at.weights.size());
+    Vector                    v = arbitrary_displacement(potential, at.positions.size());
     for (unsigned int i = 0; i < max_power_iterations; ++i)
     {
-      evaluation.gradient = times_tangent(potential, at, v, evaluation);
-      evaluation.elastic.weight_gradient.assign(evaluation.elastic.weight_gradient.size(), 0.);
-      if (i > 0 && free_product(potential, v, evaluation.gradient) < 0.)
+      const Vector Kv = times_tangent(potential, at, v);
+      if (i > 0 && free_product(potential, v, Kv) < 0.)
         return v;
       v *= shift;
-      v += system.displacement(at, system.solve(at, evaluation)); // -A^-1 K v
+      v += system.displacement(at, system.solve(at, Kv, none)); // -A^-1 K v
       const double greatest
           = potential.get_free_dofs().exchange().max(max_entry(v.begin(), v.end()));
       if (!(greatest > 0.))
@@ -81,22 +81,5 @@ namespace Exemplar
       v /= greatest;
     }
     return {};
-  }
-
-  double
-  extent(const Vector &positions, const Exchange &exchange)
-  {
-    double greatest = 0.;
-    for (unsigned int c = 0; c < 3; ++c)
-    {
-      double least = positions[c], most = positions[c];
-      for (unsigned int dof = c; dof < positions.size(); dof += 3)
-      {
-        least = std::min(least, positions[dof]);
-        most  = std::max(most, positions[dof]);
-      }
-      greatest = std::max(greatest, exchange.max(most) - exchange.min(least));
-    }
-    return greatest;
   }
 } // namespace Exemplar

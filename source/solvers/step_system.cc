@@ -30,18 +30,20 @@ namespace Exemplar
   }
 
   BorderedVector
-  StepSystem::solve(const State &at, const Evaluation &evaluation)
+  StepSystem::solve(const State               &at,
+                    const Vector              &gradient,
+                    const std::vector<double> &weight_gradient)
   {
     StepClock::Scope scope(clock, Part::solve);
     const auto      &free = potential.get_free_dofs().list();
     BorderedVector   unknowns;
     unknowns.positions.reserve(free.size());
     for (const unsigned int dof : free)
-      unknowns.positions.push_back(-evaluation.gradient[dof]);
+      unknowns.positions.push_back(-gradient[dof]);
     std::vector<double> lower;
     if (const ExampleWeights *weights = potential.unknown_weights())
     {
-      for (const double derivative : evaluation.elastic.weight_gradient)
+      for (const double derivative : weight_gradient)
         unknowns.weights.push_back(-derivative);
       unknowns.multipliers = weights->missing_sums(at.weights);
       lower                = weights->lower_changes(at.weights);

@@ -11,17 +11,12 @@ namespace Exemplar
   /// none is found. `system` holds a factor of A, a definite mixture of K and the convex tangent.
   ///
   /// Power iterations with a I - A^-1 K amplify what has the least ratio v.K v / v.A v; they begin
-  /// with a vector that is the same every time. K v are differences of gradients. Changes
-  /// `evaluation`. Throws SolverFailure as StepSystem::solve().
+  /// with a vector that is the same every time. K v are differences of gradients. Throws
+  /// SolverFailure as StepSystem::solve().
   Vector
   downward_curvature(StepSystem           &system,
                      IncrementalPotential &potential,
-                     const State          &at,
-                     Evaluation           &evaluation);
-
-  /// The greatest extent of a body along an axis [m].
-  double
-  extent(const Vector &positions, const Exchange &exchange);
+                     const State          &at);
 } // namespace Exemplar
 
 #endif

@@ -32,7 +32,17 @@ namespace Exemplar
     /// The step that takes the derivatives of `evaluation`, made at `at`, to zero by the last
     /// factor. Throws SolverFailure if the weights are not determined.
     BorderedVector
-    solve(const State &at, const Evaluation &evaluation);
+    solve(const State &at, const Evaluation &evaluation)
+    {
+      return solve(at, evaluation.gradient, evaluation.elastic.weight_gradient);
+    }
+
+    /// The same for any derivatives: by degree of freedom [N] and, with weights to find, by weight
+    /// [J].
+    BorderedVector
+    solve(const State               &at,
+          const Vector              &gradient,
+          const std::vector<double> &weight_gradient);
 
     /// Solve for all columns of the weights now, as the first solve() would.
     void

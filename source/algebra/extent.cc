@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/extent.h>
+
+#include <algorithm>
+
+namespace Exemplar
+{
+  double
+  extent(const Vector &positions, const Exchange &exchange)
+  {
+    double greatest = 0.;
+    for (unsigned int c = 0; c < 3; ++c)
+    {
+      double min = positions[c], max = positions[c];
+      for (unsigned int dof = c; dof < positions.size(); dof += 3)
+      {
+        min = std::min(min, positions[dof]);
+        max = std::max(max, positions[dof]);
+      }
+      greatest = std::max(greatest, exchange.max(max) - exchange.min(min));
+    }
+    return greatest;
+  }
+} // namespace Exemplar
