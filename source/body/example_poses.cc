@@ -89,13 +89,18 @@ namespace Exemplar
     for (const std::string &function : functions)
       add_pose("pose function '" + function + "'", images(function, fe_space));
     for (unsigned int i = first_strained; i < size(); ++i)
-      if (const std::string problem = describe_pose(mesh, fe_space, positions[i]); !problem.empty())
+    {
+      const std::size_t first_function = size() - functions.size();
+      const std::string of_function
+          = i < first_function ? ""
+                               : describe_displacements(functions[i - first_function], mesh,
+                                                        fe_space, positions[i]);
+      if (!of_function.empty())
+        warnings.push_back("Examples/Pose functions" + of_function);
+      else if (const std::string problem = describe_pose(mesh, fe_space, positions[i]);
+               !problem.empty())
         warnings.push_back("Example " + std::to_string(i) + " (" + names[i] + ") " + problem);
-    for (std::size_t i = 0; i < functions.size(); ++i)
-      if (const std::string problem = describe_displacements(
-              functions[i], mesh, fe_space, positions[size() - functions.size() + i]);
-          !problem.empty())
-        warnings.push_back("Examples/Pose functions" + problem);
+    }
     compute_strains();
     if (patches != nullptr)
       compute_patch_dilatations(*patches);

@@ -100,7 +100,7 @@ namespace Exemplar
               { "\xE2\x88\x92|\xE2\x80\x93", "The sign of minus is -, not a dash." },
               { "\xC2\xB2|\xC2\xB3", "Powers are written x^2." },
               { "\xC2\xB7|\xC3\x97", "The sign of products is *." },
-              { "^$", "Write 0 where nothing is. (A shell replaces $ in double quotes.)" } };
+              { "^$", "Write 0 where nothing is, and $ in single quotes where a shell reads it." } };
       if (text.size() < 200)
         for (const auto &[pattern, remedy] : habits)
           if (std::regex_search(text, std::regex(pattern)))

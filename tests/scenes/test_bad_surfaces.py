@@ -9,7 +9,8 @@ import unittest
 
 import surfaces
 from bad_inputs import NO_MESSAGE
-from exemplar_runner import SceneTest, bent, prm
+from exemplar_runner import bent, prm
+from served import ServedTest
 from surfaces import cube, joined, moved
 from test_surface_scenes import bar, write_ply
 
@@ -152,7 +153,7 @@ NO_BODIES = {
 }
 
 
-class BadSurfaces(SceneTest):
+class BadSurfaces(ServedTest):
     def setUp(self):
         super().setUp()
         self.environment = {"XDG_CACHE_HOME": str(self.directory / "cache")}

@@ -2,16 +2,12 @@
 """Mistakes that people make, and the remedy that the message must hold; nothing is written."""
 
 import csv
-import os
-import sys
 import unittest
 
 from bad_inputs import DYNAMIC, FILE, BadInputTest
-from exemplar_runner import BAR, EXEMPLAR, REPOSITORY, Run, SceneTest, prm
+from exemplar_runner import BAR, SceneTest, prm
 from surfaces import cube, joined, write_obj
 
-sys.path.append(str(REPOSITORY / "tests/fuzz"))
-from fork_server import ForkServer
 
 FREE = {**BAR, "Examples/Pose functions": "1.1*x; y; z"}
 TWO = {**BAR, "Handles/Names": "left, right", "Handles/right/Select": "boundary 2", "Handles/right/Motion": "0; 0; t"}
@@ -293,21 +289,6 @@ COMMANDS = [
 
 
 class Mistakes(BadInputTest):
-    """FORK_SERVER names the library of fork_server.cc, with which the program need not be linked anew for each of many runs."""
-
-    @classmethod
-    def setUpClass(cls):
-        library = os.environ.get("FORK_SERVER")
-        cls.server = ForkServer(EXEMPLAR, library) if library else None
-        if cls.server:
-            cls.addClassCleanup(cls.server.close)
-
-    def call(self, *arguments, **environment):
-        if self.server is None or "" in arguments or environment:
-            return super().call(*arguments, **environment)
-        status, stdout, stderr = self.server.run(arguments, self.directory, {}, None, 1 << 30, 60)
-        return Run(status, stdout.decode(), stderr.decode(), None)
-
     def setUp(self):
         super().setUp()
         self.write("from0.txt", "0\n1\n2\n")
