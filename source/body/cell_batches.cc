@@ -48,10 +48,10 @@ namespace Exemplar
   }
 
   CellArrays
-  CellBatches::arrays(const StrainMeasure strain, const double guard_bound)
+  CellBatches::arrays(const CellLaw law, const double guard_bound)
   {
-    return { n_points,        nodes.data(),     gradients.data(), volumes.data(),
-             material.data(), rotations.data(), strain,           guard_bound };
+    return { n_points,         nodes.data(), gradients.data(), volumes.data(), material.data(),
+             rotations.data(), law,          guard_bound };
   }
 
   std::size_t

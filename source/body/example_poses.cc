@@ -70,14 +70,14 @@ namespace Exemplar
   } // namespace
 
   ExamplePoses::ExamplePoses(const ExampleParameters                &parameters,
-                             const StrainMeasure                     measure,
+                             const CellLaw                           law,
                              const Mesh                             &mesh,
                              const FESpace                          &fe_space,
                              const Material                         &material,
                              const Patches                          *patches,
                              const NamedPoses                       &poses,
                              const std::vector<std::vector<double>> &painted)
-      : fe_space(fe_space), eta(parameters.importance), measure(measure),
+      : fe_space(fe_space), eta(parameters.importance), law(law),
         regions(make_regions(parameters, mesh, fe_space, painted)),
         first_strained(parameters.include_rest_pose ? 1 : 0)
   {
@@ -136,9 +136,9 @@ namespace Exemplar
       for (unsigned int i = first_strained; i < size(); ++i)
       {
         const Matrix3<double> F = fe_space.deformation_gradient(point, positions[i]);
-        const Matrix3<double> E = model_strain(measure, model_rotation(measure, F), F);
+        const Matrix3<double> E = model_strain(law, model_rotation(law, F), F);
         add_to_stored(strains.data(), point, n_strained(), i - first_strained, eta, E);
-        if (traits_of(measure).has_guard)
+        if (traits_of(law).has_guard)
           p_0 = min_or_nan(p_0, 0.5 * guard_product(E));
       }
       for_each_weight(point,

@@ -3,12 +3,12 @@
 
 namespace Exemplar
 {
-  CellField::CellField(const StrainMeasure strain,
-                       const double        guard_bound,
-                       const FESpace      &fe_space,
-                       const Material     &material,
-                       const bool          has_patches)
-      : strain(strain), guard_bound(guard_bound), kernels(best_kernels(fe_space.element())),
+  CellField::CellField(const CellLaw   law,
+                       const double    guard_bound,
+                       const FESpace  &fe_space,
+                       const Material &material,
+                       const bool      has_patches)
+      : law(law), guard_bound(guard_bound), kernels(best_kernels(fe_space.element())),
         with_others(fe_space.exchange()), batches(fe_space, material, has_patches),
         node_positions(4 * fe_space.n_nodes())
   {
@@ -24,7 +24,7 @@ namespace Exemplar
       for (unsigned int c = 0; c < 3; ++c)
         node_positions[4 * node + c] = positions[3 * node + c];
     CellTask task;
-    task.cells        = batches.arrays(strain, guard_bound);
+    task.cells        = batches.arrays(law, guard_bound);
     task.positions    = node_positions.data();
     task.rotation_use = rotations;
     return task;
@@ -33,7 +33,7 @@ namespace Exemplar
   void
   CellField::update_rotations(const Vector &positions)
   {
-    if (!traits_of(strain).has_rotations)
+    if (!traits_of(law).has_rotations)
       return;
     const CellTask cells = task(positions, RotationUse::update);
     kernels.update_rotations(cells, 0, cells.cells.n_batches());
@@ -45,7 +45,7 @@ namespace Exemplar
     if (!rotations_are_forgotten)
       return;
     CellTask last;
-    last.cells     = batches.arrays(strain, guard_bound);
+    last.cells     = batches.arrays(law, guard_bound);
     last.positions = node_positions.data();
     kernels.update_rotations(last, 0, last.cells.n_batches());
     rotations_are_forgotten = false;
@@ -56,7 +56,7 @@ namespace Exemplar
   {
     refresh_rotations();
     CellTask task;
-    task.cells = batches.arrays(strain, guard_bound);
+    task.cells = batches.arrays(law, guard_bound);
     rotation_sums.resize(12 * n_nodes());
     rotation_sums.fill(0.);
     rotations.resize(9 * n_nodes());

@@ -116,10 +116,8 @@ namespace Exemplar
 
   ElasticPotential::ElasticPotential(const ElasticParts &parts, const SymmetricPattern &pattern)
       : parts(parts), pattern(pattern),
-        cells(parts.model.strain,
-              parts.model.is_frozen()     ? no_guard
-              : parts.examples == nullptr ? default_guard_bound
-                                          : parts.examples->guard_bound(),
+        cells(parts.model.law(),
+              parts.examples == nullptr ? default_guard_bound : parts.examples->guard_bound(),
               parts.fe_space,
               parts.material,
               parts.patches != nullptr),
@@ -336,12 +334,12 @@ namespace Exemplar
       const CellMaterial<double> lame   = elasticity(point);
       const Matrix3<double>      F      = parts.fe_space.deformation_gradient(point, positions);
       const Matrix3<double>      R      = cells.rotation(point);
-      const Matrix3<double>      strain = model_strain(parts.model.strain, R, F);
+      const Matrix3<double>      strain = model_strain(parts.model.law(), R, F);
       Matrix3<double>            T      = stress(lame, strain);
 
       const double energy
           = 0.5 * contract(T, strain)
-            + model_stretch_energy(parts.model.strain, lame, R, F, cells.get_guard_bound())
+            + model_stretch_energy(parts.model.law(), lame, R, F, cells.get_guard_bound())
             + (dilatation == nullptr ? 0. : dilatation->elastic_density(point));
       if (parts.examples != nullptr)
         T = stress(lame, combine(1., strain, -1., example_strain(point, weights)));

@@ -100,8 +100,10 @@ namespace Exemplar
   {
     Cell state(elasticity(point), cells.rotation(point),
                parts.fe_space.deformation_gradient(point, positions), cells.get_guard_bound());
-    state.scale_material(1. + damping.factor(point));
-    state.set_target(damping.damped(point, example_strain(point, weights)));
+    Matrix3<double> D = example_strain(point, weights);
+    if (const double s = damping.factor(point); s > 0.)
+      D = state.damp(D, s, damping.past_strain(point));
+    state.set_target(D);
     if constexpr (Cell::traits.has_patches)
       if (dilatation != nullptr)
         state.add_pressure(dilatation->pressure(point));
@@ -129,8 +131,7 @@ namespace Exemplar
     (rotated ? cells.loops().add_rotated_stiffness
              : cells.loops().add_tangent)(cell_task, to, 0, cell_task.cells.n_batches());
     add_mixed_cells(cell_task, to, rotated, matrix_values);
-    const bool has_guard = traits_of(parts.model.strain).has_guard && !parts.model.is_frozen();
-    if (tangent == Tangent::convex && has_guard)
+    if (tangent == Tangent::convex && traits_of(parts.model.law()).has_guard)
       add_stretch_stiffness(parts.fe_space, parts.material, cells, scatter, dilatation.get(),
                             positions, matrix_values);
     if (dilatation != nullptr)
@@ -208,7 +209,7 @@ namespace Exemplar
       add_rotated_responses(displacement, result);
       return;
     }
-    with_cell_model<double>(parts.model.strain,
+    with_cell_model<double>(parts.model.law(),
                             [&](auto model)
                             {
                               using Cell = typename decltype(model)::type;

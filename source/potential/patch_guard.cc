@@ -111,7 +111,7 @@ namespace Exemplar
   {
     stretched.clear();
     points.clear();
-    if (!traits_of(cells.strain_measure()).has_guard || cells.get_guard_bound() == no_guard)
+    if (!traits_of(cells.get_law()).has_guard)
       return;
     for (unsigned int patch = 0; patch < patches.size(); ++patch)
     {

@@ -15,28 +15,19 @@ namespace Exemplar
     strains.resize_fast(0);
     if (s == 0.)
       return;
-    const StrainMeasure measure = cells.strain_measure();
+    const CellLaw law = cells.get_law();
     factors.resize(batched_size(fe_space.n_points(), 1), s);
     strains.resize(batched_size(fe_space.n_points(), 6), 0.);
     for (unsigned int point = 0; point < fe_space.n_points(); ++point)
       for (const WeightedPositions &past : history)
       {
         const Matrix3<double> F = fe_space.deformation_gradient(point, *past.positions);
-        const Matrix3<double> R = model_rotation(measure, F);
-        add_to_stored(strains.data(), point, 1, 0, past.weight, model_strain(measure, R, F));
-        if (model_is_guarded(measure, material.elasticity(fe_space.cell_of(point)), R, F,
+        const Matrix3<double> R = model_rotation(law, F);
+        add_to_stored(strains.data(), point, 1, 0, past.weight, model_strain(law, R, F));
+        if (model_is_guarded(law, material.elasticity(fe_space.cell_of(point)), R, F,
                              cells.get_guard_bound()))
           factors[point] = 0.;
       }
-  }
-
-  Matrix3<double>
-  StrainDamping::damped(const unsigned int point, const Matrix3<double> &D) const
-  {
-    const double s_point = factor(point);
-    if (s_point == 0.)
-      return D;
-    return combine(1. / (1. + s_point), D, s_point / (1. + s_point), past_strain(point));
   }
 
   DampingArrays

@@ -53,7 +53,7 @@ namespace Exemplar
                   const double    *squares)
   {
     points.clear();
-    if (!traits_of(cells.strain_measure()).has_guard || cells.get_guard_bound() == no_guard)
+    if (!traits_of(cells.get_law()).has_guard)
       return;
     for (unsigned int point = 0; point < fe_space.n_points(); ++point)
     {

@@ -94,11 +94,10 @@ namespace Exemplar::Testing
     }
 
     Examples
-    examples(const ExampleParameters &parameters,
-             const StrainMeasure      measure = StrainMeasure::corotational) const
+    examples(const ExampleParameters &parameters, const CellLaw law = CellLaw::corotational) const
     {
       Examples result;
-      result.poses   = std::make_unique<ExamplePoses>(parameters, measure, mesh, fe_space, material,
+      result.poses   = std::make_unique<ExamplePoses>(parameters, law, mesh, fe_space, material,
                                                     patches.get());
       result.weights = std::make_unique<ExampleWeights>(parameters, *result.poses,
                                                         unit_energy(fe_space, material),

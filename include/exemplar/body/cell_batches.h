@@ -18,10 +18,10 @@ namespace Exemplar
     /// With `has_patches` the volume part of the energy is not the cells'.
     CellBatches(const FESpace &fe_space, const Material &material, bool has_patches);
 
-    /// What the kernels see, for a model with this strain and p_0 of Eq. (16). Loops that update
+    /// What the kernels see, for a law and p_0 of Eq. (16). Loops that update
     /// rotations write them here.
     CellArrays
-    arrays(StrainMeasure strain, double guard_bound);
+    arrays(CellLaw law, double guard_bound);
 
     Matrix3<double>
     rotation(const unsigned int point) const

@@ -35,7 +35,7 @@ namespace Exemplar
     /// are `painted`; `patches` is null where cells know their own dilatation. Throws UserError for
     /// a pose that is not.
     ExamplePoses(const ExampleParameters                &parameters,
-                 StrainMeasure                           measure,
+                 CellLaw                                 law,
                  const Mesh                             &mesh,
                  const FESpace                          &fe_space,
                  const Material                         &material,
@@ -222,7 +222,7 @@ namespace Exemplar
 
     const FESpace                      &fe_space;
     const double                        eta;
-    const StrainMeasure                 measure;
+    const CellLaw                       law;
     const std::optional<RegionShares>   regions; ///< none: weights are global
     std::vector<std::string>            names;
     std::vector<dealii::Vector<double>> positions;

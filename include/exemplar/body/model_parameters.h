@@ -8,6 +8,13 @@ namespace Exemplar
 {
   class KeyTable;
 
+  enum class StrainMeasure
+  {
+    corotational,
+    linear,
+    green
+  };
+
   enum class GradientKind
   {
     consistent,
@@ -48,12 +55,26 @@ namespace Exemplar
     void
     check() const;
 
-    /// Whether forces are the paper's, which hold the rotations fixed: never in models without
-    /// rotations.
+    /// The law of the cells. Only the corotational strain has rotations that a force may hold fixed.
+    CellLaw
+    law() const
+    {
+      switch (strain)
+      {
+      case StrainMeasure::linear:
+        return CellLaw::linear;
+      case StrainMeasure::green:
+        return CellLaw::green;
+      default:
+        return gradient == GradientKind::frozen ? CellLaw::frozen : CellLaw::corotational;
+      }
+    }
+
+    /// Whether forces are the paper's, which hold the rotations fixed.
     bool
     is_frozen() const
     {
-      return traits_of(strain).has_rotations && gradient == GradientKind::frozen;
+      return law() == CellLaw::frozen;
     }
   };
 } // namespace Exemplar

@@ -28,7 +28,7 @@ namespace Exemplar
     const double *volumes;   ///< 1 [m^3]
     const double *material;  ///< those of CellMaterial
     double       *rotations; ///< 9: R by rows
-    StrainMeasure strain;
+    CellLaw       law;
     double        guard_bound; ///< p_0 of Eq. (16)
 
     std::size_t

@@ -7,8 +7,6 @@
 #include <exemplar/kernels/stretch_guard.h>
 #include <exemplar/kernels/tetrahedron.h>
 
-#include <limits>
-
 // The corotational model with the force that is the gradient of its energy, and the exact
 // tangent. A cell's energy density is a function of S, the symmetric factor of F = R S,
 // through the strain e = S - I, and of the target strain D = eta E(w):
@@ -22,7 +20,6 @@
 namespace Exemplar
 {
   constexpr double default_guard_bound = 0.8; ///< p_0 of guard()
-  constexpr double no_guard            = std::numeric_limits<double>::lowest();
 
   /// Vector a of the skew matrix W, W b = a x b.
   template <typename Number>
@@ -112,9 +109,8 @@ namespace Exemplar
       e = S;
       for (int i = 0; i < 3; ++i)
         e[i][i] -= Number(1.);
-      if (p_0 == no_guard)
-        return; // frozen forces, which need nothing of what follows
-      B = combine(Number(-1.), S, Number(0.), S);
+      elastic_stress = stress(material, e);
+      B              = combine(Number(-1.), S, Number(0.), S);
       for (int i = 0; i < 3; ++i)
         B[i][i] += trace(S);
       const Number        p = determinant(B);
@@ -124,12 +120,13 @@ namespace Exemplar
       product               = p;
     }
 
-    /// Make C `factor` times what it was, as damping does. The guard of the stretch belongs to the
-    /// elasticity and stays.
-    void
-    scale_material(const Number &factor)
+    /// Let stiffness damping with the factor s and the strain e_past act from now on, and get the
+    /// target that the whole then has. The guard of the stretch belongs to the elasticity and stays.
+    Matrix3<Number>
+    damp(const Matrix3<Number> &D, const Number &s, const Matrix3<Number> &past)
     {
-      material = material.scaled(factor);
+      material = material.scaled(Number(1.) + s);
+      return damped_target(D, s, past);
     }
 
     /// The guard of the stretch is that of this elasticity and not of the cell's own.
@@ -174,6 +171,27 @@ namespace Exemplar
     force_factor() const
     {
       return Number(1.);
+    }
+
+    /// Of the elasticity alone, 1/2 e:C:e [Pa].
+    Number
+    elastic_density() const
+    {
+      return Number(0.5) * contract(elastic_stress, e);
+    }
+
+    /// The size of the stress that it makes, |C:e| [Pa].
+    Number
+    elastic_scale() const
+    {
+      return norm(elastic_stress);
+    }
+
+    /// The same of a target strain.
+    Number
+    scale_of(const Matrix3<Number> &D) const
+    {
+      return norm(stress(material, D));
     }
 
     /// psi for the target strain D, computed from e - D as Eq. (16) has it, because near an example
@@ -221,9 +239,9 @@ namespace Exemplar
       return add_guard_of_stretch(T_D, material, phi - Number(1.), S);
     }
 
-    /// R^T P without a target, for a guard bound other than no_guard, from C:e.
+    /// R^T P without a target and damping.
     Matrix3<Number>
-    elastic_force(const Matrix3<Number> &elastic_stress) const
+    elastic_force() const
     {
       if constexpr (CellMaterial<Number>::is_isotropic)
         return elastic_stress;
@@ -335,7 +353,8 @@ namespace Exemplar
     CellMaterial<Number> elasticity; ///< of the guard of the stretch
     CellMaterial<Number> material;   ///< with damping
     Matrix3<Number>      S;
-    Matrix3<Number>      e; ///< S - I
+    Matrix3<Number>      e;              ///< S - I
+    Matrix3<Number>      elastic_stress; ///< C:e, without damping
     Matrix3<Number>      B; ///< tr(S) I - S
     Number               phi            = Number(1.);
     Number               phi_derivative = Number(0.);

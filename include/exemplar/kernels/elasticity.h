@@ -75,6 +75,17 @@ namespace Exemplar
     return T;
   }
 
+  /// The target strain of a cell with stiffness damping. The energies of elasticity and of
+  /// damping are 1/2 (e-D):C:(e-D) and s/2 (e-e_past):C:(e-e_past). Up to a constant their sum is
+  /// (1+s)/2 (e-D'):C:(e-D') with D' = (D + s e_past) / (1+s).
+  template <typename Number>
+  Matrix3<Number>
+  damped_target(const Matrix3<Number> &target, const Number &s, const Matrix3<Number> &past)
+  {
+    const Number factor = Number(1.) / (Number(1.) + s);
+    return combine(factor, target, factor * s, past);
+  }
+
   // The guard of Eq. (16) takes from the energy what would jump where the rotation is ambiguous:
   // with a factor 1 - phi it adds S : dev(C:D), for the stretch S and the target strain D. The
   // three functions below are this and its derivatives; here dev(C:D) = 2 mu dev D.

@@ -60,9 +60,9 @@ namespace Exemplar
     }
 
     Matrix3<Number>
-    elastic_force(const Matrix3<Number> &elastic_stress) const
+    elastic_force() const
     {
-      return F * elastic_stress;
+      return F * this->elastic_stress;
     }
 
     /// P = F T with the second Piola-Kirchhoff stress T = C:(e - D), Eq. (19).

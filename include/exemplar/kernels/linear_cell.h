@@ -4,34 +4,35 @@
 
 #include <exemplar/kernels/quadratic_cell.h>
 
-// The linear model: the strain e = sym(F) - I, as if no cell ever turned. It shows what
-// corotation is for. Its tangent is the frozen one with R = I. No deal.II header here: see
-// matrix3.h.
+// Laws that hold a rotation R fixed while they differentiate, so that they are linear in F, with the
+// strain e = sym(R^T F) - I and the tangent R K R^T. FrozenCell is the paper's force R T, Eq. (6),
+// which is no gradient with examples. LinearCell has R = I, as if no cell ever turned; it shows what
+// corotation is for. No deal.II header here: see matrix3.h.
 
 namespace Exemplar
 {
-  /// A deformed cell; see CorotationalCell, of which the rotation is I.
-  template <typename Number>
-  class LinearCell : public QuadraticCell<Number>
+  /// A deformed cell; see CorotationalCell.
+  template <typename Number, bool turns>
+  class FixedRotationCell : public QuadraticCell<Number>
   {
   public:
     static constexpr ModelTraits traits
-        = { /* has_rotations */ false,    /* has_guard */ false,
+        = { /* has_rotations */ turns,    /* has_guard */ false,
             /* exact_is_rotated */ true,
             /* convex_is_rotated */ true, /* has_patches */ true,
-            /* turns_freely */ false };
+            /* turns_freely */ turns };
 
-    /// e = sym(F) - I.
+    /// e = sym(R^T F) - I.
     static Matrix3<Number>
-    strain_of(const Matrix3<Number> & /*rotation*/, const Matrix3<Number> &deformation_gradient)
+    strain_of(const Matrix3<Number> &rotation, const Matrix3<Number> &deformation_gradient)
     {
-      return corotated_strain(identity_matrix<Number>(), deformation_gradient);
+      return corotated_strain(rotation, deformation_gradient);
     }
 
-    LinearCell(const CellMaterial<Number> &material,
-               const Matrix3<Number>      &rotation,
-               const Matrix3<Number>      &deformation_gradient,
-               double /*p_0*/)
+    FixedRotationCell(const CellMaterial<Number> &material,
+                      const Matrix3<Number>      &rotation,
+                      const Matrix3<Number>      &deformation_gradient,
+                      double /*p_0*/)
         : QuadraticCell<Number>(material, strain_of(rotation, deformation_gradient))
     {
     }
@@ -43,9 +44,9 @@ namespace Exemplar
     }
 
     const Matrix3<Number> &
-    elastic_force(const Matrix3<Number> &elastic_stress) const
+    elastic_force() const
     {
-      return elastic_stress;
+      return this->elastic_stress;
     }
 
     const Matrix3<Number> &
@@ -54,6 +55,12 @@ namespace Exemplar
       return this->T;
     }
   };
+
+  template <typename Number>
+  using FrozenCell = FixedRotationCell<Number, true>;
+
+  template <typename Number>
+  using LinearCell = FixedRotationCell<Number, false>;
 } // namespace Exemplar
 
 #endif

@@ -73,7 +73,7 @@ namespace Exemplar::Loops
            const std::size_t  batch,
            double            *forces)
   {
-    with_cell_model<Number>(task.cells.strain,
+    with_cell_model<Number>(task.cells.law,
                             [&](auto model)
                             {
                               using Cell = typename decltype(model)::type;

@@ -14,7 +14,7 @@ namespace Exemplar::Loops
   dilatations(const CellTask &task, const std::size_t begin, const std::size_t end)
   {
     with_cell_model<Number>(
-        task.cells.strain,
+        task.cells.law,
         [&](auto model)
         {
           using Cell = typename decltype(model)::type;

@@ -135,13 +135,6 @@ namespace Exemplar::Loops
     }
   }
 
-  template <typename Number>
-  inline Number
-  norm(const Matrix3<Number> &A)
-  {
-    return sqrt(contract(A, A));
-  }
-
   /// What a cell with patches tells its patch.
   template <typename Number>
   inline void
@@ -189,63 +182,52 @@ namespace Exemplar::Loops
                  double                    *weight_sums,
                  LaneSums<Number, n_nodes> &sums)
   {
-    const bool                 frozen       = task.cells.guard_bound == no_guard;
-    const bool                 has_examples = task.examples.n_weights > 0;
-    const auto                 tet          = load_tetrahedron<n_nodes>(task.cells, group);
-    const CellMaterial<Number> material     = load_material(task.cells, group);
-    const Matrix3<Number>      F            = deformation_gradient(task, group, tet);
-    const Matrix3<Number>      R            = rotation<Cell>(task, group, F);
-    const auto                 is_real      = tet.volume > Number(0.);
+    const bool            has_examples = task.examples.n_weights > 0;
+    const auto            tet          = load_tetrahedron<n_nodes>(task.cells, group);
+    const Matrix3<Number> F            = deformation_gradient(task, group, tet);
+    const Matrix3<Number> R            = rotation<Cell>(task, group, F);
+    const auto            is_real      = tet.volume > Number(0.);
 
-    const Number          det = determinant(F);
-    Cell                  cell(material, R, F, task.cells.guard_bound);
-    const Matrix3<Number> elastic_stress = stress(material, cell.strain());
-    const Number          density        = Number(0.5) * contract(elastic_stress, cell.strain());
-    const Number          elastic        = tet.volume * density;
-    Number                scale          = norm(elastic_stress);
-    sums.min_det                         = select(det >= sums.min_det, sums.min_det, det);
+    const Number det = determinant(F);
+    Cell         cell(load_material(task.cells, group), R, F, task.cells.guard_bound);
+    const Number density = cell.elastic_density();
+    const Number elastic = tet.volume * density;
+    Number       scale   = cell.elastic_scale();
+    sums.min_det         = select(det >= sums.min_det, sums.min_det, det);
     sums.inverted.add(group, is_real & (det <= Number(0.)));
     sums.elastic += elastic;
     if constexpr (Cell::traits.has_patches)
       if (task.dilatation.traces != nullptr)
         store_dilatation(task, group, cell.strain(), F);
 
-    // R^T P; without examples and damping this is all of it
-    Matrix3<Number> P = elastic_stress;
-    if (!has_examples && !frozen)
-      P = cell.elastic_force(elastic_stress);
+    Matrix3<Number> P; // R^T P
     Matrix3<Number> D;
     if (has_examples)
     {
       D = target(task, group); // eta E(w)
-      scale += norm(stress(material, D));
+      scale += cell.scale_of(D);
       sums.stress_square += tet.volume * scale * scale;
       sums.energy += tet.volume * cell.energy(D);
       sums.guarded.add(group, is_real & cell.is_guarded());
-      if (frozen || task.with_weight_sums)
-      {
-        P = cell.weight_stress(D);
-        if (task.with_weight_sums)
-          add_weight_sums(task, group, -tet.volume, P, weight_sums);
-      }
+      if (task.with_weight_sums)
+        add_weight_sums(task, group, -tet.volume, cell.weight_stress(D), weight_sums);
     }
     else
+    {
       sums.energy += elastic;
+      if (task.damping.factors == nullptr)
+        P = cell.elastic_force();
+    }
 
     if (task.damping.factors != nullptr)
     {
       const Number          s    = load(task.damping.factors, group, 1, 0);
       const Matrix3<Number> past = load_strain(task.damping.strains, group, 1, 0);
       sums.damping += s * tet.volume * cell.energy(past);
-      scale += s * (norm(elastic_stress) + norm(stress(material, past)));
-      if (!has_examples)
-        D = Matrix3<Number>{};
-      D = damped_target(D, s, past);
-      cell.scale_material(Number(1.) + s);
-      if (frozen)
-        P = cell.weight_stress(D);
+      scale += s * (cell.elastic_scale() + cell.scale_of(past));
+      D = cell.damp(has_examples ? D : Matrix3<Number>{}, s, past);
     }
-    if (!frozen && (has_examples || task.damping.factors != nullptr))
+    if (has_examples || task.damping.factors != nullptr)
     {
       cell.set_target(D);
       P = cell.force();
@@ -255,7 +237,7 @@ namespace Exemplar::Loops
       for (int j = 0; j < 3; ++j)
         RP[i][j] *= tet.volume;
     add_forces(task, group, tet, RP, tet.volume * cell.force_factor() * scale, nodal_sums);
-    if (!frozen && cell.may_be_stretched(density))
+    if (cell.may_be_stretched(density))
       add_stretch_guard<Cell, n_nodes>(task, group, nodal_sums, sums);
   }
 
@@ -270,7 +252,7 @@ namespace Exemplar::Loops
   {
     LaneSums<Number, n_nodes> sums;
     with_cell_model<Number>(
-        task.cells.strain,
+        task.cells.law,
         [&](auto model)
         {
           using Cell = typename decltype(model)::type;
@@ -290,7 +272,7 @@ namespace Exemplar::Loops
                      double           *weight_sums)
   {
     with_cell_model<Number>(
-        task.cells.strain,
+        task.cells.law,
         [&](auto model)
         {
           using Cell = typename decltype(model)::type;

@@ -29,7 +29,7 @@ namespace Exemplar::Loops
     CellTask updating     = task;
     updating.rotation_use = RotationUse::update;
     with_cell_model<Number>(
-        task.cells.strain,
+        task.cells.law,
         [&](auto model)
         {
           using Cell = typename decltype(model)::type;

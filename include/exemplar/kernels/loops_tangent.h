@@ -23,9 +23,8 @@ namespace Exemplar::Loops
     Matrix3<Number> D = target(task, group);
     if (task.damping.factors != nullptr)
     {
-      const Number s = load(task.damping.factors, group, 1, 0);
-      D              = damped_target(D, s, load_strain(task.damping.strains, group, 1, 0));
-      cell.scale_material(Number(1.) + s);
+      D = cell.damp(D, load(task.damping.factors, group, 1, 0),
+                    load_strain(task.damping.strains, group, 1, 0));
     }
     cell.set_target(D);
     if constexpr (Cell::traits.has_patches)
@@ -121,7 +120,7 @@ namespace Exemplar::Loops
             }
       }
     };
-    with_cell_model<Number>(task.cells.strain,
+    with_cell_model<Number>(task.cells.law,
                             [&](auto model)
                             {
                               using Cell = typename decltype(model)::type;

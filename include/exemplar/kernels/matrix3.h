@@ -162,6 +162,14 @@ namespace Exemplar
     return sum;
   }
 
+  /// (A:A)^(1/2).
+  template <typename Number>
+  Number
+  norm(const Matrix3<Number> &A)
+  {
+    return sqrt(contract(A, A));
+  }
+
   template <typename Number>
   Number
   determinant(const Matrix3<Number> &A)

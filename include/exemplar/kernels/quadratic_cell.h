@@ -23,10 +23,30 @@ namespace Exemplar
       return Number(0.) > Number(1.); // false in every lane
     }
 
-    void
-    scale_material(const Number &factor)
+    /// As CorotationalCell.
+    Number
+    elastic_density() const
     {
-      material = material.scaled(factor);
+      return Number(0.5) * contract(elastic_stress, e);
+    }
+
+    Number
+    elastic_scale() const
+    {
+      return norm(elastic_stress);
+    }
+
+    Number
+    scale_of(const Matrix3<Number> &D) const
+    {
+      return norm(stress(material, D));
+    }
+
+    Matrix3<Number>
+    damp(const Matrix3<Number> &D, const Number &s, const Matrix3<Number> &past)
+    {
+      material = material.scaled(Number(1.) + s);
+      return damped_target(D, s, past);
     }
 
     bool
@@ -74,12 +94,13 @@ namespace Exemplar
 
   protected:
     QuadraticCell(const CellMaterial<Number> &material, const Matrix3<Number> &strain)
-        : material(material), e(strain), T(strain)
+        : material(material), e(strain), elastic_stress(stress(material, strain)), T(strain)
     {
     }
 
     CellMaterial<Number> material;
     Matrix3<Number>      e;
+    Matrix3<Number>      elastic_stress; ///< C:e, without damping
     Matrix3<Number>      T; ///< C:(e - D), once the target is set
   };
 } // namespace Exemplar

@@ -21,7 +21,7 @@ namespace Exemplar
   {
   public:
     /// `guard_bound` is p_0 of Eq. (16); `has_patches` as CellBatches has it.
-    CellField(StrainMeasure   strain,
+    CellField(CellLaw         law,
               double          guard_bound,
               const FESpace  &fe_space,
               const Material &material,
@@ -71,10 +71,10 @@ namespace Exemplar
       return kernels;
     }
 
-    StrainMeasure
-    strain_measure() const
+    CellLaw
+    get_law() const
     {
-      return strain;
+      return law;
     }
 
     double
@@ -88,7 +88,7 @@ namespace Exemplar
     memory_consumption() const;
 
   private:
-    const StrainMeasure           strain;
+    const CellLaw                 law;
     const double                  guard_bound;
     const CellKernels            &kernels;
     const Exchange               &with_others;

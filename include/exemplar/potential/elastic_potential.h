@@ -135,7 +135,7 @@ namespace Exemplar
     bool
     is_rotated_stiffness(const Tangent tangent) const
     {
-      const ModelTraits traits = traits_of(parts.model.strain);
+      const ModelTraits traits = traits_of(parts.model.law());
       return tangent == Tangent::exact ? traits.exact_is_rotated : traits.convex_is_rotated;
     }
 

@@ -51,10 +51,6 @@ namespace Exemplar
       return material.scaled(1. + factor(point));
     }
 
-    /// The strain around which the sum of both quadratics stands if the energy's does around D.
-    Matrix3<double>
-    damped(const unsigned int point, const Matrix3<double> &D) const;
-
     /// For the loops; without damping there is nothing in them.
     DampingArrays
     arrays() const;

@@ -119,7 +119,7 @@ namespace Exemplar
   bool
   Problem::turns_freely() const
   {
-    return constraints.support && traits_of(parameters.model.strain).turns_freely;
+    return constraints.support && traits_of(parameters.model.law()).turns_freely;
   }
 
   SolveReport
@@ -220,9 +220,9 @@ namespace Exemplar
       return step + (report.status == SolveStatus::failed ? " failed: " : " has no descent: ")
              + report.failure;
     std::ostringstream message;
-    const bool         lacks_derivative
-        = parameters.solver.method == Method::fixed_point && examples.poses != nullptr
-          && traits_of(parameters.model.strain).has_rotations && !parameters.model.is_frozen();
+    const bool         lacks_derivative = parameters.solver.method == Method::fixed_point
+                                  && examples.poses != nullptr
+                                  && parameters.model.law() == CellLaw::corotational;
     message << step
             << (report.status == SolveStatus::stalled ? " stalled"
                                                       : " stopped at its iteration limit")

@@ -118,7 +118,7 @@ namespace Exemplar
     {
       if (!parameters.examples.in_use())
         return nullptr;
-      return std::make_unique<ExamplePoses>(parameters.examples, parameters.model.strain, body.mesh,
+      return std::make_unique<ExamplePoses>(parameters.examples, parameters.model.law(), body.mesh,
                                             body.fe_space, body.material, body.patches.get(),
                                             inputs.poses, body.readings.shares);
     }

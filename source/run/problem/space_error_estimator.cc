@@ -18,7 +18,7 @@ namespace Exemplar
     quadratic_scene(SceneParameters scene)
     {
       scene.model.element = Element::P2;
-      if (traits_of(scene.model.strain).has_patches)
+      if (traits_of(scene.model.law()).has_patches)
         scene.model.dilatation = DilatationKind::patches;
       scene.initial                = InitialParameters();
       scene.output                 = OutputParameters();
@@ -130,8 +130,8 @@ namespace Exemplar
         const CellMaterial<double> &C    = quadratic.body.material.elasticity(cell);
         const Matrix3<double>       F    = fe_space.deformation_gradient(point, positions);
         // the change of R^T F, of Green's strain that of F^T F / 2
-        const StrainMeasure   strain = quadratic.parameters.model.strain;
-        const Matrix3<double> R = strain == StrainMeasure::green ? F : model_rotation(strain, F);
+        const CellLaw         law = quadratic.parameters.model.law();
+        const Matrix3<double> R   = law == CellLaw::green ? F : model_rotation(law, F);
         const Matrix3<double> e = symmetric_part(
             transpose_times(R, fe_space.deformation_gradient(point, displacement)));
         densities[cell] += 0.5 * fe_space.volume(point) / fe_space.cell_volume(cell)

@@ -78,7 +78,7 @@ namespace Exemplar
     std::optional<std::string>
     describe_stretched(const Problem &problem)
     {
-      if (!traits_of(problem.parameters.model.strain).has_guard)
+      if (!traits_of(problem.parameters.model.law()).has_guard)
         return {};
       double     limit    = std::numeric_limits<double>::max();
       const auto elements = elements_with(

@@ -24,12 +24,11 @@ namespace Exemplar::Testing
     /// What the loops over the cells of a body find, by one set of kernels.
     struct Loops
     {
-      Loops(const CellKernels  &kernels,
-            const Element       element,
-            const StrainMeasure strain,
-            const double        guard_bound,
-            const bool          per_region,
-            const bool          is_pulled)
+      Loops(const CellKernels &kernels,
+            const Element      element,
+            const CellLaw      law,
+            const bool         per_region,
+            const bool         is_pulled)
       {
         // 18 cells are no whole number of batches
         const Body        body(bar_of_two_regions(2., box_mesh(4., 3, 1)), element);
@@ -53,7 +52,7 @@ namespace Exemplar::Testing
         const std::vector<double>     weights(examples->n_weights(), 0.4);
 
         CellTask task;
-        task.cells                  = batches.arrays(strain, guard_bound);
+        task.cells                  = batches.arrays(law, default_guard_bound);
         task.examples               = examples->arrays();
         task.damping                = { damping.data(), past.data() };
         task.positions              = positions.data();
@@ -77,10 +76,11 @@ namespace Exemplar::Testing
           matrix->assign(3 * matrix_positions.size() + SymmetricPattern::padding, 0.);
         kernels.add_rotated_stiffness(task, { false, matrix_positions.data(), rotated.data() }, 0,
                                       n_batches);
-        if (guard_bound != no_guard) // frozen forces have no other tangent
+        const bool is_rotated = traits_of(law).exact_is_rotated;
+        if (!is_rotated)
           kernels.add_tangent(task, { true, matrix_positions.data(), exact.data() }, 0, n_batches);
         coupling.resize(3 * nodes_per_cell(element) * batch_size * task.examples.n);
-        kernels.coupling(task, {}, guard_bound == no_guard, 1, coupling.data());
+        kernels.coupling(task, {}, is_rotated, 1, coupling.data());
 
         dealii::AlignedVector<float> rotation_sums(12 * n_nodes);
         kernels.add_rotations(task, 0, n_batches, rotation_sums.data());
@@ -108,21 +108,20 @@ namespace Exemplar::Testing
       return greatest / scale;
     }
 
-    class CellKernelsTest
-        : public testing::TestWithParam<std::tuple<Element, StrainMeasure, double, bool>>
+    class CellKernelsTest : public testing::TestWithParam<std::tuple<Element, CellLaw, bool>>
     {
     };
 
     TEST_P(CellKernelsTest, AllInstructionSetsAgreeWithTheScalarCode)
     {
-      const auto [element, strain, guard_bound, per_region] = GetParam();
-      const auto  all                                       = all_kernels(element);
-      const Loops scalar(*all[0], element, strain, guard_bound, per_region, false);
+      const auto [element, law, per_region] = GetParam();
+      const auto  all                       = all_kernels(element);
+      const Loops scalar(*all[0], element, law, per_region, false);
       EXPECT_GT(scalar.sums.inverted_cells, 0u); // so that guards act, too
       for (const CellKernels *kernels : all)
       {
         SCOPED_TRACE(kernels->name);
-        const Loops  loops(*kernels, element, strain, guard_bound, per_region, false);
+        const Loops  loops(*kernels, element, law, per_region, false);
         const double tolerance = 1e-10; // near ambiguous rotations rounding grows
         EXPECT_NEAR(loops.sums.energy / scalar.sums.energy, 1., 1e-12);
         EXPECT_NEAR(loops.sums.energy_elastic / scalar.sums.energy_elastic, 1., 1e-12);
@@ -146,13 +145,13 @@ namespace Exemplar::Testing
     // ambiguous, so that forces may differ.
     TEST_P(CellKernelsTest, ACollapsedCellDoesNotSpoilTheStretchGuardBesideIt)
     {
-      const auto [element, strain, guard_bound, per_region] = GetParam();
-      const auto  all                                       = all_kernels(element);
-      const Loops scalar(*all[0], element, strain, guard_bound, per_region, true);
+      const auto [element, law, per_region] = GetParam();
+      const auto  all                       = all_kernels(element);
+      const Loops scalar(*all[0], element, law, per_region, true);
       for (const CellKernels *kernels : all)
       {
         SCOPED_TRACE(kernels->name);
-        const Loops loops(*kernels, element, strain, guard_bound, per_region, true);
+        const Loops loops(*kernels, element, law, per_region, true);
         EXPECT_NEAR(loops.sums.energy / scalar.sums.energy, 1., 1e-12);
         for (const double force : loops.nodal_sums)
           ASSERT_TRUE(std::isfinite(force));
@@ -162,15 +161,14 @@ namespace Exemplar::Testing
     INSTANTIATE_TEST_SUITE_P(
         ,
         CellKernelsTest,
-        testing::Values(
-            std::make_tuple(Element::P1, StrainMeasure::corotational, default_guard_bound, false),
-            std::make_tuple(Element::P1, StrainMeasure::corotational, default_guard_bound, true),
-            std::make_tuple(Element::P1, StrainMeasure::corotational, no_guard, false),
-            std::make_tuple(Element::P1, StrainMeasure::linear, default_guard_bound, false),
-            std::make_tuple(Element::P1, StrainMeasure::green, default_guard_bound, true),
-            std::make_tuple(Element::P2, StrainMeasure::corotational, default_guard_bound, true),
-            std::make_tuple(Element::P2, StrainMeasure::corotational, no_guard, false),
-            std::make_tuple(Element::P2, StrainMeasure::linear, default_guard_bound, false),
-            std::make_tuple(Element::P2, StrainMeasure::green, default_guard_bound, false)));
+        testing::Values(std::make_tuple(Element::P1, CellLaw::corotational, false),
+                        std::make_tuple(Element::P1, CellLaw::corotational, true),
+                        std::make_tuple(Element::P1, CellLaw::frozen, false),
+                        std::make_tuple(Element::P1, CellLaw::linear, false),
+                        std::make_tuple(Element::P1, CellLaw::green, true),
+                        std::make_tuple(Element::P2, CellLaw::corotational, true),
+                        std::make_tuple(Element::P2, CellLaw::frozen, false),
+                        std::make_tuple(Element::P2, CellLaw::linear, false),
+                        std::make_tuple(Element::P2, CellLaw::green, false)));
   } // namespace
 } // namespace Exemplar::Testing
