@@ -210,6 +210,12 @@ def output_directories(after):
             if os.path.basename(name) == b"parameters.prm" and content is not None and content.startswith(MARK)]
 
 
+def was_out_of_time(output, ended, after):
+    """Whether a study says that it has ended runs by its Timeout: in its table or, of the reference, in a warning."""
+    table = after.get(os.fsencode(output.parent.parent / "study.csv"), b"") or b""
+    return b"the study's Timeout" in ended.stderr + table
+
+
 def faults_of_files(ended, before, after):
     """What is wrong with the files that a run left, given the trees before and after."""
     changed = differences(before, after)
@@ -227,9 +233,12 @@ def faults_of_files(ended, before, after):
         faults += faults_of_study(after[study])
     for output in output_directories(after):
         inside = {name for name in after if name.startswith(os.fsencode(output))}
-        if inside & new:
+        is_of_study = output.parent.name == "runs"
+        if is_of_study and not (output / "summary.json").exists() and was_out_of_time(output, ended, after):
+            pass  # the study has killed it
+        elif inside & new:
             faults += faults_of_numbers(output)
-            kept = [name for name in ALWAYS if name != "checkpoint.bin" or output.parent.name != "runs"]  # a study's runs leave no checkpoint
+            kept = [name for name in ALWAYS if name != "checkpoint.bin" or not is_of_study]  # a study's runs leave no checkpoint
             faults += [f"{name} is missing" for name in kept if not (output / name).exists()]
             faults += [f"{os.fsdecode(name)} is left" for name in inside & new if name.endswith(b".tmp")]
         covered |= inside | with_parents(os.fsencode(output))
