@@ -191,7 +191,7 @@ namespace Exemplar::Testing
       ExampleParameters parameters   = two_examples();
       parameters.weights_per_region  = test_case.per_region;
       parameters.region_blend_length = 2.;
-      const auto      examples       = body.examples(parameters, test_case.strain);
+      const auto      examples       = body.examples(parameters, law_of(test_case.strain));
       const FreeDofs  free_dofs(body.fe_space.n_dofs(), { 0, 4, 8, 30 }, Exchange::serial());
       ModelParameters model;
       model.strain = test_case.strain;
@@ -375,7 +375,7 @@ namespace Exemplar::Testing
       for (const StrainMeasure strain : strains_of(GetParam()))
       {
         const ParametricBody body;
-        const auto           examples = body.examples(two_examples(), strain);
+        const auto           examples = body.examples(two_examples(), law_of(strain));
         const FreeDofs       free_dofs(body.fe_space.n_dofs(), { 0, 4, 8, 30 }, Exchange::serial());
         ModelParameters      model;
         model.strain = strain;
