@@ -14,7 +14,6 @@
 #include <iostream>
 #include <limits>
 #include <mpi.h>
-#include <mutex>
 #include <thread>
 #include <unistd.h>
 #include <vector>
