@@ -8,9 +8,7 @@
 
 namespace Exemplar
 {
-  CellBatches::CellBatches(const FESpace  &fe_space,
-                           const Material &body_material,
-                           const bool      has_patches)
+  CellBatches::CellBatches(const FESpace &fe_space, const Material &of_cells)
       : n_points(fe_space.n_points()), n_nodes(nodes_per_cell(fe_space.element())),
         nodes(batched_size(n_points, n_nodes)), gradients(batched_size(n_points, 3 * n_nodes - 3)),
         volumes(batched_size(n_points, 1)),
@@ -35,13 +33,10 @@ namespace Exemplar
         for (std::size_t i = 0; i < 3 && a > 0; ++i)
           gradients[batch_index(slot, 3 * n_nodes - 3, 3 * (a - 1) + i)] = shape[order[a]][i];
       }
-      volumes[slot]                        = slot < n_points ? fe_space.volume(point) : 0.;
-      constexpr std::size_t      n_numbers = CellMaterial<double>::n_numbers;
-      const CellMaterial<double> own       = has_patches
-                                                 ? body_material.elasticity(cell).without_dilatation()
-                                                 : body_material.elasticity(cell);
+      volumes[slot]                   = slot < n_points ? fe_space.volume(point) : 0.;
+      constexpr std::size_t n_numbers = CellMaterial<double>::n_numbers;
       for (std::size_t k = 0; k < n_numbers; ++k)
-        material[batch_index(slot, n_numbers, k)] = own.number(k);
+        material[batch_index(slot, n_numbers, k)] = of_cells.elasticity(cell).number(k);
       for (const unsigned int diagonal : { 0, 4, 8 })
         rotations[batch_index(slot, 9, diagonal)] = 1.;
     }

@@ -73,7 +73,7 @@ namespace Exemplar
                              const CellLaw                           law,
                              const Mesh                             &mesh,
                              const FESpace                          &fe_space,
-                             const Material                         &material,
+                             const Material                         &cell_material,
                              const Patches                          *patches,
                              const NamedPoses                       &poses,
                              const std::vector<std::vector<double>> &painted)
@@ -104,7 +104,7 @@ namespace Exemplar
     compute_strains();
     if (patches != nullptr)
       compute_patch_dilatations(*patches);
-    compute_gram_matrix(material, patches);
+    compute_gram_matrix(cell_material, patches);
   }
 
   std::optional<unsigned int>
@@ -173,7 +173,7 @@ namespace Exemplar
   }
 
   void
-  ExamplePoses::compute_gram_matrix(const Material &material, const Patches *patches)
+  ExamplePoses::compute_gram_matrix(const Material &cell_material, const Patches *patches)
   {
     gram.reinit(n_weights(), n_weights());
     for (unsigned int point = 0; point < fe_space.n_points(); ++point)
@@ -181,9 +181,8 @@ namespace Exemplar
           point,
           [&](const unsigned int v, const unsigned int i, const double share_v)
           {
-            const CellMaterial<double> &C = material.elasticity(fe_space.cell_of(point));
-            const Matrix3<double>       T
-                = stress(patches == nullptr ? C : C.without_dilatation(), strain(point, i));
+            const Matrix3<double> T
+                = stress(cell_material.elasticity(fe_space.cell_of(point)), strain(point, i));
             for_each_weight(point,
                             [&](const unsigned int w, const unsigned int j, const double share_w) {
                               gram(v, w) += fe_space.volume(point) * share_v * share_w

@@ -78,7 +78,7 @@ namespace Exemplar
   }
 
   Vector
-  Mass::times(const Vector &field) const
+  Mass::own_times(const Vector &field) const
   {
     Vector product(field.size());
     for (unsigned int row = 0; row + 1 < row_start.size(); ++row)
@@ -93,6 +93,13 @@ namespace Exemplar
       for (unsigned int c = 0; c < 3; ++c)
         product[3 * row + c] = sum[c];
     }
+    return product;
+  }
+
+  Vector
+  Mass::times(const Vector &field) const
+  {
+    Vector product = own_times(field);
     with_others.assemble(product.begin(), 3);
     return product;
   }

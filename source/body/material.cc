@@ -122,4 +122,13 @@ namespace Exemplar
       constants_of_cell[cell] = cell;
     }
   }
+
+  Material
+  Material::without_dilatation() const
+  {
+    Material rest = *this;
+    for (Constants &values : rest.constants)
+      values.elasticity = values.elasticity.without_dilatation();
+    return rest;
+  }
 } // namespace Exemplar

@@ -54,13 +54,14 @@ namespace Exemplar
   ModelParameters::complete()
   {
     if (dilatation == DilatationKind::automatic)
-      dilatation = traits_of(law()).has_patches ? DilatationKind::patches : DilatationKind::cells;
+      dilatation
+          = traits_of(law()).trace_gradient_is_R ? DilatationKind::patches : DilatationKind::cells;
   }
 
   void
   ModelParameters::check() const
   {
-    if (has_patches() && !traits_of(law()).has_patches)
+    if (has_patches() && !traits_of(law()).trace_gradient_is_R)
       throw UserError("Model/Dilatation = patches: is for the corotational and linear strains, not "
                       "for Model/Strain = green. Leave it at auto, or take another strain.");
   }

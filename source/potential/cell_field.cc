@@ -3,20 +3,43 @@
 
 namespace Exemplar
 {
-  CellField::CellField(const CellLaw   law,
-                       const double    guard_bound,
-                       const FESpace  &fe_space,
-                       const Material &material,
-                       const bool      has_patches)
-      : law(law), guard_bound(guard_bound), kernels(best_kernels(fe_space.element())),
-        with_others(fe_space.exchange()), batches(fe_space, material, has_patches),
-        node_positions(4 * fe_space.n_nodes())
+  void
+  DilatationField::resize(const unsigned int n_points)
+  {
+    for (dealii::AlignedVector<double> *values : { &traces, &squares, &pressures, &scales })
+      values->resize(batched_size(n_points, 1));
+  }
+
+  DilatationArrays
+  DilatationField::arrays()
+  {
+    return { traces.data(), squares.data(), pressures.data(), scales.data() };
+  }
+
+  std::size_t
+  DilatationField::memory_consumption() const
+  {
+    return traces.memory_consumption() + squares.memory_consumption()
+           + pressures.memory_consumption() + scales.memory_consumption();
+  }
+
+  CellField::CellField(const CellLaw      law,
+                       const double       guard_bound,
+                       const FESpace     &fe_space,
+                       const Material    &material,
+                       const unsigned int n_threads)
+      : law(law), guard_bound(guard_bound), fe_space(fe_space), material(material),
+        kernels(best_kernels(fe_space.element())), batches(fe_space, material),
+        nodal_sums(fe_space, n_threads), node_positions(4 * fe_space.n_nodes())
   {
   }
 
   CellTask
-  CellField::task(const Vector &positions, const RotationUse rotations)
+  CellField::task(const Vector &positions, RotationUse rotations)
   {
+    // what acts on the dilatation takes a loop of its own, which needs the rotations
+    if (!dilatation.traces.empty() && rotations == RotationUse::find_and_forget)
+      rotations = RotationUse::update;
     if (rotations == RotationUse::keep)
       refresh_rotations();
     rotations_are_forgotten = rotations == RotationUse::find_and_forget;
@@ -27,7 +50,16 @@ namespace Exemplar
     task.cells        = batches.arrays(law, guard_bound);
     task.positions    = node_positions.data();
     task.rotation_use = rotations;
+    task.damping      = damping.arrays();
+    task.dilatation   = dilatation.arrays();
     return task;
+  }
+
+  void
+  CellField::update_dilatations(const Vector &positions)
+  {
+    const CellTask here = task(positions, RotationUse::keep);
+    kernels.dilatations(here, 0, here.cells.n_batches());
   }
 
   void
@@ -61,7 +93,7 @@ namespace Exemplar
     rotation_sums.fill(0.);
     rotations.resize(9 * n_nodes());
     kernels.add_rotations(task, 0, task.cells.n_batches(), rotation_sums.data());
-    with_others.assemble(rotation_sums.data(), 12);
+    fe_space.exchange().assemble(rotation_sums.data(), 12);
     kernels.closest_rotations(n_nodes(), rotation_sums.data(), rotations.data());
   }
 
@@ -69,6 +101,7 @@ namespace Exemplar
   CellField::memory_consumption() const
   {
     return batches.memory_consumption() + node_positions.memory_consumption()
-           + rotation_sums.memory_consumption();
+           + rotation_sums.memory_consumption() + damping.memory_consumption()
+           + dilatation.memory_consumption() + nodal_sums.memory_consumption();
   }
 } // namespace Exemplar

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/algebra/long_vectors.h>
-#include <exemplar/base/environment.h>
 #include <exemplar/potential/elastic_potential.h>
 
 #include <deal.II/base/memory_consumption.h>
@@ -13,14 +12,6 @@ namespace Exemplar
 {
   namespace
   {
-    /// Cells are summed in stripes, each by one thread. How many there are depends on the mesh
-    /// alone, so that the sums do not depend on the number of threads.
-    std::size_t
-    choose_n_stripes(const std::size_t n_points)
-    {
-      return std::clamp<std::size_t>(n_points / 50000, 2, 16);
-    }
-
     /// What the cells of a stripe sum up.
     struct StripeSums
     {
@@ -37,15 +28,7 @@ namespace Exemplar
       result.min_det_F      = sums.min_det_F;
       result.inverted_cells = sums.inverted_cells;
       result.guarded_cells  = sums.guarded_cells;
-    }
-
-    std::unique_ptr<PatchDilatation>
-    make_dilatation(const ElasticParts &parts, const SymmetricPattern &pattern)
-    {
-      if (parts.patches == nullptr)
-        return nullptr;
-      return std::make_unique<PatchDilatation>(*parts.patches, parts.examples, parts.fe_space,
-                                               parts.material, pattern, parts.free_dofs);
+      result.stress_square  = sums.stress_square;
     }
 
     std::vector<double>
@@ -59,14 +42,14 @@ namespace Exemplar
 
     /// What processes have summed over their own cells becomes that of the body.
     void
-    sum_over_processes(const Exchange &exchange, ElasticEvaluation &result, double &stress_square)
+    sum_over_processes(const Exchange &exchange, ElasticEvaluation &result)
     {
       if (exchange.n_processes() == 1)
         return;
       std::vector<double> sums = { result.energy_elastic,
                                    result.energy,
                                    result.energy_damping,
-                                   stress_square,
+                                   result.stress_square,
                                    static_cast<double>(result.inverted_cells),
                                    static_cast<double>(result.guarded_cells) };
       sums.insert(sums.end(), result.weight_gradient.begin(), result.weight_gradient.end());
@@ -74,7 +57,7 @@ namespace Exemplar
       result.energy_elastic = sums[0];
       result.energy         = sums[1];
       result.energy_damping = sums[2];
-      stress_square         = sums[3];
+      result.stress_square  = sums[3];
       result.inverted_cells = static_cast<unsigned int>(sums[4]);
       result.guarded_cells  = static_cast<unsigned int>(sums[5]);
       std::copy(sums.begin() + 6, sums.end(), result.weight_gradient.begin());
@@ -114,18 +97,20 @@ namespace Exemplar
     }
   } // namespace
 
-  ElasticPotential::ElasticPotential(const ElasticParts &parts, const SymmetricPattern &pattern)
+  ElasticPotential::ElasticPotential(const ElasticParts     &parts,
+                                     PotentialTerms          new_terms,
+                                     const SymmetricPattern &pattern)
       : parts(parts), pattern(pattern),
-        cells(parts.model.law(),
+        cells(parts.law,
               parts.examples == nullptr ? default_guard_bound : parts.examples->guard_bound(),
               parts.fe_space,
-              parts.material,
-              parts.patches != nullptr),
-        scatter(parts.fe_space, pattern, parts.free_dofs),
-        dilatation(make_dilatation(parts, pattern)),
-        n_stripes(choose_n_stripes(parts.fe_space.n_points())),
-        nodal_sums(4 * n_stripes * parts.fe_space.n_nodes()), rounding(estimate_rounding(parts))
+              parts.cell_material,
+              parts.n_threads),
+        scatter(parts.fe_space, pattern, parts.free_dofs), terms(std::move(new_terms)),
+        rounding(estimate_rounding(parts))
   {
+    for (const auto &term : terms)
+      term->attach(pattern, parts.free_dofs, cells);
   }
 
   double
@@ -138,25 +123,12 @@ namespace Exemplar
     return greatest;
   }
 
-  void
-  ElasticPotential::set_damping(const double s, const std::vector<WeightedPositions> &history)
-  {
-    damping.set(s, history, cells, parts.fe_space, parts.material);
-    if (dilatation != nullptr)
-      dilatation->set_damping(damping);
-  }
-
   CellTask
   ElasticPotential::task(const Vector              &positions,
                          const std::vector<double> &weights,
                          const RotationUse          rotations)
   {
-    // the forces of the patches take a loop of their own, which needs the rotations
-    const bool must_store = dilatation != nullptr && rotations == RotationUse::find_and_forget;
-    CellTask   task       = cells.task(positions, must_store ? RotationUse::update : rotations);
-    task.damping          = damping.arrays();
-    if (dilatation != nullptr)
-      task.dilatation = dilatation->arrays();
+    CellTask task = cells.task(positions, rotations);
     if (parts.examples != nullptr)
       task.examples = parts.examples->arrays();
     task.weights          = weights.data();
@@ -165,11 +137,10 @@ namespace Exemplar
   }
 
   void
-  ElasticPotential::update_pressures(const Vector &positions, const std::vector<double> &weights)
+  ElasticPotential::tell_cells(const TermPoint &at)
   {
-    const CellTask cell_task = task(positions, weights, RotationUse::keep);
-    cells.loops().dilatations(cell_task, 0, cell_task.cells.n_batches());
-    dilatation->update(cells, positions, weights);
+    for (const auto &term : terms)
+      term->tell_cells(at);
   }
 
   Matrix3<double>
@@ -181,10 +152,9 @@ namespace Exemplar
   }
 
   void
-  ElasticPotential::add_penalty(const std::vector<double> &weights,
-                                const double               stress_norm,
-                                ElasticEvaluation         &result) const
+  ElasticPotential::add_penalty(const std::vector<double> &weights, ElasticEvaluation &result) const
   {
+    const double                      stress_norm = std::sqrt(result.stress_square);
     const ExamplePoses               &examples = *parts.examples;
     const dealii::FullMatrix<double> &form     = parts.weights->penalty_matrix();
     for (unsigned int v = 0; v < weights.size(); ++v)
@@ -215,37 +185,6 @@ namespace Exemplar
   }
 
   void
-  ElasticPotential::gather_forces(ElasticEvaluation &result) const
-  {
-    const unsigned int n_nodes = parts.fe_space.n_nodes();
-    result.gradient.reinit(3 * n_nodes, true);
-    result.force_scale.reinit(n_nodes, true);
-    for (unsigned int node = 0; node < n_nodes; ++node)
-    {
-      double sum[4] = {};
-      for (std::size_t stripe = 0; stripe < n_stripes; ++stripe)
-        for (unsigned int c = 0; c < 4; ++c)
-          sum[c] += nodal_sums[4 * (stripe * n_nodes + node) + c];
-      for (unsigned int c = 0; c < 3; ++c)
-        result.gradient[3 * node + c] = sum[c];
-      result.force_scale[node] = sum[3];
-    }
-  }
-
-  template <typename Function>
-  void
-  ElasticPotential::for_each_stripe(const Function &function) const
-  {
-    const std::size_t n_batches = (parts.fe_space.n_points() + batch_size - 1) / batch_size;
-    const OpenMPScope scope(OpenMPScope::Threads::several);
-    // to start a thread costs as much as a thousand cells
-    const int n_at_once = parts.fe_space.n_points() < 4000 ? 1 : static_cast<int>(parts.n_threads);
-#pragma omp parallel for num_threads(n_at_once)
-    for (std::size_t stripe = 0; stripe < n_stripes; ++stripe)
-      function(stripe, stripe * n_batches / n_stripes, (stripe + 1) * n_batches / n_stripes);
-  }
-
-  void
   ElasticPotential::evaluate(const Vector              &positions,
                              const std::vector<double> &weights,
                              ElasticEvaluation         &result,
@@ -255,15 +194,15 @@ namespace Exemplar
     CellTask cell_task = task(positions, weights, rotations);
     cell_task.with_weight_sums &= linear_term == nullptr;
     const std::size_t       n_lanes = has_unknown_weights() ? batch_size * weights.size() : 0;
-    std::vector<StripeSums> stripes(n_stripes);
-    nodal_sums.fill(0.);
-    for_each_stripe(
-        [&](const std::size_t stripe, const std::size_t begin, const std::size_t end)
+    NodalSums              &nodal_sums = cells.get_nodal_sums();
+    std::vector<StripeSums> stripes(nodal_sums.n_stripes());
+    nodal_sums.clear();
+    nodal_sums.for_each_stripe(
+        [&](const std::size_t stripe, const std::size_t begin, const std::size_t end, double *sums)
         {
           stripes[stripe].weights.resize(n_lanes);
-          cells.loops().evaluate(cell_task, begin, end,
-                                 &nodal_sums[4 * stripe * parts.fe_space.n_nodes()],
-                                 stripes[stripe].weights.data(), stripes[stripe].cells);
+          cells.loops().evaluate(cell_task, begin, end, sums, stripes[stripe].weights.data(),
+                                 stripes[stripe].cells);
         });
     CellSums                      sums;
     dealii::AlignedVector<double> weight_sums(n_lanes);
@@ -276,34 +215,17 @@ namespace Exemplar
     copy_sums(sums, result);
     result.weight_gradient = sum_of_lanes(weight_sums);
     result.weight_scale    = 0.;
-    if (dilatation != nullptr)
-      sums.stress_square += add_dilatation(cell_task, positions, weights, result);
-    gather_forces(result);
-    if (dilatation != nullptr)
-      dilatation->add_forces_of_few_cells(cells, result.gradient);
-    sum_over_processes(parts.fe_space.exchange(), result, sums.stress_square);
+    result.gradient.reinit(parts.fe_space.n_dofs());
+    result.force_scale.reinit(parts.fe_space.n_nodes());
+    for (const auto &term : terms)
+      term->add({ positions, weights }, result);
+    nodal_sums.add_to(result.gradient, result.force_scale);
+    sum_over_processes(parts.fe_space.exchange(), result);
     if (!has_unknown_weights())
       return;
-    add_penalty(weights, std::sqrt(sums.stress_square), result);
+    add_penalty(weights, result);
     if (linear_term != nullptr)
       set_weight_gradient(weights, *linear_term, result);
-  }
-
-  double
-  ElasticPotential::add_dilatation(const CellTask            &cell_task,
-                                   const Vector              &positions,
-                                   const std::vector<double> &weights,
-                                   ElasticEvaluation         &result)
-  {
-    dilatation->update(cells, positions, weights);
-    for_each_stripe(
-        [&](const std::size_t stripe, const std::size_t begin, const std::size_t end)
-        {
-          cells.loops().add_pressure_forces(cell_task, begin, end,
-                                            &nodal_sums[4 * stripe * parts.fe_space.n_nodes()]);
-        });
-    dilatation->add_energies(weights, result);
-    return dilatation->stress_square();
   }
 
   std::vector<double>
@@ -313,8 +235,8 @@ namespace Exemplar
     dealii::AlignedVector<double> weight_sums(batch_size * parts.examples->n_weights());
     cells.loops().weight_linear_term(cell_task, 0, cell_task.cells.n_batches(), weight_sums.data());
     std::vector<double> linear_term = sum_of_lanes(weight_sums);
-    if (dilatation != nullptr)
-      dilatation->add_linear_term(cells, positions, linear_term);
+    for (const auto &term : terms)
+      term->add_weight_linear_term(positions, linear_term);
     parts.fe_space.exchange().sum(linear_term);
     return linear_term;
   }
@@ -323,26 +245,27 @@ namespace Exemplar
   ElasticPotential::cell_results(const Vector &positions, const std::vector<double> &weights)
   {
     cells.refresh_rotations();
-    if (dilatation != nullptr)
-      update_pressures(positions, weights);
-    const unsigned int n        = parts.fe_space.n_cells();
-    const unsigned int n_points = parts.fe_space.n_points();
+    tell_cells({ positions, weights });
+    const unsigned int  n        = parts.fe_space.n_cells();
+    const unsigned int  n_points = parts.fe_space.n_points();
+    std::vector<double> densities(n_points, 0.);
+    for (const auto &term : terms)
+      term->add_densities(densities);
     CellResults results{ std::vector<double>(n), std::vector<double>(n), std::vector<double>(n) };
     for (unsigned int point = 0; point < n_points; ++point)
     {
       const unsigned int         cell   = parts.fe_space.cell_of(point);
-      const CellMaterial<double> lame   = elasticity(point);
+      const CellMaterial<double> &C      = elasticity(point);
       const Matrix3<double>      F      = parts.fe_space.deformation_gradient(point, positions);
       const Matrix3<double>      R      = cells.rotation(point);
-      const Matrix3<double>      strain = model_strain(parts.model.law(), R, F);
-      Matrix3<double>            T      = stress(lame, strain);
+      const Matrix3<double>       strain = model_strain(parts.law, R, F);
+      Matrix3<double>             T      = stress(C, strain);
 
-      const double energy
-          = 0.5 * contract(T, strain)
-            + model_stretch_energy(parts.model.law(), lame, R, F, cells.get_guard_bound())
-            + (dilatation == nullptr ? 0. : dilatation->elastic_density(point));
+      const double energy = 0.5 * contract(T, strain)
+                            + model_stretch_energy(parts.law, C, R, F, cells.get_guard_bound())
+                            + densities[point];
       if (parts.examples != nullptr)
-        T = stress(lame, combine(1., strain, -1., example_strain(point, weights)));
+        T = stress(C, combine(1., strain, -1., example_strain(point, weights)));
       const double third = trace(T) / 3.;
       for (int i = 0; i < 3; ++i)
         T[i][i] -= third;
@@ -361,9 +284,10 @@ namespace Exemplar
   ElasticPotential::memory_consumption() const
   {
     using dealii::MemoryConsumption::memory_consumption;
+    std::size_t memory_of_terms = 0;
+    for (const auto &term : terms)
+      memory_of_terms += term->memory_consumption();
     return cells.memory_consumption() + memory_consumption(pattern.column_start)
-           + memory_consumption(pattern.row) + scatter.memory_consumption()
-           + nodal_sums.memory_consumption() + damping.memory_consumption()
-           + (dilatation != nullptr ? dilatation->memory_consumption() : 0);
+           + memory_consumption(pattern.row) + scatter.memory_consumption() + memory_of_terms;
   }
 } // namespace Exemplar

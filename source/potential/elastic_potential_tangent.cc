@@ -76,7 +76,8 @@ namespace Exemplar
         {
           const Matrix3<double> dF = parts.fe_space.deformation_gradient(point, displacement);
           const Matrix3<double> de = symmetric_part(transpose_times(cells.rotation(point), dF));
-          add_force(point, stress(damping.damped(point, elasticity(point)), de), result.gradient);
+          add_force(point, stress(cells.get_damping().damped(point, elasticity(point)), de),
+                    result.gradient);
           if (result.weight_gradient.empty())
             return;
           const Matrix3<double> dT = stress(elasticity(point), de);
@@ -100,13 +101,13 @@ namespace Exemplar
   {
     Cell state(elasticity(point), cells.rotation(point),
                parts.fe_space.deformation_gradient(point, positions), cells.get_guard_bound());
-    Matrix3<double> D = example_strain(point, weights);
+    const StrainDamping &damping = cells.get_damping();
+    Matrix3<double>      D       = example_strain(point, weights);
     if (const double s = damping.factor(point); s > 0.)
       D = state.damp(D, s, damping.past_strain(point));
     state.set_target(D);
-    if constexpr (Cell::traits.has_patches)
-      if (dilatation != nullptr)
-        state.add_pressure(dilatation->pressure(point));
+    if constexpr (Cell::traits.trace_gradient_is_R)
+      state.add_pressure(cells.pressure(point));
     if constexpr (!Cell::traits.convex_is_rotated)
       if (tangent == Tangent::convex)
         state.make_convex();
@@ -121,29 +122,25 @@ namespace Exemplar
                                      std::vector<double>       &columns)
   {
     const bool rotated = is_rotated_stiffness(tangent);
-    if (dilatation != nullptr)
-      update_pressures(positions, weights);
+    tell_cells({ positions, weights });
     CellTask cell_task = task(positions, weights, RotationUse::keep);
     if (tangent == Tangent::convex)
-      cell_task.damping = damping.arrays_of_all_cells();
+      cell_task.damping = cells.get_damping().arrays_of_all_cells();
     const TangentTask to
         = { tangent == Tangent::convex, scatter.positions(), matrix_values.data() };
     (rotated ? cells.loops().add_rotated_stiffness
              : cells.loops().add_tangent)(cell_task, to, 0, cell_task.cells.n_batches());
     add_mixed_cells(cell_task, to, rotated, matrix_values);
-    if (tangent == Tangent::convex && traits_of(parts.model.law()).has_guard)
-      add_stretch_stiffness(parts.fe_space, parts.material, cells, scatter, dilatation.get(),
-                            positions, matrix_values);
-    if (dilatation != nullptr)
-      dilatation->add_tangent(cells, tangent, matrix_values);
-    if (!has_unknown_weights())
-      return;
-    if (parts.fe_space.element() == Element::P1)
+    if (stiffens_when_stretched(tangent))
+      add_stretch_stiffness(parts.fe_space, parts.cell_material, cells, scatter, positions,
+                            matrix_values);
+    columns.clear();
+    if (has_unknown_weights() && parts.fe_space.element() == Element::P1)
       assemble_coupling<Element::P1>(cell_task, to, rotated, columns);
-    else
+    else if (has_unknown_weights())
       assemble_coupling<Element::P2>(cell_task, to, rotated, columns);
-    if (dilatation != nullptr)
-      dilatation->add_coupling(cells, columns);
+    for (const auto &term : terms)
+      term->add_tangent({ positions, weights }, tangent, matrix_values, columns);
   }
 
   template <typename Cell>
@@ -163,7 +160,8 @@ namespace Exemplar
           add_force(point, state.response(M), result.gradient);
           if (result.weight_gradient.empty())
             return;
-          const double factor = parts.fe_space.volume(point) / (1. + damping.factor(point));
+          const double factor
+              = parts.fe_space.volume(point) / (1. + cells.get_damping().factor(point));
           parts.examples->for_each_weight(
               point,
               [&](const unsigned int weight, const unsigned int i, const double share)
@@ -199,17 +197,16 @@ namespace Exemplar
                                      ElasticEvaluation         &result)
   {
     cells.refresh_rotations();
-    if (dilatation != nullptr)
-    {
-      update_pressures(positions, weights);
-      dilatation->add_response(cells, tangent, displacement, result);
-    }
+    const TermPoint at = { positions, weights };
+    tell_cells(at);
+    for (const auto &term : terms)
+      term->add_response(at, tangent, displacement, result);
     if (is_rotated_stiffness(tangent))
     {
       add_rotated_responses(displacement, result);
       return;
     }
-    with_cell_model<double>(parts.model.law(),
+    with_cell_model<double>(parts.law,
                             [&](auto model)
                             {
                               using Cell = typename decltype(model)::type;

@@ -22,18 +22,16 @@ namespace Exemplar
       return ratio;
     }
 
-    std::vector<std::pair<unsigned int, unsigned int>>
-    couplings_of(const std::vector<std::unique_ptr<PotentialTerm>> &terms,
-                 const ElasticParts                                &parts)
+    NodePairs
+    couplings_of(const PotentialTerms &elastic_terms, const PotentialTerms &terms)
     {
-      std::vector<std::pair<unsigned int, unsigned int>> couplings;
-      if (parts.patches != nullptr)
-        couplings = PatchScatter::couplings(*parts.patches, parts.fe_space);
-      for (const auto &term : terms)
-      {
-        const auto more = term->couplings();
-        couplings.insert(couplings.end(), more.begin(), more.end());
-      }
+      NodePairs couplings;
+      for (const PotentialTerms *some : { &elastic_terms, &terms })
+        for (const auto &term : *some)
+        {
+          const NodePairs more = term->couplings();
+          couplings.insert(couplings.end(), more.begin(), more.end());
+        }
       return couplings;
     }
 
@@ -46,16 +44,26 @@ namespace Exemplar
     }
   } // namespace
 
-  IncrementalPotential::IncrementalPotential(const ElasticParts                         &parts,
-                                             std::vector<std::unique_ptr<PotentialTerm>> new_terms,
-                                             TimeIntegrator                             *integrator)
+  IncrementalPotential::IncrementalPotential(const ElasticParts &parts,
+                                             PotentialTerms      elastic_terms,
+                                             PotentialTerms      new_terms,
+                                             TimeIntegrator     *integrator)
       : terms(std::move(new_terms)),
-        pattern(make_pattern(parts.fe_space, couplings_of(terms, parts), parts.free_dofs)),
-        cells(parts, pattern), weights(parts.weights), integrator(integrator),
-        free_dofs(parts.free_dofs)
+        pattern(make_pattern(parts.fe_space, couplings_of(elastic_terms, terms), parts.free_dofs)),
+        cells(parts, std::move(elastic_terms), pattern), weights(parts.weights),
+        integrator(integrator), free_dofs(parts.free_dofs)
   {
     for (const auto &term : terms)
-      term->attach(pattern, free_dofs);
+      term->attach(pattern, free_dofs, cells.get_field());
+  }
+
+  template <typename Function>
+  void
+  IncrementalPotential::for_each_term(const Function &function) const
+  {
+    for (const PotentialTerms *some : { &cells.get_terms(), &terms })
+      for (const auto &term : *some)
+        function(*term);
   }
 
   void
@@ -65,11 +73,15 @@ namespace Exemplar
     {
       integrator->begin_step(start, step_size);
       in_dynamic_step = true;
-      if (integrator->stiffness_damping_factor() > 0.)
-        cells.set_damping(integrator->stiffness_damping_factor(), integrator->history(start));
+      cells.set_damping(integrator->stiffness_damping_factor(), integrator->history(start));
     }
-    for (const auto &term : terms)
-      term->begin_step(start);
+    for_each_term([&](PotentialTerm &term) { term.begin_step(start); });
+  }
+
+  void
+  IncrementalPotential::end_step(const State &end)
+  {
+    for_each_term([&](PotentialTerm &term) { term.end_step(end); });
   }
 
   void
@@ -77,16 +89,14 @@ namespace Exemplar
   {
     in_dynamic_step = false;
     cells.set_damping(0., {});
-    for (const auto &term : terms)
-      term->leave_step();
+    for_each_term([](PotentialTerm &term) { term.leave_step(); });
   }
 
   void
   IncrementalPotential::set_time(const double time, State &state)
   {
     state.time = time;
-    for (const auto &term : terms)
-      term->set_time(time);
+    for_each_term([&](PotentialTerm &term) { term.set_time(time); });
     if (weights != nullptr && !weights->are_unknown())
       state.weights = weights->at(time);
   }
@@ -96,8 +106,9 @@ namespace Exemplar
   {
     if (weights != nullptr && !weights->are_unknown() && weights->at(time) != from.weights)
       return true;
-    return std::any_of(terms.begin(), terms.end(),
-                       [&](const auto &term) { return term->differs(from.time, time); });
+    bool differs = false;
+    for_each_term([&](const PotentialTerm &term) { differs |= term.differs(from.time, time); });
+    return free_dofs.exchange().any(differs);
   }
 
   void
@@ -145,16 +156,27 @@ namespace Exemplar
   void
   IncrementalPotential::add_terms(const Vector &positions, Evaluation &evaluation) const
   {
-    evaluation.gradient    = evaluation.elastic.gradient;
-    evaluation.force_scale = evaluation.elastic.force_scale;
-    evaluation.potential   = evaluation.elastic.energy + evaluation.elastic.energy_damping;
+    const Exchange   &exchange = free_dofs.exchange();
+    ElasticEvaluation sums;
+    sums.gradient.reinit(positions.size());
+    sums.force_scale.reinit(positions.size() / 3);
     evaluation.term_energies.clear();
     for (const auto &term : terms)
     {
-      const double energy = term->add(positions, evaluation.gradient, evaluation.force_scale);
-      evaluation.term_energies.push_back(energy);
-      evaluation.potential += energy;
+      const double before = sums.energy;
+      term->add({ positions, {} }, sums);
+      evaluation.term_energies.push_back(sums.energy - before);
     }
+    exchange.assemble(sums.gradient.begin(), 3);
+    exchange.assemble(sums.force_scale.begin(), 1);
+    exchange.sum(evaluation.term_energies);
+    evaluation.gradient    = evaluation.elastic.gradient;
+    evaluation.force_scale = evaluation.elastic.force_scale;
+    evaluation.potential   = evaluation.elastic.energy + evaluation.elastic.energy_damping;
+    evaluation.gradient += sums.gradient;
+    evaluation.force_scale += sums.force_scale;
+    for (const double energy : evaluation.term_energies)
+      evaluation.potential += energy;
     if (held_back.part == 0.)
       return;
     Vector displacement = positions;
@@ -180,9 +202,9 @@ namespace Exemplar
                                          std::vector<double>       &columns)
   {
     std::fill(matrix_values.begin(), matrix_values.end(), 0.);
-    for (const auto &term : terms)
-      term->add_tangent(positions, matrix_values);
     cells.assemble_tangent(tangent, positions, at_weights, matrix_values, columns);
+    for (const auto &term : terms)
+      term->add_tangent({ positions, at_weights }, tangent, matrix_values, columns);
   }
 
   void
@@ -216,8 +238,8 @@ namespace Exemplar
   IncrementalPotential::residual(const State &at, const Evaluation &evaluation) const
   {
     double rounding = cells.rounding_force();
-    for (const auto &term : terms)
-      rounding += term->rounding_force();
+    for_each_term([&](const PotentialTerm &term) { rounding += term.rounding_force(); });
+    rounding = free_dofs.exchange().max(rounding);
     Residual residual;
     residual.positions = relative(max_free_gradient(evaluation),
                                   free_dofs.exchange().max(max_entry(evaluation.force_scale.begin(),
@@ -231,5 +253,26 @@ namespace Exemplar
       residual.multipliers      = std::move(of_weights.multipliers);
     }
     return residual;
+  }
+
+  double
+  IncrementalPotential::max_step(const Vector &positions, const Vector &displacement) const
+  {
+    double part = 1.;
+    for_each_term([&](const PotentialTerm &term)
+                  { part = std::min(part, term.max_step(positions, displacement)); });
+    return free_dofs.exchange().min(part);
+  }
+
+  void
+  IncrementalPotential::save(boost::archive::binary_oarchive &archive) const
+  {
+    for_each_term([&](const PotentialTerm &term) { term.save(archive); });
+  }
+
+  void
+  IncrementalPotential::load(boost::archive::binary_iarchive &archive)
+  {
+    for_each_term([&](PotentialTerm &term) { term.load(archive); });
   }
 } // namespace Exemplar

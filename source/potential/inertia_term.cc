@@ -16,38 +16,36 @@ namespace Exemplar
   {
   }
 
-  double
-  InertiaTerm::add(const Vector &positions, Vector &gradient, Vector &force_scale) const
+  void
+  InertiaTerm::add(const TermPoint &at, ElasticEvaluation &sums)
   {
     if (!in_step)
-      return 0.;
-    Vector difference = positions;
+      return;
+    Vector difference = at.positions;
     difference -= integrator.predicted_positions();
-    const Vector product  = mass.times(difference);
-    const double factor   = integrator.mass_factor();
-    const bool   is_alone = exchange->n_processes() == 1;
-    double       energy   = 0.;
-    for (unsigned int node = 0; node < force_scale.size(); ++node)
+    const Vector product = mass.own_times(difference);
+    const double factor  = integrator.mass_factor();
+    double       energy  = 0.;
+    for (unsigned int node = 0; node < sums.force_scale.size(); ++node)
     {
-      const bool counts = is_alone || exchange->owns(node);
-      double     square = 0.;
+      double square = 0.;
       for (unsigned int dof = 3 * node; dof < 3 * node + 3; ++dof)
       {
         const double force = factor * product[dof];
-        gradient[dof] += force;
+        sums.gradient[dof] += force;
         square += force * force;
-        if (counts)
-          energy += 0.5 * force * difference[dof];
+        energy += 0.5 * force * difference[dof];
       }
-      force_scale[node] += std::sqrt(square);
+      sums.force_scale[node] += std::sqrt(square);
     }
-    return exchange->sum(energy);
+    sums.energy += energy;
   }
 
   void
-  InertiaTerm::attach(const SymmetricPattern &pattern, const FreeDofs &free_dofs)
+  InertiaTerm::attach(const SymmetricPattern &pattern,
+                      const FreeDofs         &free_dofs,
+                      CellField & /*cells*/)
   {
-    exchange = &free_dofs.exchange();
     mass_values.assign(pattern.n_values(), 0.);
     const dealii::SparseMatrix<double> &nodal = mass.nodal();
     for (const unsigned int dof : free_dofs.local_list())
@@ -61,7 +59,10 @@ namespace Exemplar
   }
 
   void
-  InertiaTerm::add_tangent(const Vector & /*positions*/, std::vector<double> &values) const
+  InertiaTerm::add_tangent(const TermPoint & /*at*/,
+                           Tangent /*kind*/,
+                           std::vector<double> &values,
+                           std::vector<double> & /*columns*/)
   {
     const double factor = integrator.mass_factor();
     for (std::size_t i = 0; i < values.size(); ++i)
@@ -72,8 +73,8 @@ namespace Exemplar
   InertiaTerm::rounding_force() const
   {
     return in_step ? 4. * std::numeric_limits<double>::epsilon()
-                         * exchange->max(max_entry(integrator.predicted_positions().begin(),
-                                                   integrator.predicted_positions().end()))
+                         * max_entry(integrator.predicted_positions().begin(),
+                                     integrator.predicted_positions().end())
                          * mass.max_nodal_mass() * integrator.mass_factor()
                    : 0.;
   }

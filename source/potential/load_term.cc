@@ -5,20 +5,16 @@
 
 namespace Exemplar
 {
-  LoadTerm::LoadTerm(const Loads &loads, const Vector &rest_positions)
-      : loads(loads), rest_positions(rest_positions)
-  {
-  }
-
   void
   LoadTerm::set_time(const double time)
   {
-    force.reinit(rest_positions.size());
+    force.reinit(fe_space.n_dofs());
     if (loads.has_named_loads())
       loads.named_loads(time, force);
     if (loads.has_gravity())
       force.add(loads.ramp_factor(time), loads.gravity());
-    force_norms.reinit(force.size() / 3);
+    fe_space.exchange().keep_owned(force);
+    force_norms.reinit(fe_space.n_nodes());
     for (unsigned int node = 0; node < force_norms.size(); ++node)
       force_norms[node] = std::hypot(force[3 * node], force[3 * node + 1], force[3 * node + 2]);
   }
@@ -28,26 +24,20 @@ namespace Exemplar
   {
     if (loads.has_gravity() && loads.ramp_factor(time) != loads.ramp_factor(other_time))
       return true;
-    Vector here(rest_positions.size()), there(rest_positions.size());
+    Vector here(fe_space.n_dofs()), there(fe_space.n_dofs());
     loads.named_loads(time, here);
     loads.named_loads(other_time, there);
-    return exchange->any(here != there);
+    return here != there;
   }
 
   void
-  LoadTerm::attach(const SymmetricPattern & /*pattern*/, const FreeDofs &free_dofs)
+  LoadTerm::add(const TermPoint &at, ElasticEvaluation &sums)
   {
-    exchange = &free_dofs.exchange();
-  }
-
-  double
-  LoadTerm::add(const Vector &positions, Vector &gradient, Vector &force_scale) const
-  {
-    gradient -= force;
-    force_scale += force_norms;
-    Vector displacement = positions;
-    displacement -= rest_positions;
-    return -exchange->product(force, displacement);
+    sums.gradient -= force;
+    sums.force_scale += force_norms;
+    Vector displacement = at.positions;
+    displacement -= fe_space.rest_positions();
+    sums.energy -= force * displacement;
   }
 
   std::size_t

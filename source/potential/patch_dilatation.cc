@@ -22,40 +22,38 @@ namespace Exemplar
     }
   } // namespace
 
-  PatchDilatation::PatchDilatation(const Patches          &patches,
-                                   const ExamplePoses     *examples,
-                                   const FESpace          &fe_space,
-                                   const Material         &material,
-                                   const SymmetricPattern &pattern,
-                                   const FreeDofs         &free_dofs)
-      : patches(patches), examples(examples), fe_space(fe_space), free_dofs(free_dofs),
-        scatter(patches, fe_space, pattern, free_dofs), thin(fe_space),
+  PatchDilatation::PatchDilatation(const Patches      &patches,
+                                   const ExamplePoses *examples,
+                                   const FESpace      &fe_space,
+                                   const Material     &material)
+      : patches(patches), examples(examples), fe_space(fe_space), thin(fe_space),
         guard(patches, fe_space, material, examples), fractions(fe_space.n_points()),
-        means(patches.size(), 0.), mean_squares(patches.size(), 0.),
-        traces(batched_size(fractions.size(), 1)), squares(traces.size()), pressures(traces.size()),
-        scales(traces.size())
+        means(patches.size(), 0.)
   {
     for (unsigned int point = 0; point < fractions.size(); ++point)
       fractions[point] = fe_space.volume(point) / patches.volume(patches.of_point(point));
   }
 
-  DilatationArrays
-  PatchDilatation::arrays()
+  void
+  PatchDilatation::attach(const SymmetricPattern &pattern,
+                          const FreeDofs         &all_free_dofs,
+                          CellField              &field)
   {
-    return { traces.data(), squares.data(), pressures.data(), scales.data() };
+    cells     = &field;
+    free_dofs = &all_free_dofs;
+    scatter.emplace(patches, fe_space, pattern, all_free_dofs);
+    field.get_dilatation().resize(fe_space.n_points());
   }
 
   void
-  PatchDilatation::set_damping(const StrainDamping &damping)
+  PatchDilatation::begin_step(const State & /*start*/)
   {
-    whole_damping = damping.factor();
-    if (whole_damping == 0.)
-    {
-      past_means.clear();
+    const StrainDamping &damping = cells->get_damping();
+    past_means.clear();
+    if (damping.factor() == 0.)
       return;
-    }
     past_means.assign(patches.size(), 0.);
-    damping_factors.assign(patches.size(), whole_damping);
+    damping_factors.assign(patches.size(), damping.factor());
     for (unsigned int point = 0; point < fractions.size(); ++point)
     {
       const unsigned int patch = patches.of_point(point);
@@ -66,17 +64,19 @@ namespace Exemplar
   }
 
   void
-  PatchDilatation::find_means(const CellField &cells, const Vector &positions)
+  PatchDilatation::find_means(const Vector &positions)
   {
-    thin.find(cells, positions, traces.data(), squares.data());
+    DilatationField &dilatation = cells->get_dilatation();
+    thin.find(*cells, positions, dilatation.traces.data(), dilatation.squares.data());
+    std::vector<double> mean_squares(patches.size(), 0.);
     std::fill(means.begin(), means.end(), 0.);
-    std::fill(mean_squares.begin(), mean_squares.end(), 0.);
     for (unsigned int point = 0; point < fractions.size(); ++point)
     {
       const unsigned int patch = patches.of_point(point);
-      means[patch] += fractions[point] * traces[point];
-      mean_squares[patch] += fractions[point] * squares[point];
+      means[patch] += fractions[point] * dilatation.traces[point];
+      mean_squares[patch] += fractions[point] * dilatation.squares[point];
     }
+    guard.find(*cells, positions, dilatation.traces.data(), means, mean_squares);
   }
 
   double
@@ -88,16 +88,6 @@ namespace Exemplar
     for (unsigned int weight = 0; weight < weights.size(); ++weight)
       sum += weights[weight] * examples->patch_dilatation(patch, weight);
     return sum;
-  }
-
-  void
-  PatchDilatation::update(const CellField           &cells,
-                          const Vector              &positions,
-                          const std::vector<double> &weights)
-  {
-    find_means(cells, positions);
-    guard.find(cells, positions, traces.data(), means, mean_squares);
-    find_pressures(weights);
   }
 
   void
@@ -117,41 +107,72 @@ namespace Exemplar
             += s * root * std::abs(lambda) * (std::abs(means[patch]) + std::abs(past_means[patch]));
       }
     }
+    DilatationField &dilatation = cells->get_dilatation();
     for (unsigned int point = 0; point < fractions.size(); ++point)
     {
-      const unsigned int patch = patches.of_point(point);
-      pressures[point]         = of_patch[patch];
-      scales[point]            = scale[patch];
+      const unsigned int patch    = patches.of_point(point);
+      dilatation.pressures[point] = of_patch[patch];
+      dilatation.scales[point]    = scale[patch];
     }
-    guard.add_pressures(pressures.data());
+    guard.add_pressures(dilatation.pressures.data());
   }
 
   void
-  PatchDilatation::add_energies(const std::vector<double> &weights, ElasticEvaluation &result) const
+  PatchDilatation::tell_cells(const TermPoint &at)
+  {
+    cells->update_dilatations(at.positions);
+    find_means(at.positions);
+    find_pressures(at.weights);
+  }
+
+  void
+  PatchDilatation::add(const TermPoint &at, ElasticEvaluation &sums)
+  {
+    find_means(at.positions);
+    find_pressures(at.weights);
+    const CellTask task = cells->task(at.positions, RotationUse::keep);
+    cells->get_nodal_sums().for_each_stripe(
+        [&](std::size_t, const std::size_t begin, const std::size_t end, double *nodal_sums)
+        { cells->loops().add_pressure_forces(task, begin, end, nodal_sums); });
+    add_energies(at.weights, sums);
+    add_forces_of_few_cells(sums.gradient);
+    sums.stress_square += stress_square();
+  }
+
+  void
+  PatchDilatation::add_forces_of_few_cells(Vector &gradient) const
+  {
+    guard.add_forces(*cells, gradient);
+    thin.add_forces(*cells, cells->get_dilatation().pressures.data(), gradient);
+  }
+
+  void
+  PatchDilatation::add_energies(const std::vector<double> &weights, ElasticEvaluation &sums) const
   {
     for (unsigned int patch = 0; patch < patches.size(); ++patch)
     {
       const double deviation = means[patch] - target(patch, weights);
-      result.energy_elastic += 0.5 * stiffness(patch) * means[patch] * means[patch];
-      result.energy += 0.5 * stiffness(patch) * deviation * deviation;
-      for (unsigned int weight = 0; weight < result.weight_gradient.size(); ++weight)
-        result.weight_gradient[weight]
+      sums.energy_elastic += 0.5 * stiffness(patch) * means[patch] * means[patch];
+      sums.energy += 0.5 * stiffness(patch) * deviation * deviation;
+      for (unsigned int weight = 0; weight < sums.weight_gradient.size(); ++weight)
+        sums.weight_gradient[weight]
             -= stiffness(patch) * deviation * examples->patch_dilatation(patch, weight);
       if (const double s = damping_factor(patch); s > 0.)
       {
         const double change = means[patch] - past_means[patch];
-        result.energy_damping += 0.5 * s * stiffness(patch) * change * change;
+        sums.energy_damping += 0.5 * s * stiffness(patch) * change * change;
       }
     }
     const double of_guard = guard.energy();
-    result.energy_elastic += of_guard;
-    result.energy += of_guard;
+    sums.energy_elastic += of_guard;
+    sums.energy += of_guard;
   }
 
   double
   PatchDilatation::stress_square() const
   {
-    double sum = 0.;
+    const dealii::AlignedVector<double> &scales = cells->get_dilatation().scales;
+    double                               sum    = 0.;
     for (unsigned int point = 0; point < fractions.size(); ++point)
       sum += fractions[point] * patches.volume(patches.of_point(point)) * scales[point]
              * scales[point];
@@ -159,39 +180,35 @@ namespace Exemplar
   }
 
   void
-  PatchDilatation::add_linear_term(const CellField     &cells,
-                                   const Vector        &positions,
-                                   std::vector<double> &linear_term)
+  PatchDilatation::add_weight_linear_term(const Vector &positions, std::vector<double> &c)
   {
-    find_means(cells, positions);
+    find_means(positions);
     for (unsigned int patch = 0; patch < patches.size(); ++patch)
-      for (unsigned int weight = 0; weight < linear_term.size(); ++weight)
-        linear_term[weight]
-            += stiffness(patch) * means[patch] * examples->patch_dilatation(patch, weight);
+      for (unsigned int weight = 0; weight < c.size(); ++weight)
+        c[weight] += stiffness(patch) * means[patch] * examples->patch_dilatation(patch, weight);
   }
 
   double
-  PatchDilatation::tangent_factor(const unsigned int patch, const Tangent tangent) const
+  PatchDilatation::tangent_factor(const unsigned int patch, const Tangent kind) const
   {
-    const double s = tangent == Tangent::convex ? whole_damping : damping_factor(patch);
+    const double s
+        = kind == Tangent::convex ? cells->get_damping().factor() : damping_factor(patch);
     return (1. + s) * stiffness(patch);
   }
 
   void
-  PatchDilatation::find_gradient(const unsigned int   patch,
-                                 const CellField     &cells,
-                                 std::vector<double> &b) const
+  PatchDilatation::find_gradient(const unsigned int patch, std::vector<double> &b) const
   {
-    scatter.gradient(patch, cells, b);
+    scatter->gradient(patch, *cells, b);
     if (thin.empty())
       return;
-    const unsigned int *places = scatter.places(patch);
+    const unsigned int *places = scatter->places(patch);
     for (const unsigned int point : patches.points(patch))
     {
       const auto gradients = fe_space.gradients(point);
       if (thin.has(point))
       {
-        const Matrix3<double> by_F = cells.rotation(point) * thin.trace_gradient(point);
+        const Matrix3<double> by_F = cells->rotation(point) * thin.trace_gradient(point);
         for (unsigned int a = 0; a < gradients.size(); ++a)
         {
           const Vector3<double> of_node = by_F * gradients[a];
@@ -215,91 +232,104 @@ namespace Exemplar
 
   void
   PatchDilatation::add_special_tangent(const unsigned int          patch,
-                                       const CellField            &cells,
-                                       const Tangent               tangent,
+                                       const Tangent               kind,
                                        const std::vector<double>  &b,
                                        dealii::FullMatrix<double> &matrix) const
   {
     if (guard.acts_in(patch))
-      guard.add_tangent(patch, cells, scatter, thin, tangent, b, matrix);
-    const unsigned int *places = scatter.places(patch);
+      guard.add_tangent(patch, *cells, *scatter, thin, kind, b, matrix);
+    const unsigned int *places = scatter->places(patch);
     for (const unsigned int point : patches.points(patch))
     {
-      if (tangent == Tangent::exact && thin.has(point))
-        thin.add_tangent(point, cells.rotation(point), pressures[point], places, matrix);
+      if (kind == Tangent::exact && thin.has(point))
+        thin.add_tangent(point, cells->rotation(point), cells->pressure(point), places, matrix);
       places += fe_space.gradients(point).size();
     }
   }
 
   void
-  PatchDilatation::add_tangent(const CellField     &cells,
-                               const Tangent        tangent,
-                               std::vector<double> &values) const
+  PatchDilatation::add_columns(const unsigned int         patch,
+                               const std::vector<double> &b,
+                               std::vector<double>       &columns) const
+  {
+    for (unsigned int weight = 0; weight < examples->n_weights(); ++weight)
+      if (examples->is_strained(weight))
+        scatter->add_column(
+            patch, stiffness(patch) * examples->patch_dilatation(patch, weight), b,
+            &columns[free_dofs->local_list().size() * examples->strained_index(weight)]);
+  }
+
+  void
+  PatchDilatation::add_tangent(const TermPoint & /*at*/,
+                               const Tangent        kind,
+                               std::vector<double> &values,
+                               std::vector<double> &columns)
   {
     std::vector<double> b;
     for (unsigned int patch = 0; patch < patches.size(); ++patch)
     {
-      find_gradient(patch, cells, b);
-      scatter.add_square(patch, tangent_factor(patch, tangent), b, values);
+      find_gradient(patch, b);
+      scatter->add_square(patch, tangent_factor(patch, kind), b, values);
+      if (!columns.empty())
+        add_columns(patch, b, columns);
       if (!is_special(patch))
         continue;
       dealii::FullMatrix<double> matrix(b.size());
-      add_special_tangent(patch, cells, tangent, b, matrix);
-      scatter.add_matrix(patch, matrix, values);
+      add_special_tangent(patch, kind, b, matrix);
+      scatter->add_matrix(patch, matrix, values);
     }
   }
 
   void
-  PatchDilatation::add_coupling(const CellField &cells, std::vector<double> &columns) const
-  {
-    std::vector<double> b;
-    for (unsigned int patch = 0; patch < patches.size(); ++patch)
-    {
-      find_gradient(patch, cells, b);
-      for (unsigned int weight = 0; weight < examples->n_weights(); ++weight)
-        if (examples->is_strained(weight))
-          scatter.add_column(
-              patch, stiffness(patch) * examples->patch_dilatation(patch, weight), b,
-              &columns[free_dofs.local_list().size() * examples->strained_index(weight)]);
-    }
-  }
-
-  void
-  PatchDilatation::add_response(const CellField   &cells,
-                                const Tangent      tangent,
+  PatchDilatation::add_response(const TermPoint & /*at*/,
+                                const Tangent      kind,
                                 const Vector      &displacement,
-                                ElasticEvaluation &result) const
+                                ElasticEvaluation &sums)
   {
     for (unsigned int patch = 0; patch < patches.size(); ++patch)
+      if (scatter->is_beside_held(patch))
+        add_response_of(patch, kind, displacement, sums);
+  }
+
+  void
+  PatchDilatation::add_response_of(const unsigned int patch,
+                                   const Tangent      kind,
+                                   const Vector      &displacement,
+                                   ElasticEvaluation &sums) const
+  {
+    const std::vector<unsigned int> &nodes = scatter->nodes(patch);
+    std::vector<double>              u, b; // of the patch
+    for (const unsigned int node : nodes)
+      for (unsigned int c = 0; c < 3; ++c)
+        u.push_back(displacement[3 * node + c]);
+    find_gradient(patch, b);
+    const double        change = dot(b, u.data());
+    std::vector<double> forces = b;
+    for (double &force : forces)
+      force *= tangent_factor(patch, kind) * change;
+    if (is_special(patch))
     {
-      if (!scatter.is_beside_held(patch))
-        continue;
-      const std::vector<unsigned int> &nodes = scatter.nodes(patch);
-      std::vector<double>              u_of_patch, b;
-      for (const unsigned int node : nodes)
-        for (unsigned int c = 0; c < 3; ++c)
-          u_of_patch.push_back(displacement[3 * node + c]);
-      const auto add = [&](const double factor, const std::vector<double> &forces)
-      {
-        for (std::size_t i = 0; i < forces.size(); ++i)
-          result.gradient[3 * nodes[i / 3] + i % 3] += factor * forces[i];
-      };
-      find_gradient(patch, cells, b);
-      const double change = dot(b, u_of_patch.data());
-      add(tangent_factor(patch, tangent) * change, b);
-      if (is_special(patch))
-      {
-        dealii::FullMatrix<double> matrix(b.size());
-        add_special_tangent(patch, cells, tangent, b, matrix);
-        std::vector<double> forces(b.size(), 0.);
-        for (std::size_t i = 0; i < b.size(); ++i)
-          for (std::size_t j = 0; j < b.size(); ++j)
-            forces[i] += matrix(i, j) * u_of_patch[j];
-        add(1., forces);
-      }
-      for (unsigned int weight = 0; weight < result.weight_gradient.size(); ++weight)
-        result.weight_gradient[weight]
-            -= stiffness(patch) * change * examples->patch_dilatation(patch, weight);
+      dealii::FullMatrix<double> matrix(b.size());
+      add_special_tangent(patch, kind, b, matrix);
+      for (std::size_t i = 0; i < b.size(); ++i)
+        for (std::size_t j = 0; j < b.size(); ++j)
+          forces[i] += matrix(i, j) * u[j];
+    }
+    for (std::size_t i = 0; i < forces.size(); ++i)
+      sums.gradient[3 * nodes[i / 3] + i % 3] += forces[i];
+    for (unsigned int weight = 0; weight < sums.weight_gradient.size(); ++weight)
+      sums.weight_gradient[weight]
+          -= stiffness(patch) * change * examples->patch_dilatation(patch, weight);
+  }
+
+  void
+  PatchDilatation::add_densities(std::vector<double> &of_points) const
+  {
+    for (unsigned int point = 0; point < of_points.size(); ++point)
+    {
+      const unsigned int patch = patches.of_point(point);
+      of_points[point]
+          += 0.5 * patches.lambda(patch) * means[patch] * means[patch] + guard.density(point);
     }
   }
 
@@ -307,11 +337,8 @@ namespace Exemplar
   PatchDilatation::memory_consumption() const
   {
     using dealii::MemoryConsumption::memory_consumption;
-    return patches.memory_consumption() + scatter.memory_consumption()
+    return patches.memory_consumption() + scatter->memory_consumption()
            + memory_consumption(fractions) + memory_consumption(means)
-           + memory_consumption(mean_squares) + memory_consumption(past_means)
-           + memory_consumption(damping_factors) + traces.memory_consumption()
-           + squares.memory_consumption() + pressures.memory_consumption()
-           + scales.memory_consumption();
+           + memory_consumption(past_means) + memory_consumption(damping_factors);
   }
 } // namespace Exemplar

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/kernels/stretch_modes.h>
 #include <exemplar/potential/patch_guard.h>
 
 #include <algorithm>
@@ -118,7 +119,7 @@ namespace Exemplar
       if (!(patches.lambda(patch) > 0. && mean_squares[patch] > bounds[patch]))
         continue;
       const auto [beta, first, second] = transition(mean_squares[patch], bounds[patch]);
-      Stretched of_patch               = { beta, first, second };
+      Stretched of_patch               = { means[patch], beta, first, second };
       for (const unsigned int point : patches.points(patch))
       {
         const auto at
@@ -156,17 +157,8 @@ namespace Exemplar
   double
   PatchGuard::pressure(const unsigned int point) const
   {
-    const auto at = points.find(point);
-    if (at == points.end())
-      return 0.;
     const unsigned int patch = patches.of_point(point);
-    return patches.lambda(patch) * stretched.at(patch).beta * at->second.excess;
-  }
-
-  bool
-  PatchGuard::may_act(const unsigned int point) const
-  {
-    return points.count(point) > 0;
+    return patches.lambda(patch) * stretched.at(patch).beta * points.at(point).excess;
   }
 
   double
@@ -220,6 +212,8 @@ namespace Exemplar
       for (int i = 0; i < 3; ++i)
         of_trace[i][i] += 1.;
       add_point_tangent(point, R, R * of_trace, tangent, places, matrix);
+      if (tangent == Tangent::convex)
+        add_stretch_modes(point, R, places, matrix);
       fe_space.nodal_forces(point, at.F, forces);
       add_at(places, forces, 2. / volume, by_x_of_square);
       const Matrix3<double> of_W
@@ -265,6 +259,30 @@ namespace Exemplar
       for (unsigned int i = 0; i < u.size(); ++i)
         matrix(3 * places[i / 3] + i % 3, 3 * places[j / 3] + j % 3)
             += of_trace * u[i] * u[j] + column[i];
+    }
+  }
+
+  void
+  PatchGuard::add_stretch_modes(const unsigned int          point,
+                                const Matrix3<double>      &R,
+                                const unsigned int         *places,
+                                dealii::FullMatrix<double> &matrix) const
+  {
+    const Point &at = points.at(point);
+    if (!is_strongly_stretched(kink_slope(*at.C, sqrt(contract(at.F, at.F)))))
+      return;
+    const unsigned int       patch = patches.of_point(point);
+    CorotationalCell<double> state = with_guard(at.state, *at.C);
+    state.add_pressure(patches.lambda(patch) * stretched.at(patch).mean + pressure(point));
+    const StretchModes  modes = stretch_modes(state, R, at.F);
+    std::vector<double> u;
+    for (std::size_t m = 0; m < modes.stiffness.size(); ++m)
+    {
+      fe_space.nodal_forces(point, R * modes.direction[m], u);
+      for (std::size_t i = 0; i < u.size(); ++i)
+        for (std::size_t j = 0; j < u.size(); ++j)
+          matrix(3 * places[i / 3] + i % 3, 3 * places[j / 3] + j % 3)
+              += modes.stiffness[m] / fe_space.volume(point) * u[i] * u[j];
     }
   }
 

@@ -6,7 +6,8 @@ namespace Exemplar
   void
   StrainDamping::set(const double                          new_s,
                      const std::vector<WeightedPositions> &history,
-                     const CellField                      &cells,
+                     const CellLaw                         law,
+                     const double                          guard_bound,
                      const FESpace                        &fe_space,
                      const Material                       &material)
   {
@@ -15,7 +16,6 @@ namespace Exemplar
     strains.resize_fast(0);
     if (s == 0.)
       return;
-    const CellLaw law = cells.get_law();
     factors.resize(batched_size(fe_space.n_points(), 1), s);
     strains.resize(batched_size(fe_space.n_points(), 6), 0.);
     for (unsigned int point = 0; point < fe_space.n_points(); ++point)
@@ -24,8 +24,7 @@ namespace Exemplar
         const Matrix3<double> F = fe_space.deformation_gradient(point, *past.positions);
         const Matrix3<double> R = model_rotation(law, F);
         add_to_stored(strains.data(), point, 1, 0, past.weight, model_strain(law, R, F));
-        if (model_is_guarded(law, material.elasticity(fe_space.cell_of(point)), R, F,
-                             cells.get_guard_bound()))
+        if (model_is_guarded(law, material.elasticity(fe_space.cell_of(point)), R, F, guard_bound))
           factors[point] = 0.;
       }
   }

@@ -8,24 +8,13 @@ namespace Exemplar
 {
   namespace
   {
-    /// A point without examples, and the guard of its stretch.
     CorotationalCell<double>
     without_target(const CellMaterial<double> &elasticity,
                    const Matrix3<double>      &R,
-                   const Matrix3<double>      &F,
-                   const PatchDilatation      *dilatation,
-                   const unsigned int          point)
+                   const Matrix3<double>      &F)
     {
-      const bool               has_patches = dilatation != nullptr;
-      CorotationalCell<double> state(has_patches ? elasticity.without_dilatation() : elasticity, R,
-                                     F, default_guard_bound);
+      CorotationalCell<double> state(elasticity, R, F, default_guard_bound);
       state.set_target(Matrix3<double>{});
-      if (has_patches)
-      {
-        state.set_guard_elasticity(elasticity);
-        state.add_pressure(dilatation->elastic_pressure(point)
-                           + dilatation->stretch_guard().pressure(point));
-      }
       return state;
     }
 
@@ -56,13 +45,12 @@ namespace Exemplar
   } // namespace
 
   void
-  add_stretch_stiffness(const FESpace         &fe_space,
-                        const Material        &material,
-                        const CellField       &cells,
-                        const CellScatter     &scatter,
-                        const PatchDilatation *dilatation,
-                        const Vector          &positions,
-                        std::vector<double>   &values)
+  add_stretch_stiffness(const FESpace       &fe_space,
+                        const Material      &material,
+                        const CellField     &cells,
+                        const CellScatter   &scatter,
+                        const Vector        &positions,
+                        std::vector<double> &values)
   {
     for (unsigned int point = 0; point < fe_space.n_points(); ++point)
     {
@@ -70,8 +58,7 @@ namespace Exemplar
       const CellMaterial<double> &elasticity = material.elasticity(cell);
       const Matrix3<double>       F          = fe_space.deformation_gradient(point, positions);
       const KinkSlope<double>     kink       = kink_slope(elasticity, sqrt(contract(F, F)));
-      const bool may_act = dilatation == nullptr || dilatation->stretch_guard().may_act(point);
-      if (!may_act || !is_strongly_stretched(kink))
+      if (!is_strongly_stretched(kink))
         continue;
       const Matrix3<double>        R     = closest_rotation(F);
       const auto                   nodes = fe_space.nodes(cell);
@@ -82,8 +69,8 @@ namespace Exemplar
         g.push_back(fe_space.gradients(point)[node - nodes.begin()]);
       }
       std::vector<double> blocks(3 * n_block_columns(nodes.size()), 0.);
-      add_modes(stretch_modes(without_target(elasticity, R, F, dilatation, point), R, F), R,
-                fe_space.volume(point), g, blocks);
+      add_modes(stretch_modes(without_target(elasticity, R, F), R, F), R, fe_space.volume(point), g,
+                blocks);
       scatter.add_blocks(cell, blocks.data(), values);
     }
   }

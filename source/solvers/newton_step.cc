@@ -54,6 +54,7 @@ namespace Exemplar
     const Vector displacement = system.displacement(state, step);
     const double slope        = system.slope(evaluation, step);
     const Merit  before(potential, evaluation);
+    const double longest    = potential.max_step(state.positions, displacement);
     double      &length     = report.step_length;
     const auto   try_length = [&](const double new_length)
     {
@@ -64,7 +65,7 @@ namespace Exemplar
     };
     for (unsigned int halving = 0; halving < max_halvings_of_step; ++halving)
     {
-      try_length(std::pow(0.5, halving));
+      try_length(std::pow(0.5, halving) * longest);
       const Merit now(potential, evaluation);
       if (!is_better(now, before, length * slope)
           && !is_better_by_slopes(now, before, slope, system.slope(evaluation, step), length))

@@ -172,8 +172,10 @@ namespace Exemplar
     const FreeDofs &free_dofs = potential.get_free_dofs();
     const Merit     before(potential, evaluation);
     double         &length = report.step_length;
-    length                 = 1.;
-    free_dofs.add(1., iteration.direct, trial.positions);
+    Vector          displacement(trial.positions.size());
+    free_dofs.add(1., iteration.direct, displacement);
+    length = potential.max_step(trial.positions, displacement);
+    free_dofs.add(length, iteration.direct, trial.positions);
     for (unsigned int halving = 0;; ++halving)
     {
       {

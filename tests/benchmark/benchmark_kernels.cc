@@ -25,7 +25,7 @@ namespace Exemplar
     struct Scene
     {
       explicit Scene(const std::string &file)
-          : problem(problem_of(file)), batches(problem.body.fe_space, problem.body.material, false),
+          : problem(problem_of(file)), batches(problem.body.fe_space, problem.body.material),
             positions(problem.body.fe_space.rest_positions()),
             node_positions(4 * positions.size() / 3)
       {
@@ -113,10 +113,13 @@ namespace Exemplar
     void
     inertia(benchmark::State &state)
     {
-      dealii::Vector<double> gradient(scene->positions.size()), scale(scene->positions.size() / 3);
+      ElasticEvaluation         sums;
+      const std::vector<double> no_weights;
+      sums.gradient.reinit(scene->positions.size());
+      sums.force_scale.reinit(scene->positions.size() / 3);
       scene->problem.potential.begin_step(scene->problem.state, 0.01);
       for (auto _ : state)
-        scene->problem.potential.get_terms().front()->add(scene->positions, gradient, scale);
+        scene->problem.potential.get_terms().front()->add({ scene->positions, no_weights }, sums);
     }
 
     std::unique_ptr<SpdOperator>

@@ -7,6 +7,7 @@
 #include <exemplar/body/material.h>
 #include <exemplar/mesh/mesh.h>
 #include <exemplar/potential/elastic_potential.h>
+#include <exemplar/potential/patch_dilatation.h>
 #include <exemplar/verification/verification_scene.h>
 
 #include <memory>
@@ -85,13 +86,13 @@ namespace Exemplar::Testing
                   const MaterialParameters &material_parameters = MaterialParameters(),
                   const Element             element             = Element::P1)
         : mesh(mesh_parameters), material(material_parameters, mesh.get_material_ids()),
-          fe_space(mesh, element)
+          fe_space(mesh, element), cell_material(material)
     {
     }
 
     explicit Body(const MshFile &contents, const Element element = Element::P1)
         : mesh(contents, "test"), material(MaterialParameters(), mesh.get_material_ids()),
-          fe_space(mesh, element)
+          fe_space(mesh, element), cell_material(material)
     {
     }
 
@@ -99,14 +100,15 @@ namespace Exemplar::Testing
     void
     make_patches()
     {
-      patches = std::make_unique<const Patches>(mesh, fe_space, material);
+      patches       = std::make_unique<const Patches>(mesh, fe_space, material);
+      cell_material = material.without_dilatation();
     }
 
     Examples
     examples(const ExampleParameters &parameters, const CellLaw law = CellLaw::corotational) const
     {
       Examples result;
-      result.poses   = std::make_unique<ExamplePoses>(parameters, law, mesh, fe_space, material,
+      result.poses = std::make_unique<ExamplePoses>(parameters, law, mesh, fe_space, cell_material,
                                                     patches.get());
       result.weights = std::make_unique<ExampleWeights>(parameters, *result.poses,
                                                         unit_energy(fe_space, material),
@@ -127,6 +129,7 @@ namespace Exemplar::Testing
     const Mesh                     mesh;
     const Material                 material;
     const FESpace                  fe_space;
+    Material                       cell_material;
     std::unique_ptr<const Patches> patches; ///< null: cells know their own dilatation
   };
 
@@ -136,7 +139,18 @@ namespace Exemplar::Testing
     SymmetricPattern matrix_pattern;
   };
 
-  inline std::vector<std::pair<unsigned int, unsigned int>>
+  /// The patches of a body, if it has any.
+  inline PotentialTerms
+  elastic_terms(const Body &body, const ExamplePoses *poses)
+  {
+    PotentialTerms terms;
+    if (body.patches != nullptr)
+      terms.push_back(
+          std::make_unique<PatchDilatation>(*body.patches, poses, body.fe_space, body.material));
+    return terms;
+  }
+
+  inline NodePairs
   couplings_of(const Body &body)
   {
     if (body.patches == nullptr)
@@ -153,8 +167,9 @@ namespace Exemplar::Testing
                   const Examples        &examples,
                   const FreeDofs        &free_dofs)
         : MatrixPattern{ make_pattern(body.fe_space, couplings_of(body), free_dofs) },
-          ElasticPotential({ model, body.fe_space, body.material, body.patches.get(),
+          ElasticPotential({ model.law(), body.fe_space, body.material, body.cell_material,
                              examples.poses.get(), examples.weights.get(), free_dofs },
+                           elastic_terms(body, examples.poses.get()),
                            matrix_pattern)
     {
     }

@@ -15,8 +15,7 @@ namespace Exemplar
   class CellBatches
   {
   public:
-    /// With `has_patches` the volume part of the energy is not the cells'.
-    CellBatches(const FESpace &fe_space, const Material &material, bool has_patches);
+    CellBatches(const FESpace &fe_space, const Material &material);
 
     /// What the kernels see, for a law and p_0 of Eq. (16). Loops that update
     /// rotations write them here.

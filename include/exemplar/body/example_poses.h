@@ -32,13 +32,13 @@ namespace Exemplar
   {
   public:
     /// Those of Examples/Poses are among `poses`, the values of Examples/Weight maps in each cell
-    /// are `painted`; `patches` is null where cells know their own dilatation. Throws UserError for
-    /// a pose that is not.
+    /// are `painted`; `cell_material` is that of the cells' own energy, beside which that of `patches`
+    /// stands, null where there are none. Throws UserError for a pose that is not.
     ExamplePoses(const ExampleParameters                &parameters,
                  CellLaw                                 law,
                  const Mesh                             &mesh,
                  const FESpace                          &fe_space,
-                 const Material                         &material,
+                 const Material                         &cell_material,
                  const Patches                          *patches,
                  const NamedPoses                       &poses   = {},
                  const std::vector<std::vector<double>> &painted = {});
@@ -215,7 +215,7 @@ namespace Exemplar
     compute_strains();
 
     void
-    compute_gram_matrix(const Material &material, const Patches *patches);
+    compute_gram_matrix(const Material &cell_material, const Patches *patches);
 
     void
     compute_patch_dilatations(const Patches &patches);

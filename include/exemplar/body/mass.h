@@ -40,6 +40,10 @@ namespace Exemplar
     Vector
     times(const Vector &field) const;
 
+    /// What the cells of this process give to it.
+    Vector
+    own_times(const Vector &field) const;
+
     /// The greatest sum of a row [kg].
     double
     max_nodal_mass() const

@@ -43,6 +43,10 @@ namespace Exemplar
       return constants[constants_of_cell[cell]].elasticity;
     }
 
+    /// What is left of it in cells of which the volume part of the energy is that of patches.
+    Material
+    without_dilatation() const;
+
     double
     density(const unsigned int cell) const
     {

@@ -68,7 +68,7 @@ namespace Exemplar
   /// told.
   struct DilatationArrays
   {
-    double       *traces  = nullptr; ///< 1: tr(e), written by loops that evaluate; null: no patches
+    double       *traces = nullptr; ///< 1: tr(e), written by loops that evaluate; null: nobody asks
     double       *squares = nullptr; ///< 1: |F|^2, written with them
     const double *pressures = nullptr; ///< 1: of the cell's patch [Pa]
     const double *scales    = nullptr; ///< 1: |C:e| + eta |C:E(w)| of the volume part alone [Pa]

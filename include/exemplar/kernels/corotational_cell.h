@@ -88,7 +88,7 @@ namespace Exemplar
     static constexpr ModelTraits traits
         = { /* has_rotations */ true,     /* has_guard */ true,
             /* exact_is_rotated */ false,
-            /* convex_is_rotated */ true, /* has_patches */ true,
+            /* convex_is_rotated */ true, /* trace_gradient_is_R */ true,
             /* turns_freely */ true };
 
     /// e = S - I, Eq. (2).

@@ -34,7 +34,7 @@ namespace Exemplar
     static constexpr ModelTraits traits
         = { /* has_rotations */ false,     /* has_guard */ false,
             /* exact_is_rotated */ false,
-            /* convex_is_rotated */ false, /* has_patches */ false,
+            /* convex_is_rotated */ false, /* trace_gradient_is_R */ false,
             /* turns_freely */ true };
 
     static Matrix3<Number>

@@ -19,7 +19,7 @@ namespace Exemplar
     static constexpr ModelTraits traits
         = { /* has_rotations */ turns,    /* has_guard */ false,
             /* exact_is_rotated */ true,
-            /* convex_is_rotated */ true, /* has_patches */ true,
+            /* convex_is_rotated */ true, /* trace_gradient_is_R */ true,
             /* turns_freely */ turns };
 
     /// e = sym(R^T F) - I.

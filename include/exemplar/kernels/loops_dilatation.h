@@ -18,7 +18,7 @@ namespace Exemplar::Loops
         [&](auto model)
         {
           using Cell = typename decltype(model)::type;
-          if constexpr (Cell::traits.has_patches)
+          if constexpr (Cell::traits.trace_gradient_is_R)
             for_each_group<Number>(begin, end,
                                    [&](const LaneGroup<Number> &group)
                                    {

@@ -196,7 +196,7 @@ namespace Exemplar::Loops
     sums.min_det         = select(det >= sums.min_det, sums.min_det, det);
     sums.inverted.add(group, is_real & (det <= Number(0.)));
     sums.elastic += elastic;
-    if constexpr (Cell::traits.has_patches)
+    if constexpr (Cell::traits.trace_gradient_is_R)
       if (task.dilatation.traces != nullptr)
         store_dilatation(task, group, cell.strain(), F);
 
@@ -284,7 +284,7 @@ namespace Exemplar::Loops
                 const Matrix3<Number> F   = deformation_gradient(task, group, tet);
                 const Cell cell(load_material(task.cells, group), rotation<Cell>(task, group, F), F,
                                 task.cells.guard_bound);
-                if constexpr (Cell::traits.has_patches)
+                if constexpr (Cell::traits.trace_gradient_is_R)
                   if (task.dilatation.traces != nullptr)
                     store_dilatation(task, group, cell.strain(), F);
                 add_weight_sums(task, group, tet.volume, cell.weight_stress(Matrix3<Number>{}),

@@ -27,7 +27,7 @@ namespace Exemplar::Loops
                     load_strain(task.damping.strains, group, 1, 0));
     }
     cell.set_target(D);
-    if constexpr (Cell::traits.has_patches)
+    if constexpr (Cell::traits.trace_gradient_is_R)
       if (task.dilatation.pressures != nullptr)
         cell.add_pressure(load(task.dilatation.pressures, group, 1, 0));
     if constexpr (!Cell::traits.convex_is_rotated)

@@ -21,8 +21,9 @@ namespace Exemplar
     /// that.
     bool convex_is_rotated;
 
-    /// Its volume part may be that of patches of cells, Eq. (25).
-    bool has_patches;
+    /// The derivative of tr(e) by F is R. Then the volume part of the energy may be that of patches of
+    /// cells, Eq. (25).
+    bool trace_gradient_is_R;
 
     /// The energy without examples stays as it is when the body turns.
     bool turns_freely;

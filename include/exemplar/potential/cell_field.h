@@ -7,6 +7,8 @@
 #include <exemplar/body/fe_space.h>
 #include <exemplar/body/material.h>
 #include <exemplar/kernels/cell_kernels.h>
+#include <exemplar/potential/nodal_sums.h>
+#include <exemplar/potential/strain_damping.h>
 
 #include <deal.II/base/aligned_vector.h>
 
@@ -14,23 +16,54 @@
 
 namespace Exemplar
 {
+  /// What loops over the cells and terms tell each other of the dilatation, in batches; see
+  /// DilatationArrays. Empty unless a term asks for it.
+  struct DilatationField
+  {
+    dealii::AlignedVector<double> traces, squares, pressures, scales;
+
+    /// From now on loops fill it.
+    void
+    resize(unsigned int n_points);
+
+    DilatationArrays
+    arrays();
+
+    /// In bytes.
+    std::size_t
+    memory_consumption() const;
+  };
+
   /// The quadrature points of the cells as the loops of kernels/ see them, with the rotation at
-  /// each, and the positions of the last loop. Rotations stay as they are ("frozen") until a loop
+  /// each, their damping and dilatation, and the positions of the last loop. Rotations stay as they are ("frozen") until a loop
   /// updates them.
   class CellField
   {
   public:
-    /// `guard_bound` is p_0 of Eq. (16); `has_patches` as CellBatches has it.
+    /// `guard_bound` is p_0 of Eq. (16), `material` that of the cells' own energy. Both must outlive
+    /// the field. `n_threads` of the loops: no result depends on it.
     CellField(CellLaw         law,
               double          guard_bound,
               const FESpace  &fe_space,
               const Material &material,
-              bool            has_patches);
+              unsigned int    n_threads);
 
     /// The input of a loop over these cells at these positions, by degree of freedom [m]. It refers
     /// to arrays of this object.
     CellTask
     task(const Vector &positions, RotationUse rotations);
+
+    /// tr(e) and |F|^2 of the points at these positions, by the rotations as they are, into the
+    /// dilatation field.
+    void
+    update_dilatations(const Vector &positions);
+
+    /// As StrainDamping::set().
+    void
+    set_damping(double s, const std::vector<WeightedPositions> &history)
+    {
+      damping.set(s, history, law, guard_bound, fe_space, material);
+    }
 
     /// R at every point from the polar decomposition at these positions. Models without rotations
     /// keep I.
@@ -52,6 +85,13 @@ namespace Exemplar
       return batches.rotation(point);
     }
 
+    /// What terms make act in a point [Pa].
+    double
+    pressure(const unsigned int point) const
+    {
+      return dilatation.pressures.empty() ? 0. : dilatation.pressures[point];
+    }
+
     /// Node a at a point in the order of the loops.
     unsigned int
     node(const unsigned int point, const unsigned int a) const
@@ -63,6 +103,31 @@ namespace Exemplar
     n_nodes() const
     {
       return node_positions.size() / 4;
+    }
+
+    StrainDamping &
+    get_damping()
+    {
+      return damping;
+    }
+
+    const StrainDamping &
+    get_damping() const
+    {
+      return damping;
+    }
+
+    DilatationField &
+    get_dilatation()
+    {
+      return dilatation;
+    }
+
+    /// What the loops of an evaluation add up, those of terms, too.
+    NodalSums &
+    get_nodal_sums()
+    {
+      return nodal_sums;
     }
 
     const CellKernels &
@@ -90,9 +155,13 @@ namespace Exemplar
   private:
     const CellLaw                 law;
     const double                  guard_bound;
+    const FESpace                &fe_space;
+    const Material               &material;
     const CellKernels            &kernels;
-    const Exchange               &with_others;
     CellBatches                   batches;
+    StrainDamping                 damping;
+    DilatationField               dilatation;
+    NodalSums                     nodal_sums;
     dealii::AlignedVector<double> node_positions; ///< of the last loop, four numbers a node
     dealii::AlignedVector<float>  rotation_sums;
     bool                          rotations_are_forgotten = false; ///< those of node_positions

@@ -3,11 +3,9 @@
 #define exemplar_elastic_potential_h
 
 #include <exemplar/body/example_weights.h>
-#include <exemplar/body/model_parameters.h>
 #include <exemplar/potential/cell_scatter.h>
 #include <exemplar/potential/evaluation.h>
-#include <exemplar/potential/patch_dilatation.h>
-#include <exemplar/potential/strain_damping.h>
+#include <exemplar/potential/potential_term.h>
 
 #include <array>
 #include <memory>
@@ -23,14 +21,14 @@ namespace Exemplar
     std::vector<double> von_mises_stress; ///< of the corotated stress C:(e - eta E(w)) [Pa]
   };
 
-  /// What the cells of a body are: their geometry, material and model, and the examples, both null
+  /// What the cells of a body are: their law, geometry and material, and the examples, both null
   /// if the scene has none. All must outlive whoever holds this.
   struct ElasticParts
   {
-    ModelParameters       model;
+    CellLaw               law;
     const FESpace        &fe_space;
-    const Material       &material;
-    const Patches        *patches; ///< null: each cell knows its own dilatation
+    const Material       &material;      ///< of the body
+    const Material       &cell_material; ///< of the cells' own energies, beside those of terms
     const ExamplePoses   *examples;
     const ExampleWeights *weights;
     const FreeDofs       &free_dofs;
@@ -44,15 +42,18 @@ namespace Exemplar
     double stress_norm = 0.; ///< (sum V T^2)^(1/2)
   };
 
-  /// Psi(x, w), Eqs. (5) and (16), with the stiffness damping: sums over the cells of the body of
+  /// Psi(x, w), Eqs. (5) and (16), with the stiffness damping: sums over the cells of the body, and
+  /// then its terms, of
   /// energies and forces, the matrix A and the columns G of Eq. (10). Rotations are kept ("frozen") until
   /// update_rotations() or an evaluation that updates them. Positions, displacements and forces are
   /// by degree of freedom.
   class ElasticPotential
   {
   public:
-    /// `pattern` must outlive it.
-    ElasticPotential(const ElasticParts &parts, const SymmetricPattern &pattern);
+    /// The terms are nobody else's. `pattern`, with their couplings, must outlive the potential.
+    ElasticPotential(const ElasticParts     &parts,
+                     PotentialTerms          terms,
+                     const SymmetricPattern &pattern);
 
     /// R at every point from the polar decomposition at these positions. Models other
     /// than the corotational have none: theirs stay I.
@@ -71,7 +72,22 @@ namespace Exemplar
 
     /// As StrainDamping::set().
     void
-    set_damping(double s, const std::vector<WeightedPositions> &history);
+    set_damping(const double s, const std::vector<WeightedPositions> &history)
+    {
+      cells.set_damping(s, history);
+    }
+
+    const PotentialTerms &
+    get_terms() const
+    {
+      return terms;
+    }
+
+    CellField &
+    get_field()
+    {
+      return cells;
+    }
 
     /// Energies and their derivatives. If the caller has the weight_linear_term() of these
     /// positions, the derivatives by the weights are H w - c, and the loop need not sum them.
@@ -110,7 +126,7 @@ namespace Exemplar
     rounding_force() const
     {
       // both strains that damping compares have rounding of their own, the decomposition's, too
-      return (1. + 8. * damping.factor()) * rounding.force;
+      return (1. + 8. * cells.get_damping().factor()) * rounding.force;
     }
 
     /// The same for the derivative of the energy by any weight [J].
@@ -135,42 +151,23 @@ namespace Exemplar
     bool
     is_rotated_stiffness(const Tangent tangent) const
     {
-      const ModelTraits traits = traits_of(parts.model.law());
+      const ModelTraits traits = traits_of(parts.law);
       return tangent == Tangent::exact ? traits.exact_is_rotated : traits.convex_is_rotated;
     }
 
     CellTask
     task(const Vector &positions, const std::vector<double> &weights, RotationUse rotations);
 
-    /// Patches: the pressures at these positions and weights, by the rotations as they are.
+    /// Terms write what cells must know for their tangent.
     void
-    update_pressures(const Vector &positions, const std::vector<double> &weights);
-
-    /// Call function(stripe, begin, end) for the batches of each stripe.
-    template <typename Function>
-    void
-    for_each_stripe(const Function &function) const;
+    tell_cells(const TermPoint &at);
 
     /// eta E(w) at a point; 0 without examples.
     Matrix3<double>
     example_strain(unsigned int point, const std::vector<double> &weights) const;
 
-    /// Sums of the cells' forces at the nodes.
     void
-    gather_forces(ElasticEvaluation &result) const;
-
-    /// Add the volume part of patches to the sums of the nodes and to energies; gives its
-    /// PatchDilatation::stress_square().
-    double
-    add_dilatation(const CellTask            &task,
-                   const Vector              &positions,
-                   const std::vector<double> &weights,
-                   ElasticEvaluation         &result);
-
-    void
-    add_penalty(const std::vector<double> &weights,
-                double                     stress_norm,
-                ElasticEvaluation         &result) const;
+    add_penalty(const std::vector<double> &weights, ElasticEvaluation &result) const;
 
     /// H w - c.
     void
@@ -197,12 +194,18 @@ namespace Exemplar
           function(point);
     }
 
-    /// C of a point's own energy, without what patches know.
-    CellMaterial<double>
+    /// C of a point's own energy.
+    const CellMaterial<double> &
     elasticity(const unsigned int point) const
     {
-      const CellMaterial<double> &C = parts.material.elasticity(parts.fe_space.cell_of(point));
-      return dilatation == nullptr ? C : C.without_dilatation();
+      return parts.cell_material.elasticity(parts.fe_space.cell_of(point));
+    }
+
+    /// In which energies and tangents a law may add to R K R^T where a cell is strongly stretched.
+    bool
+    stiffens_when_stretched(const Tangent tangent) const
+    {
+      return tangent == Tangent::convex && traits_of(parts.law).has_guard;
     }
 
     void
@@ -241,15 +244,12 @@ namespace Exemplar
     void
     add_force(unsigned int point, const Matrix3<double> &dP, Vector &gradient) const;
 
-    const ElasticParts                     parts;
-    const SymmetricPattern                &pattern;
-    CellField                              cells;
-    const CellScatter                      scatter;
-    StrainDamping                          damping;
-    const std::unique_ptr<PatchDilatation> dilatation; ///< null without patches
-    const std::size_t                      n_stripes;  ///< in which the cells are summed
-    dealii::AlignedVector<double>          nodal_sums; ///< of forces and scales, stripe by stripe
-    const CellRounding                     rounding;
+    const ElasticParts      parts;
+    const SymmetricPattern &pattern;
+    CellField               cells;
+    const CellScatter       scatter;
+    const PotentialTerms    terms;
+    const CellRounding      rounding;
   };
 } // namespace Exemplar
 

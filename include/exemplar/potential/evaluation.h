@@ -15,13 +15,14 @@ namespace Exemplar
     convex ///< never indefinite, together with the weights: R K R^T, Eq. (8), or its counterpart
   };
 
-  /// What a loop over the cells finds at given positions and weights.
+  /// Psi and its derivatives at given positions and weights: what the cells find, and terms add.
   struct ElasticEvaluation
   {
     Vector              gradient;           ///< internal forces dPsi/dx [N], Eq. (6)
     Vector              force_scale;        ///< a node: sum V (|C:e| + eta |C:E(w)|) |g_a| [N]
     std::vector<double> weight_gradient;    ///< dPsi/dw_i [J], Eq. (7)
     double              weight_scale   = 0; ///< of the weight gradient [J]
+    double              stress_square  = 0; ///< sum V (|C:e| + eta |C:E(w)|)^2
     double              energy         = 0; ///< Psi [J], Eq. (5), ridge included
     double              energy_elastic = 0; ///< sum V/2 e:C:e of it [J]
     double              energy_damping = 0; ///< whose gradient is the stiffness damping [J]

@@ -5,7 +5,6 @@
 #include <exemplar/potential/elastic_potential.h>
 #include <exemplar/potential/potential_term.h>
 
-#include <memory>
 #include <vector>
 
 namespace Exemplar
@@ -23,15 +22,20 @@ namespace Exemplar
   class IncrementalPotential
   {
   public:
-    /// `integrator` is null unless the scene is dynamic. The terms are nobody else's; all else must
-    /// outlive the potential.
-    IncrementalPotential(const ElasticParts                         &parts,
-                         std::vector<std::unique_ptr<PotentialTerm>> terms,
-                         TimeIntegrator                             *integrator);
+    /// `elastic_terms` are summands of Psi, see PotentialTerm; `integrator` is null unless the scene is
+    /// dynamic. The terms are nobody else's; all else must outlive the potential.
+    IncrementalPotential(const ElasticParts &parts,
+                         PotentialTerms      elastic_terms,
+                         PotentialTerms      terms,
+                         TimeIntegrator     *integrator);
 
     /// A step of length h [s] (of dynamics; not used otherwise) begins at `start`.
     void
     begin_step(const State &start, double step_size);
+
+    /// The step that has begun is accepted, with this end.
+    void
+    end_step(const State &end);
 
     /// States are evaluated without a step that leads to them: before the first step, after a
     /// resume, or after a rigid motion.
@@ -127,6 +131,18 @@ namespace Exemplar
       return integrator == nullptr ? 0. : integrator->mass_factor();
     }
 
+    /// The part of a displacement [m] from these positions that a step may go, at most 1: the least
+    /// that a term allows.
+    double
+    max_step(const Vector &positions, const Vector &displacement) const;
+
+    /// What the terms remember beside the state, for checkpoints.
+    void
+    save(boost::archive::binary_oarchive &archive) const;
+
+    void
+    load(boost::archive::binary_iarchive &archive);
+
     /// Null without weights to find.
     const ExampleWeights *
     unknown_weights() const
@@ -152,7 +168,7 @@ namespace Exemplar
       return cells;
     }
 
-    const std::vector<std::unique_ptr<PotentialTerm>> &
+    const PotentialTerms &
     get_terms() const
     {
       return terms;
@@ -179,14 +195,19 @@ namespace Exemplar
                      std::vector<double>       &matrix_values,
                      std::vector<double>       &columns);
 
-    const std::vector<std::unique_ptr<PotentialTerm>> terms;
-    const SymmetricPattern                            pattern; ///< of cells and terms
-    ElasticPotential                                  cells;
-    const ExampleWeights                             *weights; ///< null without examples
-    TimeIntegrator                                   *integrator;
-    const FreeDofs                                   &free_dofs;
-    HeldBack                                          held_back;
-    bool                                              in_dynamic_step = false;
+    /// Of all terms, those of Psi first.
+    template <typename Function>
+    void
+    for_each_term(const Function &function) const;
+
+    const PotentialTerms   terms;
+    const SymmetricPattern pattern; ///< of cells and terms
+    ElasticPotential       cells;
+    const ExampleWeights  *weights; ///< null without examples
+    TimeIntegrator        *integrator;
+    const FreeDofs        &free_dofs;
+    HeldBack               held_back;
+    bool                   in_dynamic_step = false;
   };
 } // namespace Exemplar
 

@@ -35,14 +35,17 @@ namespace Exemplar
       in_step = false;
     }
 
-    double
-    add(const Vector &positions, Vector &gradient, Vector &force_scale) const override;
+    void
+    add(const TermPoint &at, ElasticEvaluation &sums) override;
 
     void
-    attach(const SymmetricPattern &pattern, const FreeDofs &free_dofs) override;
+    attach(const SymmetricPattern &pattern, const FreeDofs &free_dofs, CellField &cells) override;
 
     void
-    add_tangent(const Vector &positions, std::vector<double> &values) const override;
+    add_tangent(const TermPoint     &at,
+                Tangent              kind,
+                std::vector<double> &values,
+                std::vector<double> &columns) override;
 
     double
     rounding_force() const override;
@@ -63,8 +66,7 @@ namespace Exemplar
     const TimeIntegrator &integrator;
     const bool            is_reported;
     std::vector<double>   mass_values; ///< M on the pattern [kg]
-    bool                  in_step  = false;
-    const Exchange       *exchange = &Exchange::serial();
+    bool                  in_step = false;
   };
 } // namespace Exemplar
 

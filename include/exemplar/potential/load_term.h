@@ -13,7 +13,7 @@ namespace Exemplar
   {
   public:
     /// Both must outlive the term.
-    LoadTerm(const Loads &loads, const Vector &rest_positions);
+    LoadTerm(const Loads &loads, const FESpace &fe_space) : loads(loads), fe_space(fe_space) {}
 
     std::string
     name() const override
@@ -28,20 +28,16 @@ namespace Exemplar
     differs(double time, double other_time) const override;
 
     void
-    attach(const SymmetricPattern &pattern, const FreeDofs &free_dofs) override;
-
-    double
-    add(const Vector &positions, Vector &gradient, Vector &force_scale) const override;
+    add(const TermPoint &at, ElasticEvaluation &sums) override;
 
     std::size_t
     memory_consumption() const override;
 
   private:
-    const Loads    &loads;
-    const Vector   &rest_positions;
-    Vector          force;       ///< f of the time that is set [N]
-    Vector          force_norms; ///< of each node [N]
-    const Exchange *exchange = &Exchange::serial();
+    const Loads   &loads;
+    const FESpace &fe_space;
+    Vector         force;       ///< f of the time that is set, at the nodes of this process [N]
+    Vector         force_norms; ///< of each node [N]
   };
 } // namespace Exemplar
 

@@ -53,10 +53,6 @@ namespace Exemplar
     void
     add_pressures(double *pressures) const;
 
-    /// What it adds to the pressure of a point: beta lambda_p (tr(e) - theta_p) [Pa].
-    double
-    pressure(unsigned int point) const;
-
     /// Add the forces that are those of no pressure, by degree of freedom [N].
     void
     add_forces(const CellField &cells, Vector &gradient) const;
@@ -80,14 +76,11 @@ namespace Exemplar
                 const std::vector<double>  &b,
                 dealii::FullMatrix<double> &matrix) const;
 
-    /// Whether G may act at a point.
-    bool
-    may_act(unsigned int point) const;
-
   private:
-    /// beta of a patch with its derivatives by m_p, and sum V W [J].
+    /// theta_p, beta of a patch with its derivatives by m_p, and sum V W [J].
     struct Stretched
     {
+      double mean;
       double beta, first, second;
       double sum = 0.;
     };
@@ -108,6 +101,10 @@ namespace Exemplar
              double           lambda,
              double           excess) const;
 
+    /// What it adds to the pressure of a point: beta lambda_p (tr(e) - theta_p) [Pa].
+    double
+    pressure(unsigned int point) const;
+
     /// The factor of F in the derivative of beta by the F of a point, times sum V W / V_c [Pa].
     double
     by_gradient(unsigned int patch, const Stretched &of_patch) const;
@@ -122,6 +119,13 @@ namespace Exemplar
                       const Matrix3<double>      &R,
                       const Matrix3<double>      &by_F_of_trace,
                       Tangent                     tangent,
+                      const unsigned int         *places,
+                      dealii::FullMatrix<double> &matrix) const;
+
+    /// What the convex tangent R K R^T lacks at a strongly stretched point, see stretch_modes.h.
+    void
+    add_stretch_modes(unsigned int                point,
+                      const Matrix3<double>      &R,
                       const unsigned int         *places,
                       dealii::FullMatrix<double> &matrix) const;
 

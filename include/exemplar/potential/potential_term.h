@@ -6,15 +6,39 @@
 #include <exemplar/algebra/spd_operator.h>
 #include <exemplar/algebra/vector.h>
 #include <exemplar/body/state.h>
+#include <exemplar/potential/cell_field.h>
+#include <exemplar/potential/evaluation.h>
 
+#include <boost/archive/binary_iarchive.hpp>
+#include <boost/archive/binary_oarchive.hpp>
+
+#include <limits>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace Exemplar
 {
-  /// A summand of the incremental potential beside the cells: inertia, loads. A term that a scene
-  /// does not have is not there. Positions, forces and displacements are by degree of freedom.
+  /// Where the potential is asked for. It refers to what it was made of.
+  struct TermPoint
+  {
+    const Vector              &positions; ///< by degree of freedom [m]
+    const std::vector<double> &weights;   ///< of the examples; empty without examples
+  };
+
+  /// Pairs of nodes whose degrees of freedom a matrix couples.
+  using NodePairs = std::vector<std::pair<unsigned int, unsigned int>>;
+
+  /// A summand of the incremental potential beside the energies of the cells: the dilatation of
+  /// patches, inertia, loads. A term that a scene does not have is not there. Positions, forces and
+  /// displacements are by degree of freedom.
+  ///
+  /// Where several processes share a body, a term sums what belongs to the cells and the nodes of its
+  /// own process (FreeDofs::exchange() says which); whoever calls it sums over processes.
+  ///
+  /// Terms whose energy is part of Psi, Eq. (5), among them all that depend on the weights, are those
+  /// of the ElasticPotential; all others are those of the IncrementalPotential.
   class PotentialTerm
   {
   public:
@@ -24,9 +48,33 @@ namespace Exemplar
     virtual std::string
     name() const = 0;
 
-    /// A step begins at `start`; the term belongs to it until leave_step().
+    /// Pairs of nodes that its tangent couples beside those that share a cell.
+    virtual NodePairs
+    couplings() const
+    {
+      return {};
+    }
+
+    /// Known from now on: the pattern on which add_tangent() writes, the free degrees of freedom, and
+    /// the cells, with their rotations and dilatations. All outlive the term. Called again when the
+    /// pattern has grown.
+    virtual void
+    attach(const SymmetricPattern & /*pattern*/,
+           const FreeDofs & /*free_dofs*/,
+           CellField & /*cells*/)
+    {
+    }
+
+    /// A step begins at `start`, with the cells' damping as CellField has it; the term belongs to it
+    /// until end_step() or leave_step().
     virtual void
     begin_step(const State & /*start*/)
+    {
+    }
+
+    /// The step has been accepted, with this end.
+    virtual void
+    end_step(const State & /*end*/)
     {
     }
 
@@ -49,30 +97,59 @@ namespace Exemplar
       return false;
     }
 
-    /// Add the derivative by the positions [N] to `gradient`, and the size of its forces at each
-    /// node to `force_scale` [N]. Returns the energy [J].
+    /// Add energies, the derivatives by the positions and, unless they are empty, by the weights, and
+    /// the size of the forces at each node. The cells have been evaluated at this point; loops over
+    /// them may add to CellField::get_nodal_sums(), which come to the sums afterwards.
+    virtual void
+    add(const TermPoint &at, ElasticEvaluation &sums)
+        = 0;
+
+    /// Add its part of c_i with dPsi/dw = H w - c [J]; H is the weights' quadratic form.
+    virtual void
+    add_weight_linear_term(const Vector & /*positions*/, std::vector<double> & /*c*/)
+    {
+    }
+
+    /// Before the cells make their tangent at this point: write the pressures that act in them, if
+    /// any, to CellField::get_dilatation(). The three functions below are called after this one, at
+    /// the same point.
+    virtual void
+    tell_cells(const TermPoint & /*at*/)
+    {
+    }
+
+    /// Add its tangent [N/m] of this kind to the values on the pattern and, if there are columns, its
+    /// part of the coupling G, Eq. (9): one a strained weight on FreeDofs::local_list(). A convex
+    /// tangent must not make the sum indefinite.
+    virtual void
+    add_tangent(const TermPoint & /*at*/,
+                Tangent /*kind*/,
+                std::vector<double> & /*values*/,
+                std::vector<double> & /*columns*/)
+    {
+    }
+
+    /// Add what `displacement` [m], zero but on held degrees of freedom, changes by that tangent.
+    virtual void
+    add_response(const TermPoint & /*at*/,
+                 Tangent /*kind*/,
+                 const Vector & /*displacement*/,
+                 ElasticEvaluation & /*sums*/)
+    {
+    }
+
+    /// Add the elastic energy density that it gives to each quadrature point [J/m^3].
+    virtual void
+    add_densities(std::vector<double> & /*of_points*/) const
+    {
+    }
+
+    /// The part of `displacement` that a step from here may go, at most: beyond it the energy is
+    /// not defined, as where an obstacle is passed.
     virtual double
-    add(const Vector &positions, Vector &gradient, Vector &force_scale) const = 0;
-
-    /// Pairs of nodes that its tangent couples beside those that share a cell.
-    virtual std::vector<std::pair<unsigned int, unsigned int>>
-    couplings() const
+    max_step(const Vector & /*positions*/, const Vector & /*displacement*/) const
     {
-      return {};
-    }
-
-    /// The pattern on which add_tangent() will write is known now, and with whom a process shares the
-    /// body: then add_tangent() adds what belongs to its own cells, and add() gives the energy of the
-    /// whole body.
-    virtual void
-    attach(const SymmetricPattern & /*pattern*/, const FreeDofs & /*free_dofs*/)
-    {
-    }
-
-    /// Add its tangent [N/m] to the values on the pattern.
-    virtual void
-    add_tangent(const Vector & /*positions*/, std::vector<double> & /*values*/) const
-    {
+      return std::numeric_limits<double>::infinity();
     }
 
     /// A residual force [N] that is nothing but rounding.
@@ -90,10 +167,24 @@ namespace Exemplar
     {
     }
 
+    /// What it remembers from step to step beside the state, for checkpoints. load() reads what save()
+    /// wrote.
+    virtual void
+    save(boost::archive::binary_oarchive & /*archive*/) const
+    {
+    }
+
+    virtual void
+    load(boost::archive::binary_iarchive & /*archive*/)
+    {
+    }
+
     /// In bytes.
     virtual std::size_t
     memory_consumption() const = 0;
   };
+
+  using PotentialTerms = std::vector<std::unique_ptr<PotentialTerm>>;
 } // namespace Exemplar
 
 #endif

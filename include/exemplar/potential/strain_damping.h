@@ -2,9 +2,13 @@
 #ifndef exemplar_strain_damping_h
 #define exemplar_strain_damping_h
 
+#include <exemplar/body/fe_space.h>
+#include <exemplar/body/material.h>
 #include <exemplar/body/time_integrator.h>
+#include <exemplar/kernels/cell_kernels.h>
 #include <exemplar/kernels/symmetric.h>
-#include <exemplar/potential/cell_field.h>
+
+#include <deal.II/base/aligned_vector.h>
 
 namespace Exemplar
 {
@@ -14,12 +18,14 @@ namespace Exemplar
   class StrainDamping
   {
   public:
-    /// From now on with this s, 0 for none. Points that the guard of Eq. (16) had to hold at one of
-    /// the positions x_m are left out: their rotation is ambiguous.
+    /// From now on with this s, 0 for none, in cells of this law with p_0 of Eq. (16). Points that the
+    /// guard of Eq. (16) had to hold at one of the positions x_m are left out: their rotation is
+    /// ambiguous.
     void
     set(double                                s,
         const std::vector<WeightedPositions> &history,
-        const CellField                      &cells,
+        CellLaw                               law,
+        double                                guard_bound,
         const FESpace                        &fe_space,
         const Material                       &material);
 

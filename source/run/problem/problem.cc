@@ -37,9 +37,10 @@ namespace Exemplar
         time_axis(make_time_axis(parameters)), body(parameters, inputs), surface(inputs.surface),
         constraints(parameters, body, time_axis, inputs),
         examples(parameters, body, time_axis, inputs), actions(parameters, body, inputs),
-        potential({ parameters.model, body.fe_space, body.material, body.patches.get(),
+        potential({ parameters.model.law(), body.fe_space, body.material, body.cell_material,
                     examples.poses.get(), examples.weights.get(), constraints.free_dofs,
                     parameters.solver.n_threads },
+                  make_elastic_terms(body, examples),
                   actions.make_terms(body),
                   actions.integrator.get()),
         system(potential,
@@ -149,7 +150,10 @@ namespace Exemplar
       refuse_what_is_not_finite(next, report);
     }
     if (is_success(report.status))
+    {
+      potential.end_step(next);
       state = std::move(next);
+    }
     else
       solver->forget(); // what it remembers has seen the step that failed
     return report;
@@ -194,6 +198,7 @@ namespace Exemplar
       std::istringstream              bytes(solver_memory);
       boost::archive::binary_iarchive archive(bytes);
       solver->load(archive);
+      potential.load(archive);
       if (bytes.peek() != std::char_traits<char>::eof())
         throw boost::archive::archive_exception(
             boost::archive::archive_exception::input_stream_error);
@@ -208,6 +213,7 @@ namespace Exemplar
     {
       boost::archive::binary_oarchive archive(bytes);
       solver->save(archive);
+      potential.save(archive);
     }
     return bytes.str();
   }

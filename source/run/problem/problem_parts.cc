@@ -3,6 +3,7 @@
 #include <exemplar/base/number_text.h>
 #include <exemplar/potential/inertia_term.h>
 #include <exemplar/potential/load_term.h>
+#include <exemplar/potential/patch_dilatation.h>
 #include <exemplar/run/inputs/shared_inputs.h>
 #include <exemplar/run/problem/problem_parts.h>
 
@@ -119,7 +120,7 @@ namespace Exemplar
       if (!parameters.examples.in_use())
         return nullptr;
       return std::make_unique<ExamplePoses>(parameters.examples, parameters.model.law(), body.mesh,
-                                            body.fe_space, body.material, body.patches.get(),
+                                            body.fe_space, body.cell_material, body.patches.get(),
                                             inputs.poses, body.readings.shares);
     }
 
@@ -230,6 +231,7 @@ namespace Exemplar
                  &mesh.whole().material_ids),
         fe_space(mesh, parameters.model.element),
         patches(make_patches(parameters, mesh, fe_space, material, inputs.shared.get())),
+        cell_material(patches != nullptr ? material.without_dilatation() : material),
         made(inputs.made), geo_walls(inputs.geo_walls), shared(inputs.shared)
   {
     inputs.nodes.insert(readings.nodes.begin(), readings.nodes.end());
@@ -330,14 +332,24 @@ namespace Exemplar
   {
   }
 
-  std::vector<std::unique_ptr<PotentialTerm>>
+  PotentialTerms
+  make_elastic_terms(const Body &body, const Examples &examples)
+  {
+    PotentialTerms terms;
+    if (body.patches != nullptr)
+      terms.push_back(std::make_unique<PatchDilatation>(*body.patches, examples.poses.get(),
+                                                        body.fe_space, body.material));
+    return terms;
+  }
+
+  PotentialTerms
   Actions::make_terms(const Body &body) const
   {
-    std::vector<std::unique_ptr<PotentialTerm>> terms;
+    PotentialTerms terms;
     if (mass != nullptr)
       terms.push_back(std::make_unique<InertiaTerm>(*mass, *integrator, energy_is_bounded));
     if (loads != nullptr)
-      terms.push_back(std::make_unique<LoadTerm>(*loads, body.fe_space.rest_positions()));
+      terms.push_back(std::make_unique<LoadTerm>(*loads, body.fe_space));
     return terms;
   }
 

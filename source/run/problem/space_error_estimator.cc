@@ -18,7 +18,7 @@ namespace Exemplar
     quadratic_scene(SceneParameters scene)
     {
       scene.model.element = Element::P2;
-      if (traits_of(scene.model.law()).has_patches)
+      if (traits_of(scene.model.law()).trace_gradient_is_R)
         scene.model.dilatation = DilatationKind::patches;
       scene.initial                = InitialParameters();
       scene.output                 = OutputParameters();

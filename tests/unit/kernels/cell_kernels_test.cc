@@ -37,7 +37,7 @@ namespace Exemplar::Testing
         parameters.importance         = 0.7;
         parameters.weights_per_region = per_region;
         const auto   examples         = body.examples(parameters);
-        CellBatches  batches(body.fe_space, body.material, false);
+        CellBatches  batches(body.fe_space, body.material);
         std::mt19937 generator(5);
         auto         x = body.random_positions(generator, 0.8); // some cells invert
         if (is_pulled)

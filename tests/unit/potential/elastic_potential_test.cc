@@ -138,16 +138,16 @@ namespace Exemplar::Testing
       state.velocities = positions;
       integrator.begin_step(state, 0.1);
       inertia.begin_step(state);
-      inertia.attach(elastic.matrix_pattern, free_dofs);
+      inertia.attach(elastic.matrix_pattern, free_dofs, elastic.get_field());
       std::vector<double> matrix(elastic.matrix_pattern.n_values()), columns;
-      inertia.add_tangent(positions, matrix);
+      inertia.add_tangent({ positions, weights }, Tangent::exact, matrix, columns);
       elastic.assemble_tangent(Tangent::convex, positions, weights, matrix, columns);
 
       const auto gradient = [&]
       {
         ElasticEvaluation evaluation;
         elastic.evaluate(positions, weights, evaluation);
-        inertia.add(positions, evaluation.gradient, evaluation.force_scale);
+        inertia.add({ positions, weights }, evaluation);
         return evaluation.gradient;
       };
       const auto without = gradient();

@@ -25,20 +25,21 @@ namespace Exemplar::Testing
 
       SpringTerm(const unsigned int a, const unsigned int b, const double k) : a(a), b(b), k(k) {}
 
-      double
-      add(const Vector &x, Vector &gradient, Vector &force_scale) const override
+      void
+      add(const TermPoint &at, ElasticEvaluation &sums) override
       {
-        double energy = 0.;
+        const Vector &x      = at.positions;
+        double        energy = 0.;
         for (unsigned int c = 0; c < 3; ++c)
         {
           const double stretch = x[3 * a + c] - x[3 * b + c];
-          gradient[3 * a + c] += k * stretch;
-          gradient[3 * b + c] -= k * stretch;
+          sums.gradient[3 * a + c] += k * stretch;
+          sums.gradient[3 * b + c] -= k * stretch;
           energy += 0.5 * k * stretch * stretch;
         }
-        force_scale[a] += std::sqrt(2. * k * energy);
-        force_scale[b] += std::sqrt(2. * k * energy);
-        return energy;
+        sums.force_scale[a] += std::sqrt(2. * k * energy);
+        sums.force_scale[b] += std::sqrt(2. * k * energy);
+        sums.energy += energy;
       }
 
       std::vector<std::pair<unsigned int, unsigned int>>
@@ -48,7 +49,7 @@ namespace Exemplar::Testing
       }
 
       void
-      attach(const SymmetricPattern &pattern, const FreeDofs &free_dofs) override
+      attach(const SymmetricPattern &pattern, const FreeDofs &free_dofs, CellField &) override
       {
         for (unsigned int c = 0; c < 3; ++c)
         {
@@ -60,7 +61,10 @@ namespace Exemplar::Testing
       }
 
       void
-      add_tangent(const Vector & /*positions*/, std::vector<double> &values) const override
+      add_tangent(const TermPoint &,
+                  Tangent,
+                  std::vector<double> &values,
+                  std::vector<double> &) override
       {
         for (const int position : diagonal)
           values[position] += k;
@@ -92,8 +96,9 @@ namespace Exemplar::Testing
       explicit SprungBar(const Exchange &exchange = Exchange::serial())
           : body(box_mesh(4., 6, 1)),
             free_dofs(body.fe_space.n_dofs(), { 0, 1, 2, 5, 9 }, exchange),
-            potential({ ModelParameters(), body.fe_space, body.material, nullptr, nullptr, nullptr,
-                        free_dofs },
+            potential({ CellLaw::corotational, body.fe_space, body.material, body.material, nullptr,
+                        nullptr, free_dofs },
+                      {},
                       springs(body.fe_space.n_nodes() - 1),
                       nullptr)
       {

@@ -105,13 +105,13 @@ namespace Exemplar::Testing
         state.positions = state.velocities = positions;
         integrator.begin_step(state, 0.1);
         inertia.begin_step(state);
-        inertia.attach(elastic.matrix_pattern, free_dofs);
+        inertia.attach(elastic.matrix_pattern, free_dofs, elastic.get_field());
         auto matrix = make_cholesky_operator();
         matrix->reinit(elastic.matrix_pattern);
         system = make_block_system(std::move(matrix), nullptr, Exchange::serial());
-        inertia.add_tangent(positions, system->matrix_values());
         elastic.update_rotations(positions);
         std::vector<double> columns;
+        inertia.add_tangent({ positions, {} }, Tangent::convex, system->matrix_values(), columns);
         elastic.assemble_tangent(Tangent::convex, positions, {}, system->matrix_values(), columns);
         system->factorize(positions);
         elastic.node_rotations(rotations);

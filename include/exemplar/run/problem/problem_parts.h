@@ -42,7 +42,8 @@ namespace Exemplar
     const SurfaceReadings                readings; ///< off the surface
     const Material                       material;
     const FESpace                        fe_space;
-    const std::unique_ptr<const Patches> patches; ///< of one mean dilatation each
+    const std::unique_ptr<const Patches> patches;       ///< of one mean dilatation each
+    const Material                       cell_material; ///< of the cells' own energy
     /// How the mesh and its poses became of surfaces; null if none did.
     const std::shared_ptr<const MadeOfSurfaces> made;
     /// What stood around gmsh, see MshFile::geo_walls.
@@ -89,13 +90,17 @@ namespace Exemplar
     const std::unique_ptr<ExampleWeights> weights;
   };
 
+  /// The terms of Psi, Eq. (5), beside the cells' own energies.
+  PotentialTerms
+  make_elastic_terms(const Body &body, const Examples &examples);
+
   /// What acts on the body beside its elasticity.
   struct Actions
   {
     Actions(const SceneParameters &parameters, const Body &body, const Inputs &inputs);
 
     /// The terms of the potential that stand for them.
-    std::vector<std::unique_ptr<PotentialTerm>>
+    PotentialTerms
     make_terms(const Body &body) const;
 
     const std::unique_ptr<Loads>          loads;
