@@ -8,7 +8,9 @@
 
 namespace Exemplar
 {
-  CellBatches::CellBatches(const FESpace &fe_space, const Material &of_cells)
+  CellBatches::CellBatches(const FESpace     &fe_space,
+                           const Material    &of_cells,
+                           const LawsOfCells &laws)
       : n_points(fe_space.n_points()), n_nodes(nodes_per_cell(fe_space.element())),
         nodes(batched_size(n_points, n_nodes)), gradients(batched_size(n_points, 3 * n_nodes - 3)),
         volumes(batched_size(n_points, 1)),
@@ -40,13 +42,23 @@ namespace Exemplar
       for (const unsigned int diagonal : { 0, 4, 8 })
         rotations[batch_index(slot, 9, diagonal)] = 1.;
     }
+    for (const CellLaw law : laws.present())
+    {
+      of_laws.push_back({ law, {} });
+      if (laws.present().size() == 1)
+        return;
+      of_laws.back().volumes.resize(volumes.size(), 0.);
+      for (unsigned int point = 0; point < n_points; ++point)
+        if (laws[fe_space.cell_of(point)] == law)
+          of_laws.back().volumes[point] = volumes[point];
+    }
   }
 
   CellArrays
-  CellBatches::arrays(const CellLaw law, const double guard_bound)
+  CellBatches::arrays(const double guard_bound)
   {
-    return { n_points,         nodes.data(), gradients.data(), volumes.data(), material.data(),
-             rotations.data(), law,          guard_bound };
+    return { n_points,        nodes.data(),     gradients.data(),    volumes.data(),
+             material.data(), rotations.data(), of_laws.front().law, guard_bound };
   }
 
   std::size_t

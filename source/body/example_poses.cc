@@ -70,14 +70,14 @@ namespace Exemplar
   } // namespace
 
   ExamplePoses::ExamplePoses(const ExampleParameters                &parameters,
-                             const CellLaw                           law,
+                             const LawsOfCells                      &laws,
                              const Mesh                             &mesh,
                              const FESpace                          &fe_space,
                              const Material                         &cell_material,
                              const Patches                          *patches,
                              const NamedPoses                       &poses,
                              const std::vector<std::vector<double>> &painted)
-      : fe_space(fe_space), eta(parameters.importance), law(law),
+      : fe_space(fe_space), eta(parameters.importance), laws(laws),
         regions(make_regions(parameters, mesh, fe_space, painted)),
         first_strained(parameters.include_rest_pose ? 1 : 0)
   {
@@ -133,6 +133,7 @@ namespace Exemplar
     strain_norms.assign(n_weights(), 0.);
     for (unsigned int point = 0; point < fe_space.n_points(); ++point)
     {
+      const CellLaw law = laws[fe_space.cell_of(point)];
       for (unsigned int i = first_strained; i < size(); ++i)
       {
         const Matrix3<double> F = fe_space.deformation_gradient(point, positions[i]);

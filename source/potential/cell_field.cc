@@ -23,14 +23,15 @@ namespace Exemplar
            + pressures.memory_consumption() + scales.memory_consumption();
   }
 
-  CellField::CellField(const CellLaw      law,
+  CellField::CellField(LawsOfCells        laws_of_cells,
                        const double       guard_bound,
                        const FESpace     &fe_space,
                        const Material    &material,
                        const unsigned int n_threads)
-      : law(law), guard_bound(guard_bound), fe_space(fe_space), material(material),
-        kernels(best_kernels(fe_space.element())), batches(fe_space, material),
-        nodal_sums(fe_space, n_threads), node_positions(4 * fe_space.n_nodes())
+      : laws(std::move(laws_of_cells)), guard_bound(guard_bound), fe_space(fe_space),
+        material(material), kernels(best_kernels(fe_space.element())),
+        batches(fe_space, material, laws), nodal_sums(fe_space, n_threads),
+        node_positions(4 * fe_space.n_nodes())
   {
   }
 
@@ -47,7 +48,7 @@ namespace Exemplar
       for (unsigned int c = 0; c < 3; ++c)
         node_positions[4 * node + c] = positions[3 * node + c];
     CellTask task;
-    task.cells        = batches.arrays(law, guard_bound);
+    task.cells        = batches.arrays(guard_bound);
     task.positions    = node_positions.data();
     task.rotation_use = rotations;
     task.damping      = damping.arrays();
@@ -58,17 +59,15 @@ namespace Exemplar
   void
   CellField::update_dilatations(const Vector &positions)
   {
-    const CellTask here = task(positions, RotationUse::keep);
-    kernels.dilatations(here, 0, here.cells.n_batches());
+    for_each_law(task(positions, RotationUse::keep), [&](const CellTask &of_law)
+                 { kernels.dilatations(of_law, 0, of_law.cells.n_batches()); });
   }
 
   void
   CellField::update_rotations(const Vector &positions)
   {
-    if (!traits_of(law).has_rotations)
-      return;
-    const CellTask cells = task(positions, RotationUse::update);
-    kernels.update_rotations(cells, 0, cells.cells.n_batches());
+    for_each_law(task(positions, RotationUse::update), [&](const CellTask &of_law)
+                 { kernels.update_rotations(of_law, 0, of_law.cells.n_batches()); });
   }
 
   void
@@ -77,9 +76,10 @@ namespace Exemplar
     if (!rotations_are_forgotten)
       return;
     CellTask last;
-    last.cells     = batches.arrays(law, guard_bound);
+    last.cells     = batches.arrays(guard_bound);
     last.positions = node_positions.data();
-    kernels.update_rotations(last, 0, last.cells.n_batches());
+    for_each_law(last, [&](const CellTask &of_law)
+                 { kernels.update_rotations(of_law, 0, of_law.cells.n_batches()); });
     rotations_are_forgotten = false;
   }
 
@@ -88,7 +88,7 @@ namespace Exemplar
   {
     refresh_rotations();
     CellTask task;
-    task.cells = batches.arrays(law, guard_bound);
+    task.cells = batches.arrays(guard_bound);
     rotation_sums.resize(12 * n_nodes());
     rotation_sums.fill(0.);
     rotations.resize(9 * n_nodes());

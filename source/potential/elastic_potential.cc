@@ -101,7 +101,7 @@ namespace Exemplar
                                      PotentialTerms          new_terms,
                                      const SymmetricPattern &pattern)
       : parts(parts), pattern(pattern),
-        cells(parts.law,
+        cells(parts.laws,
               parts.examples == nullptr ? default_guard_bound : parts.examples->guard_bound(),
               parts.fe_space,
               parts.cell_material,
@@ -201,8 +201,13 @@ namespace Exemplar
         [&](const std::size_t stripe, const std::size_t begin, const std::size_t end, double *sums)
         {
           stripes[stripe].weights.resize(n_lanes);
-          cells.loops().evaluate(cell_task, begin, end, sums, stripes[stripe].weights.data(),
-                                 stripes[stripe].cells);
+          cells.for_each_law(cell_task,
+                             [&](const CellTask &of_law)
+                             {
+                               cells.loops().evaluate(of_law, begin, end, sums,
+                                                      stripes[stripe].weights.data(),
+                                                      stripes[stripe].cells);
+                             });
         });
     CellSums                      sums;
     dealii::AlignedVector<double> weight_sums(n_lanes);
@@ -233,7 +238,11 @@ namespace Exemplar
   {
     const CellTask                cell_task = task(positions, {}, rotations);
     dealii::AlignedVector<double> weight_sums(batch_size * parts.examples->n_weights());
-    cells.loops().weight_linear_term(cell_task, 0, cell_task.cells.n_batches(), weight_sums.data());
+    cells.for_each_law(cell_task,
+                       [&](const CellTask &of_law) {
+                         cells.loops().weight_linear_term(of_law, 0, of_law.cells.n_batches(),
+                                                          weight_sums.data());
+                       });
     std::vector<double> linear_term = sum_of_lanes(weight_sums);
     for (const auto &term : terms)
       term->add_weight_linear_term(positions, linear_term);
@@ -255,14 +264,15 @@ namespace Exemplar
     for (unsigned int point = 0; point < n_points; ++point)
     {
       const unsigned int         cell   = parts.fe_space.cell_of(point);
+      const CellLaw               law    = cells.law(point);
       const CellMaterial<double> &C      = elasticity(point);
       const Matrix3<double>      F      = parts.fe_space.deformation_gradient(point, positions);
       const Matrix3<double>      R      = cells.rotation(point);
-      const Matrix3<double>       strain = model_strain(parts.law, R, F);
+      const Matrix3<double>       strain = model_strain(law, R, F);
       Matrix3<double>             T      = stress(C, strain);
 
       const double energy = 0.5 * contract(T, strain)
-                            + model_stretch_energy(parts.law, C, R, F, cells.get_guard_bound())
+                            + model_stretch_energy(law, C, R, F, cells.get_guard_bound())
                             + densities[point];
       if (parts.examples != nullptr)
         T = stress(C, combine(1., strain, -1., example_strain(point, weights)));

@@ -10,9 +10,20 @@
 namespace Exemplar
 {
   void
+  ElasticPotential::add_tangent_of_law(const CellTask    &task,
+                                       const TangentTask &tangent,
+                                       const std::size_t  begin,
+                                       const std::size_t  end) const
+  {
+    const Tangent kind    = tangent.convex ? Tangent::convex : Tangent::exact;
+    const bool    rotated = is_rotated_stiffness(task.cells.law, kind);
+    (rotated ? cells.loops().add_rotated_stiffness : cells.loops().add_tangent)(task, tangent,
+                                                                                begin, end);
+  }
+
+  void
   ElasticPotential::add_mixed_cells(const CellTask      &task,
                                     TangentTask          tangent,
-                                    const bool           rotated,
                                     std::vector<double> &values)
   {
     // rows of a block are not consecutive there: the kernel writes whole blocks apart
@@ -28,8 +39,8 @@ namespace Exemplar
         apart[n * (cell % n_cells) + column] = static_cast<int>(3 * column);
       tangent.positions = apart.data();
       tangent.values    = blocks.data();
-      (rotated ? cells.loops().add_rotated_stiffness : cells.loops().add_tangent)(task, tangent,
-                                                                                  batch, batch + 1);
+      cells.for_each_law(task, [&](const CellTask &of_law)
+                         { add_tangent_of_law(of_law, tangent, batch, batch + 1); });
       scatter.add_blocks(cell, blocks.data(), values);
     }
   }
@@ -38,10 +49,10 @@ namespace Exemplar
   void
   ElasticPotential::assemble_coupling(const CellTask      &task,
                                       const TangentTask   &tangent,
-                                      const bool           rotated,
                                       std::vector<double> &columns) const
   {
     constexpr std::size_t n_rows   = 3 * nodes_per_cell(element);
+    const Tangent         kind     = tangent.convex ? Tangent::convex : Tangent::exact;
     const ExamplePoses   &examples = *parts.examples;
     const std::size_t     n = parts.free_dofs.local_list().size(), n_strained = task.examples.n;
     columns.assign(n * examples.n_strained_weights(), 0.);
@@ -51,7 +62,13 @@ namespace Exemplar
     {
       const std::size_t lane = point % batch_size;
       if (lane == 0)
-        cells.loops().coupling(task, tangent, rotated, point / batch_size, forces.data());
+        cells.for_each_law(task,
+                           [&](const CellTask &of_law)
+                           {
+                             const bool rotated = is_rotated_stiffness(of_law.cells.law, kind);
+                             cells.loops().coupling(of_law, tangent, rotated, point / batch_size,
+                                                    forces.data());
+                           });
       for (unsigned int p = 0; p < n_rows && point % points_per_cell(element) == 0; ++p)
         dof[p] = parts.free_dofs.free_index(3 * cells.node(point, p / 3) + p % 3);
       examples.for_each_weight(
@@ -68,41 +85,36 @@ namespace Exemplar
   }
 
   void
-  ElasticPotential::add_rotated_responses(const Vector      &displacement,
-                                          ElasticEvaluation &result) const
+  ElasticPotential::add_rotated_response(const unsigned int     point,
+                                         const Matrix3<double> &M,
+                                         ElasticEvaluation     &result) const
   {
-    for_points_beside_held_nodes(
-        [&](const unsigned int point)
+    const Matrix3<double> de = symmetric_part(M);
+    add_force(point, stress(cells.get_damping().damped(point, elasticity(point)), de),
+              result.gradient);
+    if (result.weight_gradient.empty())
+      return;
+    const Matrix3<double> dT     = stress(elasticity(point), de);
+    const double          factor = parts.fe_space.volume(point);
+    parts.examples->for_each_weight(
+        point,
+        [&](const unsigned int weight, const unsigned int i, const double share)
         {
-          const Matrix3<double> dF = parts.fe_space.deformation_gradient(point, displacement);
-          const Matrix3<double> de = symmetric_part(transpose_times(cells.rotation(point), dF));
-          add_force(point, stress(cells.get_damping().damped(point, elasticity(point)), de),
-                    result.gradient);
-          if (result.weight_gradient.empty())
-            return;
-          const Matrix3<double> dT = stress(elasticity(point), de);
-          const double factor      = parts.fe_space.volume(point);
-          parts.examples->for_each_weight(
-              point,
-              [&](const unsigned int weight, const unsigned int i, const double share)
-              {
-                result.weight_gradient[weight]
-                    -= share * factor * contract(dT, parts.examples->strain(point, i));
-              });
+          result.weight_gradient[weight]
+              -= share * factor * contract(dT, parts.examples->strain(point, i));
         });
   }
 
   template <typename Cell>
   Cell
-  ElasticPotential::cell_state(const Tangent              tangent,
-                               const unsigned int         point,
-                               const Vector              &positions,
-                               const std::vector<double> &weights) const
+  ElasticPotential::cell_state(const Tangent      tangent,
+                               const unsigned int point,
+                               const TermPoint   &at) const
   {
-    Cell state(elasticity(point), cells.rotation(point),
-               parts.fe_space.deformation_gradient(point, positions), cells.get_guard_bound());
+    Cell                 state(elasticity(point), cells.rotation(point),
+                               parts.fe_space.deformation_gradient(point, at.positions), cells.get_guard_bound());
     const StrainDamping &damping = cells.get_damping();
-    Matrix3<double>      D       = example_strain(point, weights);
+    Matrix3<double>      D       = example_strain(point, at.weights);
     if (const double s = damping.factor(point); s > 0.)
       D = state.damp(D, s, damping.past_strain(point));
     state.set_target(D);
@@ -121,55 +133,47 @@ namespace Exemplar
                                      std::vector<double>       &matrix_values,
                                      std::vector<double>       &columns)
   {
-    const bool rotated = is_rotated_stiffness(tangent);
     tell_cells({ positions, weights });
     CellTask cell_task = task(positions, weights, RotationUse::keep);
     if (tangent == Tangent::convex)
       cell_task.damping = cells.get_damping().arrays_of_all_cells();
     const TangentTask to
         = { tangent == Tangent::convex, scatter.positions(), matrix_values.data() };
-    (rotated ? cells.loops().add_rotated_stiffness
-             : cells.loops().add_tangent)(cell_task, to, 0, cell_task.cells.n_batches());
-    add_mixed_cells(cell_task, to, rotated, matrix_values);
-    if (stiffens_when_stretched(tangent))
+    cells.for_each_law(cell_task, [&](const CellTask &of_law)
+                       { add_tangent_of_law(of_law, to, 0, of_law.cells.n_batches()); });
+    add_mixed_cells(cell_task, to, matrix_values);
+    if (tangent == Tangent::convex)
       add_stretch_stiffness(parts.fe_space, parts.cell_material, cells, scatter, positions,
                             matrix_values);
     columns.clear();
     if (has_unknown_weights() && parts.fe_space.element() == Element::P1)
-      assemble_coupling<Element::P1>(cell_task, to, rotated, columns);
+      assemble_coupling<Element::P1>(cell_task, to, columns);
     else if (has_unknown_weights())
-      assemble_coupling<Element::P2>(cell_task, to, rotated, columns);
+      assemble_coupling<Element::P2>(cell_task, to, columns);
     for (const auto &term : terms)
       term->add_tangent({ positions, weights }, tangent, matrix_values, columns);
   }
 
   template <typename Cell>
   void
-  ElasticPotential::add_cell_responses(const Tangent              tangent,
-                                       const Vector              &displacement,
-                                       const Vector              &positions,
-                                       const std::vector<double> &weights,
-                                       ElasticEvaluation         &result) const
+  ElasticPotential::add_cell_response(const Tangent          tangent,
+                                      const unsigned int     point,
+                                      const Matrix3<double> &M,
+                                      const TermPoint       &at,
+                                      ElasticEvaluation     &result) const
   {
-    for_points_beside_held_nodes(
-        [&](const unsigned int point)
+    const Cell state = cell_state<Cell>(tangent, point, at);
+    add_force(point, state.response(M), result.gradient);
+    if (result.weight_gradient.empty())
+      return;
+    const double factor = parts.fe_space.volume(point) / (1. + cells.get_damping().factor(point));
+    parts.examples->for_each_weight(
+        point,
+        [&](const unsigned int weight, const unsigned int i, const double share)
         {
-          const Cell            state = cell_state<Cell>(tangent, point, positions, weights);
-          const Matrix3<double> M     = transpose_times(
-                  cells.rotation(point), parts.fe_space.deformation_gradient(point, displacement));
-          add_force(point, state.response(M), result.gradient);
-          if (result.weight_gradient.empty())
-            return;
-          const double factor
-              = parts.fe_space.volume(point) / (1. + cells.get_damping().factor(point));
-          parts.examples->for_each_weight(
-              point,
-              [&](const unsigned int weight, const unsigned int i, const double share)
-              {
-                result.weight_gradient[weight]
-                    -= share * factor
-                       * contract(state.example_response(parts.examples->strain(point, i)), M);
-              });
+          result.weight_gradient[weight]
+              -= share * factor
+                 * contract(state.example_response(parts.examples->strain(point, i)), M);
         });
   }
 
@@ -184,36 +188,40 @@ namespace Exemplar
     if (!exchange.is_root()) // the root's sum goes on
       std::fill(result.weight_gradient.begin(), result.weight_gradient.end(), 0.);
     exchange.keep_owned(result.gradient);
-    add_own_response(tangent, displacement, positions, weights, result);
+    add_own_response(tangent, displacement, { positions, weights }, result);
     exchange.assemble(result.gradient.begin(), 3);
     exchange.sum(result.weight_gradient);
   }
 
   void
-  ElasticPotential::add_own_response(const Tangent              tangent,
-                                     const Vector              &displacement,
-                                     const Vector              &positions,
-                                     const std::vector<double> &weights,
-                                     ElasticEvaluation         &result)
+  ElasticPotential::add_own_response(const Tangent      tangent,
+                                     const Vector      &displacement,
+                                     const TermPoint   &at,
+                                     ElasticEvaluation &result)
   {
     cells.refresh_rotations();
-    const TermPoint at = { positions, weights };
     tell_cells(at);
     for (const auto &term : terms)
       term->add_response(at, tangent, displacement, result);
-    if (is_rotated_stiffness(tangent))
-    {
-      add_rotated_responses(displacement, result);
-      return;
-    }
-    with_cell_model<double>(parts.law,
-                            [&](auto model)
-                            {
-                              using Cell = typename decltype(model)::type;
-                              if constexpr (!Cell::traits.exact_is_rotated)
-                                add_cell_responses<Cell>(tangent, displacement, positions, weights,
-                                                         result);
-                            });
+    for_points_beside_held_nodes(
+        [&](const unsigned int point)
+        {
+          const CellLaw         law = cells.law(point);
+          const Matrix3<double> M   = transpose_times(
+                cells.rotation(point), parts.fe_space.deformation_gradient(point, displacement));
+          if (is_rotated_stiffness(law, tangent))
+          {
+            add_rotated_response(point, M, result);
+            return;
+          }
+          with_cell_model<double>(law,
+                                  [&](auto model)
+                                  {
+                                    using Cell = typename decltype(model)::type;
+                                    if constexpr (!Cell::traits.exact_is_rotated)
+                                      add_cell_response<Cell>(tangent, point, M, at, result);
+                                  });
+        });
   }
 
   void

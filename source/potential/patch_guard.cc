@@ -112,11 +112,10 @@ namespace Exemplar
   {
     stretched.clear();
     points.clear();
-    if (!traits_of(cells.get_law()).has_guard)
-      return;
     for (unsigned int patch = 0; patch < patches.size(); ++patch)
     {
-      if (!(patches.lambda(patch) > 0. && mean_squares[patch] > bounds[patch]))
+      if (!(patches.lambda(patch) > 0. && mean_squares[patch] > bounds[patch])
+          || !traits_of(cells.law(patches.points(patch).front())).has_guard)
         continue;
       const auto [beta, first, second] = transition(mean_squares[patch], bounds[patch]);
       Stretched of_patch               = { means[patch], beta, first, second };

@@ -6,7 +6,7 @@ namespace Exemplar
   void
   StrainDamping::set(const double                          new_s,
                      const std::vector<WeightedPositions> &history,
-                     const CellLaw                         law,
+                     const LawsOfCells                    &laws,
                      const double                          guard_bound,
                      const FESpace                        &fe_space,
                      const Material                       &material)
@@ -21,8 +21,9 @@ namespace Exemplar
     for (unsigned int point = 0; point < fe_space.n_points(); ++point)
       for (const WeightedPositions &past : history)
       {
-        const Matrix3<double> F = fe_space.deformation_gradient(point, *past.positions);
-        const Matrix3<double> R = model_rotation(law, F);
+        const CellLaw         law = laws[fe_space.cell_of(point)];
+        const Matrix3<double> F   = fe_space.deformation_gradient(point, *past.positions);
+        const Matrix3<double> R   = model_rotation(law, F);
         add_to_stored(strains.data(), point, 1, 0, past.weight, model_strain(law, R, F));
         if (model_is_guarded(law, material.elasticity(fe_space.cell_of(point)), R, F, guard_bound))
           factors[point] = 0.;

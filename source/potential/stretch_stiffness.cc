@@ -54,6 +54,8 @@ namespace Exemplar
   {
     for (unsigned int point = 0; point < fe_space.n_points(); ++point)
     {
+      if (!traits_of(cells.law(point)).has_guard)
+        continue;
       const unsigned int          cell       = fe_space.cell_of(point);
       const CellMaterial<double> &elasticity = material.elasticity(cell);
       const Matrix3<double>       F          = fe_space.deformation_gradient(point, positions);

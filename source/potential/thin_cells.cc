@@ -53,11 +53,10 @@ namespace Exemplar
                   const double    *squares)
   {
     points.clear();
-    if (!traits_of(cells.get_law()).has_guard)
-      return;
     for (unsigned int point = 0; point < fe_space.n_points(); ++point)
     {
-      if (!may_be_thin(traces[point] + 3., squares[point]))
+      if (!may_be_thin(traces[point] + 3., squares[point])
+          || !traits_of(cells.law(point)).has_guard)
         continue;
       const Point at
           = point_at(cells.rotation(point), fe_space.deformation_gradient(point, positions));

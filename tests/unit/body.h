@@ -5,6 +5,7 @@
 #include <exemplar/body/example_poses.h>
 #include <exemplar/body/fe_space.h>
 #include <exemplar/body/material.h>
+#include <exemplar/body/model_parameters.h>
 #include <exemplar/mesh/mesh.h>
 #include <exemplar/potential/elastic_potential.h>
 #include <exemplar/potential/patch_dilatation.h>
@@ -105,10 +106,11 @@ namespace Exemplar::Testing
     }
 
     Examples
-    examples(const ExampleParameters &parameters, const CellLaw law = CellLaw::corotational) const
+    examples(const ExampleParameters &parameters,
+             const LawsOfCells       &laws = CellLaw::corotational) const
     {
       Examples result;
-      result.poses = std::make_unique<ExamplePoses>(parameters, law, mesh, fe_space, cell_material,
+      result.poses = std::make_unique<ExamplePoses>(parameters, laws, mesh, fe_space, cell_material,
                                                     patches.get());
       result.weights = std::make_unique<ExampleWeights>(parameters, *result.poses,
                                                         unit_energy(fe_space, material),
@@ -166,8 +168,16 @@ namespace Exemplar::Testing
                   const ModelParameters &model,
                   const Examples        &examples,
                   const FreeDofs        &free_dofs)
+        : BodyPotential(body, LawsOfCells(model.law()), examples, free_dofs)
+    {
+    }
+
+    BodyPotential(const Body        &body,
+                  const LawsOfCells &laws,
+                  const Examples    &examples,
+                  const FreeDofs    &free_dofs)
         : MatrixPattern{ make_pattern(body.fe_space, couplings_of(body), free_dofs) },
-          ElasticPotential({ model.law(), body.fe_space, body.material, body.cell_material,
+          ElasticPotential({ laws, body.fe_space, body.material, body.cell_material,
                              examples.poses.get(), examples.weights.get(), free_dofs },
                            elastic_terms(body, examples.poses.get()),
                            matrix_pattern)

@@ -3,10 +3,13 @@
 #define exemplar_cell_batches_h
 
 #include <exemplar/body/fe_space.h>
+#include <exemplar/body/laws_of_cells.h>
 #include <exemplar/body/material.h>
 #include <exemplar/kernels/cell_kernels.h>
 
 #include <deal.II/base/aligned_vector.h>
+
+#include <vector>
 
 namespace Exemplar
 {
@@ -15,12 +18,26 @@ namespace Exemplar
   class CellBatches
   {
   public:
-    CellBatches(const FESpace &fe_space, const Material &material);
+    CellBatches(const FESpace &fe_space, const Material &material, const LawsOfCells &laws);
 
-    /// What the kernels see, for a law and p_0 of Eq. (16). Loops that update
-    /// rotations write them here.
+    /// What loops see that are the same for all laws. `guard_bound` is p_0 of Eq. (16).
     CellArrays
-    arrays(CellLaw law, double guard_bound);
+    arrays(double guard_bound);
+
+    /// Call function(cells) for each law with what loops see that are for its cells alone; those that
+    /// update rotations write them here.
+    template <typename Function>
+    void
+    for_each_law(CellArrays cells, const Function &function) const
+    {
+      cells.has_other_laws = of_laws.size() > 1;
+      for (const OfLaw &of_law : of_laws)
+      {
+        cells.law     = of_law.law;
+        cells.volumes = cells.has_other_laws ? of_law.volumes.data() : volumes.data();
+        function(cells);
+      }
+    }
 
     Matrix3<double>
     rotation(const unsigned int point) const
@@ -43,6 +60,12 @@ namespace Exemplar
     memory_consumption() const;
 
   private:
+    struct OfLaw
+    {
+      CellLaw                       law;
+      dealii::AlignedVector<double> volumes; ///< 0 in cells of others; empty if there are none
+    };
+
     const std::size_t             n_points;
     const std::size_t             n_nodes; ///< of each
     std::vector<int>              nodes;
@@ -50,6 +73,7 @@ namespace Exemplar
     dealii::AlignedVector<double> volumes;
     dealii::AlignedVector<double> material;
     dealii::AlignedVector<double> rotations;
+    std::vector<OfLaw>            of_laws;
   };
 } // namespace Exemplar
 

@@ -4,10 +4,10 @@
 
 #include <exemplar/body/example_parameters.h>
 #include <exemplar/body/fe_space.h>
+#include <exemplar/body/laws_of_cells.h>
 #include <exemplar/body/material.h>
 #include <exemplar/body/patches.h>
 #include <exemplar/body/region_shares.h>
-#include <exemplar/kernels/cell_model.h>
 #include <exemplar/kernels/symmetric.h>
 
 #include <deal.II/base/aligned_vector.h>
@@ -35,7 +35,7 @@ namespace Exemplar
     /// are `painted`; `cell_material` is that of the cells' own energy, beside which that of `patches`
     /// stands, null where there are none. Throws UserError for a pose that is not.
     ExamplePoses(const ExampleParameters                &parameters,
-                 CellLaw                                 law,
+                 const LawsOfCells                      &laws,
                  const Mesh                             &mesh,
                  const FESpace                          &fe_space,
                  const Material                         &cell_material,
@@ -222,7 +222,7 @@ namespace Exemplar
 
     const FESpace                      &fe_space;
     const double                        eta;
-    const CellLaw                       law;
+    const LawsOfCells                   laws;
     const std::optional<RegionShares>   regions; ///< none: weights are global
     std::vector<std::string>            names;
     std::vector<dealii::Vector<double>> positions;

@@ -19,17 +19,19 @@
 namespace Exemplar
 {
   /// What the loops know of the cells. The last batch is filled with copies of the last
-  /// cell that have no volume.
+  /// cell that have no volume. In a body of several laws loops go over the cells once for each law,
+  /// and cells of another law have no volume then.
   struct CellArrays
   {
     std::size_t   n_cells;
     const int    *nodes;     ///< 4 or 10; ascending in each cell
     const double *gradients; ///< 9 or 27: g_a of all but the first of those nodes [1/m]
     const double *volumes;   ///< 1 [m^3]
-    const double *material;  ///< those of CellMaterial
+    const double *material;  ///< those of the law's Constants
     double       *rotations; ///< 9: R by rows
     CellLaw       law;
-    double        guard_bound; ///< p_0 of Eq. (16)
+    double        guard_bound;            ///< p_0 of Eq. (16)
+    bool          has_other_laws = false; ///< some cells are of another law
 
     std::size_t
     n_batches() const

@@ -7,12 +7,15 @@
 #include <exemplar/kernels/linear_cell.h>
 #include <exemplar/kernels/polar_decomposition.h>
 
-// The laws of a cell. CorotationalCell, FrozenCell, LinearCell and GreenCell have the same members,
-// so that a further law is a header like theirs, a value of CellLaw and a case of with_cell_model().
-// No deal.II header here: see matrix3.h.
+#include <tuple>
+
+// The laws of a cell: what its energy, forces and tangents are as functions of F, R and its constants.
+// All have the members of CorotationalCell, so that a further law is a header like corotational_cell.h
+// and its entries here. No deal.II header here: see matrix3.h.
 
 namespace Exemplar
 {
+  /// In the order of CellLaws.
   enum class CellLaw
   {
     corotational,
@@ -21,6 +24,10 @@ namespace Exemplar
     green
   };
 
+  template <typename Number>
+  using CellLaws = std::
+      tuple<CorotationalCell<Number>, FrozenCell<Number>, LinearCell<Number>, GreenCell<Number>>;
+
   template <typename Cell>
   struct CellModel
   {
@@ -28,21 +35,14 @@ namespace Exemplar
   };
 
   /// Call `function` with the CellModel of a law.
-  template <typename Number, typename Function>
+  template <typename Number, std::size_t i = 0, typename Function>
   auto
   with_cell_model(const CellLaw law, const Function &function)
   {
-    switch (law)
-    {
-    case CellLaw::frozen:
-      return function(CellModel<FrozenCell<Number>>());
-    case CellLaw::linear:
-      return function(CellModel<LinearCell<Number>>());
-    case CellLaw::green:
-      return function(CellModel<GreenCell<Number>>());
-    default:
-      return function(CellModel<CorotationalCell<Number>>());
-    }
+    if constexpr (i + 1 < std::tuple_size_v<CellLaws<Number>>)
+      if (law != static_cast<CellLaw>(i))
+        return with_cell_model<Number, i + 1>(law, function);
+    return function(CellModel<std::tuple_element_t<i, CellLaws<Number>>>());
   }
 
   inline ModelTraits

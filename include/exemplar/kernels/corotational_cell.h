@@ -85,6 +85,8 @@ namespace Exemplar
   class CorotationalCell
   {
   public:
+    using Constants = CellMaterial<Number>;
+
     static constexpr ModelTraits traits
         = { /* has_rotations */ true,     /* has_guard */ true,
             /* exact_is_rotated */ false,

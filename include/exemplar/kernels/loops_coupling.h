@@ -12,7 +12,8 @@ namespace Exemplar::Loops
   /// The nodal forces factor V R dP g_a of example i into its entries for each cell.
   template <typename Number, int n_nodes>
   inline void
-  store_coupling(const LaneGroup<Number>            &group,
+  store_coupling(const CellArrays                   &cells,
+                 const LaneGroup<Number>            &group,
                  const Tetrahedron<Number, n_nodes> &tet,
                  const Matrix3<Number>              &R,
                  const Number                       &factor,
@@ -24,22 +25,27 @@ namespace Exemplar::Loops
     frozen_forces(tet, R, dP, force);
     for (int a = 0; a < n_nodes; ++a)
       for (int c = 0; c < 3; ++c)
-        Lanes<Number>::store(factor * force[a][c],
-                             forces + (3 * (n_nodes * i + a) + c) * batch_size + group.lane);
+      {
+        double      *to  = forces + (3 * (n_nodes * i + a) + c) * batch_size + group.lane;
+        const Number own = factor * force[a][c];
+        Lanes<Number>::store(
+            cells.has_other_laws ? select(of_law(cells, group), own, Lanes<Number>::load(to)) : own,
+            to);
+      }
   }
 
   /// Beside R K R^T: the forces eta V R (C:E_i) g_a of frozen rotations.
-  template <int n_nodes, typename Number>
+  template <typename Constants, int n_nodes, typename Number>
   inline void
   couple_rotated(const CellTask &task, const LaneGroup<Number> &group, double *forces)
   {
-    const auto                 tet      = load_tetrahedron<n_nodes>(task.cells, group);
-    const Matrix3<Number>      R        = load_rotation(task.cells, group);
-    const CellMaterial<Number> material = load_material(task.cells, group);
+    const auto            tet       = load_tetrahedron<n_nodes>(task.cells, group);
+    const Matrix3<Number> R         = load_rotation(task.cells, group);
+    const auto            constants = load_constants<Constants>(task.cells, group);
     for (unsigned int i = 0; i < task.examples.n; ++i)
       store_coupling(
-          group, tet, R, Number(1.),
-          stress(material, load_strain(task.examples.strains, group, task.examples.n, i)), i,
+          task.cells, group, tet, R, Number(1.),
+          stress(constants, load_strain(task.examples.strains, group, task.examples.n, i)), i,
           forces);
   }
 
@@ -60,7 +66,7 @@ namespace Exemplar::Loops
     const Cell cell = driven_cell<Cell>(task, tangent, group, tet, R);
     for (unsigned int i = 0; i < task.examples.n; ++i)
       store_coupling(
-          group, tet, R, factor,
+          task.cells, group, tet, R, factor,
           cell.example_response(load_strain(task.examples.strains, group, task.examples.n, i)), i,
           forces);
   }
@@ -77,15 +83,17 @@ namespace Exemplar::Loops
                             [&](auto model)
                             {
                               using Cell = typename decltype(model)::type;
-                              for_each_group<Number>(batch, batch + 1,
-                                                     [&](const LaneGroup<Number> &group)
-                                                     {
-                                                       if constexpr (!Cell::traits.exact_is_rotated)
-                                                         if (!rotated)
-                                                           return couple_exactly<Cell, n_nodes>(
-                                                               task, tangent, group, forces);
-                                                       couple_rotated<n_nodes>(task, group, forces);
-                                                     });
+                              for_each_group_of_law<Number>(
+                                  task.cells, batch, batch + 1,
+                                  [&](const LaneGroup<Number> &group)
+                                  {
+                                    if constexpr (!Cell::traits.exact_is_rotated)
+                                      if (!rotated)
+                                        return couple_exactly<Cell, n_nodes>(task, tangent, group,
+                                                                             forces);
+                                    couple_rotated<typename Cell::Constants, n_nodes>(task, group,
+                                                                                      forces);
+                                  });
                             });
   }
 } // namespace Exemplar::Loops

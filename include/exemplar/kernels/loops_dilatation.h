@@ -19,15 +19,15 @@ namespace Exemplar::Loops
         {
           using Cell = typename decltype(model)::type;
           if constexpr (Cell::traits.trace_gradient_is_R)
-            for_each_group<Number>(begin, end,
-                                   [&](const LaneGroup<Number> &group)
-                                   {
-                                     const Matrix3<Number> F = deformation_gradient(
-                                         task, group, load_tetrahedron<n_nodes>(task.cells, group));
-                                     store_dilatation(
-                                         task, group,
-                                         Cell::strain_of(load_rotation(task.cells, group), F), F);
-                                   });
+            for_each_group_of_law<Number>(
+                task.cells, begin, end,
+                [&](const LaneGroup<Number> &group)
+                {
+                  const Matrix3<Number> F = deformation_gradient(
+                      task, group, load_tetrahedron<n_nodes>(task.cells, group));
+                  store_dilatation(task, group,
+                                   Cell::strain_of(load_rotation(task.cells, group), F), F);
+                });
         });
   }
 

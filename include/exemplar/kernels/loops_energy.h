@@ -143,8 +143,8 @@ namespace Exemplar::Loops
                    const Matrix3<Number>   &strain,
                    const Matrix3<Number>   &F)
   {
-    Lanes<Number>::store(trace(strain), task.dilatation.traces + group.at(1, 0));
-    Lanes<Number>::store(contract(F, F), task.dilatation.squares + group.at(1, 0));
+    store(task.cells, group, trace(strain), task.dilatation.traces);
+    store(task.cells, group, contract(F, F), task.dilatation.squares);
   }
 
   /// Adds the guard of the stretch, where it acts. It begins anew from the positions and is kept
@@ -160,7 +160,8 @@ namespace Exemplar::Loops
     const auto            tet = load_tetrahedron<n_nodes>(task.cells, group);
     const Matrix3<Number> F   = deformation_gradient(task, group, tet);
     const Matrix3<Number> R   = rotation<Cell>(task, group, F);
-    const Cell            cell(load_material(task.cells, group), R, F, task.cells.guard_bound);
+    const Cell            cell(load_constants<typename Cell::Constants>(task.cells, group), R, F,
+                               task.cells.guard_bound);
     if (!cell.is_stretched())
       return;
     const StretchGuard<Number> guard  = cell.stretch();
@@ -188,8 +189,12 @@ namespace Exemplar::Loops
     const Matrix3<Number> R            = rotation<Cell>(task, group, F);
     const auto            is_real      = tet.volume > Number(0.);
 
-    const Number det = determinant(F);
-    Cell         cell(load_material(task.cells, group), R, F, task.cells.guard_bound);
+    const Number det
+        = task.cells.has_other_laws
+              ? select(is_real, determinant(F), Number(std::numeric_limits<double>::max()))
+              : determinant(F);
+    Cell         cell(load_constants<typename Cell::Constants>(task.cells, group), R, F,
+                      task.cells.guard_bound);
     const Number density = cell.elastic_density();
     const Number elastic = tet.volume * density;
     Number       scale   = cell.elastic_scale();
@@ -256,8 +261,8 @@ namespace Exemplar::Loops
         [&](auto model)
         {
           using Cell = typename decltype(model)::type;
-          for_each_group<Number>(
-              begin, end,
+          for_each_group_of_law<Number>(
+              task.cells, begin, end,
               [&](const LaneGroup<Number> &group)
               { evaluate_group<Cell, n_nodes>(task, group, nodal_sums, weight_sums, sums); });
         });
@@ -276,14 +281,14 @@ namespace Exemplar::Loops
         [&](auto model)
         {
           using Cell = typename decltype(model)::type;
-          for_each_group<Number>(
-              begin, end,
+          for_each_group_of_law<Number>(
+              task.cells, begin, end,
               [&](const LaneGroup<Number> &group)
               {
                 const auto            tet = load_tetrahedron<n_nodes>(task.cells, group);
                 const Matrix3<Number> F   = deformation_gradient(task, group, tet);
-                const Cell cell(load_material(task.cells, group), rotation<Cell>(task, group, F), F,
-                                task.cells.guard_bound);
+                const Cell cell(load_constants<typename Cell::Constants>(task.cells, group),
+                                rotation<Cell>(task, group, F), F, task.cells.guard_bound);
                 if constexpr (Cell::traits.trace_gradient_is_R)
                   if (task.dilatation.traces != nullptr)
                     store_dilatation(task, group, cell.strain(), F);

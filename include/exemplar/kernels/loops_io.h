@@ -64,13 +64,54 @@ namespace Exemplar::Loops
     return Lanes<Number>::load(from + group.at(n, e));
   }
 
-  template <typename Number>
-  inline CellMaterial<Number>
-  load_material(const CellArrays &cells, const LaneGroup<Number> &group)
+  /// The constants of a law.
+  template <typename Constants, typename Number>
+  inline Constants
+  load_constants(const CellArrays &cells, const LaneGroup<Number> &group)
   {
-    constexpr std::size_t n = CellMaterial<Number>::n_numbers;
-    return CellMaterial<Number>::from_numbers([&](const std::size_t k)
-                                              { return load(cells.material, group, n, k); });
+    constexpr std::size_t n = Constants::n_numbers;
+    return Constants::from_numbers([&](const std::size_t k)
+                                   { return load(cells.material, group, n, k); });
+  }
+
+  /// Which cells of a group are of the law that a loop is for.
+  template <typename Number>
+  inline auto
+  of_law(const CellArrays &cells, const LaneGroup<Number> &group)
+  {
+    return load(cells.volumes, group, 1, 0) > Number(0.);
+  }
+
+  /// Store entry e of n; entries of cells of another law stay as they are.
+  template <typename Number>
+  inline void
+  store(const CellArrays        &cells,
+        const LaneGroup<Number> &group,
+        const Number            &value,
+        double                  *to,
+        const std::size_t        n = 1,
+        const std::size_t        e = 0)
+  {
+    double *at = to + group.at(n, e);
+    Lanes<Number>::store(
+        cells.has_other_laws ? select(of_law(cells, group), value, Lanes<Number>::load(at)) : value,
+        at);
+  }
+
+  /// Call function(group) for all groups of the batches begin to end - 1 with a cell of the law.
+  template <typename Number, typename Function>
+  inline void
+  for_each_group_of_law(const CellArrays &cells,
+                        const std::size_t begin,
+                        const std::size_t end,
+                        const Function   &function)
+  {
+    for_each_group<Number>(begin, end,
+                           [&](const LaneGroup<Number> &group)
+                           {
+                             if (!cells.has_other_laws || any(of_law(cells, group)))
+                               function(group);
+                           });
   }
 
   template <typename Number>
@@ -227,6 +268,9 @@ namespace Exemplar::Loops
       for (int j = 0; j < 3; ++j)
         F[i][j] = sum_of<n_nodes - 1>([&](const int a)
                                       { return edge[a + 1][i] * tet.shape_gradient[a + 1][j]; });
+    // a law may not be defined where cells of another one are
+    if (task.cells.has_other_laws)
+      F = select_matrix(tet.volume > Number(0.), F, identity_matrix<Number>());
     return F;
   }
 } // namespace Exemplar::Loops

@@ -18,7 +18,7 @@ namespace Exemplar::Loops
     const Matrix3<Number> R = closest_rotation(F);
     if (task.rotation_use == RotationUse::update)
       for (int k = 0; k < 9; ++k)
-        Lanes<Number>::store(R[k / 3][k % 3], task.cells.rotations + group.at(9, k));
+        store(task.cells, group, R[k / 3][k % 3], task.cells.rotations, 9, k);
     return R;
   }
 
@@ -34,8 +34,8 @@ namespace Exemplar::Loops
         {
           using Cell = typename decltype(model)::type;
           if constexpr (Cell::traits.has_rotations)
-            for_each_group<Number>(
-                begin, end,
+            for_each_group_of_law<Number>(
+                task.cells, begin, end,
                 [&](const LaneGroup<Number> &group)
                 {
                   rotation<Cell>(updating, group,

@@ -30,7 +30,7 @@ namespace Exemplar::Loops
     alignas(64) double diagonal[n][n][LaneGroup<Number>::width]; ///< V mu g_a.g_b, a >= b
   };
 
-  template <typename Number, int n>
+  template <typename Constants, typename Number, int n>
   inline void
   find_rotated_stiffness(const CellTask              &task,
                          const LaneGroup<Number>     &group,
@@ -41,7 +41,7 @@ namespace Exemplar::Loops
     Number                factor = tet.volume;
     if (task.damping.factors != nullptr)
       factor *= Number(1.) + load(task.damping.factors, group, 1, 0);
-    const auto [lambda, mu] = load_material(task.cells, group).scaled(factor);
+    const auto [lambda, mu] = load_constants<Constants>(task.cells, group).scaled(factor);
     Vector3<Number> g[n];
     rotate_gradients(tet, R, g);
     for (int a = 0; a < n; ++a)
@@ -112,23 +112,23 @@ namespace Exemplar::Loops
         g[l] = Four{ K.g[a][0][l], K.g[a][1][l], K.g[a][2][l], 0. };
   }
 
-  template <typename Number, int n>
+  template <typename Constants, typename Number, int n>
   inline void
-  add_rotated_stiffness(const CellTask    &task,
-                        const TangentTask &tangent,
-                        const std::size_t  begin,
-                        const std::size_t  end)
+  add_rotated_stiffness_of(const CellTask    &task,
+                           const TangentTask &tangent,
+                           const std::size_t  begin,
+                           const std::size_t  end)
   {
     // points of one cell that are computed at once are added at once
     constexpr std::size_t at_once  = std::min<std::size_t>(4, LaneGroup<Number>::width);
     constexpr std::size_t n_points = std::min(at_once, points_of_cell(n));
 
     RotatedStiffness<Number, n> K;
-    for_each_group<Number>(
-        begin, end,
+    for_each_group_of_law<Number>(
+        task.cells, begin, end,
         [&](const LaneGroup<Number> &group)
         {
-          find_rotated_stiffness(task, group, K);
+          find_rotated_stiffness<Constants>(task, group, K);
           for (std::size_t first = 0; first < LaneGroup<Number>::width; first += at_once)
           {
             Four g[n][4]; // of node a, by cell
@@ -147,6 +147,22 @@ namespace Exemplar::Loops
                             tangent.values);
             }
           }
+        });
+  }
+
+  template <typename Number, int n>
+  inline void
+  add_rotated_stiffness(const CellTask    &task,
+                        const TangentTask &tangent,
+                        const std::size_t  begin,
+                        const std::size_t  end)
+  {
+    with_cell_model<Number>(
+        task.cells.law,
+        [&](auto model)
+        {
+          add_rotated_stiffness_of<typename decltype(model)::type::Constants, Number, n>(
+              task, tangent, begin, end);
         });
   }
 } // namespace Exemplar::Loops

@@ -18,8 +18,8 @@ namespace Exemplar::Loops
               const Tetrahedron<Number, n_nodes> &tet,
               const Matrix3<Number>              &R)
   {
-    Cell cell(load_material(task.cells, group), R, deformation_gradient(task, group, tet),
-              task.cells.guard_bound);
+    Cell            cell(load_constants<typename Cell::Constants>(task.cells, group), R,
+                         deformation_gradient(task, group, tet), task.cells.guard_bound);
     Matrix3<Number> D = target(task, group);
     if (task.damping.factors != nullptr)
     {
@@ -125,8 +125,8 @@ namespace Exemplar::Loops
                             {
                               using Cell = typename decltype(model)::type;
                               if constexpr (!Cell::traits.exact_is_rotated)
-                                for_each_group<Number>(
-                                    begin, end,
+                                for_each_group_of_law<Number>(
+                                    task.cells, begin, end,
                                     [&](const LaneGroup<Number> &group)
                                     {
                                       const auto tet = load_tetrahedron<n_nodes>(task.cells, group);

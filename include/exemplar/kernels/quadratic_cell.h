@@ -17,6 +17,8 @@ namespace Exemplar
   class QuadraticCell
   {
   public:
+    using Constants = CellMaterial<Number>;
+
     auto
     is_guarded() const
     {

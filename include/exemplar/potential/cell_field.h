@@ -42,7 +42,7 @@ namespace Exemplar
   public:
     /// `guard_bound` is p_0 of Eq. (16), `material` that of the cells' own energy. Both must outlive
     /// the field. `n_threads` of the loops: no result depends on it.
-    CellField(CellLaw         law,
+    CellField(LawsOfCells     laws,
               double          guard_bound,
               const FESpace  &fe_space,
               const Material &material,
@@ -62,7 +62,7 @@ namespace Exemplar
     void
     set_damping(double s, const std::vector<WeightedPositions> &history)
     {
-      damping.set(s, history, law, guard_bound, fe_space, material);
+      damping.set(s, history, laws, guard_bound, fe_space, material);
     }
 
     /// R at every point from the polar decomposition at these positions. Models without rotations
@@ -137,9 +137,28 @@ namespace Exemplar
     }
 
     CellLaw
-    get_law() const
+    law(const unsigned int point) const
     {
-      return law;
+      return laws[fe_space.cell_of(point)];
+    }
+
+    const LawsOfCells &
+    get_laws() const
+    {
+      return laws;
+    }
+
+    /// Call function(task) for each law, with the task for its cells alone.
+    template <typename Function>
+    void
+    for_each_law(CellTask task, const Function &function) const
+    {
+      batches.for_each_law(task.cells,
+                           [&](const CellArrays &cells)
+                           {
+                             task.cells = cells;
+                             function(task);
+                           });
     }
 
     double
@@ -153,7 +172,7 @@ namespace Exemplar
     memory_consumption() const;
 
   private:
-    const CellLaw                 law;
+    const LawsOfCells             laws;
     const double                  guard_bound;
     const FESpace                &fe_space;
     const Material               &material;

@@ -3,6 +3,7 @@
 #define exemplar_elastic_potential_h
 
 #include <exemplar/body/example_weights.h>
+#include <exemplar/body/laws_of_cells.h>
 #include <exemplar/potential/cell_scatter.h>
 #include <exemplar/potential/evaluation.h>
 #include <exemplar/potential/potential_term.h>
@@ -21,11 +22,11 @@ namespace Exemplar
     std::vector<double> von_mises_stress; ///< of the corotated stress C:(e - eta E(w)) [Pa]
   };
 
-  /// What the cells of a body are: their law, geometry and material, and the examples, both null
+  /// What the cells of a body are: their laws, geometry and material, and the examples, both null
   /// if the scene has none. All must outlive whoever holds this.
   struct ElasticParts
   {
-    CellLaw               law;
+    LawsOfCells           laws;
     const FESpace        &fe_space;
     const Material       &material;      ///< of the body
     const Material       &cell_material; ///< of the cells' own energies, beside those of terms
@@ -147,11 +148,11 @@ namespace Exemplar
       return parts.weights != nullptr && parts.weights->are_unknown();
     }
 
-    /// Whether a tangent is R K R^T.
-    bool
-    is_rotated_stiffness(const Tangent tangent) const
+    /// Whether the tangent of a law is R K R^T.
+    static bool
+    is_rotated_stiffness(const CellLaw law, const Tangent tangent)
     {
-      const ModelTraits traits = traits_of(parts.law);
+      const ModelTraits traits = traits_of(law);
       return tangent == Tangent::exact ? traits.exact_is_rotated : traits.convex_is_rotated;
     }
 
@@ -178,10 +179,7 @@ namespace Exemplar
     /// The state of a cell's point at these positions and weights, with the damping.
     template <typename Cell>
     Cell
-    cell_state(Tangent                    tangent,
-               unsigned int               point,
-               const Vector              &positions,
-               const std::vector<double> &weights) const;
+    cell_state(Tangent tangent, unsigned int point, const TermPoint &at) const;
 
     /// Call function(point) for the quadrature points of the cells beside held nodes.
     template <typename Function>
@@ -201,44 +199,42 @@ namespace Exemplar
       return parts.cell_material.elasticity(parts.fe_space.cell_of(point));
     }
 
-    /// In which energies and tangents a law may add to R K R^T where a cell is strongly stretched.
-    bool
-    stiffens_when_stretched(const Tangent tangent) const
-    {
-      return tangent == Tangent::convex && traits_of(parts.law).has_guard;
-    }
+    /// The loop that adds the tangent of a task's law.
+    void
+    add_tangent_of_law(const CellTask    &task,
+                       const TangentTask &tangent,
+                       std::size_t        begin,
+                       std::size_t        end) const;
 
     void
-    add_mixed_cells(const CellTask      &task,
-                    TangentTask          tangent,
-                    bool                 rotated,
-                    std::vector<double> &values);
+    add_mixed_cells(const CellTask &task, TangentTask tangent, std::vector<double> &values);
 
     template <Element element>
     void
     assemble_coupling(const CellTask      &task,
                       const TangentTask   &tangent,
-                      bool                 rotated,
                       std::vector<double> &columns) const;
 
     /// The part of the cells of this process.
     void
-    add_own_response(Tangent                    tangent,
-                     const Vector              &displacement,
-                     const Vector              &positions,
-                     const std::vector<double> &weights,
-                     ElasticEvaluation         &result);
+    add_own_response(Tangent            tangent,
+                     const Vector      &displacement,
+                     const TermPoint   &at,
+                     ElasticEvaluation &result);
 
+    /// What R^T dF = `M` at a point of this law changes.
     template <typename Cell>
     void
-    add_cell_responses(Tangent                    tangent,
-                       const Vector              &displacement,
-                       const Vector              &positions,
-                       const std::vector<double> &weights,
-                       ElasticEvaluation         &result) const;
+    add_cell_response(Tangent                tangent,
+                      unsigned int           point,
+                      const Matrix3<double> &M,
+                      const TermPoint       &at,
+                      ElasticEvaluation     &result) const;
 
     void
-    add_rotated_responses(const Vector &displacement, ElasticEvaluation &result) const;
+    add_rotated_response(unsigned int           point,
+                         const Matrix3<double> &M,
+                         ElasticEvaluation     &result) const;
 
     /// Into the gradient: nodal forces of a change of R^T P.
     void

@@ -3,6 +3,7 @@
 #define exemplar_strain_damping_h
 
 #include <exemplar/body/fe_space.h>
+#include <exemplar/body/laws_of_cells.h>
 #include <exemplar/body/material.h>
 #include <exemplar/body/time_integrator.h>
 #include <exemplar/kernels/cell_kernels.h>
@@ -18,13 +19,13 @@ namespace Exemplar
   class StrainDamping
   {
   public:
-    /// From now on with this s, 0 for none, in cells of this law with p_0 of Eq. (16). Points that the
+    /// From now on with this s, 0 for none, in cells of these laws with p_0 of Eq. (16). Points that the
     /// guard of Eq. (16) had to hold at one of the positions x_m are left out: their rotation is
     /// ambiguous.
     void
     set(double                                s,
         const std::vector<WeightedPositions> &history,
-        CellLaw                               law,
+        const LawsOfCells                    &laws,
         double                                guard_bound,
         const FESpace                        &fe_space,
         const Material                       &material);

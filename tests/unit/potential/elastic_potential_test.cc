@@ -176,7 +176,7 @@ namespace Exemplar::Testing
     struct TangentCase
     {
       Discretisation discretisation;
-      StrainMeasure  strain;
+      LawsOfCells    laws;
       bool           per_region;
       double         damping;
     };
@@ -191,11 +191,9 @@ namespace Exemplar::Testing
       ExampleParameters parameters   = two_examples();
       parameters.weights_per_region  = test_case.per_region;
       parameters.region_blend_length = 2.;
-      const auto      examples       = body.examples(parameters, law_of(test_case.strain));
+      const auto      examples       = body.examples(parameters, test_case.laws);
       const FreeDofs  free_dofs(body.fe_space.n_dofs(), { 0, 4, 8, 30 }, Exchange::serial());
-      ModelParameters model;
-      model.strain = test_case.strain;
-      BodyPotential elastic(body, model, examples, free_dofs);
+      BodyPotential   elastic(body, test_case.laws, examples, free_dofs);
       std::mt19937  generator(4);
       auto          positions = body.random_positions(generator, 0.05);
       const auto    past = body.random_positions(generator, 0.05), before = past;
@@ -257,19 +255,73 @@ namespace Exemplar::Testing
     TEST_P(ElasticPotentialTest, TangentsAreDerivativesInEveryModel)
     {
       for (const StrainMeasure strain : strains_of(GetParam()))
-        expect_derivatives({ GetParam(), strain, false, 0. });
+        expect_derivatives({ GetParam(), law_of(strain), false, 0. });
     }
 
     TEST_P(ElasticPotentialTest, TangentsAreDerivativesWithDamping)
     {
       for (const StrainMeasure strain : strains_of(GetParam()))
-        expect_derivatives({ GetParam(), strain, false, 0.7 });
+        expect_derivatives({ GetParam(), law_of(strain), false, 0.7 });
     }
 
     TEST_P(ElasticPotentialTest, TangentsAreDerivativesWithWeightsPerRegion)
     {
-      expect_derivatives({ GetParam(), StrainMeasure::corotational, true, 0. });
-      expect_derivatives({ GetParam(), strains_of(GetParam()).back(), true, 0.7 });
+      expect_derivatives({ GetParam(), CellLaw::corotational, true, 0. });
+      expect_derivatives({ GetParam(), law_of(strains_of(GetParam()).back()), true, 0.7 });
+    }
+
+    /// Neighbours of all laws, so that every batch of the loops has some of each.
+    LawsOfCells
+    alternating_laws(const Discretisation &discretisation, const unsigned int n_cells)
+    {
+      const std::vector<StrainMeasure> strains = strains_of(discretisation);
+      std::vector<CellLaw>             laws;
+      for (unsigned int cell = 0; cell < n_cells; ++cell)
+        laws.push_back(law_of(strains[cell % strains.size()]));
+      return LawsOfCells(laws);
+    }
+
+    TEST_P(ElasticPotentialTest, TangentsAreDerivativesWithSeveralLaws)
+    {
+      const LawsOfCells laws = alternating_laws(GetParam(), 24);
+      expect_derivatives({ GetParam(), laws, false, 0. });
+      expect_derivatives({ GetParam(), laws, true, 0.7 });
+    }
+
+    TEST_P(ElasticPotentialTest, EachCellHasTheResultsOfItsLaw)
+    {
+      const ParametricBody body;
+      const FreeDofs       free_dofs(body.fe_space.n_dofs(), {}, Exchange::serial());
+      const LawsOfCells    laws = alternating_laws(GetParam(), body.fe_space.n_cells());
+      std::mt19937         generator(9);
+      const auto           positions = body.random_positions(generator, 0.2);
+      const auto           evaluate  = [&](const LawsOfCells &some_laws, double &energy)
+      {
+        BodyPotential     elastic(body, some_laws, {}, free_dofs);
+        ElasticEvaluation evaluation;
+        elastic.evaluate(positions, {}, evaluation, RotationUse::update);
+        energy = evaluation.energy;
+        return elastic.cell_results(positions, {});
+      };
+      double            energy = 0., of_one = 0., sum = 0.;
+      const CellResults mixed = evaluate(laws, energy);
+      for (const CellLaw law : laws.present())
+      {
+        const CellResults alone = evaluate(law, of_one);
+        for (unsigned int cell = 0; cell < body.fe_space.n_cells(); ++cell)
+          if (laws[cell] == law)
+          {
+            EXPECT_DOUBLE_EQ(mixed.det_F[cell], alone.det_F[cell]);
+            // of patches the means are those of several laws
+            const double density = mixed.strain_energy_density[cell];
+            if (!GetParam().has_patches)
+            {
+              EXPECT_NEAR(density, alone.strain_energy_density[cell], 1e-12 * density);
+            }
+            sum += body.fe_space.cell_volume(cell) * density;
+          }
+      }
+      EXPECT_NEAR(sum, energy, 1e-12 * energy);
     }
 
     /// A body drawn along x and thinned across.

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_laws_of_cells_h
+#define exemplar_laws_of_cells_h
+
+#include <exemplar/kernels/cell_model.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace Exemplar
+{
+  /// The law of each cell of a body.
+  class LawsOfCells
+  {
+  public:
+    /// The same law in all cells.
+    LawsOfCells(const CellLaw law) : laws{ law } {}
+
+    /// One for each cell, at least one.
+    explicit LawsOfCells(std::vector<CellLaw> of_cells)
+        : laws(of_cells), law_of_cell(std::move(of_cells))
+    {
+      std::sort(laws.begin(), laws.end());
+      laws.erase(std::unique(laws.begin(), laws.end()), laws.end());
+    }
+
+    CellLaw
+    operator[](const unsigned int cell) const
+    {
+      return law_of_cell.empty() ? laws.front() : law_of_cell[cell];
+    }
+
+    /// Those of some cell, each once.
+    const std::vector<CellLaw> &
+    present() const
+    {
+      return laws;
+    }
+
+  private:
+    std::vector<CellLaw> laws;
+    std::vector<CellLaw> law_of_cell; ///< empty: the same in all
+  };
+} // namespace Exemplar
+
+#endif
