@@ -7,10 +7,28 @@ namespace Exemplar
 {
   namespace
   {
-    const EnumTable<StrainMeasure> strain_measures
-        = { { StrainMeasure::corotational, "corotational" },
-            { StrainMeasure::linear, "linear" },
-            { StrainMeasure::green, "green" } };
+    /// The laws that Model/Strain chooses from.
+    EnumTable<CellLaw>
+    make_strains()
+    {
+      EnumTable<CellLaw> strains;
+      for (const CellLaw law : all_laws())
+        if (!std::string(traits_of(law).strain).empty())
+          strains.emplace_back(law, traits_of(law).name);
+      return strains;
+    }
+
+    const EnumTable<CellLaw> strains = make_strains();
+
+    std::string
+    describe_strains()
+    {
+      std::string text;
+      for (const auto &[law, name] : strains)
+        text += (text.empty() ? "" : "; ") + name + ": " + traits_of(law).strain;
+      return text + ". Example strains are of the same measure.";
+    }
+
     const EnumTable<GradientKind> gradient_kinds
         = { { GradientKind::consistent, "consistent" }, { GradientKind::frozen, "frozen" } };
     const EnumTable<DilatationKind> dilatation_kinds = { { DilatationKind::automatic, "auto" },
@@ -23,10 +41,7 @@ namespace Exemplar
   ModelParameters::declare(KeyTable &keys)
   {
     keys.enter_subsection("Model");
-    keys.add("Strain", strain, strain_measures,
-             "corotational: S - I, the deformation freed of the cell's rotation; linear: sym(F) "
-             "- I, for comparison, wrong where cells turn; green: (F^T F - I)/2, that of "
-             "nonlinear example-based materials. Example strains are of the same measure.");
+    keys.add("Strain", strain, strains, describe_strains());
     keys.add(
         "Gradient", gradient, gradient_kinds,
         "consistent: the force is the gradient of the energy; frozen: the paper's force R T, "

@@ -51,15 +51,6 @@ namespace Exemplar::Testing
   }
 
   /// Examples and their weights; none by default.
-  /// With the force that is the gradient of its energy.
-  inline CellLaw
-  law_of(const StrainMeasure strain)
-  {
-    ModelParameters model;
-    model.strain = strain;
-    return model.law();
-  }
-
   struct Examples
   {
     std::unique_ptr<ExamplePoses>   poses;

@@ -8,13 +8,6 @@ namespace Exemplar
 {
   class KeyTable;
 
-  enum class StrainMeasure
-  {
-    corotational,
-    linear,
-    green
-  };
-
   enum class GradientKind
   {
     consistent,
@@ -32,7 +25,7 @@ namespace Exemplar
   /// Subsection Model.
   struct ModelParameters
   {
-    StrainMeasure  strain     = StrainMeasure::corotational;
+    CellLaw        strain     = CellLaw::corotational; ///< the law of that strain
     GradientKind   gradient   = GradientKind::consistent;
     DilatationKind dilatation = DilatationKind::automatic;
     Element        element    = Element::P1;
@@ -59,15 +52,8 @@ namespace Exemplar
     CellLaw
     law() const
     {
-      switch (strain)
-      {
-      case StrainMeasure::linear:
-        return CellLaw::linear;
-      case StrainMeasure::green:
-        return CellLaw::green;
-      default:
-        return gradient == GradientKind::frozen ? CellLaw::frozen : CellLaw::corotational;
-      }
+      return strain == CellLaw::corotational && gradient == GradientKind::frozen ? CellLaw::frozen
+                                                                                 : strain;
     }
 
     /// Whether forces are the paper's, which hold the rotations fixed.

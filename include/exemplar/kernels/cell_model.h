@@ -8,6 +8,7 @@
 #include <exemplar/kernels/polar_decomposition.h>
 
 #include <tuple>
+#include <vector>
 
 // The laws of a cell: what its energy, forces and tangents are as functions of F, R and its constants.
 // All have the members of CorotationalCell, so that a further law is a header like corotational_cell.h
@@ -49,6 +50,16 @@ namespace Exemplar
   traits_of(const CellLaw law)
   {
     return with_cell_model<double>(law, [](auto model) { return decltype(model)::type::traits; });
+  }
+
+  /// All laws, in the order of CellLaws.
+  inline std::vector<CellLaw>
+  all_laws()
+  {
+    std::vector<CellLaw> laws;
+    for (std::size_t i = 0; i < std::tuple_size_v<CellLaws<double>>; ++i)
+      laws.push_back(static_cast<CellLaw>(i));
+    return laws;
   }
 
   /// The rotation of a cell that a model sees: I where it has none.

@@ -87,11 +87,14 @@ namespace Exemplar
   public:
     using Constants = CellMaterial<Number>;
 
-    static constexpr ModelTraits traits
-        = { /* has_rotations */ true,     /* has_guard */ true,
-            /* exact_is_rotated */ false,
-            /* convex_is_rotated */ true, /* trace_gradient_is_R */ true,
-            /* turns_freely */ true };
+    static constexpr ModelTraits traits = { "corotational",
+                                            "S - I, the deformation freed of the cell's rotation",
+                                            /* has_rotations */ true,
+                                            /* has_guard */ true,
+                                            /* exact_is_rotated */ false,
+                                            /* convex_is_rotated */ true,
+                                            /* trace_gradient_is_R */ true,
+                                            /* turns_freely */ true };
 
     /// e = S - I, Eq. (2).
     static Matrix3<Number>

@@ -32,9 +32,13 @@ namespace Exemplar
   {
   public:
     static constexpr ModelTraits traits
-        = { /* has_rotations */ false,     /* has_guard */ false,
+        = { "green",
+            "(F^T F - I)/2, that of nonlinear example-based materials",
+            /* has_rotations */ false,
+            /* has_guard */ false,
             /* exact_is_rotated */ false,
-            /* convex_is_rotated */ false, /* trace_gradient_is_R */ false,
+            /* convex_is_rotated */ false,
+            /* trace_gradient_is_R */ false,
             /* turns_freely */ true };
 
     static Matrix3<Number>

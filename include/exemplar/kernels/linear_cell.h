@@ -17,9 +17,13 @@ namespace Exemplar
   {
   public:
     static constexpr ModelTraits traits
-        = { /* has_rotations */ turns,    /* has_guard */ false,
+        = { turns ? "frozen" : "linear",
+            turns ? "" : "sym(F) - I, for comparison, wrong where cells turn",
+            /* has_rotations */ turns,
+            /* has_guard */ false,
             /* exact_is_rotated */ true,
-            /* convex_is_rotated */ true, /* trace_gradient_is_R */ true,
+            /* convex_is_rotated */ true,
+            /* trace_gradient_is_R */ true,
             /* turns_freely */ turns };
 
     /// e = sym(R^T F) - I.

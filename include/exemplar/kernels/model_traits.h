@@ -8,6 +8,13 @@ namespace Exemplar
   /// `traits`.
   struct ModelTraits
   {
+    /// What scenes call it, as the value of Model/Strain or Model/Gradient.
+    const char *name;
+
+    /// Its strain measure, for the documentation of Model/Strain; empty for a law that is chosen by
+    /// Model/Gradient.
+    const char *strain;
+
     /// R is the rotation of F. In models without rotations it is I, and P = R (R^T P) holds, too.
     bool has_rotations;
 

@@ -107,7 +107,7 @@ namespace Exemplar
     std::optional<std::string>
     describe_turned(const Problem &problem)
     {
-      if (problem.parameters.model.strain != StrainMeasure::linear)
+      if (problem.parameters.model.strain != CellLaw::linear)
         return {};
       double         greatest = 0.;
       const FESpace &fe_space = problem.body.fe_space;

@@ -67,12 +67,12 @@ namespace Exemplar::Testing
                                              Discretisation{ Element::P1, true },
                                              Discretisation{ Element::P2, true }));
 
-    std::vector<StrainMeasure>
+    std::vector<CellLaw>
     strains_of(const Discretisation &discretisation)
     {
       if (discretisation.has_patches)
-        return { StrainMeasure::corotational, StrainMeasure::linear };
-      return { StrainMeasure::corotational, StrainMeasure::linear, StrainMeasure::green };
+        return { CellLaw::corotational, CellLaw::linear };
+      return { CellLaw::corotational, CellLaw::linear, CellLaw::green };
     }
 
     /// A bar of the element that is tested.
@@ -254,30 +254,30 @@ namespace Exemplar::Testing
 
     TEST_P(ElasticPotentialTest, TangentsAreDerivativesInEveryModel)
     {
-      for (const StrainMeasure strain : strains_of(GetParam()))
-        expect_derivatives({ GetParam(), law_of(strain), false, 0. });
+      for (const CellLaw strain : strains_of(GetParam()))
+        expect_derivatives({ GetParam(), strain, false, 0. });
     }
 
     TEST_P(ElasticPotentialTest, TangentsAreDerivativesWithDamping)
     {
-      for (const StrainMeasure strain : strains_of(GetParam()))
-        expect_derivatives({ GetParam(), law_of(strain), false, 0.7 });
+      for (const CellLaw strain : strains_of(GetParam()))
+        expect_derivatives({ GetParam(), strain, false, 0.7 });
     }
 
     TEST_P(ElasticPotentialTest, TangentsAreDerivativesWithWeightsPerRegion)
     {
       expect_derivatives({ GetParam(), CellLaw::corotational, true, 0. });
-      expect_derivatives({ GetParam(), law_of(strains_of(GetParam()).back()), true, 0.7 });
+      expect_derivatives({ GetParam(), strains_of(GetParam()).back(), true, 0.7 });
     }
 
     /// Neighbours of all laws, so that every batch of the loops has some of each.
     LawsOfCells
     alternating_laws(const Discretisation &discretisation, const unsigned int n_cells)
     {
-      const std::vector<StrainMeasure> strains = strains_of(discretisation);
+      const std::vector<CellLaw>       strains = strains_of(discretisation);
       std::vector<CellLaw>             laws;
       for (unsigned int cell = 0; cell < n_cells; ++cell)
-        laws.push_back(law_of(strains[cell % strains.size()]));
+        laws.push_back(strains[cell % strains.size()]);
       return LawsOfCells(laws);
     }
 
@@ -424,10 +424,10 @@ namespace Exemplar::Testing
 
     TEST_P(ElasticPotentialTest, ResponseBesideHeldNodesIsTheDerivativeByThem)
     {
-      for (const StrainMeasure strain : strains_of(GetParam()))
+      for (const CellLaw strain : strains_of(GetParam()))
       {
         const ParametricBody body;
-        const auto           examples = body.examples(two_examples(), law_of(strain));
+        const auto           examples = body.examples(two_examples(), strain);
         const FreeDofs       free_dofs(body.fe_space.n_dofs(), { 0, 4, 8, 30 }, Exchange::serial());
         ModelParameters      model;
         model.strain = strain;

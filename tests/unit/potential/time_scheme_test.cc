@@ -116,7 +116,7 @@ namespace Exemplar::Testing
 
     TEST(TimeScheme, StiffnessDampingLeavesRigidMotionAlone)
     {
-      for (const StrainMeasure strain : { StrainMeasure::corotational, StrainMeasure::green })
+      for (const CellLaw strain : { CellLaw::corotational, CellLaw::green })
       {
         const Body      body;
         const FreeDofs  free_dofs(body.fe_space.n_dofs(), {}, Exchange::serial());

@@ -70,7 +70,7 @@ namespace Exemplar::Testing
 
     TEST(SceneParameters, AutoIsTheDilatationThatSuitsTheStrain)
     {
-      const auto has_patches = [](const StrainMeasure strain, const DilatationKind dilatation)
+      const auto has_patches = [](const CellLaw strain, const DilatationKind dilatation)
       {
         SceneParameters scene;
         scene.model.strain     = strain;
@@ -79,10 +79,10 @@ namespace Exemplar::Testing
         return scene.model.has_patches();
       };
       EXPECT_EQ(SceneParameters().model.dilatation, DilatationKind::automatic);
-      EXPECT_TRUE(has_patches(StrainMeasure::corotational, DilatationKind::automatic));
-      EXPECT_TRUE(has_patches(StrainMeasure::linear, DilatationKind::automatic));
-      EXPECT_FALSE(has_patches(StrainMeasure::green, DilatationKind::automatic));
-      EXPECT_FALSE(has_patches(StrainMeasure::linear, DilatationKind::cells));
+      EXPECT_TRUE(has_patches(CellLaw::corotational, DilatationKind::automatic));
+      EXPECT_TRUE(has_patches(CellLaw::linear, DilatationKind::automatic));
+      EXPECT_FALSE(has_patches(CellLaw::green, DilatationKind::automatic));
+      EXPECT_FALSE(has_patches(CellLaw::linear, DilatationKind::cells));
       SceneParameters interpolation;
       interpolation.scene = SceneKind::interpolation;
       interpolation.complete();
