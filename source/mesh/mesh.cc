@@ -283,4 +283,31 @@ namespace Exemplar
       bytes += sizeof(element) + element.nodes.capacity() * sizeof(element.nodes[0]);
     return bytes;
   }
+
+  std::vector<double>
+  Mesh::whole_cells(const std::vector<double> &own) const
+  {
+    const std::size_t   n = own.size() / n_cells(); // of each
+    std::vector<double> all(n * whole().n_cells, 0.);
+    for (unsigned int cell = 0; cell < n_cells(); ++cell)
+    {
+      const unsigned int in_file = cells_in_file.empty() ? cell : cells_in_file[cell];
+      std::copy_n(own.begin() + n * cell, n, all.begin() + n * in_file);
+    }
+    exchange().sum(all);
+    return all;
+  }
+
+  std::vector<double>
+  Mesh::own_cells(const std::vector<double> &of_whole_body) const
+  {
+    const std::size_t   n = of_whole_body.size() / whole().n_cells; // of each
+    std::vector<double> own(n * n_cells());
+    for (unsigned int cell = 0; cell < n_cells(); ++cell)
+    {
+      const unsigned int in_file = cells_in_file.empty() ? cell : cells_in_file[cell];
+      std::copy_n(of_whole_body.begin() + n * in_file, n, own.begin() + n * cell);
+    }
+    return own;
+  }
 } // namespace Exemplar

@@ -96,6 +96,42 @@ namespace Exemplar::Verification
                { "energy", 4. * 1.5 * 0.4e6 / 100., problem->evaluation.elastic.energy,
                  Comparison::relative, 1e-10 } };
     }
+    /// A number that a cell has in whatever process.
+    std::vector<double>
+    centroids(const Mesh &mesh)
+    {
+      std::vector<double> values;
+      for (const auto &cell : mesh.get_cells())
+        for (unsigned int c = 0; c < 3; ++c)
+        {
+          values.push_back(0.);
+          for (const unsigned int node : cell)
+            values.back() += 0.25 * mesh.get_nodes()[node][c];
+        }
+      return values;
+    }
+
+    /// Fields of the nodes and of the cells, put together and parted again.
+    std::vector<Measurement>
+    shared_state()
+    {
+      const auto problem    = shared_problem(set("Scene", "static") + lifted_bar);
+      State      own        = problem->state;
+      own.history           = centroids(problem->body.mesh);
+      const State  together = whole(problem->body.mesh, own);
+      const double lost     = own == part(problem->body.mesh, together) ? 0. : 1.;
+      if (!problem->body.exchange().is_root())
+        return {};
+      const Scene alone(set("Scene", "static") + lifted_bar);
+      double      nodes = max_difference(together.positions, alone.problem.state.positions);
+      double      cells = 0.;
+      const std::vector<double> expected = centroids(alone.problem.body.mesh);
+      for (std::size_t i = 0; i < expected.size(); ++i)
+        cells = max_or_nan(cells, std::abs(together.history.at(i) - expected[i]));
+      return { { "positions", 0., nodes, Comparison::absolute, 0. },
+               { "numbers of cells", 0., cells, Comparison::absolute, 0. },
+               { "of the part lost", 0., lost, Comparison::absolute, 0. } };
+    }
   } // namespace
 
   std::vector<Case>
@@ -105,6 +141,7 @@ namespace Exemplar::Verification
       { "shared-stretch", "a stretched bar of all processes: closed form", shared_stretch, true },
       { "shared-static", "a bar with an example, by all processes and by one", shared_static,
         true },
+      { "shared-state", "its state as a whole and in parts", shared_state, true },
       { "shared-dynamics", "the same in motion, by quasi-Newton steps", shared_dynamics, true }
     };
   }

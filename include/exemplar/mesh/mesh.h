@@ -49,6 +49,15 @@ namespace Exemplar
       return of_whole;
     }
 
+    /// Of values of the cells, equally many each: those of the whole body in the order of its file, the
+    /// same in all processes, which must all call this.
+    std::vector<double>
+    whole_cells(const std::vector<double> &own) const;
+
+    /// What of whole_cells() this process has.
+    std::vector<double>
+    own_cells(const std::vector<double> &of_whole_body) const;
+
     /// With the processes that have the other parts.
     const Exchange &
     exchange() const

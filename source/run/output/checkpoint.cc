@@ -19,46 +19,45 @@
 
 namespace Exemplar
 {
-  /// boost finds it by this name.
+  // boost finds them by this name
+
   template <typename Archive>
   void
-  serialize(Archive &archive, SceneEdit &edit, const unsigned int)
+  serialize(Archive &archive, SceneEdit &edit, const unsigned int /*version*/)
   {
     archive &edit.step &edit.before &edit.scene;
+  }
+
+  template <typename Archive>
+  void
+  serialize(Archive &archive, Work &work, const unsigned int /*version*/)
+  {
+    archive &work.handles &work.gravity &work.loads;
+  }
+
+  template <typename Archive>
+  void
+  serialize(Archive &archive, RunTotals &totals, const unsigned int /*version*/)
+  {
+    archive &totals.iterations &totals.factorizations &totals.worst_residual &totals.seconds &totals
+        .first_scene &totals.edits;
+  }
+
+  template <typename Archive>
+  void
+  serialize(Archive &archive, Checkpoint &checkpoint, const unsigned int /*version*/)
+  {
+    archive &checkpoint.parameters &checkpoint.input_digests &checkpoint.state &checkpoint
+        .work &checkpoint.totals &checkpoint.solver_memory &checkpoint.statistics_bytes &checkpoint
+        .statistics_digest;
   }
 
   namespace
   {
     /// The first line. The number grows with every change of what follows.
-    const std::string format = "exemplar checkpoint 7";
+    const std::string format = "exemplar checkpoint 8";
 
     const std::string without_resume = " Run the scene without --resume.";
-
-    template <typename Archive>
-    void
-    transfer(Archive &archive, Checkpoint &checkpoint)
-    {
-      State     &state  = checkpoint.state;
-      Work      &work   = checkpoint.work;
-      RunTotals &totals = checkpoint.totals;
-      archive &checkpoint.parameters &checkpoint.input_digests;
-      archive &state.step &state.time &state.positions &state.velocities &state
-          .previous_positions &state.previous_velocities &state.previous_step &state.weights &state
-          .multipliers;
-      archive &work.handles &work.gravity &work.loads;
-      archive &totals.iterations &totals.factorizations &totals.worst_residual;
-      for (double &seconds : totals.seconds)
-        archive &seconds;
-      archive &totals.first_scene &totals.edits;
-      archive &checkpoint.solver_memory &checkpoint.statistics_bytes &checkpoint.statistics_digest;
-    }
-
-    std::array<Vector *, 4>
-    vectors_of(State &state)
-    {
-      return { { &state.positions, &state.velocities, &state.previous_positions,
-                 &state.previous_velocities } };
-    }
 
     /// What `load` returns. Throws UserError if it does not understand the bytes, which are as
     /// they were written: then another build of the program has written them.
@@ -108,7 +107,7 @@ namespace Exemplar
     buffer.sputn((format + '\n').data(), static_cast<std::streamsize>(format.size() + 1));
     {
       boost::archive::binary_oarchive archive(buffer);
-      transfer(archive, const_cast<Checkpoint &>(checkpoint)); // saving does not change it
+      archive << checkpoint;
     }
     buffer.seal();
     atomic_file.commit();
@@ -134,19 +133,9 @@ namespace Exemplar
                         {
                           boost::archive::binary_iarchive archive(in);
                           Checkpoint                      checkpoint;
-                          transfer(archive, checkpoint);
+                          archive >> checkpoint;
                           return checkpoint;
                         });
-  }
-
-  State
-  whole_state(const Problem &problem)
-  {
-    State state = problem.state;
-    for (Vector *vector : vectors_of(state))
-      if (vector->size() > 0)
-        *vector = whole(problem.body.exchange(), *vector);
-    return state;
   }
 
   void
@@ -158,11 +147,11 @@ namespace Exemplar
     if (exchange.is_root())
     {
       boost::archive::binary_oarchive archive(out);
-      transfer(archive, checkpoint);
+      archive << static_cast<const Checkpoint &>(checkpoint);
     }
     std::istringstream              in(exchange.first_text(out.str()));
     boost::archive::binary_iarchive archive(in);
-    transfer(archive, checkpoint);
+    archive >> checkpoint;
   }
 
   void
@@ -171,11 +160,8 @@ namespace Exemplar
     guarded_load(file,
                  [&]
                  {
-                   const Exchange &exchange = problem.body.exchange();
-                   State           state    = checkpoint.state;
-                   for (Vector *vector : vectors_of(state))
-                     *vector = part(exchange, *vector);
-                   problem.resume_from(state, checkpoint.solver_memory);
+                   problem.resume_from(part(problem.body.mesh, checkpoint.state),
+                                       checkpoint.solver_memory);
                    return true;
                  });
   }

@@ -164,7 +164,7 @@ namespace Exemplar
     };
 
     std::vector<NamedNumbers>
-    numbers_of(const State &found, const State &initial, const std::size_t n_dofs)
+    numbers_of(const State &found, const State &initial, const Mesh &mesh, const std::size_t n_dofs)
     {
       const auto entry
           = [](const std::string &name, const auto &numbers, const std::size_t expected) {
@@ -179,7 +179,9 @@ namespace Exemplar
         entry("positions before", found.previous_positions, previous(found.previous_positions)),
         entry("velocities before", found.previous_velocities, previous(found.previous_velocities)),
         entry("weights", found.weights, initial.weights.size()),
-        entry("multipliers", found.multipliers, initial.multipliers.size())
+        entry("multipliers", found.multipliers, initial.multipliers.size()),
+        entry("history", found.history,
+              initial.history.size() / mesh.n_cells() * mesh.whole().n_cells)
       };
     }
 
@@ -190,7 +192,8 @@ namespace Exemplar
           = 3 * problem.body.exchange().n_nodes(problem.body.fe_space.n_nodes());
       const std::string failure = "Cannot resume from " + file.string() + ": ";
       const std::string remedy  = ". Run the scene without --resume.";
-      for (const NamedNumbers &numbers : numbers_of(found, problem.state, n_dofs))
+      for (const NamedNumbers &numbers :
+           numbers_of(found, problem.state, problem.body.mesh, n_dofs))
       {
         if (numbers.size != numbers.expected)
           throw UserError(failure + "it holds " + std::to_string(numbers.size) + " numbers as "

@@ -289,7 +289,13 @@ namespace Exemplar
   {
     std::string digest;
     at_root([&] { digest = sha256_of_begin(directory.statistics(), accepted_bytes); });
-    return { values_of(scene),       input_digests, whole_state(problem), problem.solver_memory(),
-             diagnostics.get_work(), totals,        accepted_bytes,       digest };
+    return { values_of(scene),
+             input_digests,
+             whole(problem.body.mesh, problem.state),
+             problem.solver_memory(),
+             diagnostics.get_work(),
+             totals,
+             accepted_bytes,
+             digest };
   }
 } // namespace Exemplar

@@ -77,7 +77,10 @@ namespace Exemplar::Testing
     {
       EXPECT_EQ(refusal(), "");
       const Checkpoint found = load_checkpoint(file);
-      EXPECT_TRUE(found.state.positions == problem->state.positions);
+      EXPECT_TRUE(found.state == problem->state);
+      State other   = problem->state;
+      other.history = { 1., 2. };
+      EXPECT_FALSE(found.state == other);
       EXPECT_EQ(found.solver_memory, checkpoint.solver_memory);
     }
 

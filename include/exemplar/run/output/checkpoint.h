@@ -58,10 +58,6 @@ namespace Exemplar
   Checkpoint
   load_checkpoint(const std::filesystem::path &file);
 
-  /// The state of the whole body, at the root of those who share it.
-  State
-  whole_state(const Problem &problem);
-
   /// The root's to all processes that share a body.
   void
   share(const Exchange &exchange, Checkpoint &checkpoint);
