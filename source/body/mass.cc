@@ -77,10 +77,11 @@ namespace Exemplar
     }
   }
 
-  Vector
+  OwnSums<Vector>
   Mass::own_times(const Vector &field) const
   {
-    Vector product(field.size());
+    OwnSums<Vector> sums(Vector(field.size()));
+    Vector         &product = *sums;
     for (unsigned int row = 0; row + 1 < row_start.size(); ++row)
     {
       double sum[3] = { 0., 0., 0. };
@@ -93,15 +94,13 @@ namespace Exemplar
       for (unsigned int c = 0; c < 3; ++c)
         product[3 * row + c] = sum[c];
     }
-    return product;
+    return sums;
   }
 
   Vector
   Mass::times(const Vector &field) const
   {
-    Vector product = own_times(field);
-    with_others.assemble(product.begin(), 3);
-    return product;
+    return complete(with_others, own_times(field));
   }
 
   MotionSums

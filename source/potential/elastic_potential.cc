@@ -40,32 +40,6 @@ namespace Exemplar
       return sums;
     }
 
-    /// What processes have summed over their own cells becomes that of the body.
-    void
-    sum_over_processes(const Exchange &exchange, ElasticEvaluation &result)
-    {
-      if (exchange.n_processes() == 1)
-        return;
-      std::vector<double> sums = { result.energy_elastic,
-                                   result.energy,
-                                   result.energy_damping,
-                                   result.stress_square,
-                                   static_cast<double>(result.inverted_cells),
-                                   static_cast<double>(result.guarded_cells) };
-      sums.insert(sums.end(), result.weight_gradient.begin(), result.weight_gradient.end());
-      exchange.sum(sums);
-      result.energy_elastic = sums[0];
-      result.energy         = sums[1];
-      result.energy_damping = sums[2];
-      result.stress_square  = sums[3];
-      result.inverted_cells = static_cast<unsigned int>(sums[4]);
-      result.guarded_cells  = static_cast<unsigned int>(sums[5]);
-      std::copy(sums.begin() + 6, sums.end(), result.weight_gradient.begin());
-      result.min_det_F = exchange.min(result.min_det_F);
-      exchange.assemble(result.gradient.begin(), 3);
-      exchange.assemble(result.force_scale.begin(), 1);
-    }
-
     CellRounding
     estimate_rounding(const ElasticParts &parts)
     {
@@ -217,15 +191,16 @@ namespace Exemplar
       for (std::size_t i = 0; i < weight_sums.size(); ++i)
         weight_sums[i] += stripe.weights[i];
     }
-    copy_sums(sums, result);
-    result.weight_gradient = sum_of_lanes(weight_sums);
-    result.weight_scale    = 0.;
-    result.gradient.reinit(parts.fe_space.n_dofs());
-    result.force_scale.reinit(parts.fe_space.n_nodes());
+    ElasticSums own(std::move(result)); // for its memory
+    copy_sums(sums, *own);
+    own->weight_gradient = sum_of_lanes(weight_sums);
+    own->weight_scale    = 0.;
+    own->gradient.reinit(parts.fe_space.n_dofs());
+    own->force_scale.reinit(parts.fe_space.n_nodes());
     for (const auto &term : terms)
-      term->add({ positions, weights }, result);
-    nodal_sums.add_to(result.gradient, result.force_scale);
-    sum_over_processes(parts.fe_space.exchange(), result);
+      term->add({ positions, weights }, own);
+    nodal_sums.add_to(own->gradient, own->force_scale);
+    result = complete(parts.fe_space.exchange(), std::move(own));
     if (!has_unknown_weights())
       return;
     add_penalty(weights, result);

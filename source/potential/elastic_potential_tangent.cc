@@ -87,12 +87,12 @@ namespace Exemplar
   void
   ElasticPotential::add_rotated_response(const unsigned int     point,
                                          const Matrix3<double> &M,
-                                         ElasticEvaluation     &result) const
+                                         ElasticSums           &sums) const
   {
     const Matrix3<double> de = symmetric_part(M);
     add_force(point, stress(cells.get_damping().damped(point, elasticity(point)), de),
-              result.gradient);
-    if (result.weight_gradient.empty())
+              sums->gradient);
+    if (sums->weight_gradient.empty())
       return;
     const Matrix3<double> dT     = stress(elasticity(point), de);
     const double          factor = parts.fe_space.volume(point);
@@ -100,7 +100,7 @@ namespace Exemplar
         point,
         [&](const unsigned int weight, const unsigned int i, const double share)
         {
-          result.weight_gradient[weight]
+          sums->weight_gradient[weight]
               -= share * factor * contract(dT, parts.examples->strain(point, i));
         });
   }
@@ -160,18 +160,18 @@ namespace Exemplar
                                       const unsigned int     point,
                                       const Matrix3<double> &M,
                                       const TermPoint       &at,
-                                      ElasticEvaluation     &result) const
+                                      ElasticSums           &sums) const
   {
     const Cell state = cell_state<Cell>(tangent, point, at);
-    add_force(point, state.response(M), result.gradient);
-    if (result.weight_gradient.empty())
+    add_force(point, state.response(M), sums->gradient);
+    if (sums->weight_gradient.empty())
       return;
     const double factor = parts.fe_space.volume(point) / (1. + cells.get_damping().factor(point));
     parts.examples->for_each_weight(
         point,
         [&](const unsigned int weight, const unsigned int i, const double share)
         {
-          result.weight_gradient[weight]
+          sums->weight_gradient[weight]
               -= share * factor
                  * contract(state.example_response(parts.examples->strain(point, i)), M);
         });
@@ -184,25 +184,28 @@ namespace Exemplar
                                  const std::vector<double> &weights,
                                  ElasticEvaluation         &result)
   {
+    ElasticSums own;
+    own->gradient.reinit(positions.size());
+    own->weight_gradient.assign(result.weight_gradient.size(), 0.);
+    add_own_response(tangent, displacement, { positions, weights }, own);
     const Exchange &exchange = parts.fe_space.exchange();
-    if (!exchange.is_root()) // the root's sum goes on
-      std::fill(result.weight_gradient.begin(), result.weight_gradient.end(), 0.);
-    exchange.keep_owned(result.gradient);
-    add_own_response(tangent, displacement, { positions, weights }, result);
-    exchange.assemble(result.gradient.begin(), 3);
-    exchange.sum(result.weight_gradient);
+    exchange.assemble(own->gradient.begin(), 3);
+    exchange.sum(own->weight_gradient);
+    result.gradient += own->gradient;
+    for (std::size_t i = 0; i < result.weight_gradient.size(); ++i)
+      result.weight_gradient[i] += own->weight_gradient[i];
   }
 
   void
-  ElasticPotential::add_own_response(const Tangent      tangent,
-                                     const Vector      &displacement,
-                                     const TermPoint   &at,
-                                     ElasticEvaluation &result)
+  ElasticPotential::add_own_response(const Tangent    tangent,
+                                     const Vector    &displacement,
+                                     const TermPoint &at,
+                                     ElasticSums     &sums)
   {
     cells.refresh_rotations();
     tell_cells(at);
     for (const auto &term : terms)
-      term->add_response(at, tangent, displacement, result);
+      term->add_response(at, tangent, displacement, sums);
     for_points_beside_held_nodes(
         [&](const unsigned int point)
         {
@@ -211,7 +214,7 @@ namespace Exemplar
                 cells.rotation(point), parts.fe_space.deformation_gradient(point, displacement));
           if (is_rotated_stiffness(law, tangent))
           {
-            add_rotated_response(point, M, result);
+            add_rotated_response(point, M, sums);
             return;
           }
           with_cell_model<double>(law,
@@ -219,7 +222,7 @@ namespace Exemplar
                                   {
                                     using Cell = typename decltype(model)::type;
                                     if constexpr (!Cell::traits.exact_is_rotated)
-                                      add_cell_response<Cell>(tangent, point, M, at, result);
+                                      add_cell_response<Cell>(tangent, point, M, at, sums);
                                   });
         });
   }

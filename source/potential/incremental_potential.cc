@@ -156,20 +156,19 @@ namespace Exemplar
   void
   IncrementalPotential::add_terms(const Vector &positions, Evaluation &evaluation) const
   {
-    const Exchange   &exchange = free_dofs.exchange();
-    ElasticEvaluation sums;
-    sums.gradient.reinit(positions.size());
-    sums.force_scale.reinit(positions.size() / 3);
+    const Exchange &exchange = free_dofs.exchange();
+    ElasticSums     own;
+    own->gradient.reinit(positions.size());
+    own->force_scale.reinit(positions.size() / 3);
     evaluation.term_energies.clear();
     for (const auto &term : terms)
     {
-      const double before = sums.energy;
-      term->add({ positions, {} }, sums);
-      evaluation.term_energies.push_back(sums.energy - before);
+      const double before = own->energy;
+      term->add({ positions, {} }, own);
+      evaluation.term_energies.push_back(own->energy - before);
     }
-    exchange.assemble(sums.gradient.begin(), 3);
-    exchange.assemble(sums.force_scale.begin(), 1);
     exchange.sum(evaluation.term_energies);
+    const ElasticEvaluation sums = complete(exchange, std::move(own));
     evaluation.gradient    = evaluation.elastic.gradient;
     evaluation.force_scale = evaluation.elastic.force_scale;
     evaluation.potential   = evaluation.elastic.energy + evaluation.elastic.energy_damping;

@@ -17,28 +17,29 @@ namespace Exemplar
   }
 
   void
-  InertiaTerm::add(const TermPoint &at, ElasticEvaluation &sums)
+  InertiaTerm::add(const TermPoint &at, ElasticSums &sums)
   {
     if (!in_step)
       return;
     Vector difference = at.positions;
     difference -= integrator.predicted_positions();
-    const Vector product = mass.own_times(difference);
+    const OwnSums<Vector> M_times = mass.own_times(difference);
+    const Vector         &product = *M_times;
     const double factor  = integrator.mass_factor();
     double       energy  = 0.;
-    for (unsigned int node = 0; node < sums.force_scale.size(); ++node)
+    for (unsigned int node = 0; node < sums->force_scale.size(); ++node)
     {
       double square = 0.;
       for (unsigned int dof = 3 * node; dof < 3 * node + 3; ++dof)
       {
         const double force = factor * product[dof];
-        sums.gradient[dof] += force;
+        sums->gradient[dof] += force;
         square += force * force;
         energy += 0.5 * force * difference[dof];
       }
-      sums.force_scale[node] += std::sqrt(square);
+      sums->force_scale[node] += std::sqrt(square);
     }
-    sums.energy += energy;
+    sums->energy += energy;
   }
 
   void

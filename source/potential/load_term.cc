@@ -31,13 +31,13 @@ namespace Exemplar
   }
 
   void
-  LoadTerm::add(const TermPoint &at, ElasticEvaluation &sums)
+  LoadTerm::add(const TermPoint &at, ElasticSums &sums)
   {
-    sums.gradient -= force;
-    sums.force_scale += force_norms;
+    sums->gradient -= force;
+    sums->force_scale += force_norms;
     Vector displacement = at.positions;
     displacement -= fe_space.rest_positions();
-    sums.energy -= force * displacement;
+    sums->energy -= force * displacement;
   }
 
   std::size_t

@@ -126,7 +126,7 @@ namespace Exemplar
   }
 
   void
-  PatchDilatation::add(const TermPoint &at, ElasticEvaluation &sums)
+  PatchDilatation::add(const TermPoint &at, ElasticSums &sums)
   {
     find_means(at.positions);
     find_pressures(at.weights);
@@ -135,8 +135,8 @@ namespace Exemplar
         [&](std::size_t, const std::size_t begin, const std::size_t end, double *nodal_sums)
         { cells->loops().add_pressure_forces(task, begin, end, nodal_sums); });
     add_energies(at.weights, sums);
-    add_forces_of_few_cells(sums.gradient);
-    sums.stress_square += stress_square();
+    add_forces_of_few_cells(sums->gradient);
+    sums->stress_square += stress_square();
   }
 
   void
@@ -147,25 +147,25 @@ namespace Exemplar
   }
 
   void
-  PatchDilatation::add_energies(const std::vector<double> &weights, ElasticEvaluation &sums) const
+  PatchDilatation::add_energies(const std::vector<double> &weights, ElasticSums &sums) const
   {
     for (unsigned int patch = 0; patch < patches.size(); ++patch)
     {
       const double deviation = means[patch] - target(patch, weights);
-      sums.energy_elastic += 0.5 * stiffness(patch) * means[patch] * means[patch];
-      sums.energy += 0.5 * stiffness(patch) * deviation * deviation;
-      for (unsigned int weight = 0; weight < sums.weight_gradient.size(); ++weight)
-        sums.weight_gradient[weight]
+      sums->energy_elastic += 0.5 * stiffness(patch) * means[patch] * means[patch];
+      sums->energy += 0.5 * stiffness(patch) * deviation * deviation;
+      for (unsigned int weight = 0; weight < sums->weight_gradient.size(); ++weight)
+        sums->weight_gradient[weight]
             -= stiffness(patch) * deviation * examples->patch_dilatation(patch, weight);
       if (const double s = damping_factor(patch); s > 0.)
       {
         const double change = means[patch] - past_means[patch];
-        sums.energy_damping += 0.5 * s * stiffness(patch) * change * change;
+        sums->energy_damping += 0.5 * s * stiffness(patch) * change * change;
       }
     }
     const double of_guard = guard.energy();
-    sums.energy_elastic += of_guard;
-    sums.energy += of_guard;
+    sums->energy_elastic += of_guard;
+    sums->energy += of_guard;
   }
 
   double
@@ -282,9 +282,9 @@ namespace Exemplar
 
   void
   PatchDilatation::add_response(const TermPoint & /*at*/,
-                                const Tangent      kind,
-                                const Vector      &displacement,
-                                ElasticEvaluation &sums)
+                                const Tangent kind,
+                                const Vector &displacement,
+                                ElasticSums  &sums)
   {
     for (unsigned int patch = 0; patch < patches.size(); ++patch)
       if (scatter->is_beside_held(patch))
@@ -295,7 +295,7 @@ namespace Exemplar
   PatchDilatation::add_response_of(const unsigned int patch,
                                    const Tangent      kind,
                                    const Vector      &displacement,
-                                   ElasticEvaluation &sums) const
+                                   ElasticSums       &sums) const
   {
     const std::vector<unsigned int> &nodes = scatter->nodes(patch);
     std::vector<double>              u, b; // of the patch
@@ -316,9 +316,9 @@ namespace Exemplar
           forces[i] += matrix(i, j) * u[j];
     }
     for (std::size_t i = 0; i < forces.size(); ++i)
-      sums.gradient[3 * nodes[i / 3] + i % 3] += forces[i];
-    for (unsigned int weight = 0; weight < sums.weight_gradient.size(); ++weight)
-      sums.weight_gradient[weight]
+      sums->gradient[3 * nodes[i / 3] + i % 3] += forces[i];
+    for (unsigned int weight = 0; weight < sums->weight_gradient.size(); ++weight)
+      sums->weight_gradient[weight]
           -= stiffness(patch) * change * examples->patch_dilatation(patch, weight);
   }
 

@@ -114,10 +114,10 @@ namespace Exemplar
     void
     inertia(benchmark::State &state)
     {
-      ElasticEvaluation         sums;
+      ElasticSums               sums;
       const std::vector<double> no_weights;
-      sums.gradient.reinit(scene->positions.size());
-      sums.force_scale.reinit(scene->positions.size() / 3);
+      sums->gradient.reinit(scene->positions.size());
+      sums->force_scale.reinit(scene->positions.size() / 3);
       scene->problem.potential.begin_step(scene->problem.state, 0.01);
       for (auto _ : state)
         scene->problem.potential.get_terms().front()->add({ scene->positions, no_weights }, sums);

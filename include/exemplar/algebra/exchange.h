@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <mpi.h>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace Exemplar
@@ -180,6 +181,54 @@ namespace Exemplar
       return exchange;
     }
   };
+
+  /// What a process has summed over its own cells and nodes, and is not yet the body's: to become that
+  /// it must be given to a function complete(exchange, sums), which makes the sum over processes.
+  template <typename Field>
+  class OwnSums
+  {
+  public:
+    OwnSums() = default;
+
+    /// From these on.
+    explicit OwnSums(Field start) : sums(std::move(start)) {}
+
+    /// To add to them.
+    Field *
+    operator->()
+    {
+      return &sums;
+    }
+
+    const Field *
+    operator->() const
+    {
+      return &sums;
+    }
+
+    Field &
+    operator*()
+    {
+      return sums;
+    }
+
+    const Field &
+    operator*() const
+    {
+      return sums;
+    }
+
+  private:
+    Field sums;
+  };
+
+  /// Sums by degree of freedom.
+  inline Vector
+  complete(const Exchange &exchange, OwnSums<Vector> &&sums)
+  {
+    exchange.assemble(sums->begin(), 3);
+    return std::move(*sums);
+  }
 
   /// Exchange::whole() of a field by degree of freedom, which may be empty in all processes.
   inline Vector

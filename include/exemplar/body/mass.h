@@ -41,7 +41,7 @@ namespace Exemplar
     times(const Vector &field) const;
 
     /// What the cells of this process give to it.
-    Vector
+    OwnSums<Vector>
     own_times(const Vector &field) const;
 
     /// The greatest sum of a row [kg].

@@ -217,10 +217,10 @@ namespace Exemplar
 
     /// The part of the cells of this process.
     void
-    add_own_response(Tangent            tangent,
-                     const Vector      &displacement,
-                     const TermPoint   &at,
-                     ElasticEvaluation &result);
+    add_own_response(Tangent          tangent,
+                     const Vector    &displacement,
+                     const TermPoint &at,
+                     ElasticSums     &sums);
 
     /// What R^T dF = `M` at a point of this law changes.
     template <typename Cell>
@@ -229,12 +229,10 @@ namespace Exemplar
                       unsigned int           point,
                       const Matrix3<double> &M,
                       const TermPoint       &at,
-                      ElasticEvaluation     &result) const;
+                      ElasticSums           &sums) const;
 
     void
-    add_rotated_response(unsigned int           point,
-                         const Matrix3<double> &M,
-                         ElasticEvaluation     &result) const;
+    add_rotated_response(unsigned int point, const Matrix3<double> &M, ElasticSums &sums) const;
 
     /// Into the gradient: nodal forces of a change of R^T P.
     void

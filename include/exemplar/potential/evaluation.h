@@ -2,6 +2,7 @@
 #ifndef exemplar_evaluation_h
 #define exemplar_evaluation_h
 
+#include <exemplar/algebra/exchange.h>
 #include <exemplar/algebra/vector.h>
 
 #include <vector>
@@ -37,6 +38,13 @@ namespace Exemplar
       return energy - energy_elastic;
     }
   };
+
+  /// What terms add to. Its counts, the least det F and the scale of the weight gradient are the cells'.
+  using ElasticSums = OwnSums<ElasticEvaluation>;
+
+  /// Energies, derivatives, scales and counts of the body; all processes must call this.
+  ElasticEvaluation
+  complete(const Exchange &exchange, ElasticSums &&sums);
 
   /// The incremental potential at given positions and weights, and what it is made of.
   struct Evaluation

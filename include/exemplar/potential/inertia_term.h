@@ -36,7 +36,7 @@ namespace Exemplar
     }
 
     void
-    add(const TermPoint &at, ElasticEvaluation &sums) override;
+    add(const TermPoint &at, ElasticSums &sums) override;
 
     void
     attach(const SymmetricPattern &pattern, const FreeDofs &free_dofs, CellField &cells) override;

@@ -28,7 +28,7 @@ namespace Exemplar
     differs(double time, double other_time) const override;
 
     void
-    add(const TermPoint &at, ElasticEvaluation &sums) override;
+    add(const TermPoint &at, ElasticSums &sums) override;
 
     std::size_t
     memory_consumption() const override;

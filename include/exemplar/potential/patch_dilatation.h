@@ -53,7 +53,7 @@ namespace Exemplar
     }
 
     void
-    add(const TermPoint &at, ElasticEvaluation &sums) override;
+    add(const TermPoint &at, ElasticSums &sums) override;
 
     void
     add_weight_linear_term(const Vector &positions, std::vector<double> &c) override;
@@ -70,10 +70,10 @@ namespace Exemplar
                 std::vector<double> &columns) override;
 
     void
-    add_response(const TermPoint   &at,
-                 Tangent            kind,
-                 const Vector      &displacement,
-                 ElasticEvaluation &sums) override;
+    add_response(const TermPoint &at,
+                 Tangent          kind,
+                 const Vector    &displacement,
+                 ElasticSums     &sums) override;
 
     /// lambda_p theta_p^2 / 2 and what the guard adds.
     void
@@ -91,7 +91,7 @@ namespace Exemplar
     find_pressures(const std::vector<double> &weights);
 
     void
-    add_energies(const std::vector<double> &weights, ElasticEvaluation &sums) const;
+    add_energies(const std::vector<double> &weights, ElasticSums &sums) const;
 
     /// Forces that no loop over all cells adds.
     void
@@ -122,10 +122,10 @@ namespace Exemplar
                 std::vector<double>       &columns) const;
 
     void
-    add_response_of(unsigned int       patch,
-                    Tangent            kind,
-                    const Vector      &displacement,
-                    ElasticEvaluation &sums) const;
+    add_response_of(unsigned int  patch,
+                    Tangent       kind,
+                    const Vector &displacement,
+                    ElasticSums  &sums) const;
 
     /// lambda_p V_p (1 + s), the factor of b b^T in A.
     double

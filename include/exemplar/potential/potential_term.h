@@ -35,7 +35,7 @@ namespace Exemplar
   /// displacements are by degree of freedom.
   ///
   /// Where several processes share a body, a term sums what belongs to the cells and the nodes of its
-  /// own process (FreeDofs::exchange() says which); whoever calls it sums over processes.
+  /// own process (FreeDofs::exchange() says which), and never over processes: whoever calls it does.
   ///
   /// Terms whose energy is part of Psi, Eq. (5), among them all that depend on the weights, are those
   /// of the ElasticPotential; all others are those of the IncrementalPotential.
@@ -101,7 +101,7 @@ namespace Exemplar
     /// the size of the forces at each node. The cells have been evaluated at this point; loops over
     /// them may add to CellField::get_nodal_sums(), which come to the sums afterwards.
     virtual void
-    add(const TermPoint &at, ElasticEvaluation &sums)
+    add(const TermPoint &at, ElasticSums &sums)
         = 0;
 
     /// Add its part of c_i with dPsi/dw = H w - c [J]; H is the weights' quadratic form.
@@ -134,7 +134,7 @@ namespace Exemplar
     add_response(const TermPoint & /*at*/,
                  Tangent /*kind*/,
                  const Vector & /*displacement*/,
-                 ElasticEvaluation & /*sums*/)
+                 ElasticSums & /*sums*/)
     {
     }
 

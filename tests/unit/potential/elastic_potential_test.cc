@@ -147,8 +147,9 @@ namespace Exemplar::Testing
       {
         ElasticEvaluation evaluation;
         elastic.evaluate(positions, weights, evaluation);
-        inertia.add({ positions, weights }, evaluation);
-        return evaluation.gradient;
+        ElasticSums sums(evaluation);
+        inertia.add({ positions, weights }, sums);
+        return sums->gradient;
       };
       const auto without = gradient();
       for (unsigned int j = 0; j < free_dofs.size(); ++j)

@@ -26,20 +26,20 @@ namespace Exemplar::Testing
       SpringTerm(const unsigned int a, const unsigned int b, const double k) : a(a), b(b), k(k) {}
 
       void
-      add(const TermPoint &at, ElasticEvaluation &sums) override
+      add(const TermPoint &at, ElasticSums &sums) override
       {
         const Vector &x      = at.positions;
         double        energy = 0.;
         for (unsigned int c = 0; c < 3; ++c)
         {
           const double stretch = x[3 * a + c] - x[3 * b + c];
-          sums.gradient[3 * a + c] += k * stretch;
-          sums.gradient[3 * b + c] -= k * stretch;
+          sums->gradient[3 * a + c] += k * stretch;
+          sums->gradient[3 * b + c] -= k * stretch;
           energy += 0.5 * k * stretch * stretch;
         }
-        sums.force_scale[a] += std::sqrt(2. * k * energy);
-        sums.force_scale[b] += std::sqrt(2. * k * energy);
-        sums.energy += energy;
+        sums->force_scale[a] += std::sqrt(2. * k * energy);
+        sums->force_scale[b] += std::sqrt(2. * k * energy);
+        sums->energy += energy;
       }
 
       std::vector<std::pair<unsigned int, unsigned int>>
