@@ -8,14 +8,14 @@
 
 namespace Exemplar
 {
-  CellBatches::CellBatches(const FESpace     &fe_space,
-                           const Material    &of_cells,
-                           const LawsOfCells &laws)
-      : n_points(fe_space.n_points()), n_nodes(nodes_per_cell(fe_space.element())),
+  CellBatches::CellBatches(const FESpace  &fe_space,
+                           const Material &material,
+                           LawsOfCells     laws_of_cells,
+                           const double    guard_bound)
+      : fe_space(fe_space), laws(std::move(laws_of_cells)), guard_bound(guard_bound),
+        n_points(fe_space.n_points()), n_nodes(nodes_per_cell(fe_space.element())),
         nodes(batched_size(n_points, n_nodes)), gradients(batched_size(n_points, 3 * n_nodes - 3)),
-        volumes(batched_size(n_points, 1)),
-        material(batched_size(n_points, CellMaterial<double>::n_numbers)),
-        rotations(batched_size(n_points, 9))
+        volumes(batched_size(n_points, 1)), rotations(batched_size(n_points, 9))
   {
     std::vector<unsigned int> order(n_nodes);
     // slots behind the last point repeat it, without a volume
@@ -35,36 +35,86 @@ namespace Exemplar
         for (std::size_t i = 0; i < 3 && a > 0; ++i)
           gradients[batch_index(slot, 3 * n_nodes - 3, 3 * (a - 1) + i)] = shape[order[a]][i];
       }
-      volumes[slot]                   = slot < n_points ? fe_space.volume(point) : 0.;
-      constexpr std::size_t n_numbers = CellMaterial<double>::n_numbers;
-      for (std::size_t k = 0; k < n_numbers; ++k)
-        material[batch_index(slot, n_numbers, k)] = of_cells.elasticity(cell).number(k);
+      volumes[slot] = slot < n_points ? fe_space.volume(point) : 0.;
       for (const unsigned int diagonal : { 0, 4, 8 })
         rotations[batch_index(slot, 9, diagonal)] = 1.;
     }
     for (const CellLaw law : laws.present())
+      of_laws.push_back(make(law, material));
+  }
+
+  CellBatches::OfLaw
+  CellBatches::make(const CellLaw law, const Material &material) const
+  {
+    OfLaw of_law;
+    of_law.law                = law;
+    const std::size_t n       = n_constants(law);
+    const bool        has_own = laws.present().size() > 1;
+    of_law.constants.resize(batched_size(n_points, n));
+    of_law.history.resize(batched_size(n_points, traits_of(law).n_history), 0.);
+    if (has_own)
+      of_law.volumes.resize(volumes.size(), 0.);
+    for (std::size_t slot = 0; slot < volumes.size(); ++slot)
     {
-      of_laws.push_back({ law, {} });
-      if (laws.present().size() == 1)
-        return;
-      of_laws.back().volumes.resize(volumes.size(), 0.);
-      for (unsigned int point = 0; point < n_points; ++point)
-        if (laws[fe_space.cell_of(point)] == law)
-          of_laws.back().volumes[point] = volumes[point];
+      const auto         point = static_cast<unsigned int>(std::min(slot, n_points - 1));
+      const unsigned int cell  = fe_space.cell_of(point);
+      for (std::size_t k = 0; k < n; ++k)
+        of_law.constants[batch_index(slot, n, k)] = material.number(law, cell, k);
+      if (has_own && laws[cell] == law)
+        of_law.volumes[slot] = volumes[slot];
     }
+    return of_law;
   }
 
   CellArrays
-  CellBatches::arrays(const double guard_bound)
+  CellBatches::arrays()
   {
-    return { n_points,        nodes.data(),     gradients.data(),    volumes.data(),
-             material.data(), rotations.data(), of_laws.front().law, guard_bound };
+    OfLaw &first = of_laws.front();
+    return { n_points,         nodes.data(), gradients.data(),       volumes.data(),
+             rotations.data(), first.law,    first.constants.data(), first.history.data(),
+             guard_bound };
+  }
+
+  std::size_t
+  CellBatches::n_history() const
+  {
+    std::size_t n = 0;
+    for (const OfLaw &of_law : of_laws)
+      n = std::max(n, traits_of(of_law.law).n_history);
+    return n;
+  }
+
+  std::vector<double>
+  CellBatches::history() const
+  {
+    const std::size_t   n = n_history();
+    std::vector<double> history(n * n_points, 0.);
+    for (unsigned int point = 0; n > 0 && point < n_points; ++point)
+      for (std::size_t k = 0, m = traits_of(law(point)).n_history; k < m; ++k)
+        history[n * point + k] = of_law_at(point).history[batch_index(point, m, k)];
+    return history;
+  }
+
+  void
+  CellBatches::set_history(const std::vector<double> &history)
+  {
+    const std::size_t n = n_history();
+    for (OfLaw &of_law : of_laws)
+      for (std::size_t slot = 0, m = traits_of(of_law.law).n_history;
+           m > 0 && slot < volumes.size(); ++slot)
+        for (std::size_t k = 0; k < m; ++k)
+          of_law.history[batch_index(slot, m, k)]
+              = history.empty() ? 0. : history[n * std::min(slot, n_points - 1) + k];
   }
 
   std::size_t
   CellBatches::memory_consumption() const
   {
+    std::size_t memory_of_laws = 0;
+    for (const OfLaw &of_law : of_laws)
+      memory_of_laws += of_law.volumes.memory_consumption() + of_law.constants.memory_consumption()
+                        + of_law.history.memory_consumption();
     return dealii::MemoryConsumption::memory_consumption(nodes) + gradients.memory_consumption()
-           + volumes.memory_consumption() + material.memory_consumption() + rotations.memory_consumption();
+           + volumes.memory_consumption() + rotations.memory_consumption() + memory_of_laws;
   }
 } // namespace Exemplar

@@ -104,7 +104,8 @@ namespace Exemplar
   void
   Material::add(const ElasticConstants &values)
   {
-    constants.push_back({ elasticity_of(values), values.density, values.youngs_modulus });
+    constants.push_back(
+        { elasticity_of(values), values.density, values.youngs_modulus, values.own });
   }
 
   void
@@ -121,6 +122,15 @@ namespace Exemplar
       add(values);
       constants_of_cell[cell] = cell;
     }
+  }
+
+  double
+  Material::number(const CellLaw law, const unsigned int cell, const std::size_t k) const
+  {
+    const Constants &of_cell = constants[constants_of_cell[cell]];
+    if (constexpr std::size_t n = CellMaterial<double>::n_numbers; k >= n)
+      return of_cell.own.at(own_constants(law)[k - n].name);
+    return of_cell.elasticity.number(k);
   }
 
   Material

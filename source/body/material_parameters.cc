@@ -2,6 +2,7 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
 #include <exemplar/body/material_parameters.h>
+#include <exemplar/kernels/cell_model.h>
 #include <exemplar/prm/key_table.h>
 
 namespace Exemplar
@@ -10,6 +11,17 @@ namespace Exemplar
   {
     const EnumTable<MassMatrix> mass_matrices
         = { { MassMatrix::consistent, "consistent" }, { MassMatrix::lumped, "lumped" } };
+
+    /// Those that laws add to the three above, each once.
+    std::map<std::string, LawConstant>
+    constants_of_laws()
+    {
+      std::map<std::string, LawConstant> all;
+      for (const CellLaw law : all_laws())
+        for (const LawConstant &constant : own_constants(law))
+          all.emplace(constant.name, constant);
+      return all;
+    }
 
     void
     declare_constants(KeyTable &keys, ElasticConstants &constants)
@@ -20,6 +32,9 @@ namespace Exemplar
                "nu [-], greater than -1 and less than 0.5.", Bounds{ -1., 0.5 });
       keys.add("Density", constants.density,
                "rho [kg/m^3], greater than 0. Used by dynamics and gravity.", positive);
+      for (const auto &[name, constant] : constants_of_laws())
+        keys.add(name, constants.own[name], constant.documentation,
+                 Bounds{ constant.min, constant.max });
     }
 
     void
@@ -31,6 +46,15 @@ namespace Exemplar
                           "incompressible material take 0.499; up to 0.4999 is tested.");
     }
   } // namespace
+
+  OwnConstants
+  default_own_constants()
+  {
+    OwnConstants values;
+    for (const auto &[name, constant] : constants_of_laws())
+      values[name] = constant.value;
+    return values;
+  }
 
   std::string
   MaterialParameters::region_name(const unsigned int id)

@@ -23,14 +23,13 @@ namespace Exemplar
            + pressures.memory_consumption() + scales.memory_consumption();
   }
 
-  CellField::CellField(LawsOfCells        laws_of_cells,
+  CellField::CellField(LawsOfCells        laws,
                        const double       guard_bound,
                        const FESpace     &fe_space,
                        const Material    &material,
                        const unsigned int n_threads)
-      : laws(std::move(laws_of_cells)), guard_bound(guard_bound), fe_space(fe_space),
-        material(material), kernels(best_kernels(fe_space.element())),
-        batches(fe_space, material, laws), nodal_sums(fe_space, n_threads),
+      : fe_space(fe_space), kernels(best_kernels(fe_space.element())),
+        batches(fe_space, material, std::move(laws), guard_bound), nodal_sums(fe_space, n_threads),
         node_positions(4 * fe_space.n_nodes())
   {
   }
@@ -48,7 +47,7 @@ namespace Exemplar
       for (unsigned int c = 0; c < 3; ++c)
         node_positions[4 * node + c] = positions[3 * node + c];
     CellTask task;
-    task.cells        = batches.arrays(guard_bound);
+    task.cells        = batches.arrays();
     task.positions    = node_positions.data();
     task.rotation_use = rotations;
     task.damping      = damping.arrays();
@@ -76,7 +75,7 @@ namespace Exemplar
     if (!rotations_are_forgotten)
       return;
     CellTask last;
-    last.cells     = batches.arrays(guard_bound);
+    last.cells     = batches.arrays();
     last.positions = node_positions.data();
     for_each_law(last, [&](const CellTask &of_law)
                  { kernels.update_rotations(of_law, 0, of_law.cells.n_batches()); });
@@ -88,13 +87,22 @@ namespace Exemplar
   {
     refresh_rotations();
     CellTask task;
-    task.cells = batches.arrays(guard_bound);
+    task.cells = batches.arrays();
     rotation_sums.resize(12 * n_nodes());
     rotation_sums.fill(0.);
     rotations.resize(9 * n_nodes());
     kernels.add_rotations(task, 0, task.cells.n_batches(), rotation_sums.data());
     fe_space.exchange().assemble(rotation_sums.data(), 12);
     kernels.closest_rotations(n_nodes(), rotation_sums.data(), rotations.data());
+  }
+
+  std::vector<double>
+  CellField::advance_history(const Vector &positions)
+  {
+    if (batches.remembers())
+      for_each_law(task(positions, RotationUse::keep), [&](const CellTask &of_law)
+                   { kernels.advance_history(of_law, 0, of_law.cells.n_batches()); });
+    return batches.history();
   }
 
   std::size_t

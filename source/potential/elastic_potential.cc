@@ -239,18 +239,18 @@ namespace Exemplar
     for (unsigned int point = 0; point < n_points; ++point)
     {
       const unsigned int         cell   = parts.fe_space.cell_of(point);
-      const CellLaw               law    = cells.law(point);
-      const CellMaterial<double> &C      = elasticity(point);
       const Matrix3<double>      F      = parts.fe_space.deformation_gradient(point, positions);
       const Matrix3<double>      R      = cells.rotation(point);
-      const Matrix3<double>       strain = model_strain(law, R, F);
-      Matrix3<double>             T      = stress(C, strain);
-
-      const double energy = 0.5 * contract(T, strain)
-                            + model_stretch_energy(law, C, R, F, cells.get_guard_bound())
-                            + densities[point];
-      if (parts.examples != nullptr)
-        T = stress(C, combine(1., strain, -1., example_strain(point, weights)));
+      Matrix3<double>            T;
+      double                     energy = densities[point];
+      cells.get_batches().with_cell(point, R, F,
+                                    [&](const auto &state)
+                                    {
+                                      energy += state.elastic_density();
+                                      energy
+                                          += state.is_stretched() ? state.stretch().energy() : 0.;
+                                      T = state.stress_towards(example_strain(point, weights));
+                                    });
       const double third = trace(T) / 3.;
       for (int i = 0; i < 3; ++i)
         T[i][i] -= third;

@@ -49,7 +49,7 @@ namespace Exemplar
   void
   ElasticPotential::assemble_coupling(const CellTask      &task,
                                       const TangentTask   &tangent,
-                                      std::vector<double> &columns) const
+                                      std::vector<double> &columns)
   {
     constexpr std::size_t n_rows   = 3 * nodes_per_cell(element);
     const Tangent         kind     = tangent.convex ? Tangent::convex : Tangent::exact;
@@ -84,17 +84,18 @@ namespace Exemplar
     }
   }
 
+  template <typename Constants>
   void
   ElasticPotential::add_rotated_response(const unsigned int     point,
                                          const Matrix3<double> &M,
                                          ElasticSums           &sums) const
   {
+    const auto            C  = cells.get_batches().constants<Constants>(point);
     const Matrix3<double> de = symmetric_part(M);
-    add_force(point, stress(cells.get_damping().damped(point, elasticity(point)), de),
-              sums->gradient);
+    add_force(point, stress(C.scaled(1. + cells.get_damping().factor(point)), de), sums->gradient);
     if (sums->weight_gradient.empty())
       return;
-    const Matrix3<double> dT     = stress(elasticity(point), de);
+    const Matrix3<double> dT     = stress(C, de);
     const double          factor = parts.fe_space.volume(point);
     parts.examples->for_each_weight(
         point,
@@ -111,8 +112,8 @@ namespace Exemplar
                                const unsigned int point,
                                const TermPoint   &at) const
   {
-    Cell                 state(elasticity(point), cells.rotation(point),
-                               parts.fe_space.deformation_gradient(point, at.positions), cells.get_guard_bound());
+    Cell state = cells.get_batches().cell<Cell>(
+        point, cells.rotation(point), parts.fe_space.deformation_gradient(point, at.positions));
     const StrainDamping &damping = cells.get_damping();
     Matrix3<double>      D       = example_strain(point, at.weights);
     if (const double s = damping.factor(point); s > 0.)
@@ -209,19 +210,17 @@ namespace Exemplar
     for_points_beside_held_nodes(
         [&](const unsigned int point)
         {
-          const CellLaw         law = cells.law(point);
+          const CellLaw         law = cells.get_batches().law(point);
           const Matrix3<double> M   = transpose_times(
                 cells.rotation(point), parts.fe_space.deformation_gradient(point, displacement));
-          if (is_rotated_stiffness(law, tangent))
-          {
-            add_rotated_response(point, M, sums);
-            return;
-          }
           with_cell_model<double>(law,
                                   [&](auto model)
                                   {
                                     using Cell = typename decltype(model)::type;
-                                    if constexpr (!Cell::traits.exact_is_rotated)
+                                    if (is_rotated_stiffness(law, tangent))
+                                      add_rotated_response<typename Cell::Constants>(point, M,
+                                                                                     sums);
+                                    else if constexpr (!Cell::traits.exact_is_rotated)
                                       add_cell_response<Cell>(tangent, point, M, at, sums);
                                   });
         });

@@ -69,6 +69,7 @@ namespace Exemplar
   void
   IncrementalPotential::begin_step(const State &start, const double step_size)
   {
+    cells.get_field().set_history(start.history);
     if (integrator != nullptr)
     {
       integrator->begin_step(start, step_size);
@@ -79,15 +80,17 @@ namespace Exemplar
   }
 
   void
-  IncrementalPotential::end_step(const State &end)
+  IncrementalPotential::end_step(State &end)
   {
+    end.history = cells.get_field().advance_history(end.positions);
     for_each_term([&](PotentialTerm &term) { term.end_step(end); });
   }
 
   void
-  IncrementalPotential::leave_step()
+  IncrementalPotential::leave_step(const State &at)
   {
     in_dynamic_step = false;
+    cells.get_field().set_history(at.history);
     cells.set_damping(0., {});
     for_each_term([](PotentialTerm &term) { term.leave_step(); });
   }

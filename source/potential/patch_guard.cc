@@ -95,8 +95,8 @@ namespace Exemplar
   {
     const CellMaterial<double> &C = material.elasticity(fe_space.cell_of(point));
     const Matrix3<double>       F = fe_space.deformation_gradient(point, positions);
-    CorotationalCell<double>    state
-        = { C.without_dilatation(), cells.rotation(point), F, cells.get_guard_bound() };
+    auto                        state
+        = cells.get_batches().cell<CorotationalCell<double>>(point, cells.rotation(point), F);
     state.set_target(Matrix3<double>{});
     const CorotationalCell guarded = with_guard(state, C);
     const double           G       = guarded.is_stretched() ? guarded.stretch().energy() : 0.;
@@ -115,7 +115,7 @@ namespace Exemplar
     for (unsigned int patch = 0; patch < patches.size(); ++patch)
     {
       if (!(patches.lambda(patch) > 0. && mean_squares[patch] > bounds[patch])
-          || !traits_of(cells.law(patches.points(patch).front())).has_guard)
+          || !traits_of(cells.get_batches().law(patches.points(patch).front())).has_guard)
         continue;
       const auto [beta, first, second] = transition(mean_squares[patch], bounds[patch]);
       Stretched of_patch               = { means[patch], beta, first, second };

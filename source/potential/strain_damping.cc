@@ -6,10 +6,8 @@ namespace Exemplar
   void
   StrainDamping::set(const double                          new_s,
                      const std::vector<WeightedPositions> &history,
-                     const LawsOfCells                    &laws,
-                     const double                          guard_bound,
-                     const FESpace                        &fe_space,
-                     const Material                       &material)
+                     const CellBatches                    &cells,
+                     const FESpace                        &fe_space)
   {
     s = new_s;
     factors.resize_fast(0);
@@ -21,11 +19,11 @@ namespace Exemplar
     for (unsigned int point = 0; point < fe_space.n_points(); ++point)
       for (const WeightedPositions &past : history)
       {
-        const CellLaw         law = laws[fe_space.cell_of(point)];
+        const CellLaw         law = cells.law(point);
         const Matrix3<double> F   = fe_space.deformation_gradient(point, *past.positions);
         const Matrix3<double> R   = model_rotation(law, F);
         add_to_stored(strains.data(), point, 1, 0, past.weight, model_strain(law, R, F));
-        if (model_is_guarded(law, material.elasticity(fe_space.cell_of(point)), R, F, guard_bound))
+        if (cells.with_cell(point, R, F, [](const auto &cell) { return cell.is_guarded(); }))
           factors[point] = 0.;
       }
   }

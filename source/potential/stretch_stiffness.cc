@@ -54,7 +54,7 @@ namespace Exemplar
   {
     for (unsigned int point = 0; point < fe_space.n_points(); ++point)
     {
-      if (!traits_of(cells.law(point)).has_guard)
+      if (!traits_of(cells.get_batches().law(point)).has_guard)
         continue;
       const unsigned int          cell       = fe_space.cell_of(point);
       const CellMaterial<double> &elasticity = material.elasticity(cell);

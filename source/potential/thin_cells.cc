@@ -56,7 +56,7 @@ namespace Exemplar
     for (unsigned int point = 0; point < fe_space.n_points(); ++point)
     {
       if (!may_be_thin(traces[point] + 3., squares[point])
-          || !traits_of(cells.law(point)).has_guard)
+          || !traits_of(cells.get_batches().law(point)).has_guard)
         continue;
       const Point at
           = point_at(cells.rotation(point), fe_space.deformation_gradient(point, positions));

@@ -25,8 +25,10 @@ namespace Exemplar
     struct Scene
     {
       explicit Scene(const std::string &file)
-          : problem(problem_of(file)),
-            batches(problem.body.fe_space, problem.body.material, CellLaw::corotational),
+          : problem(problem_of(file)), batches(problem.body.fe_space,
+                                               problem.body.material,
+                                               CellLaw::corotational,
+                                               default_guard_bound),
             positions(problem.body.fe_space.rest_positions()),
             node_positions(4 * positions.size() / 3)
       {
@@ -34,7 +36,7 @@ namespace Exemplar
         for (unsigned int dof = 0; dof < positions.size(); ++dof)
           positions[dof] += 0.02 * std::sin(40. * positions[dof - dof % 3 + (dof + 1) % 3]);
         problem.potential.get_cells().update_rotations(positions);
-        task.cells = batches.arrays(default_guard_bound);
+        task.cells = batches.arrays();
         for (unsigned int dof = 0; dof < positions.size(); ++dof)
           node_positions[dof / 3 * 4 + dof % 3] = positions[dof];
         task.positions = node_positions.data();

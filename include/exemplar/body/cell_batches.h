@@ -9,35 +9,98 @@
 
 #include <deal.II/base/aligned_vector.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace Exemplar
 {
-  /// The quadrature points of the cells in batches, as CellArrays describes them, and the rotation
-  /// of each.
+  /// The quadrature points of the cells in batches, as CellArrays describes them, with the rotation of
+  /// each and what its law remembers.
   class CellBatches
   {
   public:
-    CellBatches(const FESpace &fe_space, const Material &material, const LawsOfCells &laws);
+    /// `guard_bound` is p_0 of Eq. (16). The space must outlive the batches.
+    CellBatches(const FESpace  &fe_space,
+                const Material &material,
+                LawsOfCells     laws,
+                double          guard_bound);
 
-    /// What loops see that are the same for all laws. `guard_bound` is p_0 of Eq. (16).
+    /// What loops see that are the same for all laws.
     CellArrays
-    arrays(double guard_bound);
+    arrays();
 
     /// Call function(cells) for each law with what loops see that are for its cells alone; those that
     /// update rotations write them here.
     template <typename Function>
     void
-    for_each_law(CellArrays cells, const Function &function) const
+    for_each_law(CellArrays cells, const Function &function)
     {
       cells.has_other_laws = of_laws.size() > 1;
-      for (const OfLaw &of_law : of_laws)
+      for (OfLaw &of_law : of_laws)
       {
-        cells.law     = of_law.law;
-        cells.volumes = cells.has_other_laws ? of_law.volumes.data() : volumes.data();
+        cells.law       = of_law.law;
+        cells.volumes   = cells.has_other_laws ? of_law.volumes.data() : volumes.data();
+        cells.constants = of_law.constants.data();
+        cells.history   = of_law.history.data();
         function(cells);
       }
     }
+
+    CellLaw
+    law(const unsigned int point) const
+    {
+      return laws[fe_space.cell_of(point)];
+    }
+
+    /// The constants of a point: those of its law, or CellMaterial, with which all begin.
+    template <typename Constants>
+    Constants
+    constants(const unsigned int point) const
+    {
+      const OfLaw &of_law = of_law_at(point);
+      return Constants::from_numbers([&, n = n_constants(of_law.law)](const std::size_t k)
+                                     { return of_law.constants[batch_index(point, n, k)]; });
+    }
+
+    /// A point with the rotation R and the deformation gradient F, of which Cell is the law.
+    template <typename Cell>
+    Cell
+    cell(const unsigned int point, const Matrix3<double> &R, const Matrix3<double> &F) const
+    {
+      Cell state(constants<typename Cell::Constants>(point), R, F, guard_bound);
+      if constexpr (constexpr std::size_t n = Cell::traits.n_history; n > 0)
+        state.remember([&, &of_law = of_law_at(point)](const std::size_t k)
+                       { return of_law.history[batch_index(point, n, k)]; });
+      return state;
+    }
+
+    /// Call function(cell) with that of a point, whatever its law is.
+    template <typename Function>
+    auto
+    with_cell(const unsigned int     point,
+              const Matrix3<double> &R,
+              const Matrix3<double> &F,
+              const Function        &function) const
+    {
+      return with_cell_model<double>(
+          law(point),
+          [&](auto model) { return function(cell<typename decltype(model)::type>(point, R, F)); });
+    }
+
+    /// Whether any law does.
+    bool
+    remembers() const
+    {
+      return n_history() > 0;
+    }
+
+    /// What the laws remember, as State::history has it; empty if none remembers anything.
+    std::vector<double>
+    history() const;
+
+    /// From now on they remember this; empty: nothing has happened.
+    void
+    set_history(const std::vector<double> &history);
 
     Matrix3<double>
     rotation(const unsigned int point) const
@@ -64,14 +127,32 @@ namespace Exemplar
     {
       CellLaw                       law;
       dealii::AlignedVector<double> volumes; ///< 0 in cells of others; empty if there are none
+      dealii::AlignedVector<double> constants, history;
     };
 
+    const OfLaw &
+    of_law_at(const unsigned int point) const
+    {
+      const CellLaw law = this->law(point);
+      return *std::find_if(of_laws.begin(), of_laws.end(),
+                           [&](const OfLaw &of_law) { return of_law.law == law; });
+    }
+
+    /// Numbers that State::history has for each point: those of the law that remembers most.
+    std::size_t
+    n_history() const;
+
+    OfLaw
+    make(CellLaw law, const Material &material) const;
+
+    const FESpace                &fe_space;
+    const LawsOfCells             laws;
+    const double                  guard_bound;
     const std::size_t             n_points;
     const std::size_t             n_nodes; ///< of each
     std::vector<int>              nodes;
     dealii::AlignedVector<double> gradients;
     dealii::AlignedVector<double> volumes;
-    dealii::AlignedVector<double> material;
     dealii::AlignedVector<double> rotations;
     std::vector<OfLaw>            of_laws;
   };

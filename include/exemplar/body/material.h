@@ -3,7 +3,7 @@
 #define exemplar_material_h
 
 #include <exemplar/body/material_parameters.h>
-#include <exemplar/kernels/elasticity.h>
+#include <exemplar/kernels/cell_model.h>
 #include <exemplar/mesh/msh_file.h>
 
 #include <set>
@@ -43,6 +43,10 @@ namespace Exemplar
       return constants[constants_of_cell[cell]].elasticity;
     }
 
+    /// Number k of the Constants of a law.
+    double
+    number(CellLaw law, unsigned int cell, std::size_t k) const;
+
     /// What is left of it in cells of which the volume part of the energy is that of patches.
     Material
     without_dilatation() const;
@@ -65,6 +69,7 @@ namespace Exemplar
       CellMaterial<double> elasticity;
       double               density;
       double               youngs_modulus;
+      OwnConstants         own;
     };
 
     void

@@ -10,11 +10,20 @@ namespace Exemplar
 {
   class KeyTable;
 
+  /// Values of the constants that laws add to those of elasticity.h, by their names.
+  using OwnConstants = std::map<std::string, double>;
+
+  /// What they are unless a scene says another.
+  OwnConstants
+  default_own_constants();
+
   struct ElasticConstants
   {
     double youngs_modulus = 1e6;  ///< E [Pa]
     double poissons_ratio = 0.45; ///< nu [-]
     double density        = 1000; ///< rho [kg/m^3]
+
+    OwnConstants own = default_own_constants();
   };
 
   enum class MassMatrix

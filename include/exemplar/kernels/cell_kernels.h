@@ -27,9 +27,10 @@ namespace Exemplar
     const int    *nodes;     ///< 4 or 10; ascending in each cell
     const double *gradients; ///< 9 or 27: g_a of all but the first of those nodes [1/m]
     const double *volumes;   ///< 1 [m^3]
-    const double *material;  ///< those of the law's Constants
     double       *rotations; ///< 9: R by rows
     CellLaw       law;
+    const double *constants;              ///< those of the law's Constants
+    double       *history;                ///< what the law remembers
     double        guard_bound;            ///< p_0 of Eq. (16)
     bool          has_other_laws = false; ///< some cells are of another law
 
@@ -173,6 +174,9 @@ namespace Exemplar
 
     /// tr(e) by the rotations as they are.
     void (*dilatations)(const CellTask &, std::size_t begin, std::size_t end);
+
+    /// Let the law remember a step that ends at these positions, of which the rotations are.
+    void (*advance_history)(const CellTask &, std::size_t begin, std::size_t end);
 
     /// The forces of the pressures and their scales, added to `nodal_sums` as by evaluate().
     void (*add_pressure_forces)(const CellTask &,

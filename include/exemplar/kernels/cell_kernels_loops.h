@@ -26,6 +26,7 @@ namespace Exemplar::Loops
              evaluate<Number, n_nodes>,
              weight_linear_term<Number, n_nodes>,
              dilatations<Number, n_nodes>,
+             advance_history<Number, n_nodes>,
              add_pressure_forces<Number, n_nodes>,
              add_rotated_stiffness<Number, n_nodes>,
              add_tangent<Number, n_nodes>,

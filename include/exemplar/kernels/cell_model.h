@@ -12,7 +12,7 @@
 
 // The laws of a cell: what its energy, forces and tangents are as functions of F, R and its constants.
 // All have the members of CorotationalCell, so that a further law is a header like corotational_cell.h
-// and its entries here. No deal.II header here: see matrix3.h.
+// and its entries here, with what it remembers and the constants that it adds to the keys of Material. No deal.II header here: see matrix3.h.
 
 namespace Exemplar
 {
@@ -81,48 +81,25 @@ namespace Exemplar
         { return decltype(model)::type::strain_of(rotation, deformation_gradient); });
   }
 
-  /// Call `function` with a cell of a law, where the guard of Eq. (16) has the bound p_0.
-  template <typename Function>
-  auto
-  with_cell(const CellLaw               law,
-            const CellMaterial<double> &material,
-            const Matrix3<double>      &rotation,
-            const Matrix3<double>      &deformation_gradient,
-            const double                p_0,
-            const Function             &function)
+  /// Of its Constants.
+  inline std::size_t
+  n_constants(const CellLaw law)
+  {
+    return with_cell_model<double>(law, [](auto model)
+                                   { return decltype(model)::type::Constants::n_numbers; });
+  }
+
+  /// The constants that a law adds to those of elasticity.h, in their order.
+  inline std::vector<LawConstant>
+  own_constants(const CellLaw law)
   {
     return with_cell_model<double>(law,
-                                   [&](auto model)
+                                   [](auto model)
                                    {
-                                     using Cell = typename decltype(model)::type;
-                                     return function(
-                                         Cell(material, rotation, deformation_gradient, p_0));
+                                     const auto &own
+                                         = decltype(model)::type::Constants::own_constants;
+                                     return std::vector<LawConstant>(own.begin(), own.end());
                                    });
-  }
-
-  /// Whether the guard of Eq. (16) with the bound p_0 acts in a cell.
-  inline bool
-  model_is_guarded(const CellLaw               law,
-                   const CellMaterial<double> &material,
-                   const Matrix3<double>      &rotation,
-                   const Matrix3<double>      &deformation_gradient,
-                   const double                p_0)
-  {
-    return with_cell(law, material, rotation, deformation_gradient, p_0,
-                     [](const auto &cell) { return cell.is_guarded(); });
-  }
-
-  /// G of Eq. (24) in a cell that is stretched so far, else 0 [Pa].
-  inline double
-  model_stretch_energy(const CellLaw               law,
-                       const CellMaterial<double> &material,
-                       const Matrix3<double>      &rotation,
-                       const Matrix3<double>      &deformation_gradient,
-                       const double                p_0)
-  {
-    return with_cell(law, material, rotation, deformation_gradient, p_0,
-                     [](const auto &cell)
-                     { return cell.is_stretched() ? cell.stretch().energy() : 0.; });
   }
 } // namespace Exemplar
 

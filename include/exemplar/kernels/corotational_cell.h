@@ -2,10 +2,7 @@
 #ifndef exemplar_corotational_cell_h
 #define exemplar_corotational_cell_h
 
-#include <exemplar/kernels/elasticity.h>
-#include <exemplar/kernels/model_traits.h>
-#include <exemplar/kernels/stretch_guard.h>
-#include <exemplar/kernels/tetrahedron.h>
+#include <exemplar/kernels/quadratic_cell.h>
 
 // The corotational model with the force that is the gradient of its energy, and the exact
 // tangent. A cell's energy density is a function of S, the symmetric factor of F = R S,
@@ -79,14 +76,17 @@ namespace Exemplar
                              { return Number(1.) / max(eigenvalue, least); });
   }
 
-  /// A deformed cell; what every model of cell_model.h offers. Forces and their changes are
-  /// in the frame of the rotation: R^T P for the first Piola-Kirchhoff stress P.
+  /// A deformed cell. The energy of QuadraticCell is joined by the guard of Eq. (16).
   template <typename Number>
-  class CorotationalCell
+  class CorotationalCell : public QuadraticCell<Number>
   {
-  public:
-    using Constants = CellMaterial<Number>;
+    using Quadratic = QuadraticCell<Number>;
+    using Quadratic::e;
+    using Quadratic::elastic_stress;
+    using Quadratic::material;
+    using Quadratic::T;
 
+  public:
     static constexpr ModelTraits traits = { "corotational",
                                             "S - I, the deformation freed of the cell's rotation",
                                             /* has_rotations */ true,
@@ -108,30 +108,9 @@ namespace Exemplar
                      const Matrix3<Number>      &rotation,
                      const Matrix3<Number>      &deformation_gradient,
                      const double                p_0)
-        : elasticity(material), material(material),
-          S(symmetric_part(transpose_times(rotation, deformation_gradient)))
+        : CorotationalCell(
+            material, symmetric_part(transpose_times(rotation, deformation_gradient)), p_0)
     {
-      e = S;
-      for (int i = 0; i < 3; ++i)
-        e[i][i] -= Number(1.);
-      elastic_stress = stress(material, e);
-      B              = combine(Number(-1.), S, Number(0.), S);
-      for (int i = 0; i < 3; ++i)
-        B[i][i] += trace(S);
-      const Number        p = determinant(B);
-      const Guard<Number> g = guard(p, Number(p_0));
-      phi                   = g.phi;
-      phi_derivative        = g.derivative;
-      product               = p;
-    }
-
-    /// Let stiffness damping with the factor s and the strain e_past act from now on, and get the
-    /// target that the whole then has. The guard of the stretch belongs to the elasticity and stays.
-    Matrix3<Number>
-    damp(const Matrix3<Number> &D, const Number &s, const Matrix3<Number> &past)
-    {
-      material = material.scaled(Number(1.) + s);
-      return damped_target(D, s, past);
     }
 
     /// The guard of the stretch is that of this elasticity and not of the cell's own.
@@ -157,20 +136,6 @@ namespace Exemplar
       return phi < Number(1.);
     }
 
-    /// C without the volume part of patches, with damping.
-    const CellMaterial<Number> &
-    own_material() const
-    {
-      return material;
-    }
-
-    /// e = S - I, Eq. (2).
-    const Matrix3<Number> &
-    strain() const
-    {
-      return e;
-    }
-
     /// |R^T P| is at most this times |T|.
     Number
     force_factor() const
@@ -178,34 +143,11 @@ namespace Exemplar
       return Number(1.);
     }
 
-    /// Of the elasticity alone, 1/2 e:C:e [Pa].
-    Number
-    elastic_density() const
-    {
-      return Number(0.5) * contract(elastic_stress, e);
-    }
-
-    /// The size of the stress that it makes, |C:e| [Pa].
-    Number
-    elastic_scale() const
-    {
-      return norm(elastic_stress);
-    }
-
-    /// The same of a target strain.
-    Number
-    scale_of(const Matrix3<Number> &D) const
-    {
-      return norm(stress(material, D));
-    }
-
-    /// psi for the target strain D, computed from e - D as Eq. (16) has it, because near an example
-    /// the expanded square would lose its digits.
+    /// psi for the target strain D, Eq. (16).
     Number
     energy(const Matrix3<Number> &D) const
     {
-      const Matrix3<Number> deviation = combine(Number(1.), e, Number(-1.), D);
-      const Number          psi = Number(0.5) * contract(stress(material, deviation), deviation);
+      const Number psi = Quadratic::energy(D);
       if (!any(is_guarded()))
         return psi;
       return psi + guard_energy(material, Number(1.) - phi, S, D);
@@ -238,7 +180,7 @@ namespace Exemplar
     Matrix3<Number>
     weight_stress(const Matrix3<Number> &D) const
     {
-      const Matrix3<Number> T_D = stress(material, combine(Number(1.), e, Number(-1.), D));
+      const Matrix3<Number> T_D = this->stress_towards(D);
       if (!any(is_guarded()))
         return T_D;
       return add_guard_of_stretch(T_D, material, phi - Number(1.), S);
@@ -259,8 +201,7 @@ namespace Exemplar
     void
     set_target(const Matrix3<Number> &D)
     {
-      T = add_guard_of_target(stress(material, combine(Number(1.), e, Number(-1.), D)), material,
-                              Number(1.) - phi, D);
+      T = add_guard_of_target(this->stress_towards(D), material, Number(1.) - phi, D);
       // W divides by s_i + s_j, but its numerator vanishes faster because of the guard, so that a
       // tiny bound suffices; responses need a greater one
       bound_inverse(Number(1e-8));
@@ -342,6 +283,28 @@ namespace Exemplar
     }
 
   private:
+    CorotationalCell(const CellMaterial<Number> &material,
+                     const Matrix3<Number>      &S,
+                     const double                p_0)
+        : Quadratic(material, minus_identity(S)), elasticity(material), S(S)
+    {
+      B = combine(Number(-1.), S, Number(0.), S);
+      for (int i = 0; i < 3; ++i)
+        B[i][i] += trace(S);
+      product               = determinant(B);
+      const Guard<Number> g = guard(product, Number(p_0));
+      phi                   = g.phi;
+      phi_derivative        = g.derivative;
+    }
+
+    static Matrix3<Number>
+    minus_identity(Matrix3<Number> S)
+    {
+      for (int i = 0; i < 3; ++i)
+        S[i][i] -= Number(1.);
+      return S;
+    }
+
     /// B^-1; where the guard acts, with the eigenvalues of B held above `least`.
     void
     bound_inverse(const Number &least)
@@ -356,14 +319,10 @@ namespace Exemplar
     }
 
     CellMaterial<Number> elasticity; ///< of the guard of the stretch
-    CellMaterial<Number> material;   ///< with damping
     Matrix3<Number>      S;
-    Matrix3<Number>      e;              ///< S - I
-    Matrix3<Number>      elastic_stress; ///< C:e, without damping
     Matrix3<Number>      B; ///< tr(S) I - S
     Number               phi            = Number(1.);
     Number               phi_derivative = Number(0.);
-    Matrix3<Number>      T;
     Matrix3<Number>      W;
     Matrix3<Number>      B_inverse;
     Number               guard_force;

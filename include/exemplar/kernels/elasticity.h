@@ -3,10 +3,12 @@
 #define exemplar_elasticity_h
 
 #include <exemplar/kernels/matrix3.h>
+#include <exemplar/kernels/model_traits.h>
 
-// The material of a cell as the kernels see it. Cells, loops and batches know it by what is here
-// alone, under the name CellMaterial; only the loop that adds R K R^T (loops_stiffness.h) also
-// knows what its numbers are. No deal.II header here: see matrix3.h.
+#include <array>
+
+// The elastic constants that every cell has, under the name CellMaterial. A law that has more of them
+// has Constants of its own with the members of Isotropic. No deal.II header here: see matrix3.h.
 
 namespace Exemplar
 {
@@ -14,11 +16,14 @@ namespace Exemplar
   template <typename Number>
   struct Isotropic
   {
-    /// Whether C:E has the principal axes of E: then W of Eq. (17) is 0 without a target.
+    /// Whether C:E has the principal axes of E: then W of Eq. (17) is 0 without a target, and C is
+    /// turned by turning the gradients of a cell.
     static constexpr bool is_isotropic = true;
 
-    /// That are stored for each cell.
+    /// That are stored for each point: its two, then what `own_constants` names.
     static constexpr std::size_t n_numbers = 2;
+
+    static constexpr std::array<LawConstant, 0> own_constants{};
 
     Number lambda;
     Number mu;

@@ -160,8 +160,7 @@ namespace Exemplar::Loops
     const auto            tet = load_tetrahedron<n_nodes>(task.cells, group);
     const Matrix3<Number> F   = deformation_gradient(task, group, tet);
     const Matrix3<Number> R   = rotation<Cell>(task, group, F);
-    const Cell            cell(load_constants<typename Cell::Constants>(task.cells, group), R, F,
-                               task.cells.guard_bound);
+    const Cell            cell = make_cell<Cell>(task.cells, group, R, F);
     if (!cell.is_stretched())
       return;
     const StretchGuard<Number> guard  = cell.stretch();
@@ -193,8 +192,7 @@ namespace Exemplar::Loops
         = task.cells.has_other_laws
               ? select(is_real, determinant(F), Number(std::numeric_limits<double>::max()))
               : determinant(F);
-    Cell         cell(load_constants<typename Cell::Constants>(task.cells, group), R, F,
-                      task.cells.guard_bound);
+    Cell         cell    = make_cell<Cell>(task.cells, group, R, F);
     const Number density = cell.elastic_density();
     const Number elastic = tet.volume * density;
     Number       scale   = cell.elastic_scale();
@@ -287,8 +285,8 @@ namespace Exemplar::Loops
               {
                 const auto            tet = load_tetrahedron<n_nodes>(task.cells, group);
                 const Matrix3<Number> F   = deformation_gradient(task, group, tet);
-                const Cell cell(load_constants<typename Cell::Constants>(task.cells, group),
-                                rotation<Cell>(task, group, F), F, task.cells.guard_bound);
+                const Cell            cell
+                    = make_cell<Cell>(task.cells, group, rotation<Cell>(task, group, F), F);
                 if constexpr (Cell::traits.trace_gradient_is_R)
                   if (task.dilatation.traces != nullptr)
                     store_dilatation(task, group, cell.strain(), F);

@@ -71,7 +71,7 @@ namespace Exemplar::Loops
   {
     constexpr std::size_t n = Constants::n_numbers;
     return Constants::from_numbers([&](const std::size_t k)
-                                   { return load(cells.material, group, n, k); });
+                                   { return load(cells.constants, group, n, k); });
   }
 
   /// Which cells of a group are of the law that a loop is for.
@@ -112,6 +112,20 @@ namespace Exemplar::Loops
                              if (!cells.has_other_laws || any(of_law(cells, group)))
                                function(group);
                            });
+  }
+
+  /// A cell with the rotation R and the deformation gradient F, with what its law remembers.
+  template <typename Cell, typename Number>
+  inline Cell
+  make_cell(const CellArrays        &cells,
+            const LaneGroup<Number> &group,
+            const Matrix3<Number>   &R,
+            const Matrix3<Number>   &F)
+  {
+    Cell cell(load_constants<typename Cell::Constants>(cells, group), R, F, cells.guard_bound);
+    if constexpr (constexpr std::size_t n = Cell::traits.n_history; n > 0)
+      cell.remember([&](const std::size_t k) { return load(cells.history, group, n, k); });
+    return cell;
   }
 
   template <typename Number>

@@ -2,23 +2,13 @@
 #ifndef exemplar_loops_stiffness_h
 #define exemplar_loops_stiffness_h
 
-#include <exemplar/kernels/loops_io.h>
+#include <exemplar/kernels/loops_blocks.h>
 
 // The loop that adds R K R^T, Eq. (8). The stiffness of an isotropic material is turned by turning
 // the gradients of a cell.
 
 namespace Exemplar::Loops
 {
-  /// Where the columns of the matrix of a cell (with all its points) go, if batch `begin` is the
-  /// first.
-  template <int n_nodes>
-  inline const int *
-  matrix_positions(const TangentTask &tangent, const std::size_t begin, const std::size_t cell)
-  {
-    return tangent.positions
-           + n_block_columns(n_nodes) * ((cell - begin * batch_size) / points_of_cell(n_nodes));
-  }
-
   /// What makes R K R^T of the cells of a group, Eq. (8), for an isotropic material. Lanes are
   /// stored apart, because each cell is then added by itself.
   template <typename Number, int n>
@@ -41,7 +31,7 @@ namespace Exemplar::Loops
     Number                factor = tet.volume;
     if (task.damping.factors != nullptr)
       factor *= Number(1.) + load(task.damping.factors, group, 1, 0);
-    const auto [lambda, mu] = load_constants<Constants>(task.cells, group).scaled(factor);
+    const CellMaterial<Number> C = load_constants<Constants>(task.cells, group).scaled(factor);
     Vector3<Number> g[n];
     rotate_gradients(tet, R, g);
     for (int a = 0; a < n; ++a)
@@ -49,11 +39,11 @@ namespace Exemplar::Loops
       for (int i = 0; i < 3; ++i)
       {
         Lanes<Number>::store(g[a][i], K.g[a][i]);
-        Lanes<Number>::store(lambda * g[a][i], K.lambda_g[a][i]);
-        Lanes<Number>::store(mu * g[a][i], K.mu_g[a][i]);
+        Lanes<Number>::store(C.lambda * g[a][i], K.lambda_g[a][i]);
+        Lanes<Number>::store(C.mu * g[a][i], K.mu_g[a][i]);
       }
       for (int b = 0; b <= a; ++b)
-        Lanes<Number>::store(mu * dot(g[a], g[b]), K.diagonal[a][b]);
+        Lanes<Number>::store(C.mu * dot(g[a], g[b]), K.diagonal[a][b]);
     }
   }
 
@@ -112,12 +102,48 @@ namespace Exemplar::Loops
         g[l] = Four{ K.g[a][0][l], K.g[a][1][l], K.g[a][2][l], 0. };
   }
 
+  /// The response of R K R^T, for any C.
+  template <typename Constants, typename Number>
+  struct FixedResponse
+  {
+    Constants C;
+
+    Matrix3<Number>
+    response(const Matrix3<Number> &M) const
+    {
+      return stress(C, symmetric_part(M));
+    }
+  };
+
+  /// The same for a C that is not isotropic.
+  template <typename Constants, typename Number, int n_nodes>
+  inline void
+  add_anisotropic_stiffness_of(const CellTask    &task,
+                               const TangentTask &tangent,
+                               const std::size_t  begin,
+                               const std::size_t  end)
+  {
+    alignas(64) BlockColumns<Number, n_nodes> columns = {};
+    for_each_group_of_law<Number>(
+        task.cells, begin, end,
+        [&](const LaneGroup<Number> &group)
+        {
+          Number factor = Number(1.);
+          if (task.damping.factors != nullptr)
+            factor += load(task.damping.factors, group, 1, 0);
+          const auto C = load_constants<Constants>(task.cells, group).scaled(factor);
+          cell_blocks(FixedResponse<Constants, Number>{ C }, load_rotation(task.cells, group),
+                      load_tetrahedron<n_nodes>(task.cells, group), columns);
+          add_blocks<Number, n_nodes>(task, tangent, begin, group, columns);
+        });
+  }
+
   template <typename Constants, typename Number, int n>
   inline void
-  add_rotated_stiffness_of(const CellTask    &task,
-                           const TangentTask &tangent,
-                           const std::size_t  begin,
-                           const std::size_t  end)
+  add_isotropic_stiffness_of(const CellTask    &task,
+                             const TangentTask &tangent,
+                             const std::size_t  begin,
+                             const std::size_t  end)
   {
     // points of one cell that are computed at once are added at once
     constexpr std::size_t at_once  = std::min<std::size_t>(4, LaneGroup<Number>::width);
@@ -161,8 +187,11 @@ namespace Exemplar::Loops
         task.cells.law,
         [&](auto model)
         {
-          add_rotated_stiffness_of<typename decltype(model)::type::Constants, Number, n>(
-              task, tangent, begin, end);
+          using Constants = typename decltype(model)::type::Constants;
+          if constexpr (Constants::is_isotropic)
+            add_isotropic_stiffness_of<Constants, Number, n>(task, tangent, begin, end);
+          else
+            add_anisotropic_stiffness_of<Constants, Number, n>(task, tangent, begin, end);
         });
   }
 } // namespace Exemplar::Loops

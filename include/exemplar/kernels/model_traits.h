@@ -2,8 +2,21 @@
 #ifndef exemplar_model_traits_h
 #define exemplar_model_traits_h
 
+#include <cstddef>
+#include <limits>
+
 namespace Exemplar
 {
+  /// A constant that a law adds to those of elasticity.h: a key of Material and of its regions.
+  struct LawConstant
+  {
+    const char *name;
+    const char *documentation; ///< with its unit
+    double      value;         ///< unless a scene says another
+    double      min = 0.;
+    double      max = std::numeric_limits<double>::max();
+  };
+
   /// What distinguishes the models of a cell, beside their formulas. Each model has a constant
   /// `traits`.
   struct ModelTraits
@@ -34,6 +47,11 @@ namespace Exemplar
 
     /// The energy without examples stays as it is when the body turns.
     bool turns_freely;
+
+    /// Numbers that it remembers at each point from step to step; 0 at the beginning. Such a law has
+    /// the members remember() and new_history() as well, see make_cell() and advance_history() of
+    /// the loops.
+    std::size_t n_history = 0;
   };
 } // namespace Exemplar
 

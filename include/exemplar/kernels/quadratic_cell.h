@@ -7,43 +7,49 @@
 #include <exemplar/kernels/stretch_guard.h>
 #include <exemplar/kernels/tetrahedron.h>
 
-// What the models without rotations share. No deal.II header here: see matrix3.h.
+// What all laws so far share. No deal.II header here: see matrix3.h.
 
 namespace Exemplar
 {
-  /// A deformed cell of energy density 1/2 (e - D) : C : (e - D) with a strain e that is a
-  /// function of F alone; the members are those of CorotationalCell.
+  /// A deformed cell of energy density 1/2 (e - D) : C : (e - D) with a strain e that is a function
+  /// of F alone, and a target strain D. A law adds the forces and their responses, in the frame of
+  /// its rotation: R^T P for the first Piola-Kirchhoff stress P. CorotationalCell has them all.
   template <typename Number>
   class QuadraticCell
   {
   public:
     using Constants = CellMaterial<Number>;
 
+    /// Whether the guard of Eq. (16) acts, for each lane.
     auto
     is_guarded() const
     {
       return Number(0.) > Number(1.); // false in every lane
     }
 
-    /// As CorotationalCell.
+    /// Of the elasticity alone, 1/2 e:C:e [Pa].
     Number
     elastic_density() const
     {
       return Number(0.5) * contract(elastic_stress, e);
     }
 
+    /// The size of the stress that it makes, |C:e| [Pa].
     Number
     elastic_scale() const
     {
       return norm(elastic_stress);
     }
 
+    /// The same of a target strain.
     Number
     scale_of(const Matrix3<Number> &D) const
     {
       return norm(stress(material, D));
     }
 
+    /// Let stiffness damping with the factor s and the strain e_past act from now on, and get the
+    /// target that the whole then has. The guard of the stretch belongs to the elasticity and stays.
     Matrix3<Number>
     damp(const Matrix3<Number> &D, const Number &s, const Matrix3<Number> &past)
     {
@@ -51,30 +57,51 @@ namespace Exemplar
       return damped_target(D, s, past);
     }
 
+    /// Whether the guard of the stretch may act in some lane, told by the energy density of the
+    /// elasticity [Pa] alone.
     bool
-    may_be_stretched(const Number &) const
+    may_be_stretched(const Number & /*elastic_density*/) const
     {
       return false;
     }
 
+    /// Whether it acts in some lane.
     bool
     is_stretched() const
     {
       return false;
     }
 
+    /// The guard of the stretch, Eq. (24). Its energy and force are not part of energy() and of the
+    /// law's force().
     StretchGuard<Number>
     stretch() const
     {
       return {};
     }
 
+    /// e.
     const Matrix3<Number> &
     strain() const
     {
       return e;
     }
 
+    /// C with damping; without the volume part if that is a patch's.
+    const CellMaterial<Number> &
+    own_material() const
+    {
+      return material;
+    }
+
+    /// C:(e - D) [Pa].
+    Matrix3<Number>
+    stress_towards(const Matrix3<Number> &D) const
+    {
+      return stress(material, combine(Number(1.), e, Number(-1.), D));
+    }
+
+    /// Computed from e - D, because near an example the expanded square would lose its digits.
     Number
     energy(const Matrix3<Number> &D) const
     {
@@ -82,16 +109,18 @@ namespace Exemplar
       return Number(0.5) * contract(stress(material, deviation), deviation);
     }
 
+    /// -d psi / dD. The derivative of psi by a weight w_i is -eta times this, contracted with E_i.
     Matrix3<Number>
     weight_stress(const Matrix3<Number> &D) const
     {
-      return stress(material, combine(Number(1.), e, Number(-1.), D));
+      return stress_towards(D);
     }
 
+    /// Prepare the forces and responses for the target strain D.
     void
     set_target(const Matrix3<Number> &D)
     {
-      T = weight_stress(D);
+      T = stress_towards(D);
     }
 
   protected:
@@ -100,7 +129,7 @@ namespace Exemplar
     {
     }
 
-    CellMaterial<Number> material;
+    CellMaterial<Number> material; ///< with damping
     Matrix3<Number>      e;
     Matrix3<Number>      elastic_stress; ///< C:e, without damping
     Matrix3<Number>      T; ///< C:(e - D), once the target is set

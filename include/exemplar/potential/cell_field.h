@@ -40,8 +40,8 @@ namespace Exemplar
   class CellField
   {
   public:
-    /// `guard_bound` is p_0 of Eq. (16), `material` that of the cells' own energy. Both must outlive
-    /// the field. `n_threads` of the loops: no result depends on it.
+    /// `guard_bound` is p_0 of Eq. (16), `material` that of the cells' own energy. The space must
+    /// outlive the field. `n_threads` of the loops: no result depends on it.
     CellField(LawsOfCells     laws,
               double          guard_bound,
               const FESpace  &fe_space,
@@ -62,7 +62,7 @@ namespace Exemplar
     void
     set_damping(double s, const std::vector<WeightedPositions> &history)
     {
-      damping.set(s, history, laws, guard_bound, fe_space, material);
+      damping.set(s, history, batches, fe_space);
     }
 
     /// R at every point from the polar decomposition at these positions. Models without rotations
@@ -130,28 +130,34 @@ namespace Exemplar
       return nodal_sums;
     }
 
+    /// What the laws remember from now on, see State::history.
+    void
+    set_history(const std::vector<double> &history)
+    {
+      batches.set_history(history);
+    }
+
+    /// What they remember after a step that ends at these positions, from what they remembered.
+    std::vector<double>
+    advance_history(const Vector &positions);
+
     const CellKernels &
     loops() const
     {
       return kernels;
     }
 
-    CellLaw
-    law(const unsigned int point) const
+    /// Laws, constants and history of the points.
+    const CellBatches &
+    get_batches() const
     {
-      return laws[fe_space.cell_of(point)];
-    }
-
-    const LawsOfCells &
-    get_laws() const
-    {
-      return laws;
+      return batches;
     }
 
     /// Call function(task) for each law, with the task for its cells alone.
     template <typename Function>
     void
-    for_each_law(CellTask task, const Function &function) const
+    for_each_law(CellTask task, const Function &function)
     {
       batches.for_each_law(task.cells,
                            [&](const CellArrays &cells)
@@ -161,21 +167,12 @@ namespace Exemplar
                            });
     }
 
-    double
-    get_guard_bound() const
-    {
-      return guard_bound;
-    }
-
     /// In bytes.
     std::size_t
     memory_consumption() const;
 
   private:
-    const LawsOfCells             laws;
-    const double                  guard_bound;
     const FESpace                &fe_space;
-    const Material               &material;
     const CellKernels            &kernels;
     CellBatches                   batches;
     StrainDamping                 damping;

@@ -192,13 +192,6 @@ namespace Exemplar
           function(point);
     }
 
-    /// C of a point's own energy.
-    const CellMaterial<double> &
-    elasticity(const unsigned int point) const
-    {
-      return parts.cell_material.elasticity(parts.fe_space.cell_of(point));
-    }
-
     /// The loop that adds the tangent of a task's law.
     void
     add_tangent_of_law(const CellTask    &task,
@@ -213,7 +206,7 @@ namespace Exemplar
     void
     assemble_coupling(const CellTask      &task,
                       const TangentTask   &tangent,
-                      std::vector<double> &columns) const;
+                      std::vector<double> &columns);
 
     /// The part of the cells of this process.
     void
@@ -231,6 +224,8 @@ namespace Exemplar
                       const TermPoint       &at,
                       ElasticSums           &sums) const;
 
+    /// The same where the tangent is R K R^T.
+    template <typename Constants>
     void
     add_rotated_response(unsigned int point, const Matrix3<double> &M, ElasticSums &sums) const;
 

@@ -33,14 +33,15 @@ namespace Exemplar
     void
     begin_step(const State &start, double step_size);
 
-    /// The step that has begun is accepted, with this end.
+    /// The step that has begun is accepted, with this end, of which the rotations are. It gets what
+    /// the laws remember.
     void
-    end_step(const State &end);
+    end_step(State &end);
 
-    /// States are evaluated without a step that leads to them: before the first step, after a
-    /// resume, or after a rigid motion.
+    /// States are evaluated without a step that leads to them, this one first: before the first step,
+    /// after a resume, or after a rigid motion.
     void
-    leave_step();
+    leave_step(const State &at);
 
     /// Loads and prescribed weights of time t [s]. `state` gets the time and, if they are
     /// prescribed, the weights.

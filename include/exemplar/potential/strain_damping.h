@@ -2,9 +2,8 @@
 #ifndef exemplar_strain_damping_h
 #define exemplar_strain_damping_h
 
+#include <exemplar/body/cell_batches.h>
 #include <exemplar/body/fe_space.h>
-#include <exemplar/body/laws_of_cells.h>
-#include <exemplar/body/material.h>
 #include <exemplar/body/time_integrator.h>
 #include <exemplar/kernels/cell_kernels.h>
 #include <exemplar/kernels/symmetric.h>
@@ -19,16 +18,13 @@ namespace Exemplar
   class StrainDamping
   {
   public:
-    /// From now on with this s, 0 for none, in cells of these laws with p_0 of Eq. (16). Points that the
-    /// guard of Eq. (16) had to hold at one of the positions x_m are left out: their rotation is
+    /// From now on with this s, 0 for none, in these cells. Points that the guard of Eq. (16) had to hold at one of the positions x_m are left out: their rotation is
     /// ambiguous.
     void
     set(double                                s,
         const std::vector<WeightedPositions> &history,
-        const LawsOfCells                    &laws,
-        double                                guard_bound,
-        const FESpace                        &fe_space,
-        const Material                       &material);
+        const CellBatches                    &cells,
+        const FESpace                        &fe_space);
 
     /// s.
     double
@@ -49,13 +45,6 @@ namespace Exemplar
     past_strain(const unsigned int point) const
     {
       return load_stored(strains.data(), point, 1, 0);
-    }
-
-    /// C with the damping at a point.
-    CellMaterial<double>
-    damped(const unsigned int point, const CellMaterial<double> &material) const
-    {
-      return material.scaled(1. + factor(point));
     }
 
     /// For the loops; without damping there is nothing in them.

@@ -59,6 +59,7 @@ namespace Exemplar
     constraints.check(parameters, body);
     if (parameters.scene == SceneKind::interpolation)
       start_interpolation();
+    state.history = potential.get_cells().get_field().get_batches().history();
     start(state);
     check_start();
   }
@@ -100,7 +101,7 @@ namespace Exemplar
   Problem::start(State &at)
   {
     StepClock::Scope scope(clock, Part::evaluate);
-    potential.leave_step();
+    potential.leave_step(at);
     potential.set_time(at.time, at);
     potential.evaluate(at, RotationUse::update, evaluation);
   }

@@ -277,7 +277,7 @@ namespace Exemplar
         quadratic = std::make_unique<Problem>(quadratic_scene(problem.parameters), *problem.inputs);
       const FESpace &fe_space = quadratic->body.fe_space;
       Evaluation     linear;
-      problem.potential.leave_step();
+      problem.potential.leave_step(problem.state);
       problem.potential.evaluate(problem.state, RotationUse::update, linear);
       const Correction correction = correct(linear);
       Vector           u          = displacement(*quadratic, correction.from.positions);

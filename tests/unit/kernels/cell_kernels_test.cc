@@ -37,7 +37,7 @@ namespace Exemplar::Testing
         parameters.importance         = 0.7;
         parameters.weights_per_region = per_region;
         const auto   examples         = body.examples(parameters);
-        CellBatches  batches(body.fe_space, body.material, law);
+        CellBatches  batches(body.fe_space, body.material, law, default_guard_bound);
         std::mt19937 generator(5);
         auto         x = body.random_positions(generator, 0.8); // some cells invert
         if (is_pulled)
@@ -52,7 +52,7 @@ namespace Exemplar::Testing
         const std::vector<double>     weights(examples->n_weights(), 0.4);
 
         CellTask task;
-        task.cells                  = batches.arrays(default_guard_bound);
+        task.cells                  = batches.arrays();
         task.examples               = examples->arrays();
         task.damping                = { damping.data(), past.data() };
         task.positions              = positions.data();
