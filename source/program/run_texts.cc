@@ -79,12 +79,12 @@ namespace Exemplar
     }
 
     std::string
-    examples_text(const ExamplePoses *poses)
+    examples_text(const ExamplePoses &poses)
     {
       std::ostringstream text;
       text << "Examples  ";
-      if (poses != nullptr)
-        text << poses->size() << ", importance " << poses->importance() << '\n';
+      if (poses.size() > 0)
+        text << poses.size() << ", importance " << poses.importance() << '\n';
       else
         text << "none\n";
       return text.str();
@@ -184,7 +184,7 @@ namespace Exemplar
   {
     return "Scene     " + printable(problem.parameters.name) + '\n' + mesh_text(problem)
            + made_text(problem.body.made.get()) + body_text(problem)
-           + examples_text(problem.examples.poses.get()) + solver_text(problem) + "Output    "
+           + examples_text(problem.examples.poses) + solver_text(problem) + "Output    "
            + problem.parameters.output.directory + '\n' + notes_text(problem);
   }
 

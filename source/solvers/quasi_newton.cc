@@ -33,7 +33,7 @@ namespace Exemplar
   QuasiNewton::QuasiNewton(const SolverParameters &parameters,
                            IncrementalPotential   &potential,
                            StepSystem             &system,
-                           const Handles          *handles,
+                           const Handles          &handles,
                            StepClock              &clock)
       : parameters(parameters), potential(potential), system(system), clock(clock),
         newton(parameters, potential, system, handles, clock),
@@ -150,10 +150,9 @@ namespace Exemplar
     for (double &entry : step)
       entry = -entry;
     metric.rotate_back(step);
-    if (const ExampleWeights *weights = potential.unknown_weights())
-      metric.add_example_forces(metric.find_weight_changes(step, evaluation.elastic.weight_gradient,
-                                                           weights->lower_changes(trial.weights)),
-                                step);
+    const std::vector<double> lower = potential.get_weights().lower_changes(trial.weights);
+    metric.add_example_forces(
+        metric.find_weight_changes(step, evaluation.elastic.weight_gradient, lower), step);
     lbfgs.before(step);
     metric.apply(step);
     lbfgs.after(step);
@@ -208,13 +207,10 @@ namespace Exemplar
       iteration.rotated[i] *= step_length;
     }
     metric.rotate_back(change);
-    if (potential.unknown_weights() != nullptr)
-    {
-      std::vector<double> weight_change(old_weights.size());
-      for (std::size_t i = 0; i < weight_change.size(); ++i)
-        weight_change[i] = trial.weights[i] - old_weights[i];
-      metric.add_example_forces(weight_change, change);
-    }
+    std::vector<double> weight_change(old_weights.size());
+    for (std::size_t i = 0; i < weight_change.size(); ++i)
+      weight_change[i] = trial.weights[i] - old_weights[i];
+    metric.add_example_forces(weight_change, change);
     lbfgs.add_pair(iteration.rotated, change);
   }
 

@@ -56,7 +56,8 @@ namespace Exemplar::Verification
     public:
       Differences(Problem &problem, const dealii::Vector<double> &positions, Rotations rotations)
           : problem(problem), x(positions),
-            w(problem.examples.poses ? weights : std::vector<double>()), rotations(rotations)
+            w(problem.examples.poses.size() > 0 ? weights : std::vector<double>()),
+            rotations(rotations)
       {
         problem.potential.get_cells().update_rotations(x);
         at = evaluate(x, w);
@@ -134,8 +135,8 @@ namespace Exemplar::Verification
             const double change
                 = derivative([&](const double h) { return weight_moved(h).gradient[free[i]]; });
             const double entry
-                = problem.examples.poses->is_strained(k)
-                      ? columns[problem.examples.poses->strained_index(k) * free.size() + i]
+                = problem.examples.poses.is_strained(k)
+                      ? columns[problem.examples.poses.strained_index(k) * free.size() + i]
                       : 0.;
             greatest = max_or_nan(greatest, std::abs(change + entry));
           }

@@ -45,13 +45,13 @@ namespace Exemplar::Verification
                      + section("Solver", set("Tolerance", 1e-12)));
       Problem &p        = scene.problem;
       double   residual = 0., weight_error = 0., distance = 0.;
-      for (unsigned int i = 0; i < p.examples.poses->size(); ++i)
+      for (unsigned int i = 0; i < p.examples.poses.size(); ++i)
       {
         State start      = p.state;
-        start.positions  = moved_rigidly(p.examples.poses->pose(i),
+        start.positions  = moved_rigidly(p.examples.poses.pose(i),
                                          rotation_about({ { 1., 1., 0. } }, 2.), { { 5., 5., 5. } });
         start.velocities = 0.;
-        std::vector<double> unit(p.examples.poses->size(), 0.);
+        std::vector<double> unit(p.examples.poses.size(), 0.);
         unit[i] = 1.;
         const ElasticEvaluation strained
             = evaluate(p, start.positions, std::vector<double>{ 1., 0., 0. });
@@ -100,7 +100,8 @@ namespace Exemplar::Verification
     {
       Scene scene(dragged
                   + examples_of(twisted, set("Importance", importance) + set("Energy", "scaled")
-                                             + set("Weights", "free") + set("Weight penalty", "0")));
+                                             + set("Weights", "free")
+                                             + set("Weight penalty", "0")));
       return importance * scene.solve().weights[1];
     }
 
@@ -247,8 +248,8 @@ namespace Exemplar::Verification
         for (unsigned int j = 0; j < qp.c.size(); ++j)
           derivative += qp.H(i, j) * solution.weights[j];
         sum += solution.weights[i];
-        for (const double violation : { -solution.weights[i], -derivative,
-                                        solution.weights[i] > 0. ? derivative : 0. })
+        for (const double violation :
+             { -solution.weights[i], -derivative, solution.weights[i] > 0. ? derivative : 0. })
           error = max_or_nan(error, violation);
       }
       return max_or_nan(error, std::abs(sum - 1.));

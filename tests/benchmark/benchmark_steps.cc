@@ -188,7 +188,7 @@ namespace Exemplar
       {
         json["scene"]    = std::filesystem::path(options.scene_file).stem().string();
         json["method"]   = method_name(problem.parameters.solver.method);
-        json["examples"] = problem.examples.poses != nullptr ? problem.examples.poses->size() : 0;
+        json["examples"] = problem.examples.poses.size();
         json["cells"]    = problem.body.mesh.n_cells();
         json["dofs"]     = problem.constraints.free_dofs.size();
         json["steps"]    = steps.size();

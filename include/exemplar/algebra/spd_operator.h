@@ -20,6 +20,7 @@ namespace Exemplar
   {
     std::vector<int> column_start; ///< n + 1 entries
     std::vector<int> row;
+    unsigned int     version = 0; ///< how often it was made anew
 
     unsigned int
     n() const

@@ -162,7 +162,7 @@ namespace Exemplar
     if (problem.body.geo_walls)
       json["geo_confinement"] = *problem.body.geo_walls;
     json["linear_solver"]  = problem.system.bordered().traits().name;
-    json["examples"]       = problem.examples.poses != nullptr ? problem.examples.poses->size() : 0;
+    json["examples"]       = problem.examples.poses.size();
     json["steps"]          = problem.state.step;
     json["iterations"]     = totals.iterations;
     json["factorizations"] = totals.factorizations;

@@ -32,6 +32,12 @@ namespace Exemplar
     void
     set_motion(const std::string &handle, Motion motion);
 
+    /// Between steps, let `change` change which nodes handles hold: hold(), let_go(), grab(). A
+    /// degree of freedom that is let go keeps its velocity. Throws UserError, with nothing changed, for interpolations, and for what Constraints::change_handles() refuses.
+    /// All processes must call this.
+    void
+    change_handles(const std::function<void(Handles &)> &change);
+
     /// Go on from a state of an earlier run.
     void
     resume_from(const State &earlier, const std::string &solver_memory = "");
@@ -59,7 +65,7 @@ namespace Exemplar
     const TimeAxis                           time_axis;
     const Body                               body;
     const std::shared_ptr<const SurfaceMesh> surface; ///< of the body; null unless it is needed
-    const Constraints                        constraints;
+    Constraints                              constraints;
     const Examples                           examples;
     const Actions                            actions;
     IncrementalPotential                     potential;
