@@ -20,11 +20,11 @@ namespace Exemplar
                         const double               convexity)
   {
     {
-      StepClock::Scope scope(clock, Part::assemble);
+      StepClock::Scope scope(clock, Phase::assemble);
       potential.assemble(positions, weights, convexity, system->matrix_values(), system->columns());
       potential.get_free_dofs().assemble_columns(system->columns());
     }
-    StepClock::Scope scope(clock, Part::factorize);
+    StepClock::Scope scope(clock, Phase::factorize);
     ++factorizations;
     system->factorize(positions);
   }
@@ -34,7 +34,7 @@ namespace Exemplar
                     const Vector              &gradient,
                     const std::vector<double> &weight_gradient)
   {
-    StepClock::Scope scope(clock, Part::solve);
+    StepClock::Scope scope(clock, Phase::solve);
     const auto      &free = potential.get_free_dofs().list();
     BorderedVector   unknowns;
     unknowns.positions.reserve(free.size());
@@ -55,7 +55,7 @@ namespace Exemplar
   void
   StepSystem::prepare()
   {
-    StepClock::Scope scope(clock, Part::solve);
+    StepClock::Scope scope(clock, Phase::solve);
     system->prepare();
   }
 

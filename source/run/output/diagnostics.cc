@@ -63,8 +63,8 @@ namespace Exemplar
       work.handles = exchange.sum(own);
     }
     if (loads != nullptr && loads->has_gravity())
-      work.gravity += loads->ramp_factor(state.time)
-                      * exchange.product(loads->gravity(), displacement);
+      work.gravity
+          += loads->ramp_factor(state.time) * exchange.product(loads->gravity(), displacement);
     if (loads != nullptr && loads->has_named_loads())
     {
       Vector force(displacement.size());
@@ -151,7 +151,7 @@ namespace Exemplar
   }
 
   void
-  Diagnostics::append_seconds(StatisticsRow &row, const std::optional<PartSeconds> &seconds)
+  Diagnostics::append_seconds(StatisticsRow &row, const std::optional<PhaseSeconds> &seconds)
   {
     const auto append_one = [&](const std::string &name, const double value)
     {
@@ -160,8 +160,8 @@ namespace Exemplar
         row.back().value = value;
     };
     append_one("step", seconds ? std::accumulate(seconds->begin(), seconds->end(), 0.) : 0.);
-    for (unsigned int part = 0; part < n_parts; ++part)
-      if (part != static_cast<unsigned int>(Part::read))
-        append_one(part_names[part], seconds ? (*seconds)[part] : 0.);
+    for (unsigned int phase = 0; phase < n_phases; ++phase)
+      if (phase != static_cast<unsigned int>(Phase::read))
+        append_one(phase_names[phase], seconds ? (*seconds)[phase] : 0.);
   }
 } // namespace Exemplar
