@@ -61,7 +61,7 @@ def difference(kept, now):
 def keep(name, kept, now, changed):
     rows = [now[settings] if settings in changed else kept[settings] for settings in now]
     with open(FILES / f"{name}.csv", "w", newline="") as file:
-        writer = csv.DictWriter(file, list(next(iter(now.values()))), lineterminator="\n", extrasaction="ignore")
+        writer = csv.DictWriter(file, list(next(iter(kept.values()))), lineterminator="\n", extrasaction="ignore")
         writer.writeheader()
         writer.writerows(rows)
 

@@ -106,7 +106,7 @@ namespace Exemplar
         return maximum;
       }
 
-      /// The stars of `least` cells or more become patches, the greatest first.
+      /// The stars of `minimum` cells or more become patches, the greatest first.
       void
       take_stars(const std::size_t minimum)
       {

@@ -114,6 +114,7 @@ namespace Exemplar
     }
 
   private:
+    /// Nodes of this process that move together, and how.
     struct Handle
     {
       std::string               name;

@@ -9,6 +9,7 @@ namespace Exemplar
 {
   class KeyTable;
 
+  /// What makes the mesh where no file does.
   enum class MeshGenerator
   {
     none,

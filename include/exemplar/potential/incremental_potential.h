@@ -183,6 +183,8 @@ namespace Exemplar
     }
 
   private:
+    /// What a step holds back of the forces at its start: `part` of the `gradient` there, which
+    /// acts on the way from `positions`.
     struct HeldBack
     {
       double part = 0.;

@@ -41,10 +41,10 @@ namespace Exemplar
                : "";
   }
 
-  /// Declare an option that takes a number from `least` to `most`, in decimal digits alone: CLI11 itself
-  /// would take NaN for a number in any range, and octal and hexadecimal ones. Whoever gives another
-  /// text gets a UserError, with `remedy`, a sentence with a blank behind it. `target` may be a
-  /// std::optional.
+  /// Declare an option that takes a number from `minimum` to `maximum`, in decimal digits alone:
+  /// CLI11 itself would take NaN for a number in any range, and octal and hexadecimal ones. Whoever
+  /// gives another text gets a UserError, with `remedy`, a sentence with a blank behind it. `target`
+  /// may be a std::optional.
   template <typename Target, typename Number>
   CLI::Option *
   add_number_option(CLI::App          &app,

@@ -35,28 +35,28 @@ namespace Exemplar
 
     /// The node and the rings of nodes around it, as many as a fit needs.
     std::vector<unsigned int>
-    surroundings_of(const unsigned int node, const Neighbours &neighbours)
+    neighbourhood_of(const unsigned int node, const Neighbours &neighbours)
     {
-      std::set<unsigned int> surroundings = { node };
-      for (unsigned int ring = 0; ring < max_rings && surroundings.size() <= n_sufficient; ++ring)
+      std::set<unsigned int> neighbourhood = { node };
+      for (unsigned int ring = 0; ring < max_rings && neighbourhood.size() <= n_sufficient; ++ring)
         for (const unsigned int inner :
-             std::vector<unsigned int>(surroundings.begin(), surroundings.end()))
-          surroundings.insert(neighbours[inner].begin(), neighbours[inner].end());
-      return { surroundings.begin(), surroundings.end() };
+             std::vector<unsigned int>(neighbourhood.begin(), neighbourhood.end()))
+          neighbourhood.insert(neighbours[inner].begin(), neighbours[inner].end());
+      return { neighbourhood.begin(), neighbourhood.end() };
     }
 
     /// The inverse of the Cholesky factor of the mean of d d^T over the differences d of the
-    /// surroundings' places from the node's: flat surroundings are as good as round ones.
+    /// neighbourhood's places from the node's: flat neighbourhoods are as good as round ones.
     dealii::Tensor<2, 3>
     rounding_map(const unsigned int               node,
-                 const std::vector<unsigned int> &surroundings,
+                 const std::vector<unsigned int> &neighbourhood,
                  const Mesh                      &mesh)
     {
       dealii::Tensor<2, 3> M, L;
-      for (const unsigned int other : surroundings)
+      for (const unsigned int other : neighbourhood)
       {
         const dealii::Tensor<1, 3> d = mesh.get_nodes()[other] - mesh.get_nodes()[node];
-        M += dealii::outer_product(d, d) / static_cast<double>(surroundings.size());
+        M += dealii::outer_product(d, d) / static_cast<double>(neighbourhood.size());
       }
       for (unsigned int i = 0; i < 3; ++i)
         for (unsigned int j = 0; j <= i; ++j)
@@ -109,18 +109,18 @@ namespace Exemplar
     const Neighbours neighbours = neighbours_of_nodes(mesh);
     for (unsigned int node = 0; node < mesh.n_nodes(); ++node)
       if (is_wanted[node])
-        fits[node] = make_fit(node, surroundings_of(node, neighbours), mesh);
+        fits[node] = make_fit(node, neighbourhood_of(node, neighbours), mesh);
   }
 
   MotionRecovery::Fit
   MotionRecovery::make_fit(const unsigned int               node,
-                           const std::vector<unsigned int> &surroundings,
+                           const std::vector<unsigned int> &neighbourhood,
                            const Mesh                      &mesh)
   {
     Fit fit;
-    fit.to_round = rounding_map(node, surroundings, mesh);
+    fit.to_round = rounding_map(node, neighbourhood, mesh);
     dealii::FullMatrix<double> matrix(n_monomials, n_monomials); // of the normal equations
-    for (const unsigned int other : surroundings)
+    for (const unsigned int other : neighbourhood)
       if (other != node)
       {
         const auto p = monomials(fit.to_round * (mesh.get_nodes()[other] - mesh.get_nodes()[node]));
@@ -187,7 +187,7 @@ namespace Exemplar
     const dealii::Tensor<1, 3> along   = fit.to_round * first;
     const dealii::Tensor<1, 3> outward = fit.to_round * second;
     auto                       values  = monomials(outward);
-    // 3 is the mean square of the neighbours' distances in the round surroundings
+    // 3 is the mean square of the neighbours' distances in the round neighbourhood
     const double held = 3. / std::max(3., outward.norm_square());
     for (std::size_t i = 0; i < n_monomials; ++i)
       values[i] = i < 3 ? along[static_cast<unsigned int>(i)] : held * values[i];

@@ -18,6 +18,7 @@ namespace Exemplar
     /// det F of a cell that counts as not inverted is greater.
     static constexpr double margin = 1e-3;
 
+    /// Where the nodes are, and how they came there.
     struct Result
     {
       Points       x;               ///< [m]
