@@ -22,7 +22,7 @@ namespace Exemplar
   {
     // the rotations are those of the last accepted positions, before the handles move: the
     // paper's choice
-    StepClock::Scope scope(clock, Part::evaluate);
+    StepClock::Scope scope(clock, Phase::evaluate);
     potential.set_time(time, trial);
     if (potential.changes_between_steps())
       potential.get_cells().evaluate(trial.positions, trial.weights, evaluation.elastic);
@@ -49,7 +49,7 @@ namespace Exemplar
   {
     // forces with frozen rotations are linear in the positions: where a pass starts from does
     // not matter, but of where the rotations are does
-    StepClock::Scope scope(clock, Part::evaluate);
+    StepClock::Scope scope(clock, Phase::evaluate);
     potential.set_time(time, trial);
     prediction.predict(accepted, step_size, trial);
     potential.evaluate(trial, RotationUse::update, evaluation);
@@ -65,7 +65,7 @@ namespace Exemplar
     system.add(system.solve(trial, evaluation), trial);
     ++report.iterations;
     {
-      StepClock::Scope scope(clock, Part::evaluate);
+      StepClock::Scope scope(clock, Phase::evaluate);
       potential.evaluate(trial, RotationUse::update, evaluation);
     }
     const bool goes_on = report_iteration(potential, evaluation, trial, report);

@@ -194,7 +194,7 @@ namespace Exemplar
                   Trial       &trial,
                   Evaluation  &evaluation)
   {
-    StepClock::Scope scope(clock, Part::evaluate);
+    StepClock::Scope scope(clock, Phase::evaluate);
     potential.set_time(time, trial.state);
     const Vector *inertial = potential.inertial_positions();
     if (inertial == nullptr || !is_whole_step)
@@ -267,7 +267,7 @@ namespace Exemplar
   void
   Newton::evaluate(State &state, Evaluation &evaluation)
   {
-    StepClock::Scope scope(clock, Part::evaluate);
+    StepClock::Scope scope(clock, Phase::evaluate);
     potential.minimize_over_weights(state, RotationUse::update, evaluation);
   }
 

@@ -85,7 +85,7 @@ namespace Exemplar
                        State       &trial,
                        Evaluation  &evaluation)
   {
-    StepClock::Scope scope(clock, Part::evaluate);
+    StepClock::Scope scope(clock, Phase::evaluate);
     potential.set_time(trial.time, trial);
     prediction.predict(accepted, step_size, trial);
     rebuild_metric(trial);
@@ -96,7 +96,7 @@ namespace Exemplar
   QuasiNewton::make_metric(const Vector &positions, const std::vector<double> &weights)
   {
     system.factorize(positions, weights, 1.);
-    StepClock::Scope scope(clock, Part::factorize);
+    StepClock::Scope scope(clock, Phase::factorize);
     potential.get_cells().node_rotations(node_rotations);
     metric.reinit(system.bordered(), node_rotations);
     metric.rotate(node_rotations);
@@ -125,7 +125,7 @@ namespace Exemplar
       renew_metric(trial);
     else
     {
-      StepClock::Scope scope(clock, Part::solve);
+      StepClock::Scope scope(clock, Phase::solve);
       potential.get_cells().node_rotations(node_rotations);
       metric.rotate(node_rotations);
     }
@@ -144,7 +144,7 @@ namespace Exemplar
   double
   QuasiNewton::find_step(const State &trial, const Evaluation &evaluation, Iteration &iteration)
   {
-    StepClock::Scope     scope(clock, Part::solve);
+    StepClock::Scope     scope(clock, Phase::solve);
     std::vector<double> &step = iteration.rotated;
     step                      = iteration.gradient;
     for (double &entry : step)
@@ -178,7 +178,7 @@ namespace Exemplar
     for (unsigned int halving = 0;; ++halving)
     {
       {
-        StepClock::Scope scope(clock, Part::evaluate);
+        StepClock::Scope scope(clock, Phase::evaluate);
         potential.minimize_over_weights(trial, RotationUse::find_and_forget, evaluation);
       }
       if (is_better({ potential, evaluation }, before, length * slope))
@@ -200,7 +200,7 @@ namespace Exemplar
                      const double               step_length,
                      Iteration                 &iteration)
   {
-    StepClock::Scope scope(clock, Part::solve);
+    StepClock::Scope scope(clock, Phase::solve);
     for (std::size_t i = 0; i < change.size(); ++i)
     {
       change[i] = iteration.gradient[i] - change[i];
@@ -260,7 +260,7 @@ namespace Exemplar
           return;
         if (n_with_metric < max_iterations) // the line search gave up, and went back
         {
-          StepClock::Scope scope(clock, Part::evaluate);
+          StepClock::Scope scope(clock, Phase::evaluate);
           potential.minimize_over_weights(trial, RotationUse::update, evaluation);
         }
         free_dofs.gather(evaluation.gradient, iteration.gradient);

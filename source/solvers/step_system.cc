@@ -28,11 +28,11 @@ namespace Exemplar
       pattern_version = potential.matrix_pattern().version;
     }
     {
-      StepClock::Scope scope(clock, Part::assemble);
+      StepClock::Scope scope(clock, Phase::assemble);
       potential.assemble(positions, weights, convexity, system->matrix_values(), system->columns());
       potential.get_free_dofs().assemble_columns(system->columns());
     }
-    StepClock::Scope scope(clock, Part::factorize);
+    StepClock::Scope scope(clock, Phase::factorize);
     ++factorizations;
     factor_of = potential.get_free_dofs().version();
     system->factorize(positions);
@@ -43,7 +43,7 @@ namespace Exemplar
                     const Vector              &gradient,
                     const std::vector<double> &weight_gradient)
   {
-    StepClock::Scope scope(clock, Part::solve);
+    StepClock::Scope scope(clock, Phase::solve);
     const auto      &free = potential.get_free_dofs().list();
     BorderedVector   unknowns;
     unknowns.positions.reserve(free.size());
@@ -60,7 +60,7 @@ namespace Exemplar
   void
   StepSystem::prepare()
   {
-    StepClock::Scope scope(clock, Part::solve);
+    StepClock::Scope scope(clock, Phase::solve);
     system->prepare();
   }
 

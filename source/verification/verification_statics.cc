@@ -107,15 +107,15 @@ namespace Exemplar::Verification
     double
     strain_error(const Problem &p, const State &state)
     {
-      double greatest = 0.;
+      double maximum = 0.;
       for (unsigned int cell = 0; cell < p.body.mesh.n_cells(); ++cell)
       {
         const Matrix3<double> F     = p.body.fe_space.deformation_gradient(cell, state.positions);
         const Matrix3<double> error = combine(1., corotated_strain(closest_rotation(F), F), -1.,
                                               p.examples.poses.strain(cell, 1));
-        greatest                    = max_or_nan(greatest, std::sqrt(contract(error, error)));
+        maximum                     = max_or_nan(maximum, std::sqrt(contract(error, error)));
       }
-      return greatest;
+      return maximum;
     }
 
     /// The weights go from pose to pose evenly, and so must the body: where it jumps from one

@@ -21,6 +21,7 @@ namespace Exemplar
     std::vector<unsigned int>  coupled; ///< the weights whose column of G is not zero, ascending
   };
 
+  /// A vector of the bordered system: a right side or a solution, in three parts.
   struct BorderedVector
   {
     std::vector<double> positions;   ///< free degrees of freedom

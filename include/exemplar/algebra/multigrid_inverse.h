@@ -36,6 +36,8 @@ namespace Exemplar
     memory_consumption() const override;
 
   private:
+    /// The matrix of one level, the way to it from the next coarser one, and what a cycle computes
+    /// on it.
     struct Level
     {
       Level(BlockMatrix matrix, BlockMatrix prolongation)

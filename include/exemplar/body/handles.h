@@ -24,8 +24,8 @@ namespace Exemplar
   /// towards the axis on the way.
   struct StraightTurn
   {
-    double angle;      ///< [rad], 0 if there is no such turn
-    double least_size; ///< relative to that at the nearer end of the way
+    double angle;    ///< [rad], 0 if there is no such turn
+    double min_size; ///< relative to that at the nearer end of the way
   };
 
   /// Look for a straight turn in the places that points take one after the other,
@@ -142,6 +142,7 @@ namespace Exemplar
     }
 
   private:
+    /// Nodes of this process that move together, and how.
     struct Handle
     {
       std::string               name;

@@ -85,6 +85,7 @@ namespace Exemplar
       double sum = 0.;
     };
 
+    /// A quadrature point of a patch in which the guard acts, and what the guard needs of it.
     struct Point
     {
       double                      excess; ///< tr(e) - theta_p

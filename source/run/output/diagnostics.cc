@@ -150,7 +150,7 @@ namespace Exemplar
   }
 
   void
-  Diagnostics::append_seconds(StatisticsRow &row, const std::optional<PartSeconds> &seconds)
+  Diagnostics::append_seconds(StatisticsRow &row, const std::optional<PhaseSeconds> &seconds)
   {
     const auto append_one = [&](const std::string &name, const double value)
     {
@@ -159,8 +159,8 @@ namespace Exemplar
         row.back().value = value;
     };
     append_one("step", seconds ? std::accumulate(seconds->begin(), seconds->end(), 0.) : 0.);
-    for (unsigned int part = 0; part < n_parts; ++part)
-      if (part != static_cast<unsigned int>(Part::read))
-        append_one(part_names[part], seconds ? (*seconds)[part] : 0.);
+    for (unsigned int phase = 0; phase < n_phases; ++phase)
+      if (phase != static_cast<unsigned int>(Phase::read))
+        append_one(phase_names[phase], seconds ? (*seconds)[phase] : 0.);
   }
 } // namespace Exemplar

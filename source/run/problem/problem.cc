@@ -100,7 +100,7 @@ namespace Exemplar
   void
   Problem::start(State &at)
   {
-    StepClock::Scope scope(clock, Part::evaluate);
+    StepClock::Scope scope(clock, Phase::evaluate);
     potential.leave_step(at);
     potential.set_time(at.time, at);
     potential.evaluate(at, RotationUse::update, evaluation);
@@ -308,7 +308,7 @@ namespace Exemplar
   {
     try
     {
-      const StepClock clock(Part::read);
+      const StepClock clock(Phase::read);
       return std::make_unique<Problem>(parameters, read(parameters), clock);
     }
     catch (const SolverFailure &failure)

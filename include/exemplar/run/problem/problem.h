@@ -21,7 +21,7 @@ namespace Exemplar
     /// `inputs` are what read_inputs() gives, or arrays that a program hands in: then the scene
     /// needs no file. `clock` may run since the inputs are read. Throws UserError for whatever
     /// is no valid scene; writes nothing.
-    Problem(SceneParameters scene, Inputs inputs, StepClock clock = StepClock(Part::read));
+    Problem(SceneParameters scene, Inputs inputs, StepClock clock = StepClock(Phase::read));
 
     /// Solve the next step from `state`, which is replaced if the solve succeeds.
     SolveReport
