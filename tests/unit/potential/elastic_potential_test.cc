@@ -49,12 +49,6 @@ namespace Exemplar::Testing
       return examples.is_strained(weight) ? columns[examples.strained_index(weight) * n + i] : 0.;
     }
 
-    struct Discretisation
-    {
-      Element element;
-      bool    has_patches;
-    };
-
     /// On both elements, with dilatations of cells and of patches.
     class ElasticPotentialTest : public testing::TestWithParam<Discretisation>
     {
@@ -198,7 +192,7 @@ namespace Exemplar::Testing
       std::mt19937  generator(4);
       auto          positions = body.random_positions(generator, 0.05);
       const auto    past = body.random_positions(generator, 0.05), before = past;
-      elastic.set_damping(test_case.damping, { { 1.5, &past }, { -0.5, &before } });
+      elastic.begin_step(test_case.damping, { { 1.5, &past }, { -0.5, &before } });
       std::vector<double> weights  = test_case.per_region
                                          ? std::vector<double>{ 0.2, 0.5, 0.3, 0.6, 0.1, 0.3 }
                                          : std::vector<double>{ 0.2, 0.5, 0.3 };
