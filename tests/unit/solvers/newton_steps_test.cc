@@ -179,6 +179,17 @@ namespace Exemplar::Testing
       EXPECT_NEAR(unknowns.a(), 1e-2, 1e-15);
     }
 
+    TEST(QuasiNewton, LeavesAHillToNewtonAndNobodyStopsItThere)
+    {
+      // its memory would be that of half a step
+      TwoUnknowns       unknowns(stiff_hill(), 1e-2, 0.);
+      const SolveReport report = unknowns.solve(by_method(Method::quasi_newton),
+                                                [](const SolveReport &) { return false; });
+      EXPECT_EQ(report.status, SolveStatus::converged);
+      EXPECT_GT(report.iterations, 21u); // of three metrics
+      EXPECT_NEAR(unknowns.a(), 1., 1e-9);
+    }
+
     /// The bar moved at its right end within one step, by what way(rest, t) says.
     struct Pull
     {
@@ -190,15 +201,16 @@ namespace Exemplar::Testing
                   { "Time/Increments=1", "Solver/Method=newton",
                     "Solver/Maximum iterations=" + std::to_string(maximum_iterations) })
       {
-        scene.problem.set_motion("right",
-                                 [&](const std::vector<dealii::Point<3>> &rest, const double t)
-                                 {
-                                   times.push_back(t);
-                                   std::vector<dealii::Tensor<1, 3>> ways;
-                                   for (const dealii::Point<3> &x : rest)
-                                     ways.push_back(way(x, t));
-                                   return ways;
-                                 });
+        scene.problem.set_motion(
+            "right",
+            [this, way](const std::vector<dealii::Point<3>> &rest, const double t)
+            {
+              times.push_back(t);
+              std::vector<dealii::Tensor<1, 3>> ways;
+              for (const dealii::Point<3> &x : rest)
+                ways.push_back(way(x, t));
+              return ways;
+            });
         times.clear();
         report = scene.problem.advance();
       }
