@@ -119,6 +119,28 @@ namespace Exemplar::Testing
       return positions;
     }
 
+    /// At rest, then drawn along x and across, and a little disturbed.
+    Vector
+    drawn(const double length, const double thickness, const unsigned int seed) const
+    {
+      std::mt19937 generator(seed);
+      Vector       positions = random_positions(generator, 0.01);
+      for (unsigned int dof = 0; dof < positions.size(); ++dof)
+        positions[dof] *= dof % 3 == 0 ? length : thickness;
+      return positions;
+    }
+
+    /// At rest, but for what is nearer than x to the end at 0, which is mirrored through that plane.
+    Vector
+    with_mirrored_end(const double x) const
+    {
+      Vector positions = fe_space.rest_positions();
+      for (unsigned int dof = 0; dof < positions.size(); dof += 3)
+        if (positions[dof] < x)
+          positions[dof] += 1.9 * (x - positions[dof]);
+      return positions;
+    }
+
     const Mesh                     mesh;
     const Material                 material;
     const FESpace                  fe_space;
@@ -143,6 +165,13 @@ namespace Exemplar::Testing
           std::make_unique<PatchDilatation>(*body.patches, poses, body.fe_space, body.material));
     return terms;
   }
+
+  /// How a body is divided.
+  struct Discretisation
+  {
+    Element element;
+    bool    has_patches;
+  };
 
   inline NodePairs
   couplings_of(const Body &body)
@@ -175,6 +204,23 @@ namespace Exemplar::Testing
                            elastic_terms(body, *given(examples).poses),
                            matrix_pattern)
     {
+    }
+
+    /// A step with this stiffness damping.
+    void
+    begin_step(const double s, const std::vector<WeightedPositions> &history)
+    {
+      set_damping(s, history);
+      for (const auto &term : get_terms())
+        term->begin_step(State());
+    }
+
+    ElasticEvaluation
+    evaluate_at(const Vector &x, const std::vector<double> &weights = {})
+    {
+      ElasticEvaluation evaluation;
+      evaluate(x, weights, evaluation, RotationUse::update);
+      return evaluation;
     }
 
   private:

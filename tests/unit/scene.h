@@ -21,6 +21,10 @@ namespace Exemplar::Testing
                                   + "subsection right\n set Select = boundary 2\n"
                                     "set Motion = 0.2*t; 0.6*t; 0.3*t\nend\nend\n";
 
+  /// Twisted, and stretched.
+  inline const std::string two_poses
+      = "set Pose functions = " + Verification::twist(60., 4.) + " | 1.2*x; 0.9*y; z\n";
+
   inline std::string
   examples(const std::string &keys)
   {

@@ -181,6 +181,17 @@ namespace Exemplar::Testing
       expect_contains(scene.problem.failure_message(report), "Step 1 failed: Handles/right");
     }
 
+    TEST(Problem, AnOverflowIsAFailureAndNoSolution)
+    {
+      Scene scene(
+          "set Scene = static\n" + bar + "subsection Handles\n set Names = left, right\n"
+          + held_left
+          + "subsection right\n set Select = boundary 2\n set Motion = 1e160*t; 0; 0\nend\nend\n");
+      const SolveReport report = scene.problem.advance();
+      EXPECT_EQ(report.status, SolveStatus::failed);
+      EXPECT_EQ(scene.problem.state.step, 0u);
+    }
+
     TEST(Problem, MotionsOfHandlesThatOverlapMustAgree)
     {
       Scene scene("set Scene = static\n" + bar + "subsection Handles\n set Names = left, all left\n"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/run/problem/problem.h>
-#include <exemplar/solvers/line_search.h>
 
 #include "body.h"
 #include "matrices.h"
@@ -17,8 +16,6 @@ namespace Exemplar::Testing
                                "subsection Solver\n set Method = newton\n set Tolerance = 1e-11\n"
                                "set Maximum iterations = 50\nend\n";
 
-    const std::string two_poses = "set Pose functions = " + twist(60.) + " | 1.2*x; 0.9*y; z\n";
-
     TEST(Newton, WithoutExamplesItFindsWhatTheFixedPointFinds)
     {
       const std::string text = "set Scene = static\n" + bar + drag;
@@ -27,24 +24,6 @@ namespace Exemplar::Testing
                                                   "1e-11\nend\n");
       Scene             by_newton(text + newton);
       EXPECT_LT(max_difference(fixed_point.solve().positions, by_newton.solve().positions), 1e-9);
-    }
-
-    TEST(LineSearch, OffASaddleTheSlopesTellWhatThePotentialCannot)
-    {
-      // f = 1e6 - x^2 / 2 from x = 1e-6, where the slope is -1e-6 and every fall is below rounding
-      const auto merit = [](const double x)
-      {
-        Merit at;
-        at.potential         = 1e6 - x * x / 2.;
-        at.max_free_gradient = std::abs(x);
-        return at;
-      };
-      const Merit before = merit(1e-6), now = merit(3e-6);
-      EXPECT_TRUE(is_below_rounding(before, -2e-12));
-      EXPECT_FALSE(is_better(now, before, -2e-12)); // the gradient has grown
-      EXPECT_TRUE(is_better_by_slopes(now, before, -1e-6, -3e-6, 2e-6));
-      EXPECT_FALSE(is_better_by_slopes(now, before, -1e-6, 1.1e-6, 2e-6)); // beyond a minimum
-      EXPECT_FALSE(is_better_by_slopes(now, before, -1e-6, -3e-6, 1e6)); // large enough to be seen
     }
 
     TEST(Newton, ABodyIsAtRestWhereItsForcesAreHeldBack)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "body.h"
+#include "landscape.h"
 #include "matrices.h"
 #include "scene.h"
 
@@ -99,6 +100,69 @@ namespace Exemplar::Testing
         ASSERT_EQ(report.status, SolveStatus::converged);
         EXPECT_LE(report.residual, 1e-9);
       }
+    }
+
+    TEST(QuasiNewton, IsExactWhereTheForcesAreLinear)
+    {
+      // but for the single precision of the inverse; weights follow at once
+      const std::string poses = "set Pose functions = 1.2*x; 0.9*y; z | x; 1.1*y; z\n";
+      for (const std::string weights : { "simplex", "free" })
+      {
+        Scene scene(turned_bar(examples(poses + "set Weights = " + weights + "\n"), "0.02"),
+                    { "Model/Strain=linear", "Solver/Step tolerance=0", "Solver/Tolerance=1e-9",
+                      "Time/End=0.2" });
+        while (scene.problem.state.step < scene.problem.time_axis.n_steps())
+        {
+          const SolveReport report = scene.problem.advance();
+          ASSERT_EQ(report.status, SolveStatus::converged);
+          const std::vector<double> &r = report.residual_history;
+          for (std::size_t k = 0; k + 1 < r.size(); ++k)
+            EXPECT_LT(r[k + 1], std::max(1e-3 * r[k], 1e-9));
+        }
+      }
+    }
+
+    TEST(QuasiNewton, DoesNotTakeAStiffBodyForBalancedByItsPlaceAlone)
+    {
+      Scene scene(turned_bar("", "0.02"), { "Material/Young's modulus=1e12", "Time/End=0.2" });
+      while (scene.problem.state.step < scene.problem.time_axis.n_steps())
+      {
+        const SolveReport report = scene.problem.advance();
+        ASSERT_EQ(report.status, SolveStatus::converged);
+        EXPECT_LE(report.residual, 1e-3);
+      }
+    }
+
+    TEST(QuasiNewton, RenewsAMetricThatHasBecomeSlow)
+    {
+      // turned to and fro: the tangent is soon another one, and yet most steps do without it
+      Scene scene(turned_bar("", "0.02"), { "Time/Step=0.05", "Time/End=2" });
+      scene.solve();
+      const unsigned int n = scene.problem.system.n_factorizations();
+      EXPECT_GE(n, 2u);
+      EXPECT_LT(n, scene.problem.time_axis.n_steps() / 3);
+    }
+
+    TEST(QuasiNewton, SmallStepsOfASlowMethodAreNoSignOfArrival)
+    {
+      // a metric that is much too stiff along b, where nearly all of the way is
+      using Pair          = Landscape::Pair;
+      const double k      = 0.015;
+      const auto   convex = [](double, double) { return Pair{ { 0.97, 28. } }; };
+      Landscape   bowl{ [=](const double a, const double b) { return a * a / 2. + k * b * b / 2.; },
+                      [=](const double a, const double b) {
+                        return Pair{ { a, k * b } };
+                      },
+                      [=](double, double) {
+                        return Pair{ { 1., k } };
+                      },
+                      convex };
+      TwoUnknowns unknowns(bowl, 0.0128, 0.65);
+      SolverParameters parameters = by_method(Method::quasi_newton);
+      parameters.step_tolerance   = 0.1;
+      EXPECT_EQ(unknowns.solve(parameters).status, SolveStatus::converged);
+      const double error = std::max(std::abs(unknowns.a()), std::abs(unknowns.b()));
+      EXPECT_LT(error, 0.1 * 0.65);
     }
 
     TEST(QuasiNewton, LeavesHardStepsToNewton)
