@@ -297,16 +297,10 @@ namespace Exemplar
   void
   QuasiNewton::save(boost::archive::binary_oarchive &archive) const
   {
-    const FreeDofs &free_dofs = potential.get_free_dofs();
-    if (free_dofs.exchange().n_processes() == 1)
-    {
-      archive &history &lbfgs;
-      prediction.save(archive);
-      return;
-    }
-    MetricHistory of_body    = history;
-    Lbfgs         body_lbfgs = lbfgs;
-    of_body.positions        = whole(free_dofs.exchange(), history.positions);
+    const FreeDofs &free_dofs  = potential.get_free_dofs();
+    MetricHistory   of_body    = history;
+    Lbfgs           body_lbfgs = lbfgs;
+    of_body.positions          = whole(free_dofs.exchange(), history.positions);
     body_lbfgs.map([&](const std::vector<double> &vector) { return free_dofs.whole(vector); });
     archive &of_body &body_lbfgs;
     prediction.save(archive);

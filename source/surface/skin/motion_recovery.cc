@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/dense.h>
 #include <exemplar/mesh/mesh.h>
 #include <exemplar/surface/skin/motion_recovery.h>
 
@@ -58,14 +59,13 @@ namespace Exemplar
         const dealii::Tensor<1, 3> d = mesh.get_nodes()[other] - mesh.get_nodes()[node];
         M += dealii::outer_product(d, d) / static_cast<double>(neighbourhood.size());
       }
+      dealii::FullMatrix<double> factor(3, 3);
       for (unsigned int i = 0; i < 3; ++i)
         for (unsigned int j = 0; j <= i; ++j)
-        {
-          double rest = M[i][j];
-          for (unsigned int k = 0; k < j; ++k)
-            rest -= L[i][k] * L[j][k];
-          L[i][j] = i == j ? std::sqrt(std::max(rest, 1e-28 * M[i][i])) : rest / L[j][j];
-        }
+          factor(i, j) = M[i][j];
+      factorize_by_cholesky(factor, [](unsigned int, const double pivot, const double entry)
+                            { return std::max(pivot, 1e-28 * entry); });
+      factor.copy_to(L);
       return dealii::invert(L);
     }
   } // namespace
