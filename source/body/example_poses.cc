@@ -118,7 +118,7 @@ namespace Exemplar
   void
   ExamplePoses::add_pose(const std::string &name, const std::vector<dealii::Point<3>> &places)
   {
-    const std::vector<dealii::Point<3>> nodes = fe_space.complete(places, "Examples, " + name);
+    const std::vector<dealii::Point<3>> nodes = fe_space.numbering().complete(places, "Examples, " + name);
     names.push_back(name);
     positions.emplace_back(fe_space.n_dofs());
     for (unsigned int node = 0; node < nodes.size(); ++node)

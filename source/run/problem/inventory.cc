@@ -19,10 +19,10 @@ namespace Exemplar
     memory_of_mass(const Problem &problem)
     {
       const Actions &actions = problem.actions;
-      return actions.mass == nullptr ? 0
-                                     : actions.mass->memory_consumption()
-                                           + actions.integrator->memory_consumption()
-                                           + memory_of_term(problem, "inertia");
+      return actions.mass == nullptr
+                 ? 0
+                 : actions.mass->memory_consumption() + actions.integrator->memory_consumption()
+                       + memory_of_term(problem, "inertia");
     }
 
     std::size_t
@@ -52,7 +52,7 @@ namespace Exemplar
     std::vector<PartOfProblem> parts = {
       { "mesh", {}, problem.body.mesh.memory_consumption() },
       { "cells", {}, cells },
-      { "quadratic elements", problem.parameters.model.element == Element::P2, {} },
+      { "quadratic elements", traits_of(problem.parameters.model.element).degree == 2, {} },
       { "mass matrix", is_dynamic, memory_of_mass(problem) },
       { "second-order time scheme", is_dynamic && time.scheme != TimeScheme::implicit_euler, {} },
       { "mass damping", is_dynamic && time.mass_damping > 0., {} },
@@ -60,8 +60,7 @@ namespace Exemplar
       { "handles", problem.constraints.handles != nullptr, {} },
       { "own support of interpolation", problem.constraints.support.has_value(), {} },
       { "gravity", has_gravity, has_gravity ? loads : 0 }, // one vector holds both
-      { "loads",
-        actions.loads != nullptr && actions.loads->has_named_loads(),
+      { "loads", actions.loads != nullptr && actions.loads->has_named_loads(),
         has_gravity ? 0 : loads },
       { "mean dilatation by patches", problem.body.patches != nullptr, {} },
       { "example poses", poses != nullptr, poses == nullptr ? 0 : poses->memory_consumption() },
