@@ -57,7 +57,8 @@ namespace Exemplar
              Bounds{ 1e-3, 1e6 });
     keys.add("Pose functions", pose_functions,
              "Analytic example poses after those of Poses: x'; y'; z' as functions of the "
-             "rest position x, y, z [m]; poses separated by |.");
+             "rest position x, y, z [m]; poses separated by |.",
+             " | ");
     keys.add("Include rest pose", include_rest_pose,
              "Whether the rest pose is example 0. Without it a single example is a "
              "permanent pre-strain.");
@@ -84,7 +85,8 @@ namespace Exemplar
              "included, separated by ;. They sum to one. Empty in an interpolation between two "
              "examples: 1-t; t. With Weights per region either "
              "the same for all, or one such list a region, in ascending order of material "
-             "ids, separated by |.");
+             "ids, separated by |.",
+             "; ");
     keys.add("Weights per region", weights_per_region,
              "Whether the cells of each material id have weights of their own "
              "(statistics: weight_R_i for example i in region R).");

@@ -26,7 +26,7 @@ namespace Exemplar
       return determinant(B);
     }
 
-    std::optional<RegionShares>
+    RegionShares
     make_regions(const ExampleParameters                &parameters,
                  const Mesh                             &mesh,
                  const FESpace                          &fe_space,
@@ -41,10 +41,7 @@ namespace Exemplar
         return {};
       // beyond the body's size all regions have the same share everywhere
       const double length = std::min(parameters.region_blend_length, 1e3 * mesh.diameter());
-      const std::set<unsigned int> &regions = mesh.whole().material_ids;
-      if (fe_space.element() == Element::P1)
-        return RegionShares(fe_space, mesh.get_material_ids(), regions, length);
-      return RegionShares(FESpace(mesh), mesh.get_material_ids(), regions, length, n_points);
+      return RegionShares(mesh, length, n_points);
     }
   } // namespace
 
@@ -71,63 +68,91 @@ namespace Exemplar
     }
   } // namespace
 
+  namespace
+  {
+    ExamplePose
+    make_pose(const std::string                   &name,
+              const std::vector<dealii::Point<3>> &places,
+              const FESpace                       &fe_space)
+    {
+      const std::vector<dealii::Point<3>> nodes
+          = fe_space.numbering().complete(places, "Examples, " + name);
+      ExamplePose pose{ name, dealii::Vector<double>(fe_space.n_dofs()) };
+      for (unsigned int node = 0; node < nodes.size(); ++node)
+        for (unsigned int c = 0; c < 3; ++c)
+          pose.positions[3 * node + c] = nodes[node][c];
+      return pose;
+    }
+
+    /// The rest pose, those of files among `poses`, those of functions.
+    std::vector<ExamplePose>
+    make_poses(const ExampleParameters &parameters,
+               const Mesh              &mesh,
+               const FESpace           &fe_space,
+               const NamedPoses        &poses)
+    {
+      std::vector<ExamplePose> examples;
+      if (!parameters.in_use())
+        return examples;
+      if (parameters.include_rest_pose)
+        examples.push_back(make_pose("rest pose", mesh.get_nodes(), fe_space));
+      for (const std::string &name : parameters.poses)
+        examples.push_back(
+            make_pose(name, mesh.find_pose(poses, name, "Examples/Poses"), fe_space));
+      for (const std::string &function : split_trimmed(parameters.pose_functions, '|'))
+        examples.push_back(
+            make_pose("pose function '" + function + "'", images(function, fe_space), fe_space));
+      return examples;
+    }
+
+    /// What looks doubtful about the poses but the rest pose.
+    std::vector<std::string>
+    review(const ExampleParameters        &parameters,
+           const Mesh                     &mesh,
+           const FESpace                  &fe_space,
+           const std::vector<ExamplePose> &poses)
+    {
+      const auto functions      = split_trimmed(parameters.pose_functions, '|');
+      const auto first_function = poses.size() - functions.size();
+
+      std::vector<std::string> warnings;
+      for (std::size_t i = parameters.include_rest_pose ? 1 : 0; i < poses.size(); ++i)
+      {
+        const auto &[name, positions] = poses[i];
+        const std::string of_function = i < first_function
+                                            ? ""
+                                            : describe_displacements(functions[i - first_function],
+                                                                     mesh, fe_space, positions);
+        if (!of_function.empty())
+          warnings.push_back("Examples/Pose functions" + of_function);
+        else if (const std::string problem = describe_pose(mesh, fe_space, positions);
+                 !problem.empty())
+          warnings.push_back("Example " + std::to_string(i) + " (" + name + ") " + problem);
+      }
+      return warnings;
+    }
+  } // namespace
+
   ExamplePoses::ExamplePoses(const ExampleParameters                &parameters,
                              const LawsOfCells                      &laws,
                              const Mesh                             &mesh,
                              const FESpace                          &fe_space,
                              const Material                         &cell_material,
                              const Patches                          *patches,
-                             const NamedPoses                       &poses,
+                             const NamedPoses                       &named_poses,
                              const std::vector<std::vector<double>> &painted)
       : fe_space(fe_space), eta(parameters.importance), laws(laws),
         regions(make_regions(parameters, mesh, fe_space, painted)),
-        first_strained(parameters.in_use() && parameters.include_rest_pose ? 1 : 0)
+        poses(make_poses(parameters, mesh, fe_space, named_poses)),
+        first_strained(parameters.in_use() && parameters.include_rest_pose ? 1 : 0),
+        warnings(review(parameters, mesh, fe_space, poses))
   {
-    if (!parameters.in_use())
+    if (poses.empty())
       return;
-    if (parameters.include_rest_pose)
-      add_pose("rest pose", mesh.get_nodes());
-    for (const std::string &name : parameters.poses)
-      add_pose(name, mesh.find_pose(poses, name, "Examples/Poses"));
-    const std::vector<std::string> functions = split_trimmed(parameters.pose_functions, '|');
-    for (const std::string &function : functions)
-      add_pose("pose function '" + function + "'", images(function, fe_space));
-    for (unsigned int i = first_strained; i < size(); ++i)
-    {
-      const std::size_t first_function = size() - functions.size();
-      const std::string of_function    = i < first_function
-                                             ? ""
-                                             : describe_displacements(functions[i - first_function],
-                                                                      mesh, fe_space, positions[i]);
-      if (!of_function.empty())
-        warnings.push_back("Examples/Pose functions" + of_function);
-      else if (const std::string problem = describe_pose(mesh, fe_space, positions[i]);
-               !problem.empty())
-        warnings.push_back("Example " + std::to_string(i) + " (" + names[i] + ") " + problem);
-    }
     compute_strains();
     if (patches != nullptr)
       compute_patch_dilatations(*patches);
     compute_gram_matrix(cell_material, patches);
-  }
-
-  std::optional<unsigned int>
-  ExamplePoses::material_id(const unsigned int region) const
-  {
-    if (!regions)
-      return {};
-    return regions->material_id(region);
-  }
-
-  void
-  ExamplePoses::add_pose(const std::string &name, const std::vector<dealii::Point<3>> &places)
-  {
-    const std::vector<dealii::Point<3>> nodes = fe_space.complete(places, "Examples, " + name);
-    names.push_back(name);
-    positions.emplace_back(fe_space.n_dofs());
-    for (unsigned int node = 0; node < nodes.size(); ++node)
-      for (unsigned int c = 0; c < 3; ++c)
-        positions.back()[3 * node + c] = nodes[node][c];
   }
 
   void
@@ -140,7 +165,7 @@ namespace Exemplar
       const CellLaw law = laws[fe_space.cell_of(point)];
       for (unsigned int i = first_strained; i < size(); ++i)
       {
-        const Matrix3<double> F = fe_space.deformation_gradient(point, positions[i]);
+        const Matrix3<double> F = fe_space.deformation_gradient(point, poses[i].positions);
         const Matrix3<double> E = model_strain(law, model_rotation(law, F), F);
         add_to_stored(strains.data(), point, n_strained(), i - first_strained, eta, E);
         if (traits_of(law).has_guard)
@@ -203,29 +228,16 @@ namespace Exemplar
       fe_space.exchange().sum(&gram(0, 0), gram.m() * gram.n());
   }
 
-  double
-  ExamplePoses::share(const unsigned int cell, const unsigned int region) const
-  {
-    if (!regions)
-      return 1.;
-    const unsigned int point = cell * points_per_cell(fe_space.element());
-    for (std::size_t i = regions->first(point); i < regions->last(point); ++i)
-      if (regions->list()[i].region == region)
-        return regions->list()[i].value;
-    return 0.;
-  }
-
   std::vector<double>
   ExamplePoses::volume_fractions() const
   {
-    if (n_regions() == 1)
+    if (regions.n_regions() == 1)
       return { 1. }; // without the sum's rounding
     const double        total = fe_space.total_volume();
-    std::vector<double> fraction(n_regions(), 0.);
+    std::vector<double> fraction(regions.n_regions(), 0.);
     for (unsigned int point = 0; point < fe_space.n_points(); ++point)
-      for (std::size_t s = regions->first(point); s < regions->last(point); ++s)
-        fraction[regions->list()[s].region]
-            += regions->list()[s].value * fe_space.volume(point) / total;
+      regions.for_each(point, [&](const unsigned int region, const double share)
+                       { fraction[region] += share * fe_space.volume(point) / total; });
     fe_space.exchange().sum(fraction);
     return fraction;
   }
@@ -234,8 +246,10 @@ namespace Exemplar
   ExamplePoses::memory_consumption() const
   {
     using dealii::MemoryConsumption::memory_consumption;
-    return memory_consumption(positions) + strains.memory_consumption()
-           + memory_consumption(strain_norms) + patch_dilatations.memory_consumption()
-           + gram.memory_consumption();
+    std::size_t of_poses = 0;
+    for (const ExamplePose &pose : poses)
+      of_poses += pose.positions.memory_consumption();
+    return of_poses + strains.memory_consumption() + memory_consumption(strain_norms)
+           + patch_dilatations.memory_consumption() + gram.memory_consumption();
   }
 } // namespace Exemplar

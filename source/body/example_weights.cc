@@ -56,7 +56,7 @@ namespace Exemplar
   {
     const unsigned int n = poses.n_weights();
     penalty.reinit(n, n);
-    form.N.reinit(poses.n_regions(), n);
+    form.N.reinit(poses.get_regions().n_regions(), n);
     const double sigma = parameters.ridge(unit_energy);
     // a region has its part of the ridge, so that equal weights in all regions cost what global ones do
     const std::vector<double> fraction = poses.volume_fractions();
@@ -80,8 +80,8 @@ namespace Exemplar
   {
     const std::string              key            = "Examples/Prescribed weights";
     const std::vector<std::string> lists          = split_trimmed(text, '|');
-    const unsigned int             n_regions      = poses.n_regions();
-    const bool                     are_per_region = poses.material_id(0).has_value();
+    const unsigned int             n_regions      = poses.get_regions().n_regions();
+    const bool                     are_per_region = poses.get_regions().material_id(0).has_value();
     if (lists.size() != 1 && lists.size() != n_regions)
       throw UserError(key + " has " + std::to_string(lists.size()) + " lists separated by |, but "
                       + (are_per_region ? "there are " + std::to_string(n_regions) + " regions."
@@ -213,7 +213,7 @@ namespace Exemplar
   std::string
   ExampleWeights::region_name(const std::string &prefix, const unsigned int region) const
   {
-    const auto id = poses.material_id(region);
+    const auto id = poses.get_regions().material_id(region);
     return id ? prefix + "_" + std::to_string(*id) : prefix;
   }
 

@@ -37,7 +37,7 @@ namespace Exemplar
     if (differences.m() == 0 || least.ratio > 1e-8)
       return;
     const unsigned int example = second(least.row) % k;
-    const auto         region  = poses.material_id(second(least.row) / k);
+    const auto         region  = poses.get_regions().material_id(second(least.row) / k);
     const std::string  where   = region ? " in region " + std::to_string(*region) : "";
     const std::string  which
         = "Example " + std::to_string(example) + " (" + poses.name(example) + ")" + where;
@@ -50,10 +50,11 @@ namespace Exemplar
     text << which << " is " << (least.ratio < 1e-12 ? "" : "nearly ")
          << "an affine combination of the examples before it (their Gram matrix "
          << condition_of(differences, least.ratio) << "). "
-         << (has_ridge ? "The weight penalty decides between them; remove the example if it is there "
-                       "by mistake."
-                     : "Their weights are sensitive; remove the example, or set Examples/Weight "
-                       "penalty to auto.");
+         << (has_ridge
+                 ? "The weight penalty decides between them; remove the example if it is there "
+                   "by mistake."
+                 : "Their weights are sensitive; remove the example, or set Examples/Weight "
+                   "penalty to auto.");
     warnings.push_back(text.str());
   }
 } // namespace Exemplar

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/base/errors.h>
 #include <exemplar/body/fe_space.h>
 
 #include <deal.II/base/quadrature_lib.h>
@@ -7,87 +6,56 @@
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 
-#include <algorithm>
-
 namespace Exemplar
 {
   namespace
   {
-    unsigned int
-    polynomial_degree(const Element element)
+    struct Quadratures
     {
-      return element == Element::P1 ? 1 : 2;
+      dealii::Quadrature<3> stiffness; ///< exact for products of two gradients, points_per_cell()
+      dealii::Quadrature<3> mass;      ///< exact for products of two shape functions
+    };
+
+    Quadratures
+    quadratures_of(const Element element)
+    {
+      const std::vector<Quadratures> in_order_of_elements
+          = { { dealii::QGaussSimplex<3>(1), dealii::QGaussSimplex<3>(2) },
+              { dealii::QWitherdenVincentSimplex<3>(1, /* use_odd_order */ false),
+                dealii::QWitherdenVincentSimplex<3>(3) } };
+      return in_order_of_elements.at(static_cast<std::size_t>(element));
     }
 
-    /// Exact for products of two gradients, with points_per_cell() points.
-    dealii::Quadrature<3>
-    stiffness_quadrature(const Element element)
+    /// The first of the nodes are vertices.
+    void
+    share_among(const dealii::ArrayView<const unsigned int> &nodes,
+                const unsigned int                           n_vertices,
+                const NodeShares                            &shares,
+                const double                                 amount,
+                std::vector<double>                         &values)
     {
-      if (element == Element::P1)
-        return dealii::QGaussSimplex<3>(1);
-      return dealii::QWitherdenVincentSimplex<3>(1, /* use_odd_order */ false);
-    }
-
-    /// Exact for products of two shape functions.
-    dealii::Quadrature<3>
-    mass_quadrature(const Element element)
-    {
-      if (element == Element::P1)
-        return dealii::QGaussSimplex<3>(2);
-      return dealii::QWitherdenVincentSimplex<3>(3);
+      for (unsigned int a = 0; a < nodes.size(); ++a)
+        values[nodes[a]] += a < n_vertices ? shares.of_vertex(amount) : shares.of_edge(amount);
     }
   } // namespace
 
-  void
-  check_straight(const std::vector<dealii::Point<3>>            &places,
-                 const std::vector<std::array<unsigned int, 2>> &edges,
-                 const double                                    size,
-                 const std::string                              &key)
-  {
-    const std::size_t n_nodes = places.size() - edges.size();
-    for (std::size_t edge = 0; edge < edges.size(); ++edge)
-    {
-      const auto &[a, b] = edges[edge];
-      if (const auto straight = places[a] + 0.5 * (places[b] - places[a]);
-          !(places[n_nodes + edge].distance(straight) <= 1e-9 * size))
-        throw UserError(key
-                        + ": the pose has 10-node tetrahedra with curved edges, but "
-                          "Model/Element = P1 has straight ones. Set Model/Element = P2, or give "
-                          "a pose of 4-node tetrahedra.");
-    }
-  }
-
   FESpace::FESpace(const Mesh &mesh, const Element element)
-      : mesh(mesh), kind(element), fe(dealii::FE_SimplexP<3>(polynomial_degree(element)), 3),
-        mapping(dealii::FE_SimplexP<3>(1))
+      : mesh(mesh), kind(element), nodes_of_element(mesh, element),
+        fe(dealii::FE_SimplexP<3>(traits_of(element).degree), 3), mapping(dealii::FE_SimplexP<3>(1))
   {
-    if (kind == Element::P2)
-      number_edges();
     compute_gradients();
     rest.reinit(n_dofs());
-    const std::vector<dealii::Point<3>> nodes = complete(mesh.get_nodes(), "rest pose");
+    const std::vector<dealii::Point<3>> places
+        = nodes_of_element.complete(mesh.get_nodes(), "rest pose");
     for (unsigned int node = 0; node < n_nodes(); ++node)
       for (unsigned int c = 0; c < 3; ++c)
-        rest[3 * node + c] = nodes[node][c];
-  }
-
-  void
-  FESpace::number_edges()
-  {
-    edges = edges_of(mesh.get_cells());
-    quadratic_cells.reserve(10 * mesh.n_cells());
-    for (const auto &cell : mesh.get_cells())
-    {
-      quadratic_cells.insert(quadratic_cells.end(), cell.begin(), cell.end());
-      for (const auto &[a, b] : cell_edges)
-        quadratic_cells.push_back(node_between(cell[a], cell[b]));
-    }
+        rest[3 * node + c] = places[node][c];
   }
 
   void
   FESpace::compute_gradients()
   {
-    const dealii::Quadrature<3> quadrature = stiffness_quadrature(kind);
+    const dealii::Quadrature<3> quadrature = quadratures_of(kind).stiffness;
     dealii::FEValues<3>         fe_values(mapping, fe, quadrature,
                                           dealii::update_gradients | dealii::update_JxW_values);
     const auto                  n = static_cast<std::size_t>(nodes_per_cell(kind));
@@ -113,39 +81,22 @@ namespace Exemplar
 
   void
   FESpace::share_out(const double         amount,
-                     const NodeShares    &shares,
+                     const ShareRule      rule,
                      const unsigned int   cell,
                      std::vector<double> &values) const
   {
-    const auto of_cell = nodes(cell);
-    for (unsigned int a = 0; a < of_cell.size(); ++a)
-      values[of_cell[a]] += a < 4 ? shares.of_vertex(amount) : shares.of_edge(amount);
+    share_among(nodes(cell), 4, traits_of(kind).in_cell.by(rule), amount, values);
   }
 
-  std::vector<dealii::Point<3>>
-  FESpace::complete(std::vector<dealii::Point<3>> places, const std::string &key) const
+  void
+  FESpace::share_out(const double         amount,
+                     const ShareRule      rule,
+                     const BoundaryFace  &face,
+                     std::vector<double> &values) const
   {
-    if (places.size() > n_nodes())
-      check_straight(places, edges_of(mesh.get_cells()), mesh.diameter(), key);
-    if (places.size() == mesh.n_nodes())
-      for (const auto &[a, b] : edges)
-        places.push_back(0.5 * places[a] + 0.5 * dealii::Tensor<1, 3>(places[b]));
-    places.resize(n_nodes());
-    return places;
-  }
-
-  std::vector<unsigned int>
-  FESpace::with_edges(std::vector<unsigned int> nodes) const
-  {
-    if (edges.empty())
-      return nodes;
-    std::vector<bool> chosen(mesh.n_nodes(), false);
-    for (const unsigned int node : nodes)
-      chosen[node] = true;
-    for (unsigned int edge = 0; edge < edges.size(); ++edge)
-      if (chosen[edges[edge][0]] && chosen[edges[edge][1]])
-        nodes.push_back(mesh.n_nodes() + edge);
-    return nodes;
+    const std::vector<unsigned int> nodes_of_face = nodes_of_element.of_face(face);
+    share_among(dealii::ArrayView<const unsigned int>(nodes_of_face.data(), nodes_of_face.size()),
+                3, traits_of(kind).on_face.by(rule), amount, values);
   }
 
   double
@@ -198,7 +149,7 @@ namespace Exemplar
   FESpace::compute_mass_matrix(const std::vector<double>    &density_of_cell,
                                dealii::SparseMatrix<double> &mass) const
   {
-    const dealii::Quadrature<3> quadrature = mass_quadrature(kind);
+    const dealii::Quadrature<3> quadrature = quadratures_of(kind).mass;
     dealii::FEValues<3>         fe_values(mapping, fe, quadrature,
                                           dealii::update_values | dealii::update_JxW_values);
     mass = 0.;
@@ -224,8 +175,7 @@ namespace Exemplar
   std::size_t
   FESpace::memory_consumption() const
   {
-    return edges.capacity() * sizeof(edges[0])
-           + quadratic_cells.capacity() * sizeof(quadratic_cells[0])
+    return nodes_of_element.memory_consumption()
            + shape_gradients.capacity() * sizeof(shape_gradients[0])
            + volumes.capacity() * sizeof(volumes[0]) + rest.memory_consumption();
   }

@@ -13,7 +13,8 @@ namespace Exemplar
     select.declare(keys, "The nodes that the handle holds");
     keys.add("Motion", motion,
              "Displacement [m] of the held nodes from their rest position: three functions "
-             "of the rest position x, y, z [m] and of t [s].");
+             "of the rest position x, y, z [m] and of t [s].",
+             "; ");
     keys.add("Components", components,
              "The components that are held; fewer than x, y, z make a roller or a plane of "
              "symmetry.");

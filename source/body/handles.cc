@@ -97,7 +97,7 @@ namespace Exemplar
     p.check();
     const std::string key = "Handles/" + p.name;
     Handle            handle{ p.name,
-                   fe_space.with_edges(p.select.nodes(mesh, key, named_nodes)),
+                   fe_space.numbering().with_middles(p.select.nodes(mesh, key, named_nodes)),
                    parse_components(p.components, key),
                    Expression(key + "/Motion", p.motion, "xyzt", 3),
                    Expression(key + "/Progress", p.progress, "t", 1),
@@ -105,7 +105,7 @@ namespace Exemplar
                    {} };
     if (!p.follow_pose.empty())
     {
-      const auto pose = fe_space.complete(
+      const auto pose = fe_space.numbering().complete(
           mesh.find_pose(poses, p.follow_pose, key + "/Follow pose"), key + "/Follow pose");
       handle.path.emplace(whole_handle(handle.nodes, rest_positions(handle)),
                           whole_handle(handle.nodes, choose(pose, handle.nodes)));
@@ -124,7 +124,7 @@ namespace Exemplar
     std::vector<std::array<std::size_t, 2>> ends; // of the edges, among the nodes
     for (std::size_t i = n_vertices; i < nodes.size(); ++i)
     {
-      const auto &[a, b] = fe_space.edge_of(nodes[i]);
+      const auto &[a, b] = fe_space.numbering().ends(nodes[i]);
       ends.push_back(
           { { static_cast<std::size_t>(position(a)), static_cast<std::size_t>(position(b)) } });
     }
@@ -268,7 +268,7 @@ namespace Exemplar
       if (handle.name == name)
         throw UserError("There is a handle '" + name + "' already. Give another name.");
     const std::string               key = "Handles/" + name;
-    const std::vector<unsigned int> all = fe_space.with_edges(nodes);
+    const std::vector<unsigned int> all = fe_space.numbering().with_edges(nodes);
     handles.push_back({ name,
                         all,
                         { 0, 1, 2 },
@@ -337,7 +337,7 @@ namespace Exemplar
     { return std::to_string(mesh.get_contents().node_numbers[vertex]); };
     if (node < mesh.n_nodes())
       return "node " + number(node);
-    const auto &[a, b] = fe_space.edge_of(node);
+    const auto &[a, b] = fe_space.numbering().ends(node);
     return "the middle between nodes " + number(a) + " and " + number(b);
   }
 

@@ -28,7 +28,8 @@ namespace Exemplar
     keys.add("Force", force,
              "Total dead force [N], three functions of t [s]; shared by area over a "
              "boundary and over the faces between nodes selected by the surface, by mass over "
-             "others.");
+             "others.",
+             "; ");
     keys.leave_subsection();
   }
 } // namespace Exemplar

@@ -23,11 +23,9 @@ namespace Exemplar
     std::vector<double>
     nodal_masses(const FESpace &fe_space, const Material &material, const ShareRule mass)
     {
-      const NodeShares    shares = shares_in_cell(fe_space.element(), mass);
       std::vector<double> masses(fe_space.n_nodes(), 0.);
       for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
-        fe_space.share_out(material.density(cell) * fe_space.cell_volume(cell), shares, cell,
-                           masses);
+        fe_space.share_out(material.density(cell) * fe_space.cell_volume(cell), mass, cell, masses);
       fe_space.exchange().assemble(masses.data(), 1);
       return masses;
     }
@@ -48,8 +46,8 @@ namespace Exemplar
         const auto cell_nodes = fe_space.nodes(cell);
         const bool is_whole   = std::all_of(cell_nodes.begin(), cell_nodes.end(),
                                             [&](const unsigned int n) { return is_chosen[n]; });
-        fe_space.share_out(material.density(cell) * fe_space.cell_volume(cell),
-                           shares_in_cell(fe_space.element(), rule(is_whole)), cell, masses);
+        fe_space.share_out(material.density(cell) * fe_space.cell_volume(cell), rule(is_whole),
+                           cell, masses);
       }
       fe_space.exchange().assemble(masses.data(), 1);
       return masses;
@@ -81,15 +79,7 @@ namespace Exemplar
       {
         const bool is_whole
             = is_chosen[face.nodes[0]] && is_chosen[face.nodes[1]] && is_chosen[face.nodes[2]];
-        const NodeShares shares = shares_on_face(fe_space.element(), rule(is_whole));
-        for (unsigned int v = 0; v < 3; ++v)
-        {
-          const unsigned int node = face.nodes[v];
-          areas[node] += shares.of_vertex(area(mesh, face));
-          if (fe_space.element() == Element::P2)
-            areas[fe_space.node_between(node, face.nodes[(v + 1) % 3])]
-                += shares.of_edge(area(mesh, face));
-        }
+        fe_space.share_out(area(mesh, face), rule(is_whole), face, areas);
       }
       fe_space.exchange().assemble(areas.data(), 1);
       return areas;
@@ -161,7 +151,7 @@ namespace Exemplar
     {
       const std::string         key      = "Loads/" + p.name;
       const auto                vertices = p.select.nodes(mesh, key, named_nodes);
-      const auto                nodes    = fe_space.with_edges(vertices);
+      const auto                nodes    = fe_space.numbering().with_middles(vertices);
       const std::vector<double> weights
           = p.select.is_boundary() ? nodal_areas(mesh, fe_space, p.select.faces(mesh, key), nodes)
             : p.select.is_of_surface()

@@ -26,17 +26,17 @@ namespace Exemplar
       }
     }
 
-    /// Of quadratic elements the sums are negative at vertices. So the diagonal of each cell's
+    /// Where the sums are negative at vertices, as of quadratic elements: the diagonal of each cell's
     /// matrix is scaled to the cell's mass (Hinton, Rock, Zienkiewicz 1976).
     void
     scale_diagonals(const FESpace                &fe_space,
                     const std::vector<double>    &density,
                     dealii::SparseMatrix<double> &mass)
     {
-      const NodeShares    shares = shares_in_cell(fe_space.element(), ShareRule::lumped);
       std::vector<double> diagonal(fe_space.n_nodes(), 0.);
       for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
-        fe_space.share_out(density[cell] * fe_space.cell_volume(cell), shares, cell, diagonal);
+        fe_space.share_out(density[cell] * fe_space.cell_volume(cell), ShareRule::lumped, cell,
+                           diagonal);
       mass = 0.;
       for (unsigned int node = 0; node < diagonal.size(); ++node)
         mass.set(node, node, diagonal[node]);
@@ -54,10 +54,13 @@ namespace Exemplar
     if (!std::isfinite(max_row_sum))
       throw UserError("Material/Density: the mass of the body is not a finite number. Look at the "
                       "density, and at the mesh's unit.");
-    if (kind == MassMatrix::lumped && fe_space.element() == Element::P1)
-      sum_rows(matrix);
-    else if (kind == MassMatrix::lumped)
-      scale_diagonals(fe_space, density, matrix);
+    if (kind == MassMatrix::lumped)
+    {
+      if (traits_of(fe_space.element()).in_cell.consistent.vertex < 0.)
+        scale_diagonals(fe_space, density, matrix);
+      else
+        sum_rows(matrix);
+    }
     copy_rows();
   }
 

@@ -18,6 +18,15 @@ namespace Exemplar
       return strains;
     }
 
+    EnumTable<Element>
+    make_elements()
+    {
+      EnumTable<Element> elements;
+      for (std::size_t i = 0; i < std::size(element_traits); ++i)
+        elements.emplace_back(static_cast<Element>(i), element_traits[i].name);
+      return elements;
+    }
+
     const EnumTable<CellLaw> strains = make_strains();
 
     std::string
@@ -34,7 +43,7 @@ namespace Exemplar
     const EnumTable<DilatationKind> dilatation_kinds = { { DilatationKind::automatic, "auto" },
                                                          { DilatationKind::cells, "cells" },
                                                          { DilatationKind::patches, "patches" } };
-    const EnumTable<Element>        elements = { { Element::P1, "P1" }, { Element::P2, "P2" } };
+    const EnumTable<Element>        elements         = make_elements();
   } // namespace
 
   void

@@ -230,7 +230,7 @@ namespace Exemplar
   }
 
   Patches::Patches(const Mesh &mesh, const FESpace &fe_space, const Material &material)
-      : Patches(fe_space.element() == Element::P1
+      : Patches(traits_of(fe_space.element()).locks
                     ? stars(mesh.get_cells(), mesh.n_nodes(), mesh.get_material_ids(), material)
                     : std::vector<unsigned int>(),
                 fe_space,
@@ -241,11 +241,12 @@ namespace Exemplar
   Patches::Patches(const std::vector<unsigned int> &stars_of_cells,
                    const FESpace                   &fe_space,
                    const Material                  &material)
-      : patch_of_point(stars_of_cells)
   {
-    if (fe_space.element() == Element::P2)
-      for (unsigned int point = 0; point < fe_space.n_points(); ++point)
-        patch_of_point.push_back(fe_space.cell_of(point));
+    for (unsigned int point = 0; point < fe_space.n_points(); ++point)
+    {
+      const unsigned int cell = fe_space.cell_of(point);
+      patch_of_point.push_back(stars_of_cells.empty() ? cell : stars_of_cells[cell]);
+    }
     collect(fe_space, material);
   }
 

@@ -55,14 +55,13 @@ namespace Exemplar
     }
   } // namespace
 
-  RegionShares::RegionShares(const FESpace                   &linear,
-                             const std::vector<unsigned int> &material_ids,
-                             const std::set<unsigned int>    &regions,
-                             const double                     blend_length,
-                             const unsigned int               points_per_cell)
+  RegionShares::RegionShares(const Mesh        &mesh,
+                             const double       blend_length,
+                             const unsigned int points_per_cell)
   {
+    const std::set<unsigned int> &regions = mesh.whole().material_ids;
     ids.assign(regions.begin(), regions.end());
-    for (const unsigned int id : material_ids)
+    for (const unsigned int id : mesh.get_material_ids())
     {
       const auto own = std::lower_bound(ids.begin(), ids.end(), id);
       start.push_back(shares.size());
@@ -70,7 +69,7 @@ namespace Exemplar
     }
     start.push_back(shares.size());
     if (blend_length > 0. && n_regions() > 1)
-      blend(linear, blend_length);
+      blend(FESpace(mesh), blend_length);
     spread(points_per_cell);
   }
 

@@ -8,21 +8,21 @@ namespace Exemplar
   {
     template <Element element>
     std::vector<const CellKernels *>
-    all_kernels_of()
+    all_kernels_of(const ElementConstant<element> of)
     {
-      static const CellKernels         scalar   = cell_kernels_scalar<element>();
-      static const CellKernels         baseline = cell_kernels_baseline<element>();
+      static const CellKernels         scalar   = cell_kernels_scalar(of);
+      static const CellKernels         baseline = cell_kernels_baseline(of);
       std::vector<const CellKernels *> all      = { &scalar, &baseline };
 #ifdef __x86_64__
       // even the function that names the loops is compiled with the instructions of its set
       if (best_instruction_set() >= InstructionSet::avx2)
       {
-        static const CellKernels avx2 = cell_kernels_avx2<element>();
+        static const CellKernels avx2 = cell_kernels_avx2(of);
         all.push_back(&avx2);
       }
       if (best_instruction_set() >= InstructionSet::avx512)
       {
-        static const CellKernels avx512 = cell_kernels_avx512<element>();
+        static const CellKernels avx512 = cell_kernels_avx512(of);
         all.push_back(&avx512);
       }
 #endif
@@ -33,7 +33,7 @@ namespace Exemplar
   std::vector<const CellKernels *>
   all_kernels(const Element element)
   {
-    return element == Element::P1 ? all_kernels_of<Element::P1>() : all_kernels_of<Element::P2>();
+    return with_element(element, [](const auto of) { return all_kernels_of(of); });
   }
 
   const CellKernels &

@@ -8,8 +8,8 @@ namespace Exemplar
 {
   template <>
   CellKernels
-  cell_kernels_avx2<Element::P1>()
+  cell_kernels_avx2(const ElementConstant<Element::P1> element)
   {
-    return Loops::make_kernels<xsimd::batch<double, xsimd::fma3<xsimd::avx2>>, Element::P1>("avx2");
+    return Loops::make_kernels<xsimd::batch<double, xsimd::fma3<xsimd::avx2>>>(element, "avx2");
   }
 } // namespace Exemplar

@@ -9,15 +9,15 @@ namespace Exemplar
 {
   template <>
   CellKernels
-  cell_kernels_scalar<Element::P1>()
+  cell_kernels_scalar(const ElementConstant<Element::P1> element)
   {
-    return Loops::make_kernels<double, Element::P1>("scalar");
+    return Loops::make_kernels<double>(element, "scalar");
   }
 
   template <>
   CellKernels
-  cell_kernels_baseline<Element::P1>()
+  cell_kernels_baseline(const ElementConstant<Element::P1> element)
   {
-    return Loops::make_kernels<xsimd::batch<double, xsimd::default_arch>, Element::P1>("baseline");
+    return Loops::make_kernels<xsimd::batch<double, xsimd::default_arch>>(element, "baseline");
   }
 } // namespace Exemplar

@@ -8,8 +8,8 @@ namespace Exemplar
 {
   template <>
   CellKernels
-  cell_kernels_avx512<Element::P2>()
+  cell_kernels_avx512(const ElementConstant<Element::P2> element)
   {
-    return Loops::make_kernels<xsimd::batch<double, xsimd::avx512dq>, Element::P2>("avx512");
+    return Loops::make_kernels<xsimd::batch<double, xsimd::avx512dq>>(element, "avx512");
   }
 } // namespace Exemplar

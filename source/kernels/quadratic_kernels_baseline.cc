@@ -9,15 +9,15 @@ namespace Exemplar
 {
   template <>
   CellKernels
-  cell_kernels_scalar<Element::P2>()
+  cell_kernels_scalar(const ElementConstant<Element::P2> element)
   {
-    return Loops::make_kernels<double, Element::P2>("scalar");
+    return Loops::make_kernels<double>(element, "scalar");
   }
 
   template <>
   CellKernels
-  cell_kernels_baseline<Element::P2>()
+  cell_kernels_baseline(const ElementConstant<Element::P2> element)
   {
-    return Loops::make_kernels<xsimd::batch<double, xsimd::default_arch>, Element::P2>("baseline");
+    return Loops::make_kernels<xsimd::batch<double, xsimd::default_arch>>(element, "baseline");
   }
 } // namespace Exemplar

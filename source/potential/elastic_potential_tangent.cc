@@ -227,10 +227,9 @@ namespace Exemplar
       add_stretch_stiffness(parts.fe_space, parts.cell_material, cells, scatter, positions,
                             matrix_values);
     columns.clear();
-    if (parts.weights.n_unknown() > 0 && parts.fe_space.element() == Element::P1)
-      assemble_coupling<Element::P1>(cell_task, to, columns);
-    else if (parts.weights.n_unknown() > 0)
-      assemble_coupling<Element::P2>(cell_task, to, columns);
+    if (parts.weights.n_unknown() > 0)
+      with_element(parts.fe_space.element(),
+                   [&](const auto of) { assemble_coupling<of()>(cell_task, to, columns); });
     for (const auto &term : terms)
       term->add_tangent({ positions, weights }, tangent, matrix_values, columns);
   }

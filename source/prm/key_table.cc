@@ -129,9 +129,12 @@ namespace Exemplar
   }
 
   void
-  KeyTable::add(const std::string &key, std::string &value, const std::string &documentation)
+  KeyTable::add(const std::string &key,
+                std::string       &value,
+                const std::string &documentation,
+                const std::string &separator)
   {
-    add_pattern({ {}, key, "", "", documentation, "any text" }, value,
+    add_pattern({ {}, key, "", "", documentation, "any text", false, false, separator }, value,
                 dealii::Patterns::Anything());
   }
 

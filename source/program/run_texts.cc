@@ -23,10 +23,9 @@ namespace Exemplar
       const auto         n_free   = exchange.sum(problem.constraints.free_dofs.size());
       std::ostringstream text;
       text << "Mesh      " << printable(problem.body.mesh.get_name()) << ": "
-           << problem.body.mesh.whole().n_cells
-           << (problem.parameters.model.element == Element::P1 ? " cells, " : " quadratic cells, ")
-           << n_nodes << " nodes, " << static_cast<unsigned int>(n_free) << " of " << 3 * n_nodes
-           << " dofs free\n";
+           << problem.body.mesh.whole().n_cells << ' '
+           << traits_of(problem.parameters.model.element).cells << ", " << n_nodes << " nodes, "
+           << static_cast<unsigned int>(n_free) << " of " << 3 * n_nodes << " dofs free\n";
       return text.str();
     }
 

@@ -26,15 +26,14 @@ namespace Exemplar::Python
   {
     /// What separates the entries of a list in the text of a scene.
     std::string
-    separator(const std::string &key)
+    separator(const std::vector<std::string> &path, const std::string &key)
     {
-      if (key == "Select")
-        return " ";
-      for (const char *formulas :
-           { "Motion", "Force", "Velocity", "Pose function", "Prescribed weights" })
-        if (key == formulas)
-          return "; ";
-      return key == "Pose functions" ? " | " : ", ";
+      static const std::vector<DeclaredKey> keys = SceneFile::reference();
+      for (const DeclaredKey &declared : keys) // handles and loads have names of their own
+        if (declared.key == key && declared.subsections.size() == path.size()
+            && (path.empty() || declared.subsections[0] == path[0]))
+          return declared.separator;
+      return DeclaredKey().separator;
     }
 
     bool
@@ -88,7 +87,10 @@ namespace Exemplar::Python
 
     /// The text of a value, of a list, or of a list of lists, such as a pose's three formulas.
     std::string
-    text_for_key(const py::handle &value, const std::string &key, const std::string &what)
+    text_for_key(const py::handle               &value,
+                 const std::vector<std::string> &path,
+                 const std::string              &key,
+                 const std::string              &what)
     {
       const auto of_value = [&](const py::handle &entry) { return text_of_value(entry, what); };
       const auto of_entry = [&](const py::handle &entry)
@@ -99,7 +101,7 @@ namespace Exemplar::Python
                             "poses=[...]).");
         return is_list(entry) ? join(entry, "; ", of_value) : of_value(entry);
       };
-      return is_list(value) ? join(value, separator(key), of_entry) : of_value(value);
+      return is_list(value) ? join(value, separator(path, key), of_entry) : of_value(value);
     }
 
     /// Sections of a dictionary that name their subsections: who leaves out Names has listed all.
@@ -150,7 +152,8 @@ namespace Exemplar::Python
         if (!py::isinstance<py::dict>(value))
         {
           require_no_list_of_names(value, path, where + name);
-          assignments.push_back({ path, name, text_for_key(value, name, where + name), "scene" });
+          assignments.push_back(
+              { path, name, text_for_key(value, path, name, where + name), "scene" });
           continue;
         }
         if (path.size() == 2)

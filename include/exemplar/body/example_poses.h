@@ -13,7 +13,6 @@
 #include <deal.II/base/aligned_vector.h>
 #include <deal.II/lac/full_matrix.h>
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +22,13 @@ namespace Exemplar
   double
   unit_energy(const FESpace &fe_space, const Material &material);
 
+  /// A pose that the body likes.
+  struct ExamplePose
+  {
+    std::string            name;      ///< the file or the formula that gives it, for messages
+    dealii::Vector<double> positions; ///< of the nodes, by degree of freedom [m]
+  };
+
   /// The example poses and the strains that they ask for, eta E_i at every quadrature point, Eqs. (4)
   /// and (5), computed once; eta is Examples/Importance.
   /// Example 0 is the rest pose where it is included. Each example has one weight or,
@@ -31,7 +37,7 @@ namespace Exemplar
   class ExamplePoses
   {
   public:
-    /// Those of Examples/Poses are among `poses`, the values of Examples/Weight maps in each cell
+    /// Those of Examples/Poses are among `named_poses`, the values of Examples/Weight maps in each cell
     /// are `painted`; `cell_material` is that of the cells' own energy, beside which that of `patches`
     /// stands, null where there are none. Throws UserError for a pose that is not.
     ExamplePoses(const ExampleParameters                &parameters,
@@ -40,27 +46,27 @@ namespace Exemplar
                  const FESpace                          &fe_space,
                  const Material                         &cell_material,
                  const Patches                          *patches,
-                 const NamedPoses                       &poses   = {},
-                 const std::vector<std::vector<double>> &painted = {});
+                 const NamedPoses                       &named_poses = {},
+                 const std::vector<std::vector<double>> &painted     = {});
 
     /// Number of examples.
     unsigned int
     size() const
     {
-      return positions.size();
+      return poses.size();
     }
 
-    /// Number of regions with weights of their own; each region's weights sum to one.
-    unsigned int
-    n_regions() const
+    /// Those with weights of their own; each region's weights sum to one.
+    const RegionShares &
+    get_regions() const
     {
-      return regions ? regions->n_regions() : 1;
+      return regions;
     }
 
     unsigned int
     n_weights() const
     {
-      return n_regions() * size();
+      return regions.n_regions() * size();
     }
 
     double
@@ -69,30 +75,22 @@ namespace Exemplar
       return eta;
     }
 
-    /// Of a region, as Weights per region numbers them; none if weights are global.
-    std::optional<unsigned int>
-    material_id(unsigned int region) const;
-
-    /// How much of a region's weights acts in a cell, from 0 to 1.
-    double
-    share(unsigned int cell, unsigned int region) const;
-
     /// Volume of each region over that of the body, with shares counted; they sum to one.
     std::vector<double>
     volume_fractions() const;
 
-    /// The file or the formula that gives example i, for messages.
+    /// Of example i.
     const std::string &
     name(const unsigned int i) const
     {
-      return names[i];
+      return poses[i].name;
     }
 
     /// Node positions of example i, by degree of freedom [m].
     const dealii::Vector<double> &
     pose(const unsigned int i) const
     {
-      return positions[i];
+      return poses[i].positions;
     }
 
     /// eta E_i at a quadrature point.
@@ -108,13 +106,8 @@ namespace Exemplar
     ExampleArrays
     arrays() const
     {
-      return { n_strained(),
-               first_strained,
-               size(),
-               n_weights(),
-               strains.data(),
-               regions ? regions->starts().data() : nullptr,
-               regions ? regions->list().data() : nullptr };
+      return { n_strained(),   first_strained,   size(),        n_weights(),
+               strains.data(), regions.starts(), regions.list() };
     }
 
     /// Call function(weight, example, share) for the weights that matter at a point. The
@@ -123,13 +116,12 @@ namespace Exemplar
     void
     for_each_weight(const unsigned int point, const Function &function) const
     {
-      if (!regions)
-        for (unsigned int i = first_strained; i < size(); ++i)
-          function(i, i, 1.);
-      else
-        for (std::size_t s = regions->first(point); s < regions->last(point); ++s)
-          for (unsigned int i = first_strained; i < size(); ++i)
-            function(regions->list()[s].region * size() + i, i, regions->list()[s].value);
+      regions.for_each(point,
+                       [&](const unsigned int region, const double share)
+                       {
+                         for (unsigned int i = first_strained; i < size(); ++i)
+                           function(region * size() + i, i, share);
+                       });
     }
 
     /// Whether a weight changes the strain anywhere: that of the rest pose does not.
@@ -142,7 +134,7 @@ namespace Exemplar
     unsigned int
     n_strained_weights() const
     {
-      return n_regions() * n_strained();
+      return regions.n_regions() * n_strained();
     }
 
     /// The number of a strained weight among these.
@@ -209,9 +201,6 @@ namespace Exemplar
     }
 
     void
-    add_pose(const std::string &name, const std::vector<dealii::Point<3>> &places);
-
-    void
     compute_strains();
 
     void
@@ -220,19 +209,18 @@ namespace Exemplar
     void
     compute_patch_dilatations(const Patches &patches);
 
-    const FESpace                      &fe_space;
-    const double                        eta;
-    const LawsOfCells                   laws;
-    const std::optional<RegionShares>   regions; ///< none: weights are global
-    std::vector<std::string>            names;
-    std::vector<dealii::Vector<double>> positions;
-    const unsigned int                  first_strained;
-    dealii::AlignedVector<double>       strains; ///< eta E_i, as ExampleArrays has them
-    std::vector<double>                 strain_norms;
-    dealii::FullMatrix<double>          patch_dilatations; ///< patch, weight; empty without patches
-    dealii::FullMatrix<double>          gram;
-    double                              p_0 = default_guard_bound;
-    std::vector<std::string>            warnings;
+    const FESpace                 &fe_space;
+    const double                   eta;
+    const LawsOfCells              laws;
+    const RegionShares             regions;
+    const std::vector<ExamplePose> poses;
+    const unsigned int             first_strained;
+    dealii::AlignedVector<double>  strains; ///< eta E_i, as ExampleArrays has them
+    std::vector<double>            strain_norms;
+    dealii::FullMatrix<double>     patch_dilatations; ///< patch, weight; empty without patches
+    dealii::FullMatrix<double>     gram;
+    double                         p_0 = default_guard_bound;
+    const std::vector<std::string> warnings;
   };
 } // namespace Exemplar
 

@@ -43,7 +43,7 @@ namespace Exemplar
     unsigned int
     n_regions() const
     {
-      return poses.n_regions();
+      return poses.get_regions().n_regions();
     }
 
     /// As many as there are examples.

@@ -2,81 +2,26 @@
 #ifndef exemplar_fe_space_h
 #define exemplar_fe_space_h
 
+#include <exemplar/body/node_numbering.h>
 #include <exemplar/kernels/tetrahedron.h>
-#include <exemplar/mesh/mesh.h>
-#include <exemplar/mesh/mesh_edges.h>
 
-#include <deal.II/base/array_view.h>
 #include <deal.II/base/tensor.h>
 #include <deal.II/fe/fe_system.h>
 #include <deal.II/fe/mapping_fe.h>
 #include <deal.II/lac/sparse_matrix.h>
 #include <deal.II/lac/vector.h>
 
-#include <array>
 #include <vector>
 
 namespace Exemplar
 {
-  /// What of an amount in a cell, or on a face, belongs to a vertex and to the middle of an edge.
-  struct NodeShares
-  {
-    double vertex, edge; ///< parts
-    double all;          ///< parts of all nodes
-
-    double
-    of_vertex(const double amount) const
-    {
-      return vertex * amount / all;
-    }
-
-    double
-    of_edge(const double amount) const
-    {
-      return edge * amount / all;
-    }
-  };
-
-  /// Whether shares are the integrals of shape functions (of quadratic ones less than 0 at the
-  /// vertices of a cell), or of their squares, divided by the sum of these.
-  enum class ShareRule
-  {
-    consistent,
-    lumped
-  };
-
-  constexpr NodeShares
-  shares_in_cell(const Element element, const ShareRule rule)
-  {
-    if (element == Element::P1)
-      return { 1., 0., 4. };
-    return rule == ShareRule::consistent ? NodeShares{ -1., 4., 20. } : NodeShares{ 3., 16., 108. };
-  }
-
-  constexpr NodeShares
-  shares_on_face(const Element element, const ShareRule rule)
-  {
-    if (element == Element::P1)
-      return { 1., 0., 3. };
-    return rule == ShareRule::consistent ? NodeShares{ 0., 1., 3. } : NodeShares{ 3., 16., 57. };
-  }
-
-  /// Throws UserError, calling the places `key`, unless those behind the nodes' are in the middles of
-  /// the edges, to 1e-9 of `size`.
-  void
-  check_straight(const std::vector<dealii::Point<3>>            &places,
-                 const std::vector<std::array<unsigned int, 2>> &edges,
-                 double                                          size,
-                 const std::string                              &key);
-
   /// The finite element space FE_SimplexP(1)^3 or FE_SimplexP(2)^3 on a mesh of straight edges.
-  /// Nodes are those of the mesh file and then, of quadratic elements, one in the middle of each
-  /// edge, in ascending order of its ends, the lesser one first. Degree of freedom 3 i + c is
-  /// component c of node i. Linear elements have one quadrature point a cell, quadratic ones four;
-  /// those of cell c are the points c points_per_cell() and following. Shape gradients at the
-  /// points and the volumes that they stand for are taken from deal.II's FEValues once and kept,
-  /// because they never change and the hot loops need nothing else. Nor does anything need
-  /// deal.II's numbering by cells, so there is no DoFHandler, which would take 100 bytes a cell.
+  /// Degree of freedom 3 i + c is component c of node i of its NodeNumbering. Linear elements have one
+  /// quadrature point a cell, quadratic ones four; those of cell c are the points c points_per_cell()
+  /// and following. Shape gradients at the points and the volumes that they stand for are taken from
+  /// deal.II's FEValues once and kept, because they never change and the hot loops need nothing else.
+  /// Nor does anything need deal.II's numbering by cells, so there is no DoFHandler, which would take
+  /// 100 bytes a cell.
   class FESpace
   {
   public:
@@ -95,10 +40,16 @@ namespace Exemplar
       return mesh.exchange();
     }
 
+    const NodeNumbering &
+    numbering() const
+    {
+      return nodes_of_element;
+    }
+
     unsigned int
     n_nodes() const
     {
-      return mesh.n_nodes() + edges.size();
+      return nodes_of_element.n_nodes();
     }
 
     unsigned int
@@ -126,29 +77,11 @@ namespace Exemplar
       return point / static_cast<unsigned int>(points_per_cell(kind));
     }
 
-    /// Of a cell: its vertices and then the middles of its edges 01, 12, 20, 03, 13, 23, which is
-    /// the order of deal.II and of VTK.
+    /// NodeNumbering::of_cell().
     dealii::ArrayView<const unsigned int>
     nodes(const unsigned int cell) const
     {
-      if (kind == Element::P1)
-        return { mesh.get_cells()[cell].data(), 4 };
-      return { &quadratic_cells[10 * cell], 10 };
-    }
-
-    /// The node in the middle of the edge between two nodes of the mesh file, of quadratic
-    /// elements.
-    unsigned int
-    node_between(const unsigned int a, const unsigned int b) const
-    {
-      return mesh.n_nodes() + find_edge(edges, a, b);
-    }
-
-    /// The nodes at the ends of the edge of which a node is the middle.
-    const std::array<unsigned int, 2> &
-    edge_of(const unsigned int node) const
-    {
-      return edges[node - mesh.n_nodes()];
+      return nodes_of_element.of_cell(cell);
     }
 
     /// Gradients at a point of the shape functions of nodes(), in that order [1/m].
@@ -168,20 +101,14 @@ namespace Exemplar
 
     /// Add to values at the nodes of a cell what each has of an amount in the cell.
     void
+    share_out(double amount, ShareRule rule, unsigned int cell, std::vector<double> &values) const;
+
+    /// The same for a face.
+    void
     share_out(double               amount,
-              const NodeShares    &shares,
-              unsigned int         cell,
+              ShareRule            rule,
+              const BoundaryFace  &face,
               std::vector<double> &values) const;
-
-    /// The places of all nodes, from those of the mesh file's nodes, with the others in the middle
-    /// of their edges, or from those of both. Throws UserError, calling the places `key`, for
-    /// curved edges, which linear elements have not.
-    std::vector<dealii::Point<3>>
-    complete(std::vector<dealii::Point<3>> places, const std::string &key) const;
-
-    /// `nodes` of the mesh file and the nodes on edges between two of them, in ascending order.
-    std::vector<unsigned int>
-    with_edges(std::vector<unsigned int> nodes) const;
 
     /// Positions [m] of all nodes at rest, by degree of freedom.
     const dealii::Vector<double> &
@@ -242,20 +169,16 @@ namespace Exemplar
 
   private:
     void
-    number_edges();
-
-    void
     compute_gradients();
 
-    const Mesh                              &mesh;
-    const Element                            kind;
-    const dealii::FESystem<3>                fe;
-    const dealii::MappingFE<3>               mapping;
-    std::vector<std::array<unsigned int, 2>> edges;           ///< with nodes; empty: linear
-    std::vector<unsigned int>                quadratic_cells; ///< nodes of each; empty: linear
-    std::vector<Vector3<double>>             shape_gradients;
-    std::vector<double>                      volumes;
-    dealii::Vector<double>                   rest;
+    const Mesh                  &mesh;
+    const Element                kind;
+    const NodeNumbering          nodes_of_element;
+    const dealii::FESystem<3>    fe;
+    const dealii::MappingFE<3>   mapping;
+    std::vector<Vector3<double>> shape_gradients;
+    std::vector<double>          volumes;
+    dealii::Vector<double>       rest;
   };
 } // namespace Exemplar
 

@@ -5,27 +5,26 @@
 #include <exemplar/body/fe_space.h>
 #include <exemplar/kernels/cell_kernels.h>
 
-#include <set>
+#include <optional>
 #include <vector>
 
 namespace Exemplar
 {
   /// How much of each region's example weights acts in each cell: shares in [0, 1] that sum to one,
   /// the same at all quadrature points of a cell. Regions are the cells of one material id, or what
-  /// is painted.
+  /// is painted; or there is one, which is the whole body and has no list of shares.
   class RegionShares
   {
   public:
+    /// The whole body.
+    RegionShares() = default;
+
     /// Without a blend length [m] a cell belongs to its own region alone. With one, the
     /// shares change smoothly over about this distance, measured inside the body: they
     /// solve s - l^2 Laplace s = indicator of the region, with natural boundary and
     /// l = blend_length / (2 sqrt 3), the filter of Lazarov and Sigmund 2011, on linear elements; this
-    /// one process must do. `regions` are the material ids of the whole body.
-    RegionShares(const FESpace                   &linear,
-                 const std::vector<unsigned int> &material_ids,
-                 const std::set<unsigned int>    &regions,
-                 double                           blend_length,
-                 unsigned int                     points_per_cell = 1);
+    /// one process must do. Regions are those of the whole mesh.
+    RegionShares(const Mesh &mesh, double blend_length, unsigned int points_per_cell = 1);
 
     /// Regions that are painted: for each of them, from number 1 on, its map's value in every
     /// cell. Where values sum to more than one they are divided by their sum; where they sum to
@@ -37,41 +36,50 @@ namespace Exemplar
     unsigned int
     n_regions() const
     {
-      return ids.size();
+      return ids.empty() ? 1 : ids.size();
     }
 
-    /// Or the number of a painted region.
-    unsigned int
+    /// Or the number of a painted region; none of the whole body.
+    std::optional<unsigned int>
     material_id(const unsigned int region) const
     {
-      return ids[region];
+      return ids.empty() ? std::optional<unsigned int>() : ids[region];
     }
 
-    /// The regions that act at a point, in the range first to last - 1 of list().
-    std::size_t
-    first(const unsigned int point) const
+    /// Call function(region, share) for the regions that act at a point.
+    template <typename Function>
+    void
+    for_each(const unsigned int point, const Function &function) const
     {
-      return start[point];
+      if (ids.empty())
+        function(0, 1.);
+      else
+        for (std::size_t s = start[point]; s < start[point + 1]; ++s)
+          function(shares[s].region, shares[s].value);
     }
 
-    std::size_t
-    last(const unsigned int point) const
+    /// Of a region at a point, from 0 to 1.
+    double
+    share(const unsigned int point, const unsigned int region) const
     {
-      return start[point + 1];
+      double found = 0.;
+      for_each(point, [&](const unsigned int acting, const double value)
+               { found = acting == region ? value : found; });
+      return found;
     }
 
-    /// The shares of all points, one point after the other.
-    const std::vector<RegionShare> &
+    /// The shares of all points, one point after the other; null: the whole body.
+    const RegionShare *
     list() const
     {
-      return shares;
+      return shares.empty() ? nullptr : shares.data();
     }
 
-    /// Where each point's shares begin in list(), and its end.
-    const std::vector<std::size_t> &
+    /// Where each point's shares begin in list(), and its end; null: the whole body.
+    const std::size_t *
     starts() const
     {
-      return start;
+      return start.empty() ? nullptr : start.data();
     }
 
   private:

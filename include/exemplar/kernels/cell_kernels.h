@@ -72,7 +72,7 @@ namespace Exemplar
   struct DilatationArrays
   {
     double       *traces = nullptr; ///< 1: tr(e), written by loops that evaluate; null: nobody asks
-    double       *squares = nullptr; ///< 1: |F|^2, written with them
+    double       *squares   = nullptr; ///< 1: |F|^2, written with them
     const double *pressures = nullptr; ///< 1: of the cell's patch [Pa]
     const double *scales    = nullptr; ///< 1: |C:e| + eta |C:E(w)| of the volume part alone [Pa]
   };
@@ -203,20 +203,16 @@ namespace Exemplar
   // Those of one instruction set; the scalar ones are for comparison.
 
   template <Element element>
-  CellKernels
-  cell_kernels_scalar();
+  CellKernels cell_kernels_scalar(ElementConstant<element>);
 
   template <Element element>
-  CellKernels
-  cell_kernels_baseline();
+  CellKernels cell_kernels_baseline(ElementConstant<element>);
 
   template <Element element>
-  CellKernels
-  cell_kernels_avx2();
+  CellKernels cell_kernels_avx2(ElementConstant<element>);
 
   template <Element element>
-  CellKernels
-  cell_kernels_avx512();
+  CellKernels cell_kernels_avx512(ElementConstant<element>);
 
   /// The kernels of an element for the best instruction set that this CPU has.
   const CellKernels &

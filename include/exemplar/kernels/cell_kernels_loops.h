@@ -16,7 +16,7 @@ namespace Exemplar::Loops
   /// all that it sees.
   template <typename Number, Element element>
   CellKernels
-  make_kernels(const char *name)
+  make_kernels(ElementConstant<element>, const char *name)
   {
     constexpr int n_nodes = nodes_per_cell(element);
     return { name,

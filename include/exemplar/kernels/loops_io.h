@@ -44,7 +44,10 @@ namespace Exemplar::Loops
   constexpr std::size_t
   points_of_cell(const int n_nodes)
   {
-    return points_per_cell(n_nodes == nodes_per_cell(Element::P1) ? Element::P1 : Element::P2);
+    for (const ElementTraits &traits : element_traits)
+      if (traits.nodes_per_cell == n_nodes)
+        return traits.points_per_cell;
+    return 0;
   }
 
   /// Call function(group) for all groups of the batches begin to end - 1.

@@ -2,6 +2,7 @@
 #ifndef exemplar_tetrahedron_h
 #define exemplar_tetrahedron_h
 
+#include <exemplar/kernels/element.h>
 #include <exemplar/kernels/matrix3.h>
 
 // The geometry of a tetrahedron at a point and the forces at its nodes, as pure functions. Equation
@@ -9,25 +10,6 @@
 
 namespace Exemplar
 {
-  /// The degree of the shape functions.
-  enum class Element
-  {
-    P1, ///< linear: 4 nodes, one quadrature point
-    P2  ///< quadratic: 10 nodes, four quadrature points
-  };
-
-  constexpr int
-  nodes_per_cell(const Element element)
-  {
-    return element == Element::P1 ? 4 : 10;
-  }
-
-  constexpr int
-  points_per_cell(const Element element)
-  {
-    return element == Element::P1 ? 1 : 4;
-  }
-
   /// A quadrature point of a cell at rest.
   template <typename Number, int n_nodes = 4>
   struct Tetrahedron

@@ -61,6 +61,7 @@ namespace Exemplar
     std::string              allowed;               ///< in words
     bool                     is_input_file = false; ///< of one file, or of a list of files
     bool                     is_list       = false; ///< values separated by commas
+    std::string              separator     = ", ";  ///< of the entries, if its value has several
 
     std::string
     path() const;
@@ -100,8 +101,12 @@ namespace Exemplar
     void
     add(const std::string &key, bool &value, const std::string &documentation);
 
+    /// A text, which may have several entries.
     void
-    add(const std::string &key, std::string &value, const std::string &documentation);
+    add(const std::string &key,
+        std::string       &value,
+        const std::string &documentation,
+        const std::string &separator = ", ");
 
     void
     add(const std::string     &key,

@@ -74,9 +74,9 @@ namespace Exemplar
     std::string
     cells_of(const FESpace &fe_space)
     {
-      const bool                is_linear = fe_space.element() == Element::P1;
+      const ElementTraits      &traits = traits_of(fe_space.element());
       std::vector<std::int32_t> connectivity, offsets;
-      connectivity.reserve(nodes_per_cell(fe_space.element()) * fe_space.n_cells());
+      connectivity.reserve(traits.nodes_per_cell * fe_space.n_cells());
       offsets.reserve(fe_space.n_cells());
       for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
       {
@@ -84,8 +84,7 @@ namespace Exemplar
         connectivity.insert(connectivity.end(), nodes.begin(), nodes.end());
         offsets.push_back(static_cast<std::int32_t>(connectivity.size()));
       }
-      // VTK_TETRA or VTK_QUADRATIC_TETRA
-      const std::vector<std::uint8_t> types(fe_space.n_cells(), is_linear ? 10 : 24);
+      const std::vector<std::uint8_t> types(fe_space.n_cells(), traits.vtk_type);
       std::ostringstream              out;
       out << "<Cells>\n";
       write_array(out, "Int32", "connectivity", 1, connectivity.data(), connectivity.size());

@@ -76,15 +76,16 @@ namespace Exemplar
     const unsigned int  region   = i / poses.size();
     Vector              u        = poses.pose(i % poses.size());
     u -= fe_space.rest_positions();
-    if (poses.n_regions() == 1)
+    if (poses.get_regions().n_regions() == 1)
       return u;
     // at a node the mean share of its cells
     std::vector<double> share(fe_space.n_nodes(), 0.), n_cells(fe_space.n_nodes(), 0.);
+    const unsigned int  n_points = points_per_cell(fe_space.element()); // with the same shares
     for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
       for (const unsigned int node : fe_space.nodes(cell))
       {
         n_cells[node] += 1.;
-        share[node] += poses.share(cell, region);
+        share[node] += poses.get_regions().share(cell * n_points, region);
       }
     for (unsigned int dof = 0; dof < u.size(); ++dof)
       u[dof] *= n_cells[dof / 3] > 0. ? share[dof / 3] / n_cells[dof / 3] : 0.;

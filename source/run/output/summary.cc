@@ -146,7 +146,7 @@ namespace Exemplar
     json["mesh"]             = printable(problem.body.mesh.get_name());
     json["mesh_sha256"]      = mesh_sha256;
     json["cells"]            = problem.body.mesh.whole().n_cells;
-    json["element"]          = problem.body.fe_space.element() == Element::P1 ? "P1" : "P2";
+    json["element"]          = traits_of(problem.body.fe_space.element()).name;
     json["nodes"]            = n_nodes;
     json["dofs"]             = 3 * n_nodes;
     json["constrained_dofs"] = 3 * n_nodes - static_cast<unsigned int>(n_free);

@@ -52,7 +52,7 @@ namespace Exemplar
     std::vector<PartOfProblem> parts = {
       { "mesh", {}, problem.body.mesh.memory_consumption() },
       { "cells", {}, cells },
-      { "quadratic elements", problem.parameters.model.element == Element::P2, {} },
+      { "quadratic elements", traits_of(problem.parameters.model.element).degree == 2, {} },
       { "mass matrix", is_dynamic, memory_of_mass(problem) },
       { "second-order time scheme", is_dynamic && time.scheme != TimeScheme::implicit_euler, {} },
       { "mass damping", is_dynamic && time.mass_damping > 0., {} },

@@ -17,7 +17,7 @@ namespace Exemplar
     SceneParameters
     quadratic_scene(SceneParameters scene)
     {
-      scene.model.element = Element::P2;
+      scene.model.element = richer(scene.model.element);
       if (traits_of(scene.model.law()).trace_gradient_is_R)
         scene.model.dilatation = DilatationKind::patches;
       scene.initial                = InitialParameters();
@@ -38,7 +38,7 @@ namespace Exemplar
         if (dof < linear.size())
           field[dof] = linear[dof];
         else
-          for (const unsigned int end : fe_space.edge_of(dof / 3))
+          for (const unsigned int end : fe_space.numbering().ends(dof / 3))
             field[dof] += 0.5 * linear[3 * end + dof % 3];
       return field;
     }
@@ -52,7 +52,7 @@ namespace Exemplar
         if (dof < n_dofs)
           forces[dof] += quadratic[dof];
         else
-          for (const unsigned int end : fe_space.edge_of(dof / 3))
+          for (const unsigned int end : fe_space.numbering().ends(dof / 3))
             forces[3 * end + dof % 3] += 0.5 * quadratic[dof];
       return forces;
     }
@@ -82,10 +82,9 @@ namespace Exemplar
     double
     norm(const FESpace &fe_space, const Vector &u)
     {
-      const NodeShares    shares = shares_in_cell(fe_space.element(), ShareRule::lumped);
       std::vector<double> volumes(fe_space.n_nodes(), 0.);
       for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
-        fe_space.share_out(fe_space.cell_volume(cell), shares, cell, volumes);
+        fe_space.share_out(fe_space.cell_volume(cell), ShareRule::lumped, cell, volumes);
       double sum = 0.;
       for (unsigned int dof = 0; dof < u.size(); ++dof)
         sum += volumes[dof / 3] * u[dof] * u[dof];

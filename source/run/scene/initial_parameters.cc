@@ -15,10 +15,12 @@ namespace Exemplar
         "as in Examples/Poses; empty: the rest pose.");
     keys.add("Pose function", pose_function,
              "Pose at t = 0 instead: x'; y'; z' as functions of the rest position x, y, z "
-             "[m].");
+             "[m].",
+             "; ");
     keys.add("Velocity", velocity,
              "Velocity [m/s] at t = 0 of a dynamic scene: three functions of the rest "
-             "position x, y, z [m].");
+             "position x, y, z [m].",
+             "; ");
     keys.leave_subsection();
   }
 

@@ -36,15 +36,17 @@ namespace Exemplar
     examples.check();
     initial.check();
     if (loads.ramp == LoadRamp::increments && scene != SceneKind::statics)
-      throw UserError("Loads/Ramp = increments lets loads grow with the increments of a static scene, "
-                      "but this scene has none. Set Loads/Ramp = none, and a Force that grows with t.");
+      throw UserError(
+          "Loads/Ramp = increments lets loads grow with the increments of a static scene, "
+          "but this scene has none. Set Loads/Ramp = none, and a Force that grows with t.");
     check_solver();
     check_surface();
-    if (output.final_pose == FinalTetrahedra::quadratic && model.element != Element::P2)
+    if (output.final_pose == FinalTetrahedra::quadratic
+        && !traits_of(model.element).has_edge_nodes())
       throw UserError("Output/Final pose = quadratic writes the nodes in the middles of edges, but "
                       "Model/Element = P1 has none. Set Model/Element = P2, or Output/Final pose = "
                       "linear.");
-    if (output.space_error != SpaceErrorUse::never && model.element != Element::P1)
+    if (output.space_error != SpaceErrorUse::never && !has_richer(model.element))
       throw UserError("Output/Space error compares linear elements with quadratic ones, but "
                       "Model/Element = P2. Set Model/Element = P1, or Output/Space error = false.");
     if (output.keep_states && output.every == 0)

@@ -96,17 +96,17 @@ namespace Exemplar::Testing
     TEST(FESpace, MiddlesBelongToSelectionsOfBothEnds)
     {
       const Body                      body(box_mesh(1., 1, 1), MaterialParameters(), Element::P2);
-      const std::vector<unsigned int> nodes = body.fe_space.with_edges({ 0, 1, 3 });
+      const std::vector<unsigned int> nodes = body.fe_space.numbering().with_middles({ 0, 1, 3 });
       for (const unsigned int node : nodes)
         if (node >= body.mesh.n_nodes())
         {
-          const auto [a, b] = body.fe_space.edge_of(node);
+          const auto [a, b] = body.fe_space.numbering().ends(node);
           EXPECT_TRUE(a == 0 || a == 1);
           EXPECT_TRUE(b == 1 || b == 3);
         }
       EXPECT_EQ(nodes.size(), 6u); // the box's nodes 0, 1 and 3 are a face of a cell
       const FESpace linear(body.mesh);
-      EXPECT_EQ(linear.with_edges({ 0, 1, 3 }).size(), 3u);
+      EXPECT_EQ(linear.numbering().with_middles({ 0, 1, 3 }).size(), 3u);
     }
 
     TEST(FESpace, LumpedMassIsTheRowSum)

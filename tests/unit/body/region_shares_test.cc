@@ -10,15 +10,6 @@ namespace Exemplar::Testing
   namespace
   {
     double
-    share_of(const RegionShares &shares, const unsigned int region, const unsigned int cell)
-    {
-      for (std::size_t s = shares.first(cell); s < shares.last(cell); ++s)
-        if (shares.list()[s].region == region)
-          return shares.list()[s].value;
-      return 0.;
-    }
-
-    double
     centroid_x(const Body &body, const unsigned int cell)
     {
       double x = 0.;
@@ -30,12 +21,11 @@ namespace Exemplar::Testing
     TEST(RegionShares, WithoutLengthACellBelongsToItsRegion)
     {
       const Body         body(bar_of_two_regions(1.5));
-      const RegionShares shares(body.fe_space, body.mesh.get_material_ids(),
-                                body.mesh.whole().material_ids, 0.);
+      const RegionShares shares(body.mesh, 0.);
       ASSERT_EQ(shares.n_regions(), 2u);
       EXPECT_EQ(shares.material_id(1), 2u);
       for (unsigned int cell = 0; cell < body.fe_space.n_cells(); ++cell)
-        EXPECT_EQ(share_of(shares, 1, cell), centroid_x(body, cell) < 1.5 ? 0. : 1.);
+        EXPECT_EQ(shares.share(cell, 1), centroid_x(body, cell) < 1.5 ? 0. : 1.);
     }
 
     TEST(RegionShares, PassIntoEachOtherLikeTheSolutionOfTheFilter)
@@ -43,13 +33,12 @@ namespace Exemplar::Testing
       // in a long bar: 1/2 exp(-d/l) on the far side of the border, l = length / (2 sqrt 3)
       const double       length = 1.2, l = length / std::sqrt(12.);
       const Body         body(bar_of_two_regions(2., box_mesh(4., 160, 1)));
-      const RegionShares shares(body.fe_space, body.mesh.get_material_ids(),
-                                body.mesh.whole().material_ids, length);
+      const RegionShares shares(body.mesh, length);
       for (unsigned int cell = 0; cell < body.fe_space.n_cells(); ++cell)
       {
         const double x = centroid_x(body, cell), far = 0.5 * std::exp(-std::abs(x - 2.) / l);
-        EXPECT_NEAR(share_of(shares, 1, cell), x < 2. ? far : 1. - far, 0.02);
-        EXPECT_NEAR(share_of(shares, 0, cell) + share_of(shares, 1, cell), 1., 1e-14);
+        EXPECT_NEAR(shares.share(cell, 1), x < 2. ? far : 1. - far, 0.02);
+        EXPECT_NEAR(shares.share(cell, 0) + shares.share(cell, 1), 1., 1e-14);
       }
     }
 
@@ -57,11 +46,10 @@ namespace Exemplar::Testing
     {
       // a few cells of 24,000, and a length that spreads it over the whole bar
       const Body         body(bar_of_two_regions(3.9997, box_mesh(4., 4000, 1)));
-      const RegionShares shares(body.fe_space, body.mesh.get_material_ids(),
-                                body.mesh.whole().material_ids, 1e3);
+      const RegionShares shares(body.mesh, 1e3);
       double             maximum = 0.;
       for (unsigned int cell = 0; cell < body.fe_space.n_cells(); ++cell)
-        maximum = std::max(maximum, share_of(shares, 1, cell));
+        maximum = std::max(maximum, shares.share(cell, 1));
       ASSERT_EQ(shares.n_regions(), 2u);
       EXPECT_GT(maximum, 0.);
       EXPECT_LT(maximum, 1e-3);
@@ -70,10 +58,9 @@ namespace Exemplar::Testing
     TEST(RegionShares, OneRegionIsGlobal)
     {
       const Body         body;
-      const RegionShares shares(body.fe_space, body.mesh.get_material_ids(),
-                                body.mesh.whole().material_ids, 1.);
+      const RegionShares shares(body.mesh, 1.);
       for (unsigned int cell = 0; cell < body.fe_space.n_cells(); ++cell)
-        EXPECT_EQ(share_of(shares, 0, cell), 1.);
+        EXPECT_EQ(shares.share(cell, 0), 1.);
     }
 
     TEST(RegionShares, ThatArePaintedSumToOne)
@@ -85,7 +72,7 @@ namespace Exemplar::Testing
           = { { .25, .25, .5 }, { 0., .5, .5 }, { 0., 1., 0. }, { 1., 0., 0. } };
       for (unsigned int cell = 0; cell < 4; ++cell)
         for (unsigned int region = 0; region < 3; ++region)
-          EXPECT_DOUBLE_EQ(share_of(shares, region, cell), expected[cell][region]);
+          EXPECT_DOUBLE_EQ(shares.share(cell, region), expected[cell][region]);
       for (unsigned int region = 0; region < 3; ++region)
         EXPECT_EQ(shares.material_id(region), region);
     }

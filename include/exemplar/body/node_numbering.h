@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_node_numbering_h
+#define exemplar_node_numbering_h
+
+#include <exemplar/kernels/element.h>
+#include <exemplar/mesh/mesh.h>
+
+#include <deal.II/base/array_view.h>
+#include <deal.II/base/point.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace Exemplar
+{
+  /// Throws UserError, calling the places `key`, unless those behind the nodes' are in the middles of
+  /// the edges, to 1e-9 of `size`.
+  void
+  check_straight(const std::vector<dealii::Point<3>>            &places,
+                 const std::vector<std::array<unsigned int, 2>> &edges,
+                 double                                          size,
+                 const std::string                              &key);
+
+  /// The nodes of an element on a mesh: the vertices, which are the nodes of the mesh file, and then,
+  /// of quadratic elements, one in the middle of each edge, in ascending order of its ends, the lesser
+  /// one first.
+  class NodeNumbering
+  {
+  public:
+    NodeNumbering(const Mesh &mesh, Element element);
+
+    NodeNumbering(const NodeNumbering &) = delete; ///< it refers to itself
+
+    unsigned int
+    n_nodes() const
+    {
+      return mesh.n_nodes() + edges.size();
+    }
+
+    /// Of a cell: its vertices and then the middles of its edges 01, 12, 20, 03, 13, 23, which is
+    /// the order of deal.II and of VTK.
+    dealii::ArrayView<const unsigned int>
+    of_cell(const unsigned int cell) const
+    {
+      return { nodes_of_cells + n_per_cell * cell, n_per_cell };
+    }
+
+    /// Of a face: its vertices and then the middles of its edges 01, 12, 20.
+    std::vector<unsigned int>
+    of_face(const BoundaryFace &face) const;
+
+    /// The vertices at the ends of the edge of which a node is the middle.
+    const std::array<unsigned int, 2> &
+    ends(const unsigned int node) const
+    {
+      return edges[node - mesh.n_nodes()];
+    }
+
+    /// `vertices` and the nodes on edges between two of them, in ascending order.
+    std::vector<unsigned int>
+    with_middles(std::vector<unsigned int> vertices) const;
+
+    /// The places of all nodes, from those of the vertices, with the others in the middle of their
+    /// edges, or from those of both. Throws UserError, calling the places `key`, for curved edges,
+    /// which linear elements have not.
+    std::vector<dealii::Point<3>>
+    complete(std::vector<dealii::Point<3>> places, const std::string &key) const;
+
+    /// In bytes.
+    std::size_t
+    memory_consumption() const;
+
+  private:
+    unsigned int
+    middle_of(unsigned int a, unsigned int b) const;
+
+    const Mesh                              &mesh;
+    const std::size_t                        n_per_cell;
+    std::vector<std::array<unsigned int, 2>> edges;          ///< with nodes; empty: linear
+    std::vector<unsigned int>                with_edges;     ///< nodes of each cell; empty: linear
+    const unsigned int                      *nodes_of_cells; ///< those, or the mesh's vertices
+  };
+} // namespace Exemplar
+
+#endif
