@@ -151,8 +151,6 @@ namespace Exemplar
   Handles::whole_handle(const std::vector<unsigned int>     &nodes,
                         const std::vector<dealii::Point<3>> &places) const
   {
-    if (fe_space.exchange().n_processes() == 1)
-      return places;
     Vector field(fe_space.n_dofs());
     for (std::size_t i = 0; i < nodes.size(); ++i)
       for (unsigned int c = 0; c < 3; ++c)

@@ -4,6 +4,7 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/base/launcher.h>
 #include <exemplar/base/version.h>
+#include <exemplar/program/interrupt.h>
 #include <exemplar/program/joint_run.h>
 
 #include <algorithm>
@@ -229,8 +230,9 @@ namespace Exemplar
   JointRun::join(const int argc, char *argv[])
   {
     const Launch launch = find_launch();
-    if (launch.is_alone())
+    if (launch.n_processes == 1)
       return;
+    note_interrupts_together(launch.process == 0);
     if (!launch.is_ready_for_mpi)
       refuse_strangers(launch, "it does not prepare them for MPI. Start them by mpirun, or by srun "
                                "--mpi=pmix. If each is to run for itself, unset "

@@ -56,15 +56,16 @@ namespace Exemplar
     const Exchange &exchange = problem.body.exchange();
     if (handles != nullptr)
     {
-      double own = exchange.is_root() ? work.handles : 0.;
+      double own = 0.;
+      at_root(exchange, [&] { own = work.handles; });
       for (const unsigned int dof : handles->held_dofs())
         if (exchange.owns(dof / 3))
           own += problem.evaluation.gradient[dof] * displacement[dof];
       work.handles = exchange.sum(own);
     }
     if (loads != nullptr && loads->has_gravity())
-      work.gravity += loads->ramp_factor(state.time)
-                      * exchange.product(loads->gravity(), displacement);
+      work.gravity
+          += loads->ramp_factor(state.time) * exchange.product(loads->gravity(), displacement);
     if (loads != nullptr && loads->has_named_loads())
     {
       Vector force(displacement.size());
