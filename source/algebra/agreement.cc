@@ -68,11 +68,6 @@ namespace Exemplar
   void
   do_at_root(const Exchange &exchange, const std::function<void()> &action)
   {
-    do_in_agreement(exchange,
-                    [&]
-                    {
-                      if (exchange.is_root())
-                        action();
-                    });
+    do_in_agreement(exchange, [&] { at_root(exchange, action); });
   }
 } // namespace Exemplar

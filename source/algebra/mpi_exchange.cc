@@ -109,6 +109,15 @@ namespace Exemplar
                                              static_cast<unsigned int>(first));
   }
 
+  void
+  MpiExchange::give_from_root(const std::function<std::string()>             &pack,
+                              const std::function<void(const std::string &)> &unpack) const
+  {
+    std::string bytes;
+    at_root(*this, [&] { bytes = pack(); });
+    unpack(dealii::Utilities::MPI::broadcast(mpi_communicator, bytes, 0));
+  }
+
   std::vector<std::size_t>
   MpiExchange::collect(std::vector<std::size_t> own) const
   {

@@ -151,8 +151,6 @@ namespace Exemplar
   Handles::whole_handle(const std::vector<unsigned int>     &nodes,
                         const std::vector<dealii::Point<3>> &places) const
   {
-    if (fe_space.exchange().n_processes() == 1)
-      return places;
     Vector field(fe_space.n_dofs());
     for (std::size_t i = 0; i < nodes.size(); ++i)
       for (unsigned int c = 0; c < 3; ++c)
@@ -268,7 +266,7 @@ namespace Exemplar
       if (handle.name == name)
         throw UserError("There is a handle '" + name + "' already. Give another name.");
     const std::string               key = "Handles/" + name;
-    const std::vector<unsigned int> all = fe_space.numbering().with_edges(nodes);
+    const std::vector<unsigned int> all = fe_space.numbering().with_middles(nodes);
     handles.push_back({ name,
                         all,
                         { 0, 1, 2 },

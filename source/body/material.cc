@@ -69,15 +69,12 @@ namespace Exemplar
   Material::Material(const MaterialParameters        &parameters,
                      const std::vector<unsigned int> &material_ids,
                      const MshFile                   &names,
-                     const PaintedMaterial           &painted,
-                     const std::set<unsigned int>    *all_regions)
+                     const PaintedMaterial           &painted)
       : constants_of_cell(material_ids.size(), 0)
   {
     std::vector<ElasticConstants> bases{ parameters.everywhere };
     add(parameters.everywhere);
-    const std::set<unsigned int> ids
-        = all_regions != nullptr ? *all_regions
-                                 : std::set<unsigned int>(material_ids.begin(), material_ids.end());
+    const std::set<unsigned int> ids(material_ids.begin(), material_ids.end());
     for (const auto &[id, region] : regions_by_id(parameters, names))
     {
       for (unsigned int cell = 0; cell < material_ids.size(); ++cell)
@@ -140,5 +137,20 @@ namespace Exemplar
     for (Constants &values : rest.constants)
       values.elasticity = values.elasticity.without_dilatation();
     return rest;
+  }
+
+  Material
+  Material::part(const std::vector<unsigned int> &cells) const
+  {
+    Material                             result;
+    std::map<unsigned int, unsigned int> number; // there, of constants here
+    for (const unsigned int cell : cells)
+    {
+      const unsigned int here = constants_of_cell[cell];
+      if (number.emplace(here, result.constants.size()).second)
+        result.constants.push_back(constants[here]);
+      result.constants_of_cell.push_back(number[here]);
+    }
+    return result;
   }
 } // namespace Exemplar

@@ -221,38 +221,23 @@ namespace Exemplar
   } // namespace
 
   std::vector<unsigned int>
-  Patches::stars(const std::vector<std::array<unsigned int, 4>> &cells,
-                 const unsigned int                              n_nodes,
-                 const std::vector<unsigned int>                &material_ids,
-                 const Material                                 &material)
+  Patches::choose(const Mesh &mesh, const Material &material, const Element element)
   {
-    return Stars(cells, n_nodes, kinds_of_cells(material_ids, material)).take();
+    if (traits_of(element).locks)
+      return Stars(mesh.get_cells(), mesh.n_nodes(),
+                   kinds_of_cells(mesh.get_material_ids(), material))
+          .take();
+    std::vector<unsigned int> cells(mesh.n_cells());
+    std::iota(cells.begin(), cells.end(), 0u);
+    return cells;
   }
 
-  Patches::Patches(const Mesh &mesh, const FESpace &fe_space, const Material &material)
-      : Patches(traits_of(fe_space.element()).locks
-                    ? stars(mesh.get_cells(), mesh.n_nodes(), mesh.get_material_ids(), material)
-                    : std::vector<unsigned int>(),
-                fe_space,
-                material)
-  {
-  }
-
-  Patches::Patches(const std::vector<unsigned int> &stars_of_cells,
+  Patches::Patches(const std::vector<unsigned int> &of_cells,
                    const FESpace                   &fe_space,
                    const Material                  &material)
   {
     for (unsigned int point = 0; point < fe_space.n_points(); ++point)
-    {
-      const unsigned int cell = fe_space.cell_of(point);
-      patch_of_point.push_back(stars_of_cells.empty() ? cell : stars_of_cells[cell]);
-    }
-    collect(fe_space, material);
-  }
-
-  void
-  Patches::collect(const FESpace &fe_space, const Material &material)
-  {
+      patch_of_point.push_back(of_cells[fe_space.cell_of(point)]);
     const unsigned int n = 1 + *std::max_element(patch_of_point.begin(), patch_of_point.end());
     points_of_patch.resize(n);
     volumes.assign(n, 0.);

@@ -32,18 +32,19 @@ namespace Exemplar
     PoseMeasures
     measure(const Mesh &mesh, const FESpace &fe_space, const dealii::Vector<double> &positions)
     {
-      PoseMeasures pose;
-      double       square = 0., volume = 0.;
+      PoseMeasures              pose;
+      double                    square = 0., volume = 0.;
+      std::vector<unsigned int> inverted;
       for (unsigned int point = 0; point < fe_space.n_points(); ++point)
       {
         const Matrix3<double> F = fe_space.deformation_gradient(point, positions);
         square += fe_space.volume(point) * contract(F, F) / 3.;
         volume += fe_space.volume(point);
-        const double det          = determinant(F);
-        pose.max_abs_volume       = std::max(pose.max_abs_volume, std::abs(det));
-        const std::size_t element = mesh.element_number(fe_space.cell_of(point));
-        if (det <= 0. && (pose.inverted.empty() || pose.inverted.back() != element))
-          pose.inverted.push_back(element);
+        const double det        = determinant(F);
+        pose.max_abs_volume     = std::max(pose.max_abs_volume, std::abs(det));
+        const unsigned int cell = fe_space.cell_of(point);
+        if (det <= 0. && (inverted.empty() || inverted.back() != cell))
+          inverted.push_back(cell);
         const Matrix3<double> C = transpose_times(F, F);
         for (int i = 0; i < 3; ++i)
           for (int j = 0; j < 3; ++j)
@@ -53,10 +54,8 @@ namespace Exemplar
       const Exchange &exchange = fe_space.exchange();
       pose.max_abs_volume      = exchange.max(pose.max_abs_volume);
       pose.max_strain          = exchange.max(pose.max_strain);
-      pose.inverted            = exchange.collect(std::move(pose.inverted));
-      if (exchange.n_processes() > 1)
-        std::sort(pose.inverted.begin(), pose.inverted.end());
-      pose.size_ratio = std::sqrt(exchange.sum(square) / exchange.sum(volume));
+      pose.inverted            = whole_elements(mesh, inverted);
+      pose.size_ratio          = std::sqrt(exchange.sum(square) / exchange.sum(volume));
       pose.max_abs_volume /= std::pow(std::max(pose.size_ratio, 1e-100), 3);
       return pose;
     }

@@ -32,7 +32,7 @@ namespace Exemplar
   {
     for (Vector *field : state.nodal_fields())
       *field = whole(mesh.exchange(), *field);
-    state.history = mesh.whole_cells(state.history);
+    state.history = mesh.cell_order().whole(state.history);
     return state;
   }
 
@@ -41,7 +41,7 @@ namespace Exemplar
   {
     for (Vector *field : state.nodal_fields())
       *field = part(mesh.exchange(), *field);
-    state.history = mesh.own_cells(state.history);
+    state.history = mesh.cell_order().part(state.history);
     return state;
   }
 } // namespace Exemplar

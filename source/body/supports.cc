@@ -38,8 +38,6 @@ namespace Exemplar
              const std::size_t                n_dofs,
              const std::vector<unsigned int> &dofs)
     {
-      if (exchange.n_processes() == 1)
-        return dofs;
       std::vector<double> mask(n_dofs, 0.);
       for (const unsigned int dof : dofs)
         mask[dof] = 1.;

@@ -8,6 +8,8 @@
 #include <deal.II/grid/tria_iterator.h>
 
 #include <algorithm>
+#include <numeric>
+#include <utility>
 
 namespace Exemplar
 {
@@ -204,25 +206,64 @@ namespace Exemplar
     return lower.distance(upper);
   }
 
-  Mesh::Mesh(MshFile contents, const std::string &file_name, const double scale)
-      : Mesh(check_mesh(std::move(contents), file_name, scale), file_name, scale)
+  namespace
   {
-  }
+    /// All of a mesh, as a part.
+    MeshPart
+    whole_part(MeshArrays arrays)
+    {
+      const auto n_cells = static_cast<unsigned int>(arrays.cells.size());
+      MeshPart   part;
+      part.whole = { static_cast<unsigned int>(arrays.contents.nodes.size()),
+                     n_cells,
+                     box_diagonal(arrays.contents.nodes),
+                     { arrays.material_ids.begin(), arrays.material_ids.end() } };
+      part.cells_in_file.resize(n_cells);
+      std::iota(part.cells_in_file.begin(), part.cells_in_file.end(), 0u);
+      part.arrays = std::move(arrays);
+      return part;
+    }
 
-  Mesh::Mesh(MeshArrays checked, const std::string &file_name, const double scale)
-      : arrays(std::move(checked)), name(file_name),
-        scale(scale), of_whole{ n_nodes(),
-                                n_cells(),
-                                box_diagonal(arrays.contents.nodes),
-                                { arrays.material_ids.begin(), arrays.material_ids.end() } },
-        with_others(&Exchange::serial())
+    std::unique_ptr<dealii::Triangulation<3>>
+    make_triangulation(const MeshArrays &arrays)
+    {
+      const auto                      &cells = arrays.cells;
+      std::vector<dealii::CellData<3>> cell_data(cells.size(), dealii::CellData<3>(4));
+      for (std::size_t c = 0; c < cells.size(); ++c)
+      {
+        std::copy(cells[c].begin(), cells[c].end(), cell_data[c].vertices.begin());
+        cell_data[c].material_id = arrays.material_ids[c];
+      }
+      auto result = std::make_unique<dealii::Triangulation<3>>();
+      result->create_triangulation(arrays.contents.nodes, cell_data,
+                                   boundary_data(arrays.boundary_faces));
+      return result;
+    }
+
+    /// Everything else relies on deal.II's numbers being the file's: 9.5 has begun to remove unused
+    /// vertices when reading, so do not take it for granted.
+    void
+    check_numbering(const dealii::Triangulation<3> &triangulation, const MeshArrays &arrays)
+    {
+      bool same = triangulation.n_active_cells() == arrays.cells.size()
+                  && triangulation.get_vertices() == arrays.contents.nodes;
+      for (const auto &cell : triangulation.active_cell_iterators())
+        for (const unsigned int v : cell->vertex_indices())
+          same = same && cell->vertex_index(v) == arrays.cells[cell->active_cell_index()][v];
+      AssertThrow(same, dealii::ExcMessage("deal.II numbers nodes or cells in another order."));
+    }
+  } // namespace
+
+  Mesh::Mesh(MshFile contents, const std::string &file_name, const double scale)
+      : Mesh(whole_part(check_mesh(std::move(contents), file_name, scale)), file_name, scale)
   {
   }
 
   Mesh::Mesh(MeshPart part, const std::string &file_name, const double scale)
       : arrays(std::move(part.arrays)), name(file_name), scale(scale),
-        of_whole(std::move(part.whole)), cells_in_file(std::move(part.cells_in_file)),
-        shared(std::move(part.exchange)), with_others(shared.get()),
+        of_whole(std::move(part.whole)), shared(std::move(part.exchange)),
+        with_others(shared == nullptr ? &Exchange::serial() : shared.get()),
+        order(std::move(part.cells_in_file), of_whole.n_cells, *with_others),
         file(std::move(part.contents_of_whole))
   {
   }
@@ -232,40 +273,12 @@ namespace Exemplar
   {
     if (triangulation == nullptr)
     {
-      triangulation = make_triangulation();
-      check_numbering();
+      triangulation = shared == nullptr
+                          ? make_triangulation(arrays)
+                          : make_distributed_triangulation(arrays, order.in_file(), *shared);
+      check_numbering(*triangulation, arrays);
     }
     return *triangulation;
-  }
-
-  std::unique_ptr<dealii::Triangulation<3>>
-  Mesh::make_triangulation() const
-  {
-    if (shared != nullptr)
-      return make_distributed_triangulation(arrays, cells_in_file, *shared);
-    const auto                      &cells = arrays.cells;
-    std::vector<dealii::CellData<3>> cell_data(cells.size(), dealii::CellData<3>(4));
-    for (std::size_t c = 0; c < cells.size(); ++c)
-    {
-      std::copy(cells[c].begin(), cells[c].end(), cell_data[c].vertices.begin());
-      cell_data[c].material_id = arrays.material_ids[c];
-    }
-    auto result = std::make_unique<dealii::Triangulation<3>>();
-    result->create_triangulation(arrays.contents.nodes, cell_data,
-                                 boundary_data(arrays.boundary_faces));
-    return result;
-  }
-
-  void
-  Mesh::check_numbering() const
-  {
-    const auto &cells = arrays.cells;
-    bool        same  = triangulation->n_active_cells() == cells.size()
-                && triangulation->get_vertices() == arrays.contents.nodes;
-    for (const auto &cell : triangulation->active_cell_iterators())
-      for (const unsigned int v : cell->vertex_indices())
-        same = same && cell->vertex_index(v) == cells[cell->active_cell_index()][v];
-    AssertThrow(same, dealii::ExcMessage("deal.II numbers nodes or cells in another order."));
   }
 
   std::size_t
@@ -284,30 +297,23 @@ namespace Exemplar
     return bytes;
   }
 
-  std::vector<double>
-  Mesh::whole_cells(const std::vector<double> &own) const
+  std::vector<std::size_t>
+  whole_elements(const Mesh &mesh, const std::vector<unsigned int> &own_cells)
   {
-    const std::size_t   n = own.size() / n_cells(); // of each
-    std::vector<double> all(n * whole().n_cells, 0.);
-    for (unsigned int cell = 0; cell < n_cells(); ++cell)
+    std::vector<std::size_t> pairs; // of a cell's place in the file and its number there
+    for (const unsigned int cell : own_cells)
     {
-      const unsigned int in_file = cells_in_file.empty() ? cell : cells_in_file[cell];
-      std::copy_n(own.begin() + n * cell, n, all.begin() + n * in_file);
+      pairs.push_back(mesh.cell_order().in_file()[cell]);
+      pairs.push_back(mesh.element_number(cell));
     }
-    exchange().sum(all);
-    return all;
-  }
-
-  std::vector<double>
-  Mesh::own_cells(const std::vector<double> &of_whole_body) const
-  {
-    const std::size_t   n = of_whole_body.size() / whole().n_cells; // of each
-    std::vector<double> own(n * n_cells());
-    for (unsigned int cell = 0; cell < n_cells(); ++cell)
-    {
-      const unsigned int in_file = cells_in_file.empty() ? cell : cells_in_file[cell];
-      std::copy_n(of_whole_body.begin() + n * in_file, n, own.begin() + n * cell);
-    }
-    return own;
+    pairs = mesh.exchange().collect(std::move(pairs));
+    std::vector<std::pair<std::size_t, std::size_t>> by_place;
+    for (std::size_t i = 0; i < pairs.size(); i += 2)
+      by_place.emplace_back(pairs[i], pairs[i + 1]);
+    std::sort(by_place.begin(), by_place.end());
+    std::vector<std::size_t> elements;
+    for (const auto &[place, element] : by_place)
+      elements.push_back(element);
+    return elements;
   }
 } // namespace Exemplar

@@ -79,19 +79,22 @@ namespace Exemplar
     return std::move(pose.nodes);
   }
 
-  std::vector<dealii::Point<3>>
-  Mesh::scaled(std::vector<dealii::Point<3>> nodes) const
+  namespace
   {
-    for (auto &node : nodes)
-      node *= scale;
-    check_places(nodes, arrays.contents, name);
-    return nodes;
-  }
+    std::vector<dealii::Point<3>>
+    scaled(std::vector<dealii::Point<3>> nodes, const Mesh &mesh)
+    {
+      for (auto &node : nodes)
+        node *= mesh.get_scale();
+      check_places(nodes, mesh.get_contents(), mesh.get_name());
+      return nodes;
+    }
+  } // namespace
 
   std::vector<dealii::Point<3>>
   Mesh::read_pose(const std::filesystem::path &file) const
   {
-    return scaled(Exemplar::read_pose(file, arrays.contents, name));
+    return scaled(Exemplar::read_pose(file, arrays.contents, name), *this);
   }
 
   std::vector<dealii::Point<3>>
@@ -106,7 +109,7 @@ namespace Exemplar
       throw UserError(key + ": the pose '" + pose + "' has " + std::to_string(n)
                       + " nodes, the mesh " + std::to_string(n_nodes())
                       + ". Hand in a place for each node.");
-    return scaled(found->second);
+    return scaled(found->second, *this);
   }
 
   void

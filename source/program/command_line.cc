@@ -274,7 +274,8 @@ Exit status:
     }
     catch (const CLI::Success &request) // --help or --version
     {
-      return JointRun::group().is_root() ? app.exit(request) : 0;
+      const ProcessGroup &group = JointRun::group();
+      return app.exit(request, group.of_root(std::cout), group.of_root(std::cerr));
     }
     catch (const CLI::ParseError &error)
     {

@@ -4,6 +4,7 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/base/launcher.h>
 #include <exemplar/base/version.h>
+#include <exemplar/program/interrupt.h>
 #include <exemplar/program/joint_run.h>
 
 #include <algorithm>
@@ -104,8 +105,8 @@ namespace Exemplar
       char name[MPI_MAX_PROCESSOR_NAME];
       int  length = 0;
       MPI_Get_processor_name(name, &length);
-      return " (process " + std::to_string(together.process) + " of " + std::to_string(together.n_processes) + ", on "
-             + std::string(name, length) + ")";
+      return " (process " + std::to_string(together.process) + " of "
+             + std::to_string(together.n_processes) + ", on " + std::string(name, length) + ")";
     }
 
     /// End all processes, as if each had returned `status`. Other than after MPI_Finalize, mpirun does
@@ -229,8 +230,9 @@ namespace Exemplar
   JointRun::join(const int argc, char *argv[])
   {
     const Launch launch = find_launch();
-    if (launch.is_alone())
+    if (launch.n_processes == 1)
       return;
+    note_interrupts_together(launch.process == 0);
     if (!launch.is_ready_for_mpi)
       refuse_strangers(launch, "it does not prepare them for MPI. Start them by mpirun, or by srun "
                                "--mpi=pmix. If each is to run for itself, unset "
@@ -252,7 +254,7 @@ namespace Exemplar
     has_joined = true;
     std::atexit(tell_of_exit);
     together = { static_cast<unsigned int>(size), static_cast<unsigned int>(number),
-               [] { all_come(MPI_COMM_WORLD, std::numeric_limits<double>::infinity()); } };
+                 [] { all_come(MPI_COMM_WORLD, std::numeric_limits<double>::infinity()); } };
 
     const std::string program = "exemplar " EXEMPLAR_VERSION " (" EXEMPLAR_GIT_REVISION ")";
     require_same(program + digest_of_program(), "is another program than",
@@ -273,8 +275,8 @@ namespace Exemplar
 
   void
   JointRun::require_same(const std::string &text,
-                           const std::string &difference,
-                           const std::string &remedy)
+                         const std::string &difference,
+                         const std::string &remedy)
   {
     if (together.n_processes == 1)
       return;
@@ -284,8 +286,9 @@ namespace Exemplar
                   MPI_COMM_WORLD);
     for (unsigned int other = 1; other < together.n_processes; ++other)
       if (all.compare(other * own.size(), own.size(), all, 0, own.size()) != 0)
-        throw UserError("Process " + std::to_string(other) + " of " + std::to_string(together.n_processes) + ' '
-                        + difference + " process 0. " + remedy);
+        throw UserError("Process " + std::to_string(other) + " of "
+                        + std::to_string(together.n_processes) + ' ' + difference + " process 0. "
+                        + remedy);
   }
 
   int

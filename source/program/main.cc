@@ -2,7 +2,6 @@
 #include <exemplar/algebra/mpi_session.h>
 #include <exemplar/base/environment.h>
 #include <exemplar/base/errors.h>
-#include <exemplar/base/launcher.h>
 #include <exemplar/base/message_text.h>
 #include <exemplar/base/standard_streams.h>
 #include <exemplar/program/command_line.h>
@@ -36,8 +35,6 @@ main(int argc, char *argv[])
   };
   try
   {
-    if (const Exemplar::Launch launch = Exemplar::find_launch(); !launch.is_alone())
-      Exemplar::note_interrupts_together(launch.process == 0);
     Exemplar::JointRun::join(argc, argv);
     const int status = Exemplar::run_command_line(argc, argv);
     return Exemplar::JointRun::end(status, [](const std::string &) {});

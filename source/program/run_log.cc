@@ -27,13 +27,13 @@ namespace Exemplar
     }
   } // namespace
 
-  RunLog::RunLog(const bool quiet) : speaks(JointRun::group().is_root()), quiet(quiet) {}
+  RunLog::RunLog(const bool quiet) : processes(JointRun::group()), quiet(quiet) {}
 
   void
   RunLog::say(const std::string &lines)
   {
-    if (speaks && !quiet)
-      std::cout << lines << std::flush;
+    if (!quiet)
+      processes.of_root(std::cout) << lines << std::flush;
     note(lines);
   }
 
@@ -42,8 +42,7 @@ namespace Exemplar
   {
     warnings.push_back(warning);
     const std::string line = "Warning: " + message_text(warning) + '\n';
-    if (speaks)
-      std::cerr << line << std::flush;
+    processes.of_root(std::cerr) << line << std::flush;
     note(line);
   }
 
@@ -57,10 +56,8 @@ namespace Exemplar
   void
   RunLog::note(const std::string &lines)
   {
-    if (!speaks)
-      return;
     waiting += lines;
-    if (path.empty())
+    if (!file.is_open())
       return;
     errno = 0;
     file << waiting << std::flush;
@@ -73,13 +70,16 @@ namespace Exemplar
   void
   RunLog::keep_in(const std::filesystem::path &new_path)
   {
-    path = new_path;
-    if (!speaks)
-      return;
-    const bool is_new = !std::filesystem::exists(path) || std::filesystem::file_size(path) == 0;
-    file.open(path, std::ios::app);
-    waiting.insert(0, (is_new ? RunDirectory::log_mark : "") + "\n" + date_and_time()
-                          + ", exemplar " EXEMPLAR_VERSION " (" EXEMPLAR_GIT_REVISION ")\n");
-    note("");
+    processes.at_root(
+        [&]
+        {
+          path = new_path;
+          const bool is_new
+              = !std::filesystem::exists(path) || std::filesystem::file_size(path) == 0;
+          file.open(path, std::ios::app);
+          waiting.insert(0, (is_new ? RunDirectory::log_mark : "") + "\n" + date_and_time()
+                                + ", exemplar " EXEMPLAR_VERSION " (" EXEMPLAR_GIT_REVISION ")\n");
+          note("");
+        });
   }
 } // namespace Exemplar

@@ -9,7 +9,7 @@
 #include <exemplar/program/run_log.h>
 #include <exemplar/program/run_scene.h>
 #include <exemplar/program/run_texts.h>
-#include <exemplar/run/inputs/shared_inputs.h>
+#include <exemplar/run/inputs/shared_body.h>
 #include <exemplar/run/output/run_directory.h>
 #include <exemplar/run/output/run_writer.h>
 #include <exemplar/run/problem/idle_review.h>
@@ -33,8 +33,8 @@ namespace Exemplar
     {
       if (quiet)
         return {};
-      return [](const std::string &what)
-      { std::cout << "          " << message_text(what) << " ..." << std::endl; };
+      return [&out = JointRun::group().of_root(std::cout)](const std::string &what)
+      { out << "          " << message_text(what) << " ..." << std::endl; };
     }
 
     std::unique_ptr<Problem>
@@ -45,14 +45,14 @@ namespace Exemplar
     {
       parameters.solver.n_threads    = n_threads;
       parameters.mesh.allow_commands = options.allow_commands;
-      const Announce announce        = announcer(options.quiet || !JointRun::group().is_root());
+      const Announce announce        = announcer(options.quiet);
       auto           problem
           = JointRun::group().n_processes == 1
                 ? make_problem(parameters, announce)
                 : make_problem(
                     parameters,
-                    ReadInputs([&](const SceneParameters &scene)
-                               { return read_shared_inputs(scene, MPI_COMM_WORLD, announce); }));
+                    ReadBody([&](const SceneParameters &scene)
+                             { return read_shared_body(scene, MPI_COMM_WORLD, announce); }));
       log.warn(problem->warnings());
       log.warn(unit_warnings(*problem));
       log.warn(scene_warnings(*problem));
@@ -78,7 +78,7 @@ namespace Exemplar
           writer.begin();
         if (options.resume_from || options.resume)
           log.say(resumption_text(problem));
-        log.keep_in(RunDirectory(problem.parameters.output.directory).log());
+        log.keep_in(RunFiles{ problem.parameters.output.directory }.log());
       }
       catch (const std::filesystem::filesystem_error &error)
       {
@@ -173,16 +173,15 @@ namespace Exemplar
       log.say(header_text(*problem));
     }
 
-    const Exchange &exchange = problem->body.exchange();
-    Progress        progress(std::cout, is_terminal(),
-                             options.quiet || options.verbose || !exchange.is_root(), problem->state.step,
-                             problem->time_axis.n_steps());
+    std::ostream &out = JointRun::group().of_root(std::cout);
+    Progress progress(out, is_terminal(), options.quiet || options.verbose, problem->state.step,
+                      problem->time_axis.n_steps());
     problem->solver->observe = [&](const SolveReport &report)
     {
       progress.go_on(progress_text(report));
-      if (options.verbose && exchange.is_root())
-        std::cout << iteration_text(*problem, report) << std::flush;
-      return !exchange.any(is_interrupted());
+      if (options.verbose)
+        out << iteration_text(*problem, report) << std::flush;
+      return !problem->body.exchange().any(is_interrupted());
     };
     StateReview review(*problem);
     try

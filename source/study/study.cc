@@ -54,7 +54,7 @@ namespace Exemplar
           mesh = std::make_unique<const Mesh>(load_or_make_mesh(parameters), parameters.name(),
                                               parameters.scale);
         }
-        return { *mesh, RunDirectory(directory).final_pose() };
+        return { *mesh, RunFiles{ directory }.final_pose() };
       }
 
     private:
@@ -75,7 +75,7 @@ namespace Exemplar
           return;
         const fs::path directory = runs.path(plan.reference->name);
         reference = std::make_unique<const FinalPose>(poses.read(*plan.reference, directory));
-        reference_energy = read_run_statistics(RunDirectory(directory).statistics()).energy;
+        reference_energy = read_run_statistics(RunFiles{ directory }.statistics()).energy;
       }
 
       StudyRow
@@ -89,9 +89,9 @@ namespace Exemplar
         row.exit_status = record.exit_status;
         row.message     = record.message;
         row.run         = planned.name;
-        row.statistics  = read_run_statistics(RunDirectory(directory).statistics());
-        row.summary     = read_run_summary(RunDirectory(directory).summary());
-        row.extra       = read_last_values(RunDirectory(directory).statistics(), columns);
+        row.statistics  = read_run_statistics(RunFiles{ directory }.statistics());
+        row.summary     = read_run_summary(RunFiles{ directory }.summary());
+        row.extra       = read_last_values(RunFiles{ directory }.statistics(), columns);
         if (record.status != "refused")
         {
           row.seconds.median  = median(record.seconds);

@@ -263,7 +263,7 @@ namespace Exemplar
       throw Interrupted("A run has been interrupted.");
 
     fs::create_directories(scratch());
-    const RunDirectory run(scratch());
+    const RunFiles run{ scratch() };
     fs::rename(log, scratch() / "log.txt");
     fs::remove(run.checkpoint());
     const Json  summary = read_json(run.summary());

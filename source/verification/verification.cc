@@ -151,26 +151,20 @@ namespace Exemplar
 
   namespace
   {
-    /// The names of the cases that have failed, at the root.
-    std::vector<std::string>
-    run_all(const std::vector<Verification::Case> &cases, const ProcessGroup &processes)
+    /// Compute and print a case; whether it passes, which the root alone knows.
+    bool
+    run(const Verification::Case &one, const ProcessGroup &processes)
     {
-      std::vector<std::string> failed;
-      for (const Verification::Case &one : cases)
+      bool passes = true;
+      if (one.is_shared) // what fails in one process alone ends all
       {
-        bool passes = true;
-        if (one.is_shared) // what fails in one process alone ends all
-        {
-          const auto measurements = one.measure();
-          passes = !processes.is_root() || Verification::print(one.name, measurements);
-        }
-        else if (processes.is_root())
-          passes = Verification::run(one);
-        if (!passes)
-          failed.push_back(one.name);
-        processes.wait_for_all();
+        const auto measurements = one.measure();
+        processes.at_root([&] { passes = Verification::print(one.name, measurements); });
       }
-      return failed;
+      else
+        processes.at_root([&] { passes = Verification::run(one); });
+      processes.wait_for_all();
+      return passes;
     }
   } // namespace
 
@@ -179,24 +173,25 @@ namespace Exemplar
   {
     const std::vector<Verification::Case> cases
         = Verification::select(names, processes.n_processes);
-    if (processes.is_root())
-      Verification::print_row("", "case (what)", "expected", "got", "tolerance");
-    const std::vector<std::string> failed = run_all(cases, processes);
-    if (!processes.is_root())
-      return 0;
-    std::cout << cases.size() - failed.size() << " of " << cases.size() << " cases pass";
+    std::ostream &out = processes.of_root(std::cout);
+    processes.at_root(
+        [] { Verification::print_row("", "case (what)", "expected", "got", "tolerance"); });
+    std::vector<std::string> failed;
+    for (const Verification::Case &one : cases)
+      if (!run(one, processes))
+        failed.push_back(one.name);
+    out << cases.size() - failed.size() << " of " << cases.size() << " cases pass";
     for (std::size_t i = 0; i < failed.size(); ++i)
-      std::cout << (i == 0 ? "; failed: " : ", ") << failed[i];
-    std::cout << std::endl;
+      out << (i == 0 ? "; failed: " : ", ") << failed[i];
+    out << std::endl;
     return failed.empty() ? 0 : 1;
   }
 
   void
   list_verification_cases(const ProcessGroup &processes)
   {
-    if (!processes.is_root())
-      return;
+    std::ostream &out = processes.of_root(std::cout);
     for (const Verification::Case &one : Verification::all_cases(processes.n_processes))
-      std::cout << std::left << std::setw(32) << one.name << one.description << '\n';
+      out << std::left << std::setw(32) << one.name << one.description << '\n';
   }
 } // namespace Exemplar

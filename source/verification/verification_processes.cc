@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/algebra/long_vectors.h>
-#include <exemplar/run/inputs/shared_inputs.h>
+#include <exemplar/run/inputs/shared_body.h>
 #include <exemplar/run/scene/scene_file.h>
 #include <exemplar/verification/verification.h>
 #include <exemplar/verification/verification_scene.h>
@@ -21,28 +21,33 @@ namespace Exemplar::Verification
     {
       const SceneParameters parameters
           = SceneFile("", text, std::vector<std::string>()).get_parameters();
-      return std::make_unique<Problem>(parameters, read_shared_inputs(parameters, MPI_COMM_WORLD));
+      return std::make_unique<Problem>(parameters, read_shared_body(parameters, MPI_COMM_WORLD));
     }
 
     /// The differences of positions, over the greatest displacement, and of weights.
     std::vector<Measurement>
     compare_with_one_process(const std::string &text)
     {
-      const auto   problem   = shared_problem(text);
-      const State  together  = solve_all_steps(*problem);
-      const Vector positions = whole(problem->body.exchange(), together.positions);
-      if (!problem->body.exchange().is_root())
-        return {};
-      Scene        scene(text);
-      const Vector rest    = scene.problem.body.fe_space.rest_positions();
-      const State  alone   = scene.solve();
-      const double way     = max_difference(alone.positions, rest);
-      double       weights = 0.;
-      for (unsigned int i = 0; i < alone.weights.size(); ++i)
-        weights = max_or_nan(weights, std::abs(together.weights[i] - alone.weights[i]));
-      return { { "positions, of the way", 0., max_difference(positions, alone.positions) / way,
-                 Comparison::absolute, 1e-8 },
-               { "weights", 0., weights, Comparison::absolute, 1e-8 } };
+      const auto               problem   = shared_problem(text);
+      const State              together  = solve_all_steps(*problem);
+      const Vector             positions = whole(problem->body.exchange(), together.positions);
+      std::vector<Measurement> found;
+      at_root(problem->body.exchange(),
+              [&]
+              {
+                Scene        scene(text);
+                const Vector rest    = scene.problem.body.fe_space.rest_positions();
+                const State  alone   = scene.solve();
+                const double way     = max_difference(alone.positions, rest);
+                double       weights = 0.;
+                for (unsigned int i = 0; i < alone.weights.size(); ++i)
+                  weights = max_or_nan(weights, std::abs(together.weights[i] - alone.weights[i]));
+                found = { { "positions, of the way", 0.,
+                            max_difference(positions, alone.positions) / way, Comparison::absolute,
+                            1e-8 },
+                          { "weights", 0., weights, Comparison::absolute, 1e-8 } };
+              });
+      return found;
     }
 
     const std::string lifted_bar
@@ -115,22 +120,27 @@ namespace Exemplar::Verification
     std::vector<Measurement>
     shared_state()
     {
-      const auto problem    = shared_problem(set("Scene", "static") + lifted_bar);
-      State      own        = problem->state;
-      own.history           = centroids(problem->body.mesh);
-      const State  together = whole(problem->body.mesh, own);
-      const double lost     = own == part(problem->body.mesh, together) ? 0. : 1.;
-      if (!problem->body.exchange().is_root())
-        return {};
-      const Scene alone(set("Scene", "static") + lifted_bar);
-      double      nodes = max_difference(together.positions, alone.problem.state.positions);
-      double      cells = 0.;
-      const std::vector<double> expected = centroids(alone.problem.body.mesh);
-      for (std::size_t i = 0; i < expected.size(); ++i)
-        cells = max_or_nan(cells, std::abs(together.history.at(i) - expected[i]));
-      return { { "positions", 0., nodes, Comparison::absolute, 0. },
-               { "numbers of cells", 0., cells, Comparison::absolute, 0. },
-               { "of the part lost", 0., lost, Comparison::absolute, 0. } };
+      const auto problem                = shared_problem(set("Scene", "static") + lifted_bar);
+      State      own                    = problem->state;
+      own.history                       = centroids(problem->body.mesh);
+      const State              together = whole(problem->body.mesh, own);
+      const double             lost     = own == part(problem->body.mesh, together) ? 0. : 1.;
+      std::vector<Measurement> found;
+      at_root(problem->body.exchange(),
+              [&]
+              {
+                const Scene  alone(set("Scene", "static") + lifted_bar);
+                const double nodes
+                    = max_difference(together.positions, alone.problem.state.positions);
+                double                    cells    = 0.;
+                const std::vector<double> expected = centroids(alone.problem.body.mesh);
+                for (std::size_t i = 0; i < expected.size(); ++i)
+                  cells = max_or_nan(cells, std::abs(together.history.at(i) - expected[i]));
+                found = { { "positions", 0., nodes, Comparison::absolute, 0. },
+                          { "numbers of cells", 0., cells, Comparison::absolute, 0. },
+                          { "of the part lost", 0., lost, Comparison::absolute, 0. } };
+              });
+      return found;
     }
   } // namespace
 

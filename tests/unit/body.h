@@ -92,7 +92,8 @@ namespace Exemplar::Testing
     void
     make_patches()
     {
-      patches       = std::make_unique<const Patches>(mesh, fe_space, material);
+      patches = std::make_unique<const Patches>(Patches::choose(mesh, material, fe_space.element()),
+                                                fe_space, material);
       cell_material = material.without_dilatation();
     }
 

@@ -5,6 +5,7 @@
 #include <exemplar/algebra/vector.h>
 
 #include <cstddef>
+#include <functional>
 #include <mpi.h>
 #include <string>
 #include <utility>
@@ -48,6 +49,13 @@ namespace Exemplar
     is_root() const
     {
       return process() == 0;
+    }
+
+    /// Give all others bytes of the root, who packs them.
+    virtual void
+    give_from_root(const std::function<std::string()> & /*pack*/,
+                   const std::function<void(const std::string &)> & /*unpack*/) const
+    {
     }
 
     /// Add up what the processes give; the same on all of them, bit for bit.
@@ -228,6 +236,15 @@ namespace Exemplar
   private:
     Field sums;
   };
+
+  /// Do what the root does alone; talks to nobody. do_at_root() throws in all processes what it throws.
+  template <typename Action>
+  void
+  at_root(const Exchange &exchange, const Action &action)
+  {
+    if (exchange.is_root())
+      action();
+  }
 
   /// Sums by degree of freedom.
   inline Vector

@@ -59,6 +59,10 @@ namespace Exemplar
     std::string
     first_text(std::string own) const override;
 
+    void
+    give_from_root(const std::function<std::string()>             &pack,
+                   const std::function<void(const std::string &)> &unpack) const override;
+
     unsigned int
     n_nodes(unsigned int /*own*/) const override
     {

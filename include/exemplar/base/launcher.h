@@ -14,13 +14,6 @@ namespace Exemplar
     unsigned int process     = 0; ///< which of these this is
 
     bool is_ready_for_mpi = true; ///< whether it tells the processes how they find each other
-
-    /// Whether this process is certainly alone.
-    bool
-    is_alone() const
-    {
-      return n_processes == 1;
-    }
   };
 
   Launch

@@ -3,6 +3,7 @@
 #define exemplar_process_group_h
 
 #include <functional>
+#include <ostream>
 
 namespace Exemplar
 {
@@ -20,6 +21,23 @@ namespace Exemplar
     is_root() const
     {
       return process == 0;
+    }
+
+    /// Do what the root does alone.
+    template <typename Action>
+    void
+    at_root(const Action &action) const
+    {
+      if (is_root())
+        action();
+    }
+
+    /// A stream at the root; elsewhere one that shows nothing.
+    std::ostream &
+    of_root(std::ostream &out) const
+    {
+      static std::ostream nowhere(nullptr);
+      return is_root() ? out : nowhere;
     }
   };
 } // namespace Exemplar

@@ -6,7 +6,6 @@
 #include <exemplar/kernels/cell_model.h>
 #include <exemplar/mesh/msh_file.h>
 
-#include <set>
 #include <vector>
 
 namespace Exemplar
@@ -28,15 +27,16 @@ namespace Exemplar
   class Material
   {
   public:
+    /// Of no cells.
+    Material() = default;
+
     /// `names` is a mesh whose physical groups may give regions their names. Throws UserError if
-    /// a region is named by a material id that no cell has (or, where `regions` is not null, that
-    /// is not there), by no name of the mesh, or twice, and for painted constants that are out of
-    /// range.
+    /// a region is named by a material id that no cell has, by no name of the mesh, or twice, and for
+    /// painted constants that are out of range.
     Material(const MaterialParameters        &parameters,
              const std::vector<unsigned int> &material_ids,
              const MshFile                   &names   = {},
-             const PaintedMaterial           &painted = {},
-             const std::set<unsigned int>    *regions = nullptr);
+             const PaintedMaterial           &painted = {});
 
     const CellMaterial<double> &
     elasticity(const unsigned int cell) const
@@ -51,6 +51,17 @@ namespace Exemplar
     /// What is left of it in cells of which the volume part of the energy is that of patches.
     Material
     without_dilatation() const;
+
+    /// That of these cells, in their order.
+    Material
+    part(const std::vector<unsigned int> &cells) const;
+
+    template <typename Archive>
+    void
+    serialize(Archive &archive, unsigned int /*version*/)
+    {
+      archive &constants &constants_of_cell;
+    }
 
     double
     density(const unsigned int cell) const
@@ -72,6 +83,13 @@ namespace Exemplar
       double               density;
       double               youngs_modulus;
       OwnConstants         own;
+
+      template <typename Archive>
+      void
+      serialize(Archive &archive, unsigned int /*version*/)
+      {
+        archive &elasticity.lambda &elasticity.mu &density &youngs_modulus &own;
+      }
     };
 
     void

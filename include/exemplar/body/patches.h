@@ -17,25 +17,20 @@ namespace Exemplar
   class Patches
   {
   public:
-    /// Stars of nodes: the node with the most cells that have no patch yet takes these, first as
-    /// long as they are 18 or more, then 9. In between and at the end cells that are left join a
+    /// The patch of each cell of a whole body, numbered from 0 on. Quadratic elements have one for each
+    /// cell, linear ones stars of nodes: the node with the most cells that have no patch yet takes these,
+    /// first as long as they are 18 or more, then 9. In between and at the end cells that are left join a
     /// patch with which they share a face, first if all their nodes are nodes of the patch. Nodes
     /// with equally many cells are taken in the order of their numbers. A patch lies in one region,
     /// and its Lamé constants lambda, where they are painted, within a factor of two.
-    Patches(const Mesh &mesh, const FESpace &fe_space, const Material &material);
+    static std::vector<unsigned int>
+    choose(const Mesh &mesh, const Material &material, Element element);
 
-    /// Those that stars() has chosen in the whole body: the one of each cell of this process, numbered
-    /// from 0 on without gaps; of quadratic elements there are none.
-    Patches(const std::vector<unsigned int> &stars_of_cells,
+    /// Those that choose() has found: the one of each cell of this process, numbered from 0 on without
+    /// gaps.
+    Patches(const std::vector<unsigned int> &of_cells,
             const FESpace                   &fe_space,
             const Material                  &material);
-
-    /// The patch of each cell, of linear elements on the cells of a mesh with as many nodes.
-    static std::vector<unsigned int>
-    stars(const std::vector<std::array<unsigned int, 4>> &cells,
-          unsigned int                                    n_nodes,
-          const std::vector<unsigned int>                &material_ids,
-          const Material                                 &material);
 
     unsigned int
     size() const
@@ -75,9 +70,6 @@ namespace Exemplar
     memory_consumption() const;
 
   private:
-    void
-    collect(const FESpace &fe_space, const Material &material);
-
     std::vector<unsigned int>              patch_of_point;
     std::vector<std::vector<unsigned int>> points_of_patch;
     std::vector<double>                    volumes;

@@ -29,6 +29,13 @@ namespace Exemplar
     std::array<dealii::Point<3>, 4> rest;      ///< where these are at rest [m]
     std::array<unsigned int, 3>     nodes;     ///< with held degrees of freedom
     std::vector<unsigned int>       held_dofs; ///< ascending
+
+    template <typename Archive>
+    void
+    serialize(Archive &archive, unsigned int /*version*/)
+    {
+      archive &corners &rest &nodes &held_dofs;
+    }
   };
 
   /// The support in the cell nearest to the centroid of the nodes of a whole body.

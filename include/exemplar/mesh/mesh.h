@@ -2,6 +2,7 @@
 #ifndef exemplar_mesh_h
 #define exemplar_mesh_h
 
+#include <exemplar/mesh/cell_order.h>
 #include <exemplar/mesh/mesh_part.h>
 
 #include <deal.II/grid/tria.h>
@@ -49,14 +50,12 @@ namespace Exemplar
       return of_whole;
     }
 
-    /// Of values of the cells, equally many each: those of the whole body in the order of its file, the
-    /// same in all processes, which must all call this.
-    std::vector<double>
-    whole_cells(const std::vector<double> &own) const;
-
-    /// What of whole_cells() this process has.
-    std::vector<double>
-    own_cells(const std::vector<double> &of_whole_body) const;
+    /// Of the cells among those of the body.
+    const CellOrder &
+    cell_order() const
+    {
+      return order;
+    }
 
     /// With the processes that have the other parts.
     const Exchange &
@@ -178,29 +177,21 @@ namespace Exemplar
     memory_consumption() const;
 
   private:
-    std::vector<dealii::Point<3>>
-    scaled(std::vector<dealii::Point<3>> nodes) const;
-
-    Mesh(MeshArrays arrays, const std::string &name, double scale);
-
-    std::unique_ptr<dealii::Triangulation<3>>
-    make_triangulation() const;
-
-    /// Everything else relies on deal.II's numbers being the file's: 9.5 has begun to remove unused
-    /// vertices when reading, so do not take it for granted.
-    void
-    check_numbering() const;
-
     MeshArrays                      arrays;
     std::string                     name;
     double                          scale;
     WholeMesh                       of_whole;
-    std::vector<unsigned int>       cells_in_file; ///< empty in one process
-    std::shared_ptr<const Exchange> shared;        ///< null in one process
-    const Exchange                 *with_others;   ///< that, or the one of one process
-    std::shared_ptr<const MshFile>  file;          ///< null but at the root of several
+    std::shared_ptr<const Exchange> shared;      ///< null in one process
+    const Exchange                 *with_others; ///< that, or the one of one process
+    CellOrder                       order;
+    std::shared_ptr<const MshFile>  file; ///< null but at the root of several
     mutable std::unique_ptr<dealii::Triangulation<3>> triangulation; ///< null: nobody has asked yet
   };
+
+  /// The numbers in the mesh file of cells of the whole body, in the order of the file, of which each
+  /// process gives those that it has. All processes must call this.
+  std::vector<std::size_t>
+  whole_elements(const Mesh &mesh, const std::vector<unsigned int> &own_cells);
 } // namespace Exemplar
 
 #endif

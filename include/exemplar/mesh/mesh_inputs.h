@@ -29,6 +29,13 @@ namespace Exemplar
   {
     std::array<unsigned int, 3> nodes;
     unsigned int                boundary_id;
+
+    template <typename Archive>
+    void
+    serialize(Archive &archive, unsigned int /*version*/)
+    {
+      archive &nodes &boundary_id;
+    }
   };
 
   /// Read, mesh with gmsh (.geo) or generate as the parameters say; not scaled. Throws UserError

@@ -7,9 +7,12 @@
 
 #include <memory>
 #include <set>
+#include <vector>
 
 namespace Exemplar
 {
+  class Mesh;
+
   /// Facts of a whole body of which a process may have a part.
   struct WholeMesh
   {
@@ -36,7 +39,37 @@ namespace Exemplar
     std::shared_ptr<const Exchange> exchange;      ///< with the others
     /// The file as read (scaled), at the root; null elsewhere.
     std::shared_ptr<const MshFile> contents_of_whole;
+
+    /// What the root sends of it.
+    template <typename Archive>
+    void
+    serialize(Archive &archive, unsigned int /*version*/)
+    {
+      MshFile                       &contents = arrays.contents;
+      archive &whole &cells_in_file &contents.node_numbers &contents.nodes &contents.physical_names;
+      archive &arrays.cells &arrays.material_ids &arrays.element_numbers &arrays.boundary_faces;
+    }
   };
+
+  /// The entries of a list at these places.
+  template <typename T>
+  std::vector<T>
+  chosen(const std::vector<T> &all, const std::vector<unsigned int> &places)
+  {
+    std::vector<T> some;
+    some.reserve(places.size());
+    for (const unsigned int place : places)
+      some.push_back(all[place]);
+    return some;
+  }
+
+  /// What a process gets of a whole mesh: these nodes, ascending, and cells and faces of the boundary
+  /// that have no others. The exchange is still to come.
+  MeshPart
+  part_of(const Mesh                      &whole,
+          const std::vector<unsigned int> &nodes,
+          const std::vector<unsigned int> &cells,
+          const std::vector<unsigned int> &faces);
 } // namespace Exemplar
 
 #endif

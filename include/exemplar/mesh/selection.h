@@ -56,13 +56,17 @@ namespace Exemplar
     map() const;
 
     /// The selected nodes in ascending order; those of "nodes FILE" are in `named`, by
-    /// the FILE, and those of selections by the surface, by their text. Of a mesh of which this
-    /// process has a part all are there by their text. Throws
+    /// the FILE, and those of selections by the surface, by their text. `mesh` is a whole one. Throws
     /// UserError, calling the selection `key`, if it is misspelt or selects nothing.
+    std::vector<unsigned int>
+    choose(const Mesh &mesh, const std::string &key, const NamedNodes &named = {}) const;
+
+    /// The nodes that are in `named` by the text of this selection, maybe none, or else those that
+    /// choose() finds.
     std::vector<unsigned int>
     nodes(const Mesh &mesh, const std::string &key, const NamedNodes &named = {}) const;
 
-    /// The faces of "boundary ID".
+    /// The faces of "boundary ID", maybe none.
     std::vector<BoundaryFace>
     faces(const Mesh &mesh, const std::string &key) const;
   };

@@ -10,6 +10,10 @@ namespace Exemplar
 {
   struct DeclaredKey;
 
+  /// The letters and digits of a text: people write YoungsModulus, youngs_modulus and the like.
+  std::string
+  letters_of(const std::string &text);
+
   /// What to say of a path ("Section/Key") that no key has: which keys may have been meant, or
   /// else which keys the section has. One or more sentences. Keys of the command line are named
   /// with `option_value` ("=value") behind them, as a shell takes them.

@@ -2,6 +2,8 @@
 #ifndef exemplar_run_log_h
 #define exemplar_run_log_h
 
+#include <exemplar/base/process_group.h>
+
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -45,7 +47,7 @@ namespace Exemplar
     }
 
   private:
-    const bool               speaks; ///< this process does
+    const ProcessGroup      &processes;
     const bool               quiet;
     std::vector<std::string> warnings;
     std::string              waiting; ///< for the file

@@ -10,6 +10,10 @@ namespace Exemplar
   // A new format is a file with its writer, a declaration here and a line in the table.
   std::unique_ptr<const FrameWriter>
   make_vtu_writer(const FrameSubject &subject);
+  void
+  write_joint_vtu(const Frame                    &frame,
+                  const std::vector<std::string> &pieces,
+                  const std::filesystem::path    &file);
   std::unique_ptr<const FrameWriter>
   make_obj_writer(const FrameSubject &subject);
   std::unique_ptr<const FrameWriter>
@@ -28,7 +32,8 @@ namespace Exemplar
     static const std::vector<FrameFormat> formats = {
       { "vtu", "animation.pvd", make_vtu_writer,
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\"",
-        "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">", false, "pvtu",
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">", false,
+        write_joint_vtu, "pvtu",
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"PUnstructuredGrid\" version=\"1.0\"" },
       { "obj", "", make_obj_writer, "# a frame by exemplar\n", "", true },
       { "ply", "", make_ply_writer,
@@ -68,10 +73,15 @@ namespace Exemplar
     return "frame_" + padded(step) + "." + name;
   }
 
-  std::string
-  FrameFormat::piece_name(const unsigned int step, const unsigned int process) const
+  std::vector<std::string>
+  FrameFormat::names_of_pieces(const unsigned int step, const unsigned int n_processes) const
   {
-    return "frame_" + padded(step) + "_process_" + padded(process) + "." + name;
+    if (n_processes == 1)
+      return { frame_name(step) };
+    std::vector<std::string> names;
+    for (unsigned int process = 0; process < n_processes; ++process)
+      names.push_back("frame_" + padded(step) + "_process_" + padded(process) + "." + name);
+    return names;
   }
 
   std::string
@@ -87,11 +97,9 @@ namespace Exemplar
     static const std::regex frame("frame_" + number + "\\.(.+)"),
         piece("frame_" + number + "_process_" + number + "\\.(.+)");
     std::smatch parts;
-    const bool  is_whole
-        = std::regex_match(file, parts, frame)
-          && (parts[2] == name || (!joint_ending.empty() && parts[2] == joint_ending));
-    if (is_whole
-        || (!joint_ending.empty() && std::regex_match(file, parts, piece) && parts[3] == name))
+    const bool  is_whole = std::regex_match(file, parts, frame)
+                          && (parts[2] == name || (has_pieces() && parts[2] == joint_ending));
+    if (is_whole || (has_pieces() && std::regex_match(file, parts, piece) && parts[3] == name))
       return static_cast<unsigned int>(std::stoul(parts[1]));
     return std::nullopt;
   }
@@ -103,7 +111,7 @@ namespace Exemplar
       return animation_beginning;
     if (const auto step = step_of(file); !step)
       return std::nullopt;
-    else if (!joint_ending.empty() && file == joint_name(*step))
+    else if (has_pieces() && file == joint_name(*step))
       return joint_beginning;
     return frame_beginning;
   }

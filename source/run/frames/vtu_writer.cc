@@ -2,7 +2,6 @@
 #include <exemplar/base/atomic_file.h>
 #include <exemplar/mesh/mesh.h>
 #include <exemplar/run/frames/frame_formats.h>
-#include <exemplar/run/frames/vtu_pieces.h>
 
 #include <deal.II/base/utilities.h>
 

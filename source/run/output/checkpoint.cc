@@ -141,17 +141,22 @@ namespace Exemplar
   void
   share(const Exchange &exchange, Checkpoint &checkpoint)
   {
-    if (exchange.n_processes() == 1)
-      return;
-    std::ostringstream out;
-    if (exchange.is_root())
-    {
-      boost::archive::binary_oarchive archive(out);
-      archive << static_cast<const Checkpoint &>(checkpoint);
-    }
-    std::istringstream              in(exchange.first_text(out.str()));
-    boost::archive::binary_iarchive archive(in);
-    archive >> checkpoint;
+    exchange.give_from_root(
+        [&]
+        {
+          std::ostringstream out;
+          {
+            boost::archive::binary_oarchive archive(out);
+            archive << static_cast<const Checkpoint &>(checkpoint);
+          }
+          return out.str();
+        },
+        [&](const std::string &bytes)
+        {
+          std::istringstream              in(bytes);
+          boost::archive::binary_iarchive archive(in);
+          archive >> checkpoint;
+        });
   }
 
   void

@@ -56,7 +56,8 @@ namespace Exemplar
     const Exchange &exchange = problem.body.exchange();
     if (handles.size() > 0)
     {
-      double own = exchange.is_root() ? work.handles : 0.;
+      double own = 0.;
+      at_root(exchange, [&] { own = work.handles; });
       for (const unsigned int dof : handles.held_dofs())
         if (exchange.owns(dof / 3))
           own += problem.evaluation.gradient[dof] * displacement[dof];

@@ -3,7 +3,6 @@
 #include <exemplar/base/atomic_file.h>
 #include <exemplar/base/environment.h>
 #include <exemplar/base/errors.h>
-#include <exemplar/run/frames/vtu_pieces.h>
 #include <exemplar/run/output/frame_output.h>
 #include <exemplar/run/problem/finiteness.h>
 #include <exemplar/surface/files/write_obj.h>
@@ -152,21 +151,17 @@ namespace Exemplar
   FrameOutput::write_files(Frame &frame) const
   {
     const Exchange &exchange = problem.body.exchange();
-    const bool      is_alone = exchange.n_processes() == 1;
+    const fs::path &path     = directory.get_path();
     if (skin != nullptr)
       frame.surface = skin->carry(frame.displacement);
     for (const auto &[format, writer] : writers)
     {
       directory.require_taken();
-      writer->write(frame, directory.get_path()
-                               / (is_alone ? format->frame_name(frame.step)
-                                           : format->piece_name(frame.step, exchange.process())));
-      if (is_alone || !exchange.is_root())
-        continue;
-      std::vector<std::string> pieces;
-      for (unsigned int process = 0; process < exchange.n_processes(); ++process)
-        pieces.push_back(format->piece_name(frame.step, process));
-      write_joint_vtu(frame, pieces, directory.get_path() / format->joint_name(frame.step));
+      const auto pieces = format->names_of_pieces(frame.step, exchange.n_processes());
+      writer->write(frame, path / pieces[exchange.process()]);
+      if (pieces.size() > 1)
+        at_root(exchange,
+                [&, &of = *format] { of.join(frame, pieces, path / of.joint_name(frame.step)); });
     }
   }
 
@@ -174,7 +169,7 @@ namespace Exemplar
   FrameOutput::file_of(const FrameFormat &format, const unsigned int step) const
   {
     if (const fs::path joint = directory.get_path() / format.joint_name(step);
-        !format.joint_ending.empty() && fs::exists(joint))
+        format.has_pieces() && fs::exists(joint))
       return joint;
     return directory.get_path() / format.frame_name(step);
   }

@@ -73,7 +73,7 @@ namespace Exemplar
   } // namespace
 
   RunDirectory::RunDirectory(fs::path path, const std::vector<FrameFormat> &formats)
-      : path(std::move(path)), formats(formats)
+      : files{ std::move(path) }, formats(formats)
   {
   }
 
@@ -98,21 +98,21 @@ namespace Exemplar
   RunDirectory::objection_to(const std::string &name) const
   {
     const auto beginning = beginning_of(name);
-    return beginning ? Exemplar::objection_to(path / name, *beginning) : "no run writes";
+    return beginning ? Exemplar::objection_to(get_path() / name, *beginning) : "no run writes";
   }
 
   bool
   RunDirectory::is_ours() const
   {
-    return fs::is_regular_file(fs::symlink_status(parameters_prm()))
-           && begins_with(parameters_prm(), mark);
+    return fs::is_regular_file(fs::symlink_status(files.parameters_prm()))
+           && begins_with(files.parameters_prm(), mark);
   }
 
   std::vector<std::string>
   RunDirectory::own_names() const
   {
     std::vector<std::string> names;
-    for (const auto &entry : fs::directory_iterator(path))
+    for (const auto &entry : fs::directory_iterator(get_path()))
       if (const std::string name = entry.path().filename().string(); beginning_of(name))
         names.push_back(name);
     std::sort(names.begin(), names.end()); // so that messages do not depend on the file system
@@ -123,14 +123,15 @@ namespace Exemplar
   RunDirectory::lock()
   {
     taken = std::make_unique<const DirectoryLock>(
-        path, "Another run is writing into the output directory " + path.string()
-                  + ". Wait for its end or stop it." + remedy);
+        get_path(), "Another run is writing into the output directory " + get_path().string()
+                        + ". Wait for its end or stop it." + remedy);
   }
 
   void
   RunDirectory::watch()
   {
-    watched = std::make_unique<const OpenDirectory>(path);
+    if (taken == nullptr)
+      watched = std::make_unique<const OpenDirectory>(get_path());
   }
 
   void
@@ -139,7 +140,7 @@ namespace Exemplar
     if ((taken != nullptr && !taken->is_in_place())
         || (watched != nullptr && !watched->is_in_place()))
       throw std::runtime_error(
-          "The output directory " + path.string()
+          "The output directory " + get_path().string()
           + " has been removed or replaced while the run was writing into it.");
   }
 
@@ -150,8 +151,9 @@ namespace Exemplar
   {
     for (const std::string &name : names)
       for (const fs::path &input : input_files)
-        if (fs::exists(path / name) && fs::exists(input) && fs::equivalent(path / name, input))
-          throw UserError("Output directory " + path.string() + " holds the input file "
+        if (fs::exists(get_path() / name) && fs::exists(input)
+            && fs::equivalent(get_path() / name, input))
+          throw UserError("Output directory " + get_path().string() + " holds the input file "
                           + input.string() + ", which this run would " + what_would_happen + "."
                           + remedy);
   }
@@ -159,30 +161,32 @@ namespace Exemplar
   void
   RunDirectory::refuse_directory_of_others(const std::vector<std::string> &names) const
   {
-    const auto n_files = std::distance(fs::directory_iterator(path), fs::directory_iterator());
+    const auto n_files
+        = std::distance(fs::directory_iterator(get_path()), fs::directory_iterator());
     // a run that was killed before it had a file leaves the first one's temporary
     const bool is_stillborn = static_cast<std::size_t>(n_files) == names.size()
                               && std::all_of(names.begin(), names.end(), is_temporary);
     if (!is_ours() && !is_stillborn)
-      throw UserError("Output directory " + path.string()
-                      + (fs::exists(path / "study.prm") && fs::is_directory(path / "runs")
-                             ? " holds a study."
-                             : " is not empty and was not written by exemplar.")
-                      + remedy);
+      throw UserError(
+          "Output directory " + get_path().string()
+          + (fs::exists(get_path() / "study.prm") && fs::is_directory(get_path() / "runs")
+                 ? " holds a study."
+                 : " is not empty and was not written by exemplar.")
+          + remedy);
   }
 
   std::string
   RunDirectory::refusal_of(const std::string &name, const std::string &objection) const
   {
-    return "Output directory " + path.string() + " holds " + name + ", which " + objection
+    return "Output directory " + get_path().string() + " holds " + name + ", which " + objection
            + ", but a run writes a file of this name.";
   }
 
   void
   RunDirectory::take_for_new_run(const std::vector<fs::path> &input_files)
   {
-    require_writable(path, remedy);
-    make_directory(path, remedy);
+    require_writable(get_path(), remedy);
+    make_directory(get_path(), remedy);
     lock();
     const std::vector<std::string> names = own_names();
     refuse_directory_of_others(names);
@@ -198,7 +202,7 @@ namespace Exemplar
   void
   RunDirectory::take_for_resume(const std::vector<fs::path> &input_files)
   {
-    if (!fs::is_directory(path))
+    if (!fs::is_directory(get_path()))
       return;
     lock();
     const std::vector<std::string> names = own_names();
@@ -206,8 +210,9 @@ namespace Exemplar
     for (const std::string &name : names)
     {
       // the readers of these two say better what is wrong with them
-      const bool is_read    = name == statistics().filename() || name == checkpoint().filename();
-      const bool is_regular = fs::is_regular_file(fs::symlink_status(path / name));
+      const bool is_read
+          = name == files.statistics().filename() || name == files.checkpoint().filename();
+      const bool is_regular = fs::is_regular_file(fs::symlink_status(get_path() / name));
       if (const std::string objection = objection_to(name);
           !objection.empty() && !(is_read && is_regular))
         throw UserError(
@@ -221,16 +226,16 @@ namespace Exemplar
   {
     for (const std::string &name : own_names())
       if (is_shape(name) && objection_to(name).empty())
-        fs::remove(path / name);
+        fs::remove(get_path() / name);
   }
 
   void
   RunDirectory::remove_animations() const
   {
     for (const FrameFormat &format : formats)
-      if (!format.animation.empty() && fs::exists(path / format.animation)
+      if (!format.animation.empty() && fs::exists(get_path() / format.animation)
           && objection_to(format.animation).empty())
-        fs::remove(path / format.animation);
+        fs::remove(get_path() / format.animation);
   }
 
   void
@@ -246,14 +251,14 @@ namespace Exemplar
     };
     for (const std::string &name : own_names())
       if ((is_temporary(name) || is_later(name)) && objection_to(name).empty())
-        fs::remove(path / name);
+        fs::remove(get_path() / name);
   }
 
   fs::path
-  RunDirectory::state(const unsigned int step) const
+  RunFiles::state(const unsigned int step) const
   {
     const std::string digits = std::to_string(step);
-    return path
+    return directory
            / ("state_" + std::string(digits.size() < 4 ? 4 - digits.size() : 0, '0') + digits
               + ".bin");
   }
@@ -262,7 +267,7 @@ namespace Exemplar
   RunDirectory::kept_states() const
   {
     std::vector<unsigned int> steps;
-    for (const auto &entry : fs::directory_iterator(path))
+    for (const auto &entry : fs::directory_iterator(get_path()))
       if (const auto step = step_of_state(entry.path().filename().string()))
         steps.push_back(*step);
     std::sort(steps.begin(), steps.end());
@@ -274,26 +279,27 @@ namespace Exemplar
   {
     const auto numbered = [&](const fs::path &file, const unsigned int number)
     {
-      return path
+      return get_path()
              / (file.stem().string() + "_" + std::to_string(number) + file.extension().string());
     };
-    const std::array<fs::path, 3> files{ { parameters_prm(), statistics(), original_prm() } };
+    const std::array<fs::path, 3> kept{ { files.parameters_prm(), files.statistics(),
+                                          files.original_prm() } };
     unsigned int                  number = 1;
-    while (std::any_of(files.begin(), files.end(),
+    while (std::any_of(kept.begin(), kept.end(),
                        [&](const fs::path &file) { return !is_absent(numbered(file, number)); }))
       ++number;
-    for (const fs::path &file : files)
+    for (const fs::path &file : kept)
       fs::copy_file(file, numbered(file, number));
-    return numbered(original_prm(), number).filename().string();
+    return numbered(files.original_prm(), number).filename().string();
   }
 
   void
   RunDirectory::clear() const
   {
-    fs::remove(checkpoint()); // first: what has lost one of its files cannot be resumed
+    fs::remove(files.checkpoint()); // first: what has lost one of its files cannot be resumed
     for (const std::string &name : own_names())
-      if (path / name
-          != parameters_prm()) // stays until it is replaced: by it the directory is known
-        fs::remove(path / name);
+      if (get_path() / name
+          != files.parameters_prm()) // stays until it is replaced: by it the directory is known
+        fs::remove(get_path() / name);
   }
 } // namespace Exemplar

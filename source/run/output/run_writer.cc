@@ -27,6 +27,15 @@ namespace Exemplar
           cell.value = std::monostate();
     }
 
+    /// None elsewhere.
+    std::map<std::string, std::string>
+    digests_at_root(const SceneFile &scene, const Exchange &exchange)
+    {
+      std::map<std::string, std::string> digests;
+      do_at_root(exchange, [&] { digests = digests_of(scene); });
+      return digests;
+    }
+
     /// Throws SolverFailure if a number is not finite.
     void
     require_numbers(const StatisticsRow &row)
@@ -45,10 +54,9 @@ namespace Exemplar
                        const std::vector<FrameFormat> &formats)
       : problem(problem), exchange(problem.body.exchange()), scene(scene), diagnostics(problem),
         directory(problem.parameters.output.directory, formats),
-        input_digests(exchange.is_root() ? digests_of(scene)
-                                         : std::map<std::string, std::string>()),
+        input_digests(digests_at_root(scene, exchange)), account(problem.clock),
         last_checkpoint(std::chrono::steady_clock::now()), frames(problem, directory, formats),
-        estimator(problem)
+        space_error(problem)
   {
   }
 
@@ -78,29 +86,23 @@ namespace Exemplar
           [&]
           {
             directory.take_for_new_run(inputs());
+            RunTotals totals;
             totals.first_scene = digest_of(scene, input_digests);
-            write_parameters(totals.edits);
+            account.take_over(totals);
+            write_parameters({});
             write_original();
             write_rest_mesh();
-            statistics.emplace(directory.statistics());
+            statistics.emplace(directory.get_files().statistics());
             frames.write_shapes();
           });
-      watch_directory();
+      directory.watch();
       if (frames.is_due(0))
         write_frame();
       write_row(diagnostics.row(problem.state, SolveReport()), {}, true);
       save(); // so that a crash before the first interval can be resumed, too
       keep_state();
     }
-    end_reading();
-    lap();
-  }
-
-  void
-  RunWriter::watch_directory()
-  {
-    if (!exchange.is_root())
-      directory.watch();
+    account.begin_steps();
   }
 
   void
@@ -119,15 +121,9 @@ namespace Exemplar
   }
 
   void
-  RunWriter::end_reading()
-  {
-    problem.clock.switch_to(Phase::evaluate);
-  }
-
-  void
   RunWriter::write_parameters(const std::vector<SceneEdit> &edits) const
   {
-    AtomicFile atomic_file(directory.parameters_prm());
+    AtomicFile atomic_file(directory.get_files().parameters_prm());
     atomic_file.stream() << RunDirectory::mark << '\n';
     for (const SceneEdit &edit : edits)
       atomic_file.stream() << "# after step " << edit.step << "; the scene before is "
@@ -139,7 +135,7 @@ namespace Exemplar
   void
   RunWriter::write_original() const
   {
-    AtomicFile file(directory.original_prm());
+    AtomicFile file(directory.get_files().original_prm());
     file.stream() << scene.get_text();
     file.commit();
   }
@@ -149,21 +145,7 @@ namespace Exemplar
   {
     if (problem.parameters.mesh.is_surface())
       problem.body.mesh.write_pose(problem.body.mesh.contents_of_whole().nodes,
-                                   directory.rest_mesh());
-  }
-
-  PhaseSeconds
-  RunWriter::lap()
-  {
-    const PhaseSeconds now = problem.clock.read();
-    PhaseSeconds       seconds;
-    for (unsigned int phase = 0; phase < n_phases; ++phase)
-    {
-      seconds[phase] = now[phase] - last_lap[phase];
-      totals.seconds[phase] += seconds[phase];
-    }
-    last_lap = now;
-    return seconds;
+                                   directory.get_files().rest_mesh());
   }
 
   void
@@ -172,11 +154,8 @@ namespace Exemplar
     const bool       accepted = is_success(report.status);
     StepClock::Scope scope(problem.clock, Phase::output);
 
-    totals.iterations += report.iterations;
-    totals.factorizations = earlier_factorizations + problem.system.n_factorizations();
-    totals.worst_residual = std::max(totals.worst_residual, report.residual);
-
-    space_error.reset();
+    account.add_step(report, problem.system.n_factorizations());
+    space_error.forget();
     if (accepted)
       diagnostics.add_step();
     State shown = problem.state;
@@ -192,39 +171,24 @@ namespace Exemplar
       require_numbers(row);
     if (accepted && frames.is_due(problem.state.step))
       write_frame();
-    write_row(std::move(row), lap(), accepted);
+    write_row(std::move(row), account.lap(), accepted);
     if (accepted)
       keep_state();
 
     const std::chrono::duration<double> since = std::chrono::steady_clock::now() - last_checkpoint;
-    const bool is_time = since.count() > 60. * problem.parameters.output.checkpoint_minutes;
-    if (accepted && exchange.any(exchange.is_root() && is_time))
+    bool is_time = false; // by the clock of the root, which no decision but this one depends on
+    Exemplar::at_root(
+        exchange,
+        [&] { is_time = since.count() > 60. * problem.parameters.output.checkpoint_minutes; });
+    if (accepted && exchange.any(is_time))
       save();
   }
 
   void
   RunWriter::write_frame()
   {
-    find_space_error();
-    frames.write(space_error);
-  }
-
-  bool
-  RunWriter::is_last_step() const
-  {
-    return problem.state.step == problem.time_axis.n_steps();
-  }
-
-  void
-  RunWriter::find_space_error()
-  {
-    const SpaceErrorUse use          = problem.parameters.output.space_error;
-    const unsigned int  step         = problem.state.step;
-    const bool          is_asked_for = use != SpaceErrorUse::never
-                              && (step == problem.time_axis.n_steps()
-                                  || (use == SpaceErrorUse::in_frames && frames.is_due(step)));
-    if (is_asked_for && !space_error)
-      space_error = estimator.estimate();
+    space_error.find(frames.is_due(problem.state.step));
+    frames.write(space_error.get());
   }
 
   void
@@ -235,18 +199,15 @@ namespace Exemplar
       frames.drain();
       write_final_pose();
       save(); // whatever happens to animations and estimates
-      if (is_last_step())
-        find_space_error();
-      else
-        space_error.reset();
+      space_error.find_at_end();
       at_root([&] { frames.write_animations(); });
     }
-    lap();
+    account.lap();
     at_root([] {}); // the directory is still there
     const auto mesh_digest = input_digests.find(problem.parameters.mesh.file);
-    write_summary(problem, totals, space_error,
+    write_summary(problem, get_totals(), space_error.get(),
                   mesh_digest != input_digests.end() ? mesh_digest->second : "generated", status,
-                  warnings, directory.summary());
+                  warnings, directory.get_files().summary());
   }
 
   void
@@ -262,7 +223,7 @@ namespace Exemplar
                                                         : positions.size() / 3);
           for (unsigned int dof = 0; dof < 3 * nodes.size(); ++dof)
             nodes[dof / 3][dof % 3] = positions[dof];
-          mesh.write_pose(nodes, directory.final_pose());
+          mesh.write_pose(nodes, directory.get_files().final_pose());
         });
   }
 
@@ -272,7 +233,7 @@ namespace Exemplar
     frames.drain(); // because a resumed run does not write them again
     last_checkpoint             = std::chrono::steady_clock::now();
     const Checkpoint checkpoint = present();
-    at_root([&] { save_checkpoint(checkpoint, directory.checkpoint()); });
+    at_root([&] { save_checkpoint(checkpoint, directory.get_files().checkpoint()); });
   }
 
   void
@@ -281,20 +242,20 @@ namespace Exemplar
     if (!problem.parameters.output.keep_states || !frames.is_due(problem.state.step))
       return;
     const Checkpoint checkpoint = present();
-    at_root([&] { save_checkpoint(checkpoint, directory.state(problem.state.step)); });
+    at_root([&] { save_checkpoint(checkpoint, directory.get_files().state(problem.state.step)); });
   }
 
   Checkpoint
   RunWriter::present() const
   {
     std::string digest;
-    at_root([&] { digest = sha256_of_begin(directory.statistics(), accepted_bytes); });
+    at_root([&] { digest = sha256_of_begin(directory.get_files().statistics(), accepted_bytes); });
     return { values_of(scene),
              input_digests,
              whole(problem.body.mesh, problem.state),
              problem.solver_memory(),
              diagnostics.get_work(),
-             totals,
+             get_totals(),
              accepted_bytes,
              digest };
   }

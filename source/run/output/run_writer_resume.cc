@@ -31,19 +31,21 @@ namespace Exemplar
         [&]
         {
           directory.take_for_resume(scene.named_files());
-          checkpoint = load_checkpoint(directory.checkpoint());
-          check_resumable(checkpoint, scene, input_digests, problem, directory.checkpoint());
-          check_statistics(directory.statistics(), checkpoint);
+          checkpoint = load_checkpoint(directory.get_files().checkpoint());
+          check_resumable(checkpoint, scene, input_digests, problem,
+                          directory.get_files().checkpoint());
+          check_statistics(directory.get_files().statistics(), checkpoint);
         });
-    watch_directory();
+    directory.watch();
     share(exchange, checkpoint);
-    restore(checkpoint, directory.checkpoint(), problem); // the last thing that may refuse
+    restore(checkpoint, directory.get_files().checkpoint(),
+            problem); // the last thing that may refuse
     {
       StepClock::Scope scope(problem.clock, Phase::output);
       at_root(
           [&]
           {
-            statistics.emplace(directory.statistics(), checkpoint.statistics_bytes);
+            statistics.emplace(directory.get_files().statistics(), checkpoint.statistics_bytes);
             write_original();
             write_rest_mesh();
             write_parameters(checkpoint.totals.edits);
@@ -53,17 +55,18 @@ namespace Exemplar
     }
     accepted_bytes = checkpoint.statistics_bytes;
     diagnostics.resume(checkpoint.work);
+    account.take_over(checkpoint.totals);
     go_on_from(checkpoint);
   }
 
   fs::path
   RunWriter::find_state(const unsigned int step, const unsigned int last) const
   {
-    const fs::path kept = directory.state(step);
+    const fs::path kept = directory.get_files().state(step);
     if (fs::exists(kept))
       return kept;
     if (last == step)
-      return directory.checkpoint();
+      return directory.get_files().checkpoint();
     std::string steps;
     for (const unsigned int other : directory.kept_states())
       if (other != last)
@@ -79,14 +82,14 @@ namespace Exemplar
   RunWriter::load_state(const unsigned int step, Checkpoint &checkpoint) const
   {
     // by the checkpoint it is known which run's states these are
-    if (!fs::exists(directory.checkpoint()))
+    if (!fs::exists(directory.get_files().checkpoint()))
       throw UserError(
           directory.get_path().string()
           + " holds no checkpoint of a run to go on with. Run the scene from its start.");
-    const Checkpoint last = load_checkpoint(directory.checkpoint());
+    const Checkpoint last = load_checkpoint(directory.get_files().checkpoint());
     const fs::path   file = find_state(step, last.state.step);
     checkpoint            = load_checkpoint(file);
-    check_kept_state(checkpoint, file, step, last, directory.statistics());
+    check_kept_state(checkpoint, file, step, last, directory.get_files().statistics());
     return file;
   }
 
@@ -103,7 +106,7 @@ namespace Exemplar
           file  = load_state(step, checkpoint);
           check = check_editable(checkpoint, scene, input_digests, problem, file);
         });
-    watch_directory();
+    directory.watch();
     share(exchange, checkpoint);
     restore(checkpoint, file, problem);
     {
@@ -111,29 +114,29 @@ namespace Exemplar
       diagnostics.resume(checkpoint.work);
       StatisticsRow row = diagnostics.row(problem.state, SolveReport());
       Diagnostics::append_seconds(row, {});
-      totals = checkpoint.totals;
       at_root(
           [&]
           {
             if (check.is_edited)
-              totals.edits.push_back(
+              checkpoint.totals.edits.push_back(
                   { step, directory.keep_earlier_scene(), digest_of(scene, input_digests) });
-            accepted_bytes = StatisticsFile::keep_rows(directory.statistics(), step, row);
+            accepted_bytes
+                = StatisticsFile::keep_rows(directory.get_files().statistics(), step, row);
           });
-      checkpoint.totals = totals;
+      account.take_over(checkpoint.totals);
       save(); // a crash from now on can be resumed
       at_root(
           [&]
           {
-            statistics.emplace(directory.statistics(), accepted_bytes);
+            statistics.emplace(directory.get_files().statistics(), accepted_bytes);
             write_original();
             write_rest_mesh();
-            write_parameters(totals.edits);
+            write_parameters(checkpoint.totals.edits);
             directory.remove_shapes();
             directory.remove_animations();
             frames.write_shapes();
-            fs::remove(directory.final_pose());
-            fs::remove(directory.summary());
+            fs::remove(directory.get_files().final_pose());
+            fs::remove(directory.get_files().summary());
           });
     }
     go_on_from(checkpoint);
@@ -152,11 +155,6 @@ namespace Exemplar
         });
     if (frames.is_due(checkpoint.state.step) && frames.is_missing()) // a resume has removed it
       write_frame();
-    totals                 = checkpoint.totals;
-    earlier_factorizations = totals.factorizations;
-    end_reading();
-    last_lap = problem.clock.read();
-    for (unsigned int phase = 0; phase < n_phases; ++phase)
-      totals.seconds[phase] += last_lap[phase];
+    account.begin_steps();
   }
 } // namespace Exemplar

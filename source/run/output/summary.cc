@@ -110,6 +110,79 @@ namespace Exemplar
           names.push_back(part.name);
       return names;
     }
+    /// What all processes must tell of a body that they share.
+    struct SharedNumbers
+    {
+      explicit SharedNumbers(const Problem &problem) : SharedNumbers(problem, peak_memory_mib()) {}
+
+      SharedNumbers(const Problem &problem, const double peak)
+          : exchange(problem.body.exchange()),
+            n_nodes(exchange.n_nodes(problem.body.fe_space.n_nodes())),
+            n_free(static_cast<unsigned int>(
+                exchange.sum(static_cast<double>(problem.constraints.free_dofs.size())))),
+            own_peak(peak), sum_of_peaks(exchange.sum(peak)),
+            peaks(exchange.collect({ static_cast<std::size_t>(peak) })),
+            conditioning(problem.conditioning()), parts(inventory(problem))
+      {
+      }
+
+      const Exchange                  &exchange;
+      const unsigned int               n_nodes, n_free;
+      const double                     own_peak, sum_of_peaks; ///< memory [MiB]
+      const std::vector<std::size_t>   peaks;                  ///< of each process
+      const Conditioning               conditioning;
+      const std::vector<PartOfProblem> parts;
+    };
+
+    void
+    add_program(const Problem &problem, const SharedNumbers &numbers, Json &json)
+    {
+      const BlasInfo blas  = blas_info();
+      json["program"]      = "exemplar";
+      json["version"]      = EXEMPLAR_VERSION;
+      json["git"]          = EXEMPLAR_GIT_REVISION;
+      json["deal_ii"]      = DEAL_II_PACKAGE_VERSION;
+      json["blas"]         = blas.library;
+      json["blas_core"]    = blas.core;
+      json["blas_threads"] = blas.threads;
+      json["processes"]    = numbers.exchange.n_processes();
+      json["threads"]      = problem.parameters.solver.n_threads;
+    }
+
+    void
+    add_body(const Problem       &problem,
+             const SharedNumbers &numbers,
+             const std::string   &mesh_sha256,
+             Json                &json)
+    {
+      const Body &body         = problem.body;
+      json["scene"]            = printable(problem.parameters.name);
+      json["mesh"]             = printable(body.mesh.get_name());
+      json["mesh_sha256"]      = mesh_sha256;
+      json["cells"]            = body.mesh.whole().n_cells;
+      json["element"]          = body.fe_space.element() == Element::P1 ? "P1" : "P2";
+      json["nodes"]            = numbers.n_nodes;
+      json["dofs"]             = 3 * numbers.n_nodes;
+      json["constrained_dofs"] = 3 * numbers.n_nodes - numbers.n_free;
+      if (problem.constraints.support)
+        json["support_nodes"] = support_nodes(problem);
+      if (body.made != nullptr && !body.made->mesh.table.empty())
+        json["mesh_made"] = mesh_made(body.made->mesh);
+      if (body.made != nullptr && !body.made->poses.empty())
+        json["poses_carried"] = poses_carried(body.made->poses);
+      if (body.geo_walls)
+        json["geo_confinement"] = *body.geo_walls;
+    }
+
+    void
+    add_memory(const Problem &problem, const SharedNumbers &numbers, Json &json)
+    {
+      json["peak_memory_mib"]              = numbers.own_peak;
+      json["peak_memory_mib_of_processes"] = numbers.peaks;
+      json["bytes_per_cell"]
+          = std::round(1048576. * numbers.sum_of_peaks / problem.body.mesh.whole().n_cells);
+      json["memory_mib"] = memory_of(numbers.parts);
+    }
   } // namespace
 
   void
@@ -121,80 +194,38 @@ namespace Exemplar
                 const std::vector<std::string>  &warnings,
                 const std::filesystem::path     &file)
   {
-    const BlasInfo                 blas     = blas_info();
-    const Exchange                &exchange = problem.body.exchange();
-    const double                   peak     = peak_memory_mib();
-    const auto                     n_nodes  = exchange.n_nodes(problem.body.fe_space.n_nodes());
-    const double                   n_free   = exchange.sum(problem.constraints.free_dofs.size());
-    const std::vector<std::size_t> peaks    = exchange.collect({ static_cast<std::size_t>(peak) });
-    const Conditioning             conditioning = problem.conditioning();
+    const SharedNumbers numbers(problem);
+    at_root(numbers.exchange,
+            [&]
+            {
+              Json json;
+              add_program(problem, numbers, json);
+              add_body(problem, numbers, mesh_sha256, json);
+              json["linear_solver"]  = problem.system.bordered().traits().name;
+              json["examples"]       = problem.examples.poses.size();
+              json["steps"]          = problem.state.step;
+              json["iterations"]     = totals.iterations;
+              json["factorizations"] = totals.factorizations;
+              json["status"]         = status;
+              json["warnings"]       = warnings_of(warnings);
+              json["worst_residual"] = totals.worst_residual;
+              if (space_error)
+                json["space_error"] = errors_of(*space_error);
+              for (const SceneEdit &edit : totals.edits)
+                json["edits"].push_back({ { "step", edit.step }, { "scene_before", edit.before } });
+              if (numbers.conditioning.matrix > 0.)
+                json["condition_matrix"] = numbers.conditioning.matrix; // null: not definite
+              if (numbers.conditioning.schur > 0.)
+                json["condition_schur"] = numbers.conditioning.schur;
+              json["seconds"] = seconds_of(totals.seconds);
+              add_memory(problem, numbers, json);
+              json["used"]     = names_of(numbers.parts, true);
+              json["left_out"] = names_of(numbers.parts, false);
 
-    const std::vector<PartOfProblem> parts = inventory(problem);
-
-    Json json;
-    json["program"]      = "exemplar";
-    json["version"]      = EXEMPLAR_VERSION;
-    json["git"]          = EXEMPLAR_GIT_REVISION;
-    json["deal_ii"]      = DEAL_II_PACKAGE_VERSION;
-    json["blas"]         = blas.library;
-    json["blas_core"]    = blas.core;
-    json["blas_threads"] = blas.threads;
-    if (exchange.n_processes() > 1)
-      json["processes"] = exchange.n_processes();
-    json["threads"]          = problem.parameters.solver.n_threads;
-    json["scene"]            = printable(problem.parameters.name);
-    json["mesh"]             = printable(problem.body.mesh.get_name());
-    json["mesh_sha256"]      = mesh_sha256;
-    json["cells"]            = problem.body.mesh.whole().n_cells;
-    json["element"]          = traits_of(problem.body.fe_space.element()).name;
-    json["nodes"]            = n_nodes;
-    json["dofs"]             = 3 * n_nodes;
-    json["constrained_dofs"] = 3 * n_nodes - static_cast<unsigned int>(n_free);
-    if (problem.constraints.support && exchange.is_root())
-      json["support_nodes"] = support_nodes(problem);
-    if (const auto &made = problem.body.made; made != nullptr)
-    {
-      if (!made->mesh.table.empty())
-        json["mesh_made"] = mesh_made(made->mesh);
-      if (!made->poses.empty())
-        json["poses_carried"] = poses_carried(made->poses);
-    }
-    if (problem.body.geo_walls)
-      json["geo_confinement"] = *problem.body.geo_walls;
-    json["linear_solver"]  = problem.system.bordered().traits().name;
-    json["examples"]       = problem.examples.poses.size();
-    json["steps"]          = problem.state.step;
-    json["iterations"]     = totals.iterations;
-    json["factorizations"] = totals.factorizations;
-    json["status"]         = status;
-    json["warnings"]       = warnings_of(warnings);
-    json["worst_residual"] = totals.worst_residual;
-    if (space_error)
-      json["space_error"] = errors_of(*space_error);
-    for (const SceneEdit &edit : totals.edits)
-      json["edits"].push_back({ { "step", edit.step }, { "scene_before", edit.before } });
-    if (conditioning.matrix > 0.)
-      json["condition_matrix"] = conditioning.matrix; // null: not definite
-    if (conditioning.schur > 0.)
-      json["condition_schur"] = conditioning.schur;
-    json["seconds"]         = seconds_of(totals.seconds);
-    json["peak_memory_mib"] = peak;
-    if (exchange.n_processes() > 1)
-      json["peak_memory_mib_of_processes"] = peaks;
-    json["bytes_per_cell"]
-        = std::round(1048576.
-                     * (exchange.n_processes() == 1
-                            ? peak
-                            : static_cast<double>(std::accumulate(peaks.begin(), peaks.end(), 0ul)))
-                     / problem.body.mesh.whole().n_cells);
-    json["memory_mib"] = memory_of(parts);
-    json["used"]       = names_of(parts, true);
-    json["left_out"]   = names_of(parts, false);
-
-    if (!exchange.is_root())
-      return;
-    AtomicFile atomic_file(file);
-    atomic_file.stream() << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
-    atomic_file.commit();
+              AtomicFile atomic_file(file);
+              atomic_file.stream()
+                  << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+              atomic_file.commit();
+            });
   }
 } // namespace Exemplar

@@ -30,13 +30,16 @@ namespace Exemplar
   } // namespace
 
   Problem::Problem(SceneParameters scene, Inputs inputs, StepClock running_clock)
+      : Problem(scene, make_body_inputs(scene, std::move(inputs)), std::move(running_clock))
+  {
+  }
+
+  Problem::Problem(SceneParameters scene, BodyInputs given, StepClock running_clock)
       : parameters(completed(std::move(scene))), clock(std::move(running_clock)),
-        inputs(parameters.output.space_error == SpaceErrorUse::never
-                   ? nullptr
-                   : std::make_shared<const Inputs>(inputs)),
-        time_axis(make_time_axis(parameters)), body(parameters, inputs), surface(inputs.surface),
-        constraints(parameters, body, time_axis, inputs),
-        examples(parameters, body, time_axis, inputs), actions(parameters, body, inputs),
+        inputs(given.undivided.inputs), time_axis(make_time_axis(parameters)),
+        body(parameters, given), surface(given.undivided.surface),
+        constraints(parameters, body, time_axis, given),
+        examples(parameters, body, time_axis, given), actions(parameters, body, given),
         potential({ parameters.model.law(), body.fe_space, body.material, body.cell_material,
                     examples.poses, examples.weights, constraints.free_dofs,
                     parameters.solver.n_threads },
@@ -54,7 +57,7 @@ namespace Exemplar
                             body.fe_space,
                             examples.weights,
                             parameters.scene == SceneKind::dynamic,
-                            inputs.poses))
+                            given.fields.poses))
   {
     constraints.check(parameters, body);
     if (parameters.scene == SceneKind::interpolation)
@@ -282,7 +285,7 @@ namespace Exemplar
       if (part != nullptr)
         all.insert(all.end(), part->get_warnings().begin(), part->get_warnings().end());
     };
-    all.insert(all.end(), body.readings.warnings.begin(), body.readings.warnings.end());
+    all.insert(all.end(), body.warnings.begin(), body.warnings.end());
     if (body.made != nullptr)
       for (const std::string &warning : warnings_of(*body.made))
         all.push_back(warning);
@@ -304,7 +307,7 @@ namespace Exemplar
   }
 
   std::unique_ptr<Problem>
-  make_problem(const SceneParameters &parameters, const ReadInputs &read)
+  make_problem(const SceneParameters &parameters, const ReadBody &read)
   {
     try
     {
@@ -320,7 +323,7 @@ namespace Exemplar
   std::unique_ptr<Problem>
   make_problem(const SceneParameters &parameters, const Announce &announce)
   {
-    return make_problem(parameters, ReadInputs([&announce](const SceneParameters &scene)
-                                               { return read_inputs(scene, {}, announce); }));
+    return make_problem(parameters, ReadBody([&announce](const SceneParameters &scene)
+                                             { return read_body(scene, announce); }));
   }
 } // namespace Exemplar

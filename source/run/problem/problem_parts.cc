@@ -4,7 +4,6 @@
 #include <exemplar/potential/inertia_term.h>
 #include <exemplar/potential/load_term.h>
 #include <exemplar/potential/patch_dilatation.h>
-#include <exemplar/run/inputs/shared_inputs.h>
 #include <exemplar/run/problem/problem_parts.h>
 
 #include <algorithm>
@@ -18,16 +17,6 @@ namespace Exemplar
     is_dynamic(const SceneParameters &parameters)
     {
       return parameters.scene == SceneKind::dynamic;
-    }
-
-    std::optional<StaticallyDeterminateSupport>
-    make_support(const SceneParameters &parameters, const Body &body)
-    {
-      if (parameters.scene != SceneKind::interpolation)
-        return {};
-      if (body.shared != nullptr)
-        return body.shared->support;
-      return support_near_centroid(body.mesh.get_nodes(), body.mesh.get_cells());
     }
 
     /// What this process has of degrees of freedom of the whole body.
@@ -86,12 +75,12 @@ namespace Exemplar
     }
 
     std::unique_ptr<Loads>
-    make_loads(const SceneParameters &parameters, const Body &body, const Inputs &inputs)
+    make_loads(const SceneParameters &parameters, const Body &body, const BodyInputs &inputs)
     {
       if (parameters.loads.empty())
         return nullptr;
       return std::make_unique<Loads>(parameters.loads, body.mesh, body.fe_space, body.material,
-                                     inputs.nodes, parameters.material.mass_matrix);
+                                     inputs.fields.nodes, parameters.material.mass_matrix);
     }
 
     /// Whether steps descend on one energy, the same before and after a step.
@@ -157,65 +146,40 @@ namespace Exemplar
 
   namespace
   {
-    Mesh
-    make_mesh(const MeshParameters &parameters, Inputs &inputs)
-    {
-      if (inputs.shared != nullptr)
-        return Mesh(std::move(inputs.shared->mesh), parameters.name(), parameters.scale);
-      return Mesh(std::move(inputs.mesh), parameters.name(), parameters.scale);
-    }
-
-    /// The root has read what processes share.
-    SurfaceReadings
-    make_readings(const SceneParameters &parameters, const Mesh &mesh, const Inputs &inputs)
-    {
-      if (inputs.shared == nullptr)
-        return read_off_surface(parameters, mesh, inputs);
-      return { {}, inputs.shared->material, inputs.shared->shares, {}, {} };
-    }
-
     std::unique_ptr<const Patches>
-    make_patches(const SceneParameters &parameters,
-                 const Mesh            &mesh,
-                 const FESpace         &fe_space,
-                 const Material        &material,
-                 const SharedBody      *shared)
+    make_patches(const SceneParameters           &parameters,
+                 const std::vector<unsigned int> &of_cells,
+                 const FESpace                   &fe_space,
+                 const Material                  &material)
     {
       if (!parameters.model.has_patches())
         return nullptr;
-      if (shared != nullptr)
-        return std::make_unique<const Patches>(shared->patches, fe_space, material);
-      return std::make_unique<const Patches>(mesh, fe_space, material);
+      return std::make_unique<const Patches>(of_cells, fe_space, material);
     }
   } // namespace
 
-  Body::Body(const SceneParameters &parameters, Inputs &inputs)
-      : mesh(make_mesh(parameters.mesh, inputs)), readings(make_readings(parameters, mesh, inputs)),
-        material(parameters.material,
-                 mesh.get_material_ids(),
-                 mesh.get_contents(),
-                 readings.material,
-                 &mesh.whole().material_ids),
+  Body::Body(const SceneParameters &parameters, BodyInputs &inputs)
+      : mesh(std::move(inputs.mesh)), material(std::move(inputs.fields.material)),
         fe_space(mesh, parameters.model.element),
-        patches(make_patches(parameters, mesh, fe_space, material, inputs.shared.get())),
+        patches(make_patches(parameters, inputs.fields.patches, fe_space, material)),
         cell_material(patches != nullptr ? material.without_dilatation() : material),
-        made(inputs.made), geo_walls(inputs.geo_walls), shared(inputs.shared)
+        made(inputs.undivided.made), geo_walls(inputs.undivided.geo_walls),
+        warnings(inputs.undivided.warnings)
   {
-    inputs.nodes.insert(readings.nodes.begin(), readings.nodes.end());
   }
 
   Constraints::Constraints(const SceneParameters &parameters,
                            const Body            &body,
                            const TimeAxis        &axis,
-                           const Inputs          &inputs)
+                           const BodyInputs      &inputs)
       : handles(parameters.handles,
                 body.mesh,
                 body.fe_space,
                 axis,
-                inputs.poses,
-                inputs.nodes,
-                body.readings.motions),
-        support(make_support(parameters, body)),
+                inputs.fields.poses,
+                inputs.fields.nodes,
+                inputs.undivided.motions),
+        support(inputs.fields.support),
         free_dofs(
             body.fe_space.n_dofs(), held_dofs(parameters, body, handles, support), body.exchange())
   {
@@ -316,20 +280,20 @@ namespace Exemplar
   Examples::Examples(const SceneParameters &parameters,
                      const Body            &body,
                      const TimeAxis        &axis,
-                     const Inputs          &inputs)
+                     const BodyInputs      &inputs)
       : poses(parameters.examples,
               parameters.model.law(),
               body.mesh,
               body.fe_space,
               body.cell_material,
               body.patches.get(),
-              inputs.poses,
-              body.readings.shares),
+              inputs.fields.poses,
+              inputs.fields.shares),
         weights(parameters.examples, poses, unit_energy(body.fe_space, body.material), axis)
   {
   }
 
-  Actions::Actions(const SceneParameters &parameters, const Body &body, const Inputs &inputs)
+  Actions::Actions(const SceneParameters &parameters, const Body &body, const BodyInputs &inputs)
       : loads(make_loads(parameters, body, inputs)),
         mass(is_dynamic(parameters) ? std::make_unique<Mass>(
                  body.fe_space, body.material, parameters.material.mass_matrix)

@@ -21,21 +21,16 @@ namespace Exemplar
     std::vector<std::size_t>
     elements_with(const Problem &problem, const CellTest &test)
     {
-      std::vector<std::size_t> elements;
-      const FESpace           &fe_space = problem.body.fe_space;
+      std::vector<unsigned int> cells;
+      const FESpace            &fe_space = problem.body.fe_space;
       for (unsigned int point = 0; point < fe_space.n_points(); ++point)
       {
-        const unsigned int cell    = fe_space.cell_of(point);
-        const std::size_t  element = problem.body.mesh.element_number(cell);
+        const unsigned int cell = fe_space.cell_of(point);
         if (test(cell, fe_space.deformation_gradient(point, problem.state.positions))
-            && (elements.empty() || elements.back() != element))
-          elements.push_back(element);
+            && (cells.empty() || cells.back() != cell))
+          cells.push_back(cell);
       }
-      const Exchange &exchange = problem.body.exchange();
-      elements                 = exchange.collect(std::move(elements));
-      if (exchange.n_processes() > 1)
-        std::sort(elements.begin(), elements.end());
-      return elements;
+      return whole_elements(problem.body.mesh, cells);
     }
 
     std::vector<std::size_t>

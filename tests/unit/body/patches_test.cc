@@ -16,7 +16,8 @@ namespace Exemplar::Testing
     {
       explicit PatchedBody(const MshFile &contents)
           : mesh(contents, "test"), material(MaterialParameters(), mesh.get_material_ids()),
-            fe_space(mesh), patches(mesh, fe_space, material)
+            fe_space(mesh),
+            patches(Patches::choose(mesh, material, Element::P1), fe_space, material)
       {
       }
 
@@ -77,7 +78,7 @@ namespace Exemplar::Testing
       for (unsigned int cell = 0; cell < values.size(); ++cell)
         values[cell] = cell % 2 == 0 ? 1. : 1.2;
       const Material material(MaterialParameters(), mesh.get_material_ids(), {}, painted);
-      const Patches  patches(mesh, fe_space, material);
+      const Patches  patches(Patches::choose(mesh, material, Element::P1), fe_space, material);
       EXPECT_LT(patches.size(), mesh.n_cells());
       for (unsigned int patch = 0; patch < patches.size(); ++patch)
       {

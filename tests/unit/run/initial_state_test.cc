@@ -79,7 +79,7 @@ namespace Exemplar::Testing
       example_parameters.pose_functions = twist(60.);
       const Examples examples           = body.examples(example_parameters);
       const State    start
-          = initial_state(parameters, body.mesh, body.fe_space, examples.weights.get(), false);
+          = initial_state(parameters, body.mesh, body.fe_space, *examples.weights, false);
       EXPECT_EQ(start.weights, (std::vector<double>{ 1., 0. }));
       EXPECT_EQ(start.multipliers, (std::vector<double>{ 0. }));
     }

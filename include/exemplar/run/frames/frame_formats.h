@@ -2,6 +2,7 @@
 #ifndef exemplar_frame_formats_h
 #define exemplar_frame_formats_h
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -11,6 +12,7 @@
 namespace Exemplar
 {
   class FESpace;
+  struct Frame;
   class FrameWriter;
   class Mesh;
   struct SurfaceMesh;
@@ -37,6 +39,11 @@ namespace Exemplar
   {
     using MakeWriter = std::function<std::unique_ptr<const FrameWriter>(const FrameSubject &)>;
 
+    /// Writes the file that joins the pieces of a frame, which have these names.
+    using JoinPieces = std::function<void(const Frame                    &frame,
+                                          const std::vector<std::string> &pieces,
+                                          const std::filesystem::path    &file)>;
+
     std::string name;      ///< in Output/Formats, and what the names of frames end in
     std::string animation; ///< name of the file that shows all frames; empty: there is none
     MakeWriter  make_writer;
@@ -46,17 +53,25 @@ namespace Exemplar
 
     bool shows_surface = false; ///< whether the writer needs the surface of the body
 
-    /// What the names of frames end in that say which pieces of processes they consist of, and what
-    /// these begin with; empty: frames have no pieces.
+    /// Of a body that several processes share each writes a piece of the frame, and a file joins them:
+    /// who writes that, what its name ends in, and what it begins with; null and empty: frames have
+    /// no pieces.
+    JoinPieces  join         = {};
     std::string joint_ending = {}, joint_beginning = {};
+
+    bool
+    has_pieces() const
+    {
+      return join != nullptr;
+    }
 
     /// The name of a step's frame, without the directory.
     std::string
     frame_name(unsigned int step) const;
 
-    /// The name of what a process writes of a frame that several share.
-    std::string
-    piece_name(unsigned int step, unsigned int process) const;
+    /// The names of what so many processes write of a frame: that of the frame, or of a piece each.
+    std::vector<std::string>
+    names_of_pieces(unsigned int step, unsigned int n_processes) const;
 
     /// The name of the file that joins these.
     std::string

@@ -13,7 +13,6 @@
 namespace Exemplar
 {
   struct SceneParameters;
-  struct SharedBody;
 
   /// What the files hold that a scene names, or arrays that stand in for them; make_msh() makes
   /// a mesh of arrays. All lengths are in the mesh's unit: Mesh/Scale makes metres of them.
@@ -31,8 +30,6 @@ namespace Exemplar
     std::shared_ptr<const MadeOfSurfaces> made = {};
     /// What stood around gmsh, see MshFile::geo_walls.
     std::optional<std::vector<std::string>> geo_walls = {};
-    /// What this process has of a body that several share, instead of the mesh; null in one process.
-    std::shared_ptr<SharedBody> shared = {};
   };
 
   /// Read or generate what a scene needs and `given` does not hold. Without importance no

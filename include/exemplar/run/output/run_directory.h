@@ -4,6 +4,7 @@
 
 #include <exemplar/base/directory_lock.h>
 #include <exemplar/run/frames/frame_formats.h>
+#include <exemplar/run/output/run_files.h>
 
 #include <filesystem>
 #include <memory>
@@ -68,64 +69,16 @@ namespace Exemplar
     const std::filesystem::path &
     get_path() const
     {
-      return path;
+      return files.directory;
     }
 
-    std::filesystem::path
-    original_prm() const
+    const RunFiles &
+    get_files() const
     {
-      return path / "original.prm";
+      return files;
     }
 
-    std::filesystem::path
-    parameters_prm() const
-    {
-      return path / "parameters.prm";
-    }
-
-    std::filesystem::path
-    statistics() const
-    {
-      return path / "statistics.csv";
-    }
-
-    std::filesystem::path
-    summary() const
-    {
-      return path / "summary.json";
-    }
-
-    /// What the run has told its user.
-    std::filesystem::path
-    log() const
-    {
-      return path / "log.txt";
-    }
-
-    std::filesystem::path
-    final_pose() const
-    {
-      return path / "final.msh";
-    }
-
-    /// Of the mesh that was made, if Mesh/File is a surface: final.msh is a pose of it.
-    std::filesystem::path
-    rest_mesh() const
-    {
-      return path / "rest.msh";
-    }
-
-    std::filesystem::path
-    checkpoint() const
-    {
-      return path / "checkpoint.bin";
-    }
-
-    /// The state that is kept of a step's frame.
-    std::filesystem::path
-    state(unsigned int step) const;
-
-    /// The steps of which there is one, ascending.
+    /// The steps of which a state is kept, ascending.
     std::vector<unsigned int>
     kept_states() const;
 
@@ -170,7 +123,7 @@ namespace Exemplar
     void
     clear() const;
 
-    std::filesystem::path                path;
+    RunFiles                             files;
     const std::vector<FrameFormat>      &formats;
     std::unique_ptr<const DirectoryLock> taken;   ///< null: it is not
     std::unique_ptr<const OpenDirectory> watched; ///< the same

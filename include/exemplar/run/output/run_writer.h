@@ -4,10 +4,11 @@
 
 #include <exemplar/run/output/checkpoint.h>
 #include <exemplar/run/output/frame_output.h>
+#include <exemplar/run/output/last_space_error.h>
+#include <exemplar/run/output/run_account.h>
 #include <exemplar/run/output/run_directory.h>
 #include <exemplar/run/output/statistics_file.h>
 #include <exemplar/run/problem/problem.h>
-#include <exemplar/run/problem/space_error_estimator.h>
 #include <exemplar/run/scene/scene_file.h>
 
 #include <chrono>
@@ -64,14 +65,14 @@ namespace Exemplar
     const RunTotals &
     get_totals() const
     {
-      return totals;
+      return account.get_totals();
     }
 
     /// Of the last step, if the scene asks for it and the step was made.
     const std::optional<SpaceError> &
     get_space_error() const
     {
-      return space_error;
+      return space_error.get();
     }
 
   private:
@@ -96,10 +97,6 @@ namespace Exemplar
     Checkpoint
     present() const;
 
-    /// After the root has taken the directory: notice in all processes if it is replaced.
-    void
-    watch_directory();
-
     /// Write a row of statistics.csv; of a failed step it is of no state.
     void
     write_row(StatisticsRow row, const std::optional<PhaseSeconds> &seconds, bool is_of_state);
@@ -111,18 +108,11 @@ namespace Exemplar
     void
     write_frame();
 
-    bool
-    is_last_step() const;
-
-    /// If it is asked for at the present step, find the error in space, unless it is known.
-    void
-    find_space_error();
-
     /// If states are kept and the present step has a frame.
     void
     keep_state() const;
 
-    /// What all that go on do at last: frames, totals and clocks.
+    /// What all that go on do at last: frames and clocks.
     void
     go_on_from(const Checkpoint &checkpoint);
 
@@ -135,15 +125,6 @@ namespace Exemplar
     std::filesystem::path
     find_state(unsigned int step, unsigned int last) const;
 
-    /// The clock counts as evaluation what follows and no other part claims, such as moving the
-    /// handles.
-    void
-    end_reading();
-
-    /// Seconds by part since the last call.
-    PhaseSeconds
-    lap();
-
     Problem                                 &problem;
     const Exchange                          &exchange;
     const SceneFile                         &scene;
@@ -151,14 +132,11 @@ namespace Exemplar
     RunDirectory                             directory;
     const std::map<std::string, std::string> input_digests; ///< SHA-256 of the files read
     std::optional<StatisticsFile>            statistics;
-    RunTotals                                totals;
     std::uintmax_t accepted_bytes = 0; ///< of statistics.csv, without the row of a failed step
-    unsigned int   earlier_factorizations = 0; ///< before a resume
-    PhaseSeconds   last_lap{};
+    RunAccount     account;
     std::chrono::steady_clock::time_point last_checkpoint;
     FrameOutput                           frames;
-    SpaceErrorEstimator                   estimator;
-    std::optional<SpaceError>             space_error; ///< of the present step
+    LastSpaceError                        space_error;
   };
 } // namespace Exemplar
 

@@ -23,6 +23,9 @@ namespace Exemplar
     /// is no valid scene; writes nothing.
     Problem(SceneParameters scene, Inputs inputs, StepClock clock = StepClock(Phase::read));
 
+    /// Of what the inputs have become, or of the part that this process has of them.
+    Problem(SceneParameters scene, BodyInputs given, StepClock clock = StepClock(Phase::read));
+
     /// Solve the next step from `state`, which is replaced if the solve succeeds.
     SolveReport
     advance();
@@ -100,13 +103,13 @@ namespace Exemplar
     start(State &at);
   };
 
-  /// Gives the inputs of a problem.
-  using ReadInputs = std::function<Inputs(const SceneParameters &)>;
+  /// Gives the body of a problem.
+  using ReadBody = std::function<BodyInputs(const SceneParameters &)>;
 
   /// The problem of a scene and of what `read` gives for it. Throws UserError whatever fails, as
   /// the scene is to blame before the first step is solved.
   std::unique_ptr<Problem>
-  make_problem(const SceneParameters &parameters, const ReadInputs &read);
+  make_problem(const SceneParameters &parameters, const ReadBody &read);
 
   /// The same with the files that the scene names. See read_inputs() for `announce`.
   std::unique_ptr<Problem>

@@ -9,8 +9,7 @@
 #include <exemplar/body/supports.h>
 #include <exemplar/body/time_integrator.h>
 #include <exemplar/potential/incremental_potential.h>
-#include <exemplar/run/inputs/inputs.h>
-#include <exemplar/run/inputs/surface_readings.h>
+#include <exemplar/run/inputs/body_inputs.h>
 #include <exemplar/run/scene/scene_parameters.h>
 
 #include <functional>
@@ -29,8 +28,8 @@ namespace Exemplar
   /// The elastic body at rest.
   struct Body
   {
-    /// Takes the mesh of the inputs, and adds to their nodes what is selected by the surface.
-    Body(const SceneParameters &parameters, Inputs &inputs);
+    /// Takes the mesh of the inputs.
+    Body(const SceneParameters &parameters, BodyInputs &inputs);
 
     /// With the processes that have other parts of the body.
     const Exchange &
@@ -40,7 +39,6 @@ namespace Exemplar
     }
 
     const Mesh                           mesh;
-    const SurfaceReadings                readings; ///< off the surface
     const Material                       material;
     const FESpace                        fe_space;
     const std::unique_ptr<const Patches> patches;       ///< of one mean dilatation each
@@ -49,7 +47,7 @@ namespace Exemplar
     const std::shared_ptr<const MadeOfSurfaces> made;
     /// What stood around gmsh, see MshFile::geo_walls.
     const std::optional<std::vector<std::string>> geo_walls;
-    const std::shared_ptr<const SharedBody>       shared; ///< null in one process
+    const std::vector<std::string>                warnings; ///< of the making
   };
 
   /// What holds the body, and what is left free.
@@ -59,7 +57,7 @@ namespace Exemplar
     Constraints(const SceneParameters &parameters,
                 const Body            &body,
                 const TimeAxis        &axis,
-                const Inputs          &inputs);
+                const BodyInputs      &inputs);
 
     /// Throws UserError for a static scene in which the body could move rigidly.
     void
@@ -99,7 +97,7 @@ namespace Exemplar
     Examples(const SceneParameters &parameters,
              const Body            &body,
              const TimeAxis        &axis,
-             const Inputs          &inputs);
+             const BodyInputs      &inputs);
 
     const ExamplePoses   poses;
     const ExampleWeights weights;
@@ -112,7 +110,7 @@ namespace Exemplar
   /// What acts on the body beside its elasticity.
   struct Actions
   {
-    Actions(const SceneParameters &parameters, const Body &body, const Inputs &inputs);
+    Actions(const SceneParameters &parameters, const Body &body, const BodyInputs &inputs);
 
     /// The terms of the potential that stand for them.
     PotentialTerms

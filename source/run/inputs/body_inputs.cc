@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/body/patches.h>
+#include <exemplar/run/inputs/body_inputs.h>
+#include <exemplar/run/inputs/surface_readings.h>
+#include <exemplar/run/scene/scene_parameters.h>
+
+#include <utility>
+
+namespace Exemplar
+{
+  namespace
+  {
+    /// The nodes of all selections by their text; `named` are those of files and of the surface.
+    NamedNodes
+    choose_nodes(const SceneParameters &scene, const Mesh &mesh, const NamedNodes &named)
+    {
+      NamedNodes nodes;
+      const auto add = [&](const Selection &selection, const std::string &key)
+      {
+        if (nodes.count(selection.text) == 0)
+          nodes[selection.text] = selection.choose(mesh, key, named);
+      };
+      for (const HandleParameters &handle : scene.handles)
+        add(handle.select, "Handles/" + handle.name);
+      for (const LoadParameters &load : scene.loads.named)
+        add(load.select, "Loads/" + load.name);
+      return nodes;
+    }
+
+    /// Of what has been read off the surface, too. Takes the poses.
+    BodyFields
+    make_fields(const SceneParameters &scene,
+                const Mesh            &mesh,
+                Inputs                &inputs,
+                const SurfaceReadings &readings)
+    {
+      BodyFields fields;
+      fields.material = Material(scene.material, mesh.get_material_ids(), mesh.get_contents(),
+                                 readings.material);
+      if (scene.model.has_patches())
+        fields.patches = Patches::choose(mesh, fields.material, scene.model.element);
+      fields.shares    = readings.shares;
+      fields.poses     = std::move(inputs.poses);
+      NamedNodes named = inputs.nodes;
+      named.insert(readings.nodes.begin(), readings.nodes.end());
+      fields.nodes = choose_nodes(scene, mesh, named);
+      if (scene.scene == SceneKind::interpolation)
+        fields.support = support_near_centroid(mesh.get_nodes(), mesh.get_cells());
+      return fields;
+    }
+  } // namespace
+
+  BodyInputs
+  make_body_inputs(SceneParameters scene, Inputs inputs)
+  {
+    scene.complete();
+    scene.check();
+    const bool            needs_inputs = scene.output.space_error != SpaceErrorUse::never;
+    auto                  kept = needs_inputs ? std::make_shared<const Inputs>(inputs) : nullptr;
+    Mesh                  mesh(std::move(inputs.mesh), scene.mesh.name(), scene.mesh.scale);
+    const SurfaceReadings readings = read_off_surface(scene, mesh, inputs);
+    BodyFields            fields   = make_fields(scene, mesh, inputs, readings);
+    return { std::move(mesh),
+             std::move(fields),
+             { readings.motions, readings.warnings, inputs.surface, inputs.made, inputs.geo_walls,
+               std::move(kept) } };
+  }
+
+  BodyInputs
+  read_body(const SceneParameters &scene, const Announce &announce)
+  {
+    return make_body_inputs(scene, read_inputs(scene, {}, announce));
+  }
+} // namespace Exemplar

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
+#include <exemplar/base/message_text.h>
+#include <exemplar/base/number_text.h>
+#include <exemplar/mesh/map_name.h>
+#include <exemplar/run/inputs/painted_maps.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace Exemplar
+{
+  namespace
+  {
+    /// Of a map and of how it is used: MAP [from A to B] [absolute].
+    struct MapUse
+    {
+      MapName map;
+      bool    is_factor = true;
+      bool    has_range = false;    ///< from A to B
+      double  at_0 = 0., at_1 = 1.; ///< what values 0 and 1 stand for
+    };
+
+    MapUse
+    parse_use(const std::string &text, const std::string &key)
+    {
+      MapUse             use{ split_map_name(text, key) };
+      std::istringstream in(use.map.rest);
+      bool               is_understood = true;
+      for (std::string word; in >> word;)
+        if (word == "absolute")
+          use.is_factor = false;
+        else if (std::string low, to, high; word == "from" && in >> low >> to >> high && to == "to")
+        {
+          use.has_range = true;
+          use.at_0      = parse_number(low);
+          use.at_1      = parse_number(high);
+        }
+        else
+          is_understood = false;
+      if (!is_understood || !std::isfinite(use.at_0) || !std::isfinite(use.at_1))
+        throw UserError(
+            key + " = '" + text
+            + "' is not understood. Allowed: MAP, and 'from A to B' and 'absolute' behind "
+              "it, where MAP is FILE.ply:ATTRIBUTE or FILE.csv[:COLUMN].");
+      return use;
+    }
+
+    const std::vector<double> &
+    find_map(const MapName &map, const Inputs &inputs, const std::string &key)
+    {
+      const auto found = inputs.maps.find(map.name());
+      if (found == inputs.maps.end() || found->second.size() != inputs.surface->vertices.size())
+        throw UserError(key + ": there is no map '" + map.name()
+                        + "' with a value for each vertex of the surface among the inputs. Hand it "
+                          "in by this name, or read it from its file.");
+      return found->second;
+    }
+
+    /// All constants of a scene that one member points to.
+    std::vector<double>
+    values_in_scene(const MaterialParameters &material, double ElasticConstants::*const member)
+    {
+      std::vector<double> values{ material.everywhere.*member };
+      for (const auto &region : material.regions)
+        values.push_back(region.second.*member);
+      for (const auto &region : material.named_regions)
+        values.push_back(region.second.*member);
+      return values;
+    }
+
+    /// What makes shares of per cent, of bytes, and of other values.
+    double
+    divisor_of(const double greatest)
+    {
+      for (const double unit : { 100., 255. })
+        if (greatest > 0.8 * unit && greatest <= unit)
+          return unit;
+      return greatest;
+    }
+
+    /// Warn of values that a range goes beyond its ends for.
+    void
+    doubt_range(std::vector<std::string>  &warnings,
+                const std::string         &map,
+                const std::vector<double> &values,
+                const MapUse              &use)
+    {
+      constexpr double rounding = 1e-3; // of a painting program
+      double           least = 0., greatest = 1.;
+      for (const double value : values)
+      {
+        least    = std::min(least, value); // not if it is no number
+        greatest = std::max(greatest, value);
+      }
+      if (least >= -rounding && greatest <= 1. + rounding)
+        return;
+      const double farthest = greatest > 1. + rounding ? greatest : least;
+      warnings.push_back(
+          map + ": 'from A to B' says what the values 0 and 1 stand for, but the map has "
+          + short_text(farthest) + ", of which "
+          + short_text(use.at_0 + farthest * (use.at_1 - use.at_0)) + " is made. "
+          + (greatest > 1. + rounding
+                 ? "Divide its values by " + short_text(divisor_of(greatest)) + "."
+                 : std::string("Paint values from 0 to 1.")));
+    }
+
+    /// Warn of values that look like those of the other use of a map. Nobody paints a body a hundred
+    /// times as stiff or dense everywhere as its scene says, unless that says 1; jelly has some 1000 Pa.
+    void
+    doubt(std::vector<std::string>  &warnings,
+          const std::string         &map,
+          const std::vector<double> &values,
+          const bool                 are_factors)
+    {
+      const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
+      const std::string range      = short_text(*least) + " to " + short_text(*greatest);
+      if (are_factors && *least >= 100.)
+        warnings.push_back(map + ": its values " + range
+                           + " are factors of the constant that Material gives. If they "
+                             "are in Pa or kg/m^3, write 'absolute' behind the map.");
+      if (!are_factors && *greatest < 100. && map.find("Young") != std::string::npos)
+        warnings.push_back(map + ": E is " + range
+                           + " Pa, less than that of jelly, which has some 1000 Pa. If "
+                             "these are factors of Material/Young's modulus, leave "
+                             "'absolute' out.");
+    }
+
+    /// Linear over triangles, so that what holds at the vertices holds everywhere.
+    PaintedConstant
+    painted(const SurfaceSources &from,
+            const std::string    &name,
+            const std::string    &text,
+            double ElasticConstants::*const member,
+            const double                    low,
+            const double                    high)
+    {
+      if (text.empty())
+        return {};
+      const std::string   key    = "Material/" + name + " map";
+      const MapUse        use    = parse_use(text, key);
+      std::vector<double> values = find_map(use.map, from.inputs, key);
+      if (use.has_range)
+        doubt_range(from.warnings, key + " = '" + text + "'", values, use);
+      const auto factors = use.is_factor ? values_in_scene(from.scene.material, member)
+                                         : std::vector<double>{ 1. };
+      for (std::size_t v = 0; v < values.size(); ++v)
+      {
+        const double painted_value = values[v];
+        values[v]                  = use.at_0 + painted_value * (use.at_1 - use.at_0);
+        for (const double factor : factors)
+          if (!(values[v] * factor > low && values[v] * factor < high))
+            throw UserError(
+                key + " = '" + text + "': vertex " + std::to_string(v + 1)
+                + (std::isnan(painted_value)
+                       ? " has no value in the table."
+                       : " has the value " + short_text(painted_value) + ", which makes "
+                             + short_text(values[v] * factor) + " of it.")
+                + " It must be greater than " + short_text(low)
+                + (high < 1. ? " and less than " + short_text(high) : "")
+                + " everywhere. Paint other values there, or say 'from A to B' behind the map.");
+      }
+      const bool scales_one = *std::max_element(factors.begin(), factors.end()) <= 1.;
+      if (low == 0. && use.is_factor != scales_one)
+        doubt(from.warnings, key + " = '" + text + "'", values, use.is_factor);
+      return { from.selector.at_cells(values), use.is_factor };
+    }
+
+    std::vector<double>
+    share(const SurfaceSources &from, const std::string &text)
+    {
+      const std::string key = "Examples/Weight maps";
+      const MapName     map = split_map_name(text, key);
+      if (!map.rest.empty())
+        throw UserError(key + ": " + in_quotes(text)
+                        + " is not understood. Give FILE.ply:ATTRIBUTE or FILE.csv[:COLUMN].");
+      std::vector<double> values   = find_map(map, from.inputs, key);
+      double              greatest = 0.;
+      for (const double value : values)
+        greatest = std::max(greatest, value); // not if it is no number
+      for (std::size_t v = 0; v < values.size(); ++v)
+      {
+        values[v] = std::isnan(values[v]) ? 0. : values[v]; // not in the table
+        if (!(values[v] >= 0. && values[v] <= 1. + 1e-6))
+          throw UserError(
+              key + ": in " + map.name() + " vertex " + std::to_string(v + 1) + " has the value "
+              + short_text(values[v]) + ", but shares lie between 0 and 1. "
+              + (values[v] > 1.
+                     ? "The greatest value is " + short_text(greatest) + ": divide all by "
+                           + short_text(divisor_of(greatest)) + ", or paint it anew."
+                     : std::string("Paint it anew.")));
+      }
+      return from.selector.at_cells(values);
+    }
+  } // namespace
+
+  PaintedMaterial
+  read_painted_material(const SurfaceSources &from)
+  {
+    const MaterialParameters &m = from.scene.material;
+    return { painted(from, "Young's modulus", m.youngs_modulus_map,
+                     &ElasticConstants::youngs_modulus, 0., 1e300),
+             painted(from, "Poisson's ratio", m.poissons_ratio_map,
+                     &ElasticConstants::poissons_ratio, -1., 0.5),
+             painted(from, "Density", m.density_map, &ElasticConstants::density, 0., 1e300) };
+  }
+
+  std::vector<std::vector<double>>
+  read_painted_shares(const SurfaceSources &from)
+  {
+    std::vector<std::vector<double>> shares;
+    if (from.scene.examples.are_painted())
+      for (const std::string &map : from.scene.examples.weight_maps)
+        shares.push_back(share(from, map));
+    return shares;
+  }
+} // namespace Exemplar
