@@ -66,8 +66,8 @@ namespace Exemplar
     int          points_per_cell; ///< quadrature points
     SharesByRule in_cell, on_face;
 
-    /// Near Poisson's ratio 1/2 cells by themselves are far too stiff, which share one mean dilatation
-    /// with the cells of a star then; those of other elements each have one of their own.
+    /// Near Poisson's ratio 1/2 its cells by themselves are far too stiff, so patches are stars of
+    /// them. Of other elements each cell is a patch.
     bool locks;
 
     unsigned char vtk_type; ///< VTK_TETRA or VTK_QUADRATIC_TETRA
