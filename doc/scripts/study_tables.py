@@ -43,9 +43,13 @@ BOUNDS = (1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5)
 COMMENT = re.compile(r"(<!-- (\w+): (\w+)(?: where ([^:]*))?(?:: (.*?))? -->\n).*?(<!-- end table -->)", re.DOTALL)
 
 
-def read(name):
-    with open(FILES / f"{name}.csv", newline="") as file:
+def rows_of(path):
+    with open(path, newline="") as file:
         return list(csv.DictReader(file))
+
+
+def read(name):
+    return rows_of(FILES / f"{name}.csv")
 
 
 def chosen(name, where):
@@ -165,8 +169,7 @@ ELEMENTS = {("P1", "cells"): "P1", ("P1", "patches"): "P1, patches", ("P2", "cel
 def space_runs(name):
     """Of a study of errors in space that went well: mesh, element, ratio of Poisson, deflection over its limit, seconds, cells of
     the mesh. A limit holds for one mesh, whose polyhedron is the body, or for all."""
-    with open(FILES / "space_limits.csv", newline="") as file:
-        limits = {(row["body"], row["mesh"], row["nu"]): float(row["energy"]) for row in csv.DictReader(file)}
+    limits = {(row["body"], row["mesh"], row["nu"]): float(row["energy"]) for row in read("space_limits")}
     body = name.split("_")[1]
     for row in read(name):
         mesh = next(row[key] for key in ("Mesh/File", "Mesh/Box cells") if key in row)
@@ -300,18 +303,22 @@ def page_with_tables(page):
 
 
 def run(name):
-    """In output/studies, where a study that was stopped goes on."""
+    """Its study.csv, in output/studies, where a study that was stopped goes on."""
     program = os.environ.get("EXEMPLAR", str(TOP / "build/release/exemplar"))
     output = TOP / "output/studies" / name
     subprocess.run([program, "study", str(STUDIES[name]), "--quiet", "--output", str(output)], check=True)
-    shutil.copy(output / "study.csv", FILES / f"{name}.csv")
+    return output / "study.csv"
+
+
+def results(name):
+    return rows_of(run(name))
 
 
 def main():
     if sys.argv[1:2] == ["--run"]:
         for name in sys.argv[2:] or STUDIES:
             print(name, file=sys.stderr, flush=True)
-            run(name)
+            shutil.copy(run(name), FILES / f"{name}.csv")
         return
     missing = [name for name in STUDIES if not (FILES / f"{name}.csv").exists()]
     if missing:

@@ -49,11 +49,6 @@ namespace Exemplar
   void
   do_in_agreement(const Exchange &exchange, const std::function<void()> &action)
   {
-    if (exchange.n_processes() == 1)
-    {
-      action();
-      return;
-    }
     std::exception_ptr own;
     try
     {

@@ -32,12 +32,7 @@ namespace Exemplar
     }
   } // namespace
 
-  BlockMatrix::BlockMatrix(const std::size_t                                          n_own,
-                           const std::size_t                                          n_others,
-                           std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner)
-      : n_own(n_own), n_others(n_others), partitioner(std::move(partitioner)), start(1, 0)
-  {
-  }
+  BlockMatrix::BlockMatrix(Halo halo) : halo(std::move(halo)), start(1, 0) {}
 
   void
   BlockMatrix::add_row(std::vector<Entry> &entries)
@@ -78,15 +73,7 @@ namespace Exemplar
   void
   BlockMatrix::share(BlockVector &vector) const
   {
-    if (partitioner == nullptr)
-      return;
-    std::vector<float>             buffer(partitioner->n_import_indices());
-    std::vector<MPI_Request>       requests;
-    const dealii::ArrayView<float> others(vector.data() + 4 * n_own, 4 * n_others);
-    partitioner->export_to_ghosted_array_start(
-        0, dealii::ArrayView<const float>(vector.data(), 4 * n_own),
-        dealii::ArrayView<float>(buffer.data(), buffer.size()), others, requests);
-    partitioner->export_to_ghosted_array_finish(others, requests);
+    halo.share(vector.data(), vector.data() + halo.n_own());
   }
 
   namespace
@@ -170,23 +157,78 @@ namespace Exemplar
                                                   + block[3 * c + 2] * r[2];
                      });
     }
-    if (partitioner == nullptr)
-      return;
-    std::vector<float>             buffer(partitioner->n_import_indices());
-    std::vector<MPI_Request>       requests;
-    const dealii::ArrayView<float> others(result.data() + 4 * n_own, 4 * n_others);
-    partitioner->import_from_ghosted_array_start(
-        dealii::VectorOperation::add, 0, others,
-        dealii::ArrayView<float>(buffer.data(), buffer.size()), requests);
-    partitioner->import_from_ghosted_array_finish(
-        dealii::VectorOperation::add, dealii::ArrayView<const float>(buffer.data(), buffer.size()),
-        dealii::ArrayView<float>(result.data(), 4 * n_own), others, requests);
+    halo.add_to_owners(result.data(), result.data() + halo.n_own());
   }
 
   std::size_t
   BlockMatrix::memory_consumption() const
   {
     return sizeof(int) * (start.capacity() + column.capacity()) + sizeof(float) * values.capacity();
+  }
+
+  namespace
+  {
+    /// Blocks of columns of other processes, ascending.
+    std::vector<std::size_t>
+    blocks_of_others(const std::vector<std::size_t> &columns, const std::size_t n_own)
+    {
+      std::vector<std::size_t> others;
+      for (std::size_t column = 3 * n_own; column < columns.size(); ++column)
+        others.push_back(columns[column] / 3);
+      std::sort(others.begin(), others.end());
+      others.erase(std::unique(others.begin(), others.end()), others.end());
+      return others;
+    }
+
+    /// Of each column, by local number.
+    std::vector<int>
+    blocks_of_columns(const std::vector<std::size_t> &columns,
+                      const std::size_t               n_own,
+                      const std::vector<std::size_t> &others)
+    {
+      std::vector<int> blocks;
+      for (std::size_t column = 0; column < columns.size(); ++column)
+        if (column < 3 * n_own)
+          blocks.push_back(static_cast<int>(column / 3));
+        else
+        {
+          const auto place = std::lower_bound(others.begin(), others.end(), columns[column] / 3);
+          blocks.push_back(static_cast<int>(n_own) + static_cast<int>(place - others.begin()));
+        }
+      return blocks;
+    }
+  } // namespace
+
+  BlockMatrix
+  make_block_matrix(const std::size_t               n_rows,
+                    const std::vector<std::size_t> &firsts,
+                    const std::vector<std::size_t> &columns,
+                    const ReadRow                  &read_row,
+                    const Exchange                 &exchange)
+  {
+    const unsigned int process = exchange.process();
+    const std::size_t  n_own   = firsts[process + 1] - firsts[process];
+    const auto         others  = blocks_of_others(columns, n_own);
+    const auto         blocks  = blocks_of_columns(columns, n_own, others);
+
+    BlockMatrix                     result(Halo(firsts, others, 4, exchange));
+    std::vector<int>                in_row(1000);
+    std::vector<double>             values(1000);
+    std::vector<BlockMatrix::Entry> entries;
+    for (std::size_t block = 0; block < n_rows; ++block)
+    {
+      entries.clear();
+      for (int c = 0; c < 3; ++c)
+      {
+        const int length = read_row(static_cast<int>(3 * block) + c, in_row, values);
+        for (int k = 0; k < length; ++k)
+          entries.push_back({ blocks[in_row[k]], static_cast<int>(3 * (columns[in_row[k]] % 3)) + c,
+                              static_cast<float>(values[k]) });
+      }
+      result.add_row(entries);
+    }
+    result.finish();
+    return result;
   }
 
   void

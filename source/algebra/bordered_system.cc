@@ -35,7 +35,7 @@ namespace Exemplar
     {
     public:
       BlockSystem(std::unique_ptr<SpdOperator> matrix,
-                  const WeightForm            *form,
+                  const WeightForm            &form,
                   const Exchange              &exchange)
           : BorderedSystem(form), A(std::move(matrix)), exchange(exchange)
       {
@@ -71,14 +71,13 @@ namespace Exemplar
           A->solve(vector.positions);
           std::copy(vector.positions.begin(), vector.positions.end(), inverse_columns.begin());
         }
-        if (form != nullptr)
-          solve_weights(vector, lower);
+        solve_weights(vector, lower);
         std::copy(inverse_columns.begin(), inverse_columns.begin() + n, vector.positions.begin());
-        for (std::size_t j = 0; form != nullptr && j < form->coupled.size(); ++j)
+        for (std::size_t j = 0; j < form.coupled.size(); ++j)
         {
           const double *Z_j = inverse_columns.data() + (1 + j) * n;
           for (std::size_t i = 0; i < n; ++i)
-            vector.positions[i] += vector.weights[form->coupled[j]] * Z_j[i];
+            vector.positions[i] += vector.weights[form.coupled[j]] * Z_j[i];
         }
       }
 
@@ -91,8 +90,8 @@ namespace Exemplar
       void
       prepare() override
       {
-        if (form != nullptr && !form->coupled.empty())
-          find_columns(std::vector<double>(G.size() / form->coupled.size(), 0.));
+        if (!form.coupled.empty())
+          find_columns(std::vector<double>(G.size() / form.coupled.size(), 0.));
       }
 
       std::unique_ptr<KeptInverse>
@@ -117,10 +116,10 @@ namespace Exemplar
       {
         const std::size_t   n          = vector.positions.size();
         std::vector<double> right_side = vector.weights;
-        for (std::size_t i = 0; i < form->coupled.size(); ++i)
-          right_side[form->coupled[i]] += exchange.sum(std::inner_product(
+        for (std::size_t i = 0; i < form.coupled.size(); ++i)
+          right_side[form.coupled[i]] += exchange.sum(std::inner_product(
               G.begin() + i * n, G.begin() + (i + 1) * n, inverse_columns.begin(), 0.));
-        schur = make_schur_complement(*form, G, inverse_columns.data() + n, n, exchange);
+        schur = make_schur_complement(form, G, inverse_columns.data() + n, n, exchange);
         const WeightQpSolution solution
             = minimize_over_weights(schur, right_side, vector.multipliers, lower);
         if (!solution.found)
@@ -139,7 +138,7 @@ namespace Exemplar
 
   std::unique_ptr<BorderedSystem>
   make_block_system(std::unique_ptr<SpdOperator> matrix,
-                    const WeightForm            *form,
+                    const WeightForm            &form,
                     const Exchange              &exchange)
   {
     return std::make_unique<BlockSystem>(std::move(matrix), form, exchange);

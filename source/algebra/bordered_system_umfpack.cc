@@ -15,7 +15,7 @@ namespace Exemplar
     class UmfpackSystem : public BorderedSystem
     {
     public:
-      UmfpackSystem(const SymmetricPattern &pattern, const WeightForm *form)
+      UmfpackSystem(const SymmetricPattern &pattern, const WeightForm &form)
           : BorderedSystem(form), pattern(pattern), values(pattern.n_values())
       {
       }
@@ -101,25 +101,23 @@ namespace Exemplar
           for (int entry = pattern.column_start[column]; entry < pattern.column_start[column + 1];
                ++entry)
             add_twice(pattern.row[entry], column, values[entry]);
-        if (form == nullptr)
-          return;
-        const unsigned int k = form->H.m();
-        for (std::size_t j = 0; j < form->coupled.size(); ++j)
+        const unsigned int k = form.H.m();
+        for (std::size_t j = 0; j < form.coupled.size(); ++j)
           for (unsigned int i = 0; i < n; ++i)
-            add_twice(n + form->coupled[j], i, -G[j * n + i]);
+            add_twice(n + form.coupled[j], i, -G[j * n + i]);
         for (unsigned int j = 0; j < k; ++j)
         {
           for (unsigned int i = j; i < k; ++i)
-            add_twice(n + i, n + j, form->H(i, j));
-          for (unsigned int c = 0; c < form->N.m(); ++c)
-            add_twice(n + k + c, n + j, form->N(c, j));
+            add_twice(n + i, n + j, form.H(i, j));
+          for (unsigned int c = 0; c < form.N.m(); ++c)
+            add_twice(n + k + c, n + j, form.N(c, j));
         }
       }
 
       void
       build_pattern()
       {
-        const unsigned int size = pattern.n() + (form == nullptr ? 0 : form->H.m() + form->N.m());
+        const unsigned int             size = pattern.n() + form.H.m() + form.N.m();
         dealii::DynamicSparsityPattern entries(size);
         for_each_entry([&](const unsigned int i, const unsigned int j, double)
                        { entries.add(i, j); });
@@ -144,7 +142,7 @@ namespace Exemplar
   } // namespace
 
   std::unique_ptr<BorderedSystem>
-  make_umfpack_system(const SymmetricPattern &pattern, const WeightForm *form)
+  make_umfpack_system(const SymmetricPattern &pattern, const WeightForm &form)
   {
     return std::make_unique<UmfpackSystem>(pattern, form);
   }

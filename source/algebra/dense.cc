@@ -9,29 +9,6 @@ namespace Exemplar
 {
   namespace
   {
-    /// L of A = L L^T into A's lower triangle, until a pivot is not accepted(row, pivot, the
-    /// diagonal entry of A); returns whether all are.
-    template <typename Accepted>
-    bool
-    factorize_by_cholesky(dealii::FullMatrix<double> &A, const Accepted &accepted)
-    {
-      for (unsigned int i = 0; i < A.m(); ++i)
-        for (unsigned int j = 0; j <= i; ++j)
-        {
-          const double before = A(i, j);
-          double       value  = before;
-          for (unsigned int m = 0; m < j; ++m)
-            value -= A(i, m) * A(j, m);
-          if (i != j)
-            A(i, j) = value / A(j, j);
-          else if (accepted(i, value, before))
-            A(i, i) = std::sqrt(value);
-          else
-            return false;
-        }
-      return true;
-    }
-
     using Place = std::pair<unsigned int, unsigned int>;
 
     /// Of the entry with the greatest absolute value in the rows from `first` on.
@@ -47,28 +24,34 @@ namespace Exemplar
     }
   } // namespace
 
-  bool
-  solve_by_cholesky(dealii::FullMatrix<double> &A, std::vector<double> &b)
+  void
+  solve_with_factor(const dealii::FullMatrix<double> &L, std::vector<double> &b)
   {
-    const bool is_definite
-        = factorize_by_cholesky(A, [](unsigned int, const double pivot, const double diagonal)
-                                { return pivot > 1e-14 * std::abs(diagonal) && pivot > 0.; });
-    if (!is_definite)
-      return false;
     const unsigned int n = b.size();
+    const auto divide = [&](const unsigned int i) { b[i] = L(i, i) == 0. ? 0. : b[i] / L(i, i); };
     for (unsigned int i = 0; i < n; ++i)
     {
       for (unsigned int m = 0; m < i; ++m)
-        b[i] -= A(i, m) * b[m];
-      b[i] /= A(i, i);
+        b[i] -= L(i, m) * b[m];
+      divide(i);
     }
     for (unsigned int i = n; i-- > 0;)
     {
       for (unsigned int m = i + 1; m < n; ++m)
-        b[i] -= A(m, i) * b[m];
-      b[i] /= A(i, i);
+        b[i] -= L(m, i) * b[m];
+      divide(i);
     }
-    return true;
+  }
+
+  bool
+  solve_by_cholesky(dealii::FullMatrix<double> &A, std::vector<double> &b)
+  {
+    const bool is_definite = factorize_by_cholesky(
+        A, [](unsigned int, const double pivot, const double diagonal)
+        { return pivot > 1e-14 * std::abs(diagonal) && pivot > 0. ? pivot : -1.; });
+    if (is_definite)
+      solve_with_factor(A, b);
+    return is_definite;
   }
 
   LeastPivot
@@ -82,7 +65,7 @@ namespace Exemplar
                             const bool   is_small = ratio < 1e-14;
                             if (is_small || ratio < least.ratio)
                               least = { row, is_small ? 0. : ratio };
-                            return !is_small;
+                            return is_small ? -1. : pivot;
                           });
     return least;
   }

@@ -1,12 +1,46 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/algebra/free_dofs.h>
+#include <exemplar/algebra/long_vectors.h>
+
+#include <algorithm>
 
 namespace Exemplar
 {
   void
+  FreeDofs::reinit(const std::vector<unsigned int> &held_dofs)
+  {
+    ++n_reinits;
+    dofs.clear();
+    own_dofs.clear();
+    std::fill(index.begin(), index.end(), 0);
+    std::fill(own_index.begin(), own_index.end(), held);
+    for (const unsigned int dof : held_dofs)
+      index[dof] = held;
+    for (unsigned int dof = 0; dof < n_dofs(); ++dof)
+      if (index[dof] != held)
+      {
+        index[dof] = static_cast<int>(dofs.size());
+        dofs.push_back(dof);
+        if (!with_others.owns(dof / 3))
+          continue;
+        own_index[dof] = static_cast<int>(own_dofs.size());
+        own_dofs.push_back(dof);
+      }
+  }
+
+  double
+  FreeDofs::max_magnitude(const Vector &field) const
+  {
+    MaxMagnitude greatest;
+    for (const unsigned int dof : own_dofs)
+      greatest.add(field[dof]);
+    return with_others.max(greatest.value());
+  }
+
+  void
   FreeDofs::assemble_columns(std::vector<double> &columns) const
   {
-    if (own_index.empty() || dofs.empty())
+    if (dofs.empty())
       return;
     const std::size_t   n_columns = columns.size() / dofs.size();
     std::vector<double> assembled, unknowns;
@@ -35,8 +69,6 @@ namespace Exemplar
   std::vector<double>
   FreeDofs::whole(const std::vector<double> &unknowns) const
   {
-    if (own_index.empty())
-      return unknowns;
     Vector field(n_dofs());
     for (std::size_t i = 0; i < own_dofs.size(); ++i)
       field[own_dofs[i]] = unknowns[i];
@@ -52,8 +84,6 @@ namespace Exemplar
   std::vector<double>
   FreeDofs::part(const std::vector<double> &whole) const
   {
-    if (own_index.empty())
-      return whole;
     std::vector<double> field = whole_mask(true);
     for (std::size_t dof = 0, i = 0; dof < field.size(); ++dof)
       if (field[dof] > 0. && i < whole.size())

@@ -105,7 +105,8 @@ namespace Exemplar
     const double first = min(own.empty() ? none : own_process);
     if (first == none)
       return {};
-    return dealii::Utilities::MPI::broadcast(mpi_communicator, own, static_cast<unsigned int>(first));
+    return dealii::Utilities::MPI::broadcast(mpi_communicator, own,
+                                             static_cast<unsigned int>(first));
   }
 
   std::vector<std::size_t>
@@ -114,6 +115,19 @@ namespace Exemplar
     std::vector<std::size_t> all;
     for (const auto &part : dealii::Utilities::MPI::all_gather(mpi_communicator, own))
       all.insert(all.end(), part.begin(), part.end());
+    return all;
+  }
+
+  std::vector<float>
+  MpiExchange::collect(std::vector<float> own, const std::vector<std::size_t> &firsts) const
+  {
+    std::vector<float> all(firsts.back());
+    std::vector<int>   counts;
+    for (std::size_t process = 0; process + 1 < firsts.size(); ++process)
+      counts.push_back(static_cast<int>(firsts[process + 1] - firsts[process]));
+    const std::vector<int> places(firsts.begin(), firsts.end() - 1);
+    MPI_Allgatherv(own.data(), static_cast<int>(own.size()), MPI_FLOAT, all.data(), counts.data(),
+                   places.data(), MPI_FLOAT, mpi_communicator);
     return all;
   }
 
@@ -236,7 +250,7 @@ namespace Exemplar
         = everywhere ? all_gather(mpi_communicator, values) : gather(mpi_communicator, values);
     const auto all_places
         = everywhere ? all_gather(mpi_communicator, places) : gather(mpi_communicator, places);
-    if (!everywhere && !is_root())
+    if (all_values.empty()) // gathered elsewhere
       return {};
     std::vector<double> all(n * static_cast<std::size_t>(nodes.first_numbers.back()));
     for (std::size_t process = 0; process < all_places.size(); ++process)

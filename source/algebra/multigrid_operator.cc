@@ -8,13 +8,9 @@
 #include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/vector_memory.templates.h> // for vectors that are not deal.II's
 
-#include <Epetra_Vector.h>
-#include <Teuchos_ParameterList.hpp>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <malloc.h>
-#include <ml_utils.h>
 #include <numeric>
 #include <string>
 
@@ -52,8 +48,7 @@ namespace Exemplar
     double
     l2_norm() const
     {
-      return exchange->n_processes() == 1 ? Vector::l2_norm()
-                                          : std::sqrt(exchange->sum(norm_sqr()));
+      return std::sqrt(exchange->sum(norm_sqr()));
     }
 
     double
@@ -76,8 +71,6 @@ namespace Exemplar
 
   namespace
   {
-    using Multigrid = ML_Epetra::MultiLevelPreconditioner;
-
     constexpr unsigned int max_iterations = 1000;
 
     /// Throws unless x A x > 0: there conjugate gradients would go astray, and Newton's
@@ -89,42 +82,31 @@ namespace Exemplar
         throw indefinite_matrix();
     }
 
-    /// A vector of deal.II as Epetra takes it.
-    Epetra_Vector
-    view(const Epetra_Map &map, const Vector &vector)
-    {
-      return Epetra_Vector(View, map, const_cast<double *>(vector.begin()));
-    }
-
     /// What deal.II's solver multiplies with: the matrix, and the multigrid cycle.
     template <typename Multiply>
     class CheckedOperator
     {
     public:
-      CheckedOperator(const Epetra_Map &map, const Multiply &multiply)
-          : map(map), multiply(multiply)
+      CheckedOperator(const Multiply &multiply, const bool has_rows)
+          : multiply(multiply), has_rows(has_rows)
       {
       }
 
       void
       vmult(SharedVector &image, const SharedVector &vector) const
       {
-        if (map.NumMyElements() == 0)
+        if (!has_rows)
           image = 0.;
-        {
-          const TrilinosLock lock; // Epetra's product starts a timer of the process
-          Epetra_Vector      result = view(map, image);
-          multiply(view(map, vector), result);
-        }
+        multiply(vector, image);
         check_curvature(vector, image);
       }
 
     private:
-      const Epetra_Map &map;
-      const Multiply   &multiply;
+      const Multiply &multiply;
+      const bool      has_rows;
     };
 
-    /// Bytes that are allocated; ML does not tell what its hierarchies take.
+    /// Bytes that are allocated; libraries do not tell what their hierarchies take.
     std::size_t
     heap_in_use()
     {
@@ -133,106 +115,64 @@ namespace Exemplar
     }
   } // namespace
 
-  MultigridOperator::MultigridOperator(const FreeDofs &free_dofs, const double tolerance)
-      : free_dofs(free_dofs), tolerance(tolerance)
+  MultigridOperator::MultigridOperator(const FreeDofs &free_dofs,
+                                       const double    tolerance,
+                                       MakeHierarchy   make_hierarchy)
+      : exchange(free_dofs.exchange()), tolerance(tolerance),
+        make_hierarchy(std::move(make_hierarchy)), rows(free_dofs)
   {
-    for (const unsigned int dof : free_dofs.list())
-    {
-      if (nodes.empty() || nodes.back() != dof / 3)
-        nodes.push_back(dof / 3);
-      row_of.push_back(static_cast<int>(3 * (nodes.size() - 1) + dof % 3));
-    }
-    places.resize(3 * nodes.size());
     MpiSession::require();
   }
 
   OperatorTraits
   MultigridOperator::traits() const
   {
-    const std::size_t entries
-        = matrix == nullptr ? 0 : static_cast<std::size_t>(matrix->NumMyNonzeros());
     return { "iterative", 0., 0.,
-             sizeof(double) * lower_values.size() + (sizeof(int) + sizeof(double)) * entries
-                 + multigrid_memory };
-  }
-
-  void
-  MultigridOperator::check_size(const std::size_t n_entries) const
-  {
-    if (free_dofs.exchange().any(n_entries
-                                 > static_cast<std::size_t>(std::numeric_limits<int>::max())))
-      throw SolverFailure("The matrix has more entries than Epetra can count. Use a coarser "
-                          "mesh.");
-  }
-
-  MultigridOperator::~MultigridOperator()
-  {
-    const TrilinosLock lock;
-    multigrid.reset(); // refers to the matrix
-    matrix.reset();
+             sizeof(double) * lower_values.size() + rows.memory_consumption() + multigrid_memory };
   }
 
   void
   MultigridOperator::reinit(const SymmetricPattern &pattern)
   {
-    const TrilinosLock lock;
-    multigrid.reset();
-    matrix.reset();
+    hierarchy.reset();
     lower_values.assign(pattern.n_values(), 0.);
-    make_matrix(pattern);
+    {
+      const TrilinosLock lock; // calls MPI
+      rows.reinit(pattern);
+    }
+    hierarchy = make_hierarchy(rows);
   }
 
   void
   MultigridOperator::factorize(const Vector &positions)
   {
-    if (!free_dofs.exchange().any(!row_of.empty()))
+    const RowNumbers &numbers = rows.get_numbers();
+    if (numbers.first_nodes().back() == 0)
       return;
-    place_nodes(positions);
-    fill_matrix();
-    const TrilinosLock lock;
+    std::vector<double> modes = rigid_modes(places_of_nodes(positions), numbers.row_of());
+    {
+      const TrilinosLock lock; // calls MPI
+      rows.fill(lower_values);
+    }
     // nothing takes as much memory as a hierarchy: give back what has been freed before
-    multigrid.reset();
+    hierarchy->clear();
     malloc_trim(0);
     const std::size_t before = heap_in_use();
-    make_multigrid();
+    hierarchy->make(std::move(modes));
     const std::size_t after = heap_in_use(); // a frame's writer may have freed memory since
     multigrid_memory        = after > before ? after - before : 0;
   }
 
   void
-  MultigridOperator::make_multigrid()
-  {
-    std::vector<double> modes = rigid_modes(places, row_of);
-    modes.reserve(1); // where there are no rows, too, ML wants an address
-    Teuchos::ParameterList parameters;
-    ML_Epetra::SetDefaults("SA", parameters);
-    parameters.set("ML output", 0);
-    parameters.set("PDE equations", 3);
-    parameters.set("null space: type", "pre-computed");
-    parameters.set("null space: dimension", static_cast<int>(n_rigid_modes));
-    parameters.set("null space: vectors", modes.data());
-    parameters.set("aggregation: type", "Uncoupled");
-    parameters.set("prec type", "MGW"); // W cycles: coarse levels cost next to nothing
-    parameters.set("smoother: type", "Chebyshev");
-    parameters.set("smoother: sweeps", 2);
-    parameters.set("coarse: type", "Amesos-KLU");
-    // of its eigenvalue estimates, or else they would depend on the hierarchies before
-    ML_set_random_seed(1);
-    multigrid = std::make_unique<Multigrid>(*matrix, parameters);
-    if (free_dofs.exchange().any(!multigrid->IsPreconditionerComputed()))
-      throw SolverFailure("ML makes no multigrid hierarchy of the matrix of the step. Set "
-                          "Solver/Linear solver to cholesky.");
-  }
-
-  void
   MultigridOperator::solve(std::vector<double> &columns)
   {
-    const Exchange   &exchange = free_dofs.exchange();
-    const std::size_t n        = row_of.size();
+    const RowNumbers       &numbers = rows.get_numbers();
+    const std::vector<int> &row_of  = numbers.row_of();
+    const std::size_t       n       = row_of.size();
     // a process without unknowns does not know how many there are
     const auto n_columns = static_cast<std::size_t>(
         exchange.max(n == 0 ? 0. : static_cast<double>(columns.size() / n)));
-    SharedVector right_side(n_rows(), exchange), solution(n_rows(), exchange);
+    SharedVector right_side(numbers.n_rows(), exchange), solution(numbers.n_rows(), exchange);
     for (std::size_t column = 0; column < n_columns; ++column)
     {
       double *entries = columns.data() + column * n;
@@ -247,15 +187,18 @@ namespace Exemplar
   std::unique_ptr<KeptInverse>
   MultigridOperator::keep() const
   {
-    return std::make_unique<MultigridInverse>(*multigrid->GetML(), row_of, free_dofs.exchange());
+    return std::make_unique<MultigridInverse>(hierarchy->copy(), rows.get_numbers().row_of(),
+                                              exchange);
   }
 
-  void
-  MultigridOperator::place_nodes(const Vector &positions)
+  std::vector<double>
+  MultigridOperator::places_of_nodes(const Vector &positions) const
   {
-    for (std::size_t row = 0; row < places.size(); ++row)
-      places[row] = positions[3 * nodes[row / 3] + row % 3];
-    center_and_scale(places, free_dofs.exchange());
+    std::vector<double> places;
+    for (const unsigned int node : rows.get_numbers().nodes())
+      places.insert(places.end(), positions.begin() + 3 * node, positions.begin() + 3 * node + 3);
+    center_and_scale(places, exchange);
+    return places;
   }
 
   void
@@ -267,17 +210,16 @@ namespace Exemplar
       return;
     if (!std::isfinite(norm))
       throw SolverFailure("The forces are not finite numbers.");
-    const auto multiply
-        = [this](const Epetra_Vector &x, Epetra_Vector &y) { matrix->Multiply(false, x, y); };
-    const auto cycle
-        = [this](const Epetra_Vector &x, Epetra_Vector &y) { multigrid->ApplyInverse(x, y); };
-    dealii::SolverControl                       control(max_iterations, tolerance * norm);
+    const auto            multiply = [this](const Vector &x, Vector &y) { rows.multiply(x, y); };
+    const auto            cycle    = [this](const Vector &x, Vector &y) { hierarchy->apply(x, y); };
+    const bool            has_rows = rows.get_numbers().n_rows() > 0;
+    dealii::SolverControl control(max_iterations, tolerance * norm);
     dealii::PrimitiveVectorMemory<SharedVector> memory;
     try
     {
       dealii::SolverCG<SharedVector>(control, memory)
-          .solve(CheckedOperator(matrix->RowMap(), multiply), solution, right_side,
-                 CheckedOperator(matrix->RowMap(), cycle));
+          .solve(CheckedOperator(multiply, has_rows), solution, right_side,
+                 CheckedOperator(cycle, has_rows));
     }
     catch (const dealii::SolverControl::NoConvergence &)
     {

@@ -1,96 +1,178 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/algebra/multigrid_operator.h>
+#include <exemplar/algebra/rigid_modes.h>
+#include <exemplar/algebra/trilinos_lock.h>
 
+#include <Epetra_CrsMatrix.h>
+#include <Epetra_Map.h>
 #include <Epetra_MpiComm.h>
-#include <algorithm>
+#include <Epetra_Vector.h>
+#include <Teuchos_ParameterList.hpp>
+#include <ml_MultiLevelPreconditioner.h>
+#include <ml_include.h>
+#include <ml_struct.h>
+#include <ml_utils.h>
+#include <mpi.h>
+
+// All that is Trilinos': Epetra's and ML's view of rows, and ML's multigrid.
 
 namespace Exemplar
 {
   namespace
   {
-    /// In one process: the rows are those of the unknowns, in the same order.
-    class IterativeOperator : public MultigridOperator
+    /// Epetra's view of rows.
+    std::unique_ptr<Epetra_CrsMatrix>
+    view(DistributedRows &rows)
+    {
+      CsrMatrix             &csr    = rows.get_matrix();
+      const int              n_rows = static_cast<int>(rows.get_numbers().n_rows());
+      const std::vector<int> all    = rows.global_columns();
+      const Epetra_MpiComm   communicator(rows.get_numbers().exchange().communicator());
+      const Epetra_Map       row_map(-1, n_rows, 0, communicator);
+      const Epetra_Map column_map(-1, static_cast<int>(all.size()), all.data(), 0, communicator);
+      csr.column.reserve(1); // where there are no rows, too, Epetra wants an address
+      csr.value.reserve(1);
+      // the way for those whose matrix is complete: every other would copy the columns
+      auto matrix = std::make_unique<Epetra_CrsMatrix>(View, row_map, column_map, 0, true);
+      matrix->ExpertExtractIndexOffset().MakeViewOf({ View, csr.row_start.data(), n_rows + 1 });
+      matrix->ExpertExtractIndices().MakeViewOf(
+          { View, csr.column.data(), static_cast<int>(csr.column.size()) });
+      matrix->ExpertExtractValues() = csr.value.data();
+      matrix->ExpertStaticFillComplete(row_map, row_map);
+      return matrix;
+    }
+
+    /// A vector as Epetra takes it.
+    Epetra_Vector
+    view(const Epetra_Map &map, const Vector &vector)
+    {
+      return Epetra_Vector(View, map, const_cast<double *>(vector.begin()));
+    }
+
+    /// Numbers among all processes of the columns of a matrix of ML, of which the own begin with
+    /// `first`.
+    std::vector<std::size_t>
+    global_columns(ML_Operator *matrix, const std::size_t first)
+    {
+      const int n_own = matrix->invec_leng;
+      int       n_all = n_own;
+      if (ML_CommInfoOP *with = matrix->getrow->pre_comm)
+      {
+        ML_CommInfoOP_Compute_TotalRcvLength(with);
+        n_all += with->total_rcv_length;
+      }
+      std::vector<double> numbers(n_all);
+      for (int i = 0; i < n_own; ++i)
+        numbers[i] = static_cast<double>(first + i);
+      if (matrix->getrow->pre_comm != nullptr)
+        ML_exchange_bdry(numbers.data(), matrix->getrow->pre_comm, n_own, matrix->comm,
+                         ML_OVERWRITE, nullptr);
+      return { numbers.begin(), numbers.end() };
+    }
+
+    BlockMatrix
+    copy_in_blocks(ML_Operator *matrix, const Exchange &exchange)
+    {
+      const TrilinosLock             lock;
+      const std::vector<std::size_t> firsts = first_numbers(matrix->invec_leng / 3, exchange);
+      const auto                     read_row
+          = [matrix](const int row, std::vector<int> &columns, std::vector<double> &values)
+      {
+        int length = 0, number = row;
+        while (ML_Operator_Getrow(matrix, 1, &number, static_cast<int>(columns.size()),
+                                  columns.data(), values.data(), &length)
+               == 0)
+        {
+          columns.resize(2 * columns.size() + 1);
+          values.resize(columns.size());
+        }
+        return length;
+      };
+      return make_block_matrix(matrix->outvec_leng / 3, firsts,
+                               global_columns(matrix, 3 * firsts[exchange.process()]), read_row,
+                               exchange);
+    }
+
+    /// Smoothed aggregation by ML.
+    class MlHierarchy : public MultigridHierarchy
     {
     public:
-      using MultigridOperator::MultigridOperator;
+      explicit MlHierarchy(DistributedRows &rows) : exchange(rows.get_numbers().exchange())
+      {
+        const TrilinosLock lock;
+        matrix = view(rows);
+      }
+
+      ~MlHierarchy() override
+      {
+        const TrilinosLock lock;
+        multigrid.reset(); // refers to the matrix
+        matrix.reset();
+      }
+
+      void
+      make(std::vector<double> modes) override
+      {
+        const TrilinosLock lock;
+        modes.reserve(1); // where there are no rows, too, ML wants an address
+        Teuchos::ParameterList parameters;
+        ML_Epetra::SetDefaults("SA", parameters);
+        parameters.set("ML output", 0);
+        parameters.set("PDE equations", 3);
+        parameters.set("null space: type", "pre-computed");
+        parameters.set("null space: dimension", static_cast<int>(n_rigid_modes));
+        parameters.set("null space: vectors", modes.data());
+        parameters.set("aggregation: type", "Uncoupled");
+        parameters.set("prec type", "MGW"); // W cycles: coarse levels cost next to nothing
+        parameters.set("smoother: type", "Chebyshev");
+        parameters.set("smoother: sweeps", 2);
+        parameters.set("coarse: type", "Amesos-KLU");
+        // of its eigenvalue estimates, or else they would depend on the hierarchies before
+        ML_set_random_seed(1);
+        multigrid = std::make_unique<Multigrid>(*matrix, parameters);
+        if (exchange.any(!multigrid->IsPreconditionerComputed()))
+          throw SolverFailure("ML makes no multigrid hierarchy of the matrix of the step. Set "
+                              "Solver/Linear solver to cholesky.");
+      }
+
+      void
+      clear() override
+      {
+        const TrilinosLock lock;
+        multigrid.reset();
+      }
+
+      void
+      apply(const Vector &vector, Vector &image) const override
+      {
+        const TrilinosLock lock; // its products start a timer of the process
+        Epetra_Vector      result = view(matrix->RowMap(), image);
+        multigrid->ApplyInverse(view(matrix->RowMap(), vector), result);
+      }
+
+      std::vector<MultigridLevel>
+      copy() const override
+      {
+        const ML_Struct            &ml   = *multigrid->GetML();
+        const int                   down = ml.ML_finest_level < ml.ML_coarsest_level ? 1 : -1;
+        std::vector<MultigridLevel> levels;
+        for (int number = ml.ML_finest_level; number != ml.ML_coarsest_level; number += down)
+        {
+          BlockMatrix of_level = copy_in_blocks(&ml.Amat[number], exchange);
+          levels.push_back(
+              { std::move(of_level), copy_in_blocks(&ml.Pmat[number + down], exchange) });
+        }
+        levels.push_back(
+            { copy_in_blocks(&ml.Amat[ml.ML_coarsest_level], exchange), BlockMatrix(Halo()) });
+        return levels;
+      }
 
     private:
-      void
-      make_matrix(const SymmetricPattern &pattern) override
-      {
-        const std::size_t n_entries = 2 * pattern.row.size() - pattern.n() + n_rows() - pattern.n();
-        check_size(n_entries);
+      using Multigrid = ML_Epetra::MultiLevelPreconditioner;
 
-        const std::vector<int> start   = row_starts(pattern);
-        const std::vector<int> columns = columns_by_row(pattern, start);
-        std::vector<int>       length(n_rows());
-        for (unsigned int row = 0; row < n_rows(); ++row)
-          length[row] = start[row + 1] - start[row];
-        const std::vector<double> ones(n_rows(), 1.); // no row is longer
-        const Epetra_Map          map(static_cast<int>(n_rows()), 0, Epetra_MpiComm(MPI_COMM_SELF));
-        matrix = std::make_unique<Epetra_CrsMatrix>(Copy, map, map, length.data(), true);
-        for (unsigned int row = 0; row < n_rows(); ++row)
-          matrix->InsertMyValues(static_cast<int>(row), length[row], ones.data(),
-                                 columns.data() + start[row]);
-        matrix->FillComplete();
-        matrix->OptimizeStorage();
-      }
-
-      std::vector<int>
-      row_starts(const SymmetricPattern &pattern) const
-      {
-        std::vector<int> start(n_rows() + 1, 0);
-        for (unsigned int i = 0; i < pattern.n(); ++i)
-          for (int entry = pattern.column_start[i]; entry < pattern.column_start[i + 1]; ++entry)
-          {
-            ++start[row_of[i] + 1];
-            if (pattern.row[entry] != static_cast<int>(i))
-              ++start[row_of[pattern.row[entry]] + 1];
-          }
-        for (unsigned int row = 0; row < n_rows(); ++row)
-          start[row + 1] = start[row] + std::max(start[row + 1], 1);
-        return start;
-      }
-
-      /// Ascending in each row: a row of the lower triangle, then the diagonal and its column.
-      std::vector<int>
-      columns_by_row(const SymmetricPattern &pattern, const std::vector<int> &start) const
-      {
-        std::vector<int> columns(start.back()), next(start.begin(), start.end() - 1);
-        for (unsigned int row = 0; row < n_rows(); ++row)
-          columns[start[row]] = static_cast<int>(row); // of held components this remains
-        for (unsigned int i = 0; i < pattern.n(); ++i)
-          for (int entry = pattern.column_start[i]; entry < pattern.column_start[i + 1]; ++entry)
-          {
-            const int row              = row_of[pattern.row[entry]];
-            columns[next[row_of[i]]++] = row;
-            if (row != row_of[i])
-              columns[next[row]++] = row_of[i];
-          }
-        return columns;
-      }
-
-      /// The lower triangle by columns to both triangles by rows.
-      void
-      fill_matrix() override
-      {
-        int    *start = nullptr, *column = nullptr;
-        double *value = nullptr;
-        matrix->ExtractCrsDataPointers(start, column, value);
-        std::vector<int> next(start, start + n_rows()); // passes over the left part of a row
-        const double    *lower = lower_values.data();
-        for (const int row : row_of)
-        {
-          if (!(*lower > 0.)) // the diagonal
-            throw indefinite_matrix();
-          for (int entry = next[row]; entry < start[row + 1]; ++entry, ++lower)
-          {
-            value[entry] = *lower;
-            if (column[entry] != row)
-              value[next[column[entry]]++] = *lower;
-          }
-        }
-      }
+      const Exchange                   &exchange;
+      std::unique_ptr<Epetra_CrsMatrix> matrix;
+      std::unique_ptr<Multigrid>        multigrid;
     };
   } // namespace
 
@@ -103,8 +185,8 @@ namespace Exemplar
   std::unique_ptr<SpdOperator>
   make_iterative_operator(const FreeDofs &free_dofs, const double tolerance)
   {
-    if (free_dofs.exchange().n_processes() > 1)
-      return make_distributed_operator(free_dofs, tolerance);
-    return std::make_unique<IterativeOperator>(free_dofs, tolerance);
+    return std::make_unique<MultigridOperator>(free_dofs, tolerance,
+                                               [](DistributedRows &rows)
+                                               { return std::make_unique<MlHierarchy>(rows); });
   }
 } // namespace Exemplar

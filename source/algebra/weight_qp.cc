@@ -218,6 +218,8 @@ namespace Exemplar
                         const std::vector<double>        &lower,
                         const std::vector<double>        &start)
   {
+    if (c.empty())
+      return { true, {}, {} };
     return ActiveSet(H, c, sums, lower, start).solve();
   }
 } // namespace Exemplar

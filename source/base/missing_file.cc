@@ -55,12 +55,12 @@ namespace Exemplar
     std::vector<std::string>
     names_beside(const fs::path &file)
     {
-      constexpr std::size_t    most = 2000; // who has more files in a directory waits no longer
+      constexpr std::size_t    maximum = 2000; // who has more files in a directory waits no longer
       std::vector<std::string> names;
       std::error_code          ignored;
       const fs::path directory = file.has_parent_path() ? file.parent_path() : fs::path(".");
       for (fs::directory_iterator entry(directory, ignored), end;
-           entry != end && names.size() < most; entry.increment(ignored))
+           entry != end && names.size() < maximum; entry.increment(ignored))
         names.push_back(entry->path().filename().string());
       std::sort(names.begin(), names.end()); // directories have no order of their own
       return names;

@@ -32,6 +32,8 @@ namespace Exemplar
                  const FESpace                          &fe_space,
                  const std::vector<std::vector<double>> &painted)
     {
+      if (!parameters.in_use())
+        return {};
       const unsigned int n_points = points_per_cell(fe_space.element());
       if (!painted.empty())
         return RegionShares(painted, n_points);
@@ -79,8 +81,10 @@ namespace Exemplar
                              const std::vector<std::vector<double>> &painted)
       : fe_space(fe_space), eta(parameters.importance), laws(laws),
         regions(make_regions(parameters, mesh, fe_space, painted)),
-        first_strained(parameters.include_rest_pose ? 1 : 0)
+        first_strained(parameters.in_use() && parameters.include_rest_pose ? 1 : 0)
   {
+    if (!parameters.in_use())
+      return;
     if (parameters.include_rest_pose)
       add_pose("rest pose", mesh.get_nodes());
     for (const std::string &name : parameters.poses)
@@ -91,10 +95,10 @@ namespace Exemplar
     for (unsigned int i = first_strained; i < size(); ++i)
     {
       const std::size_t first_function = size() - functions.size();
-      const std::string of_function
-          = i < first_function ? ""
-                               : describe_displacements(functions[i - first_function], mesh,
-                                                        fe_space, positions[i]);
+      const std::string of_function    = i < first_function
+                                             ? ""
+                                             : describe_displacements(functions[i - first_function],
+                                                                      mesh, fe_space, positions[i]);
       if (!of_function.empty())
         warnings.push_back("Examples/Pose functions" + of_function);
       else if (const std::string problem = describe_pose(mesh, fe_space, positions[i]);

@@ -39,14 +39,16 @@ namespace Exemplar
                                  const TimeAxis          &axis)
       : poses(poses), bounded(parameters.weights == WeightRule::simplex)
   {
-    if (parameters.weights == WeightRule::prescribed)
+    if (parameters.weights == WeightRule::prescribed && size() > 0)
     {
       read_prescribed(parameters.prescribed_weights);
       check_prescribed(axis);
     }
-    compute_form(parameters, unit_energy);
-    if (are_unknown())
+    else if (size() > 0)
+    {
+      compute_form(parameters, unit_energy);
       check_independence(unit_energy, parameters.ridge(unit_energy) > 0.);
+    }
   }
 
   void
@@ -55,15 +57,11 @@ namespace Exemplar
     const unsigned int n = poses.n_weights();
     penalty.reinit(n, n);
     form.N.reinit(poses.n_regions(), n);
-    if (are_unknown())
-    {
-      const double sigma = parameters.ridge(unit_energy);
-      // a region has its part of the ridge, so that equal weights in all regions cost what
-      // global ones do
-      const std::vector<double> fraction = poses.volume_fractions();
-      for (unsigned int weight = 0; weight < n; ++weight)
-        penalty(weight, weight) = sigma * fraction[weight / poses.size()];
-    }
+    const double sigma = parameters.ridge(unit_energy);
+    // a region has its part of the ridge, so that equal weights in all regions cost what global ones do
+    const std::vector<double> fraction = poses.volume_fractions();
+    for (unsigned int weight = 0; weight < n; ++weight)
+      penalty(weight, weight) = sigma * fraction[weight / poses.size()];
     const double eta = poses.importance();
     if (parameters.energy != ExampleEnergy::scaled)
       penalty.add(blended_part(parameters.energy) * (1. - eta) / eta, poses.gram_matrix());
@@ -134,18 +132,16 @@ namespace Exemplar
   std::vector<double>
   ExampleWeights::initial() const
   {
-    if (!are_unknown())
-      return at(0.);
-    std::vector<double> weights(size(), 0.);
-    for (unsigned int region = 0; region < n_regions(); ++region)
-      weights[region * n_per_region()] = 1.;
-    return weights;
+    std::vector<double> first(size(), 0.);
+    for (unsigned int weight = 0; weight < size(); weight += n_per_region())
+      first[weight] = 1.;
+    return at(0., first);
   }
 
   std::vector<double>
   ExampleWeights::best(const std::vector<double> &c, const std::vector<double> &start) const
   {
-    const std::vector<double> lower(bounded ? size() : 0, 0.), sums(n_regions(), 1.);
+    const std::vector<double> lower(bounded ? size() : 0, 0.), sums(form.N.m(), 1.);
     const WeightQpSolution    minimum = minimize_over_weights(form.H, c, sums, lower, start);
     if (!minimum.found)
       throw SolverFailure("The example weights are not determined. Set Examples/Weight penalty "
@@ -166,7 +162,8 @@ namespace Exemplar
   ExampleWeights::missing_sums(const std::vector<double> &weights) const
   {
     std::vector<double> missing;
-    for (auto first = weights.begin(); first != weights.end(); first += n_per_region())
+    auto                first = weights.begin();
+    for (unsigned int region = 0; region < form.N.m(); ++region, first += n_per_region())
       missing.push_back(1. - std::accumulate(first, first + n_per_region(), 0.));
     return missing;
   }
@@ -191,7 +188,7 @@ namespace Exemplar
     const auto is_off = [&](const unsigned int weight) { return !bounded || weights[weight] > 0.; };
     WeightResidual result;
     MaxMagnitude   deviation;
-    for (unsigned int region = 0; region < n_regions(); ++region)
+    for (unsigned int region = 0; region < form.N.m(); ++region)
     {
       double       sum = 0.;
       unsigned int n   = 0;

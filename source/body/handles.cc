@@ -222,21 +222,60 @@ namespace Exemplar
     return all;
   }
 
-  void
-  Handles::set_motion(const std::string &name, Motion motion)
+  Handles::Handle &
+  Handles::find(const std::string &name)
   {
     std::string names;
     for (Handle &handle : handles)
     {
       if (handle.name == name)
-      {
-        handle.function = std::move(motion);
-        return;
-      }
+        return handle;
       names += (names.empty() ? "" : ", ") + handle.name;
     }
-    throw UserError("There is no handle '" + name + "' to be moved. Handles/Names has: " + names
-                    + ".");
+    throw UserError(
+        "There is no handle '" + name + "'. "
+        + (names.empty() ? "Add it to Handles/Names." : "Handles/Names has: " + names + "."));
+  }
+
+  std::vector<bool>
+  Handles::holding() const
+  {
+    std::vector<bool> all;
+    for (const Handle &handle : handles)
+      all.push_back(handle.holds);
+    return all;
+  }
+
+  void
+  Handles::restore(const std::vector<bool> &holding)
+  {
+    while (handles.size() > holding.size())
+      handles.pop_back();
+    for (std::size_t h = 0; h < handles.size(); ++h)
+      handles[h].holds = holding[h];
+  }
+
+  void
+  Handles::set_motion(const std::string &name, Motion motion)
+  {
+    find(name).function = std::move(motion);
+  }
+
+  void
+  Handles::grab(const std::string &name, const std::vector<unsigned int> &nodes, Motion motion)
+  {
+    for (const Handle &handle : handles)
+      if (handle.name == name)
+        throw UserError("There is a handle '" + name + "' already. Give another name.");
+    const std::string               key = "Handles/" + name;
+    const std::vector<unsigned int> all = fe_space.with_edges(nodes);
+    handles.push_back({ name,
+                        all,
+                        { 0, 1, 2 },
+                        Expression(key + "/Motion", "0; 0; 0", "xyzt", 3),
+                        Expression(key + "/Progress", "t", "t", 1),
+                        {},
+                        at_middles_too(motion, all) });
   }
 
   std::set<unsigned int>
@@ -244,7 +283,7 @@ namespace Exemplar
   {
     std::set<unsigned int> seen, shared;
     for (const Handle &handle : handles)
-      for (const unsigned int node : handle.nodes)
+      for (const unsigned int node : handle.held_nodes())
         if (!seen.insert(node).second)
           shared.insert(node);
     return shared;
@@ -273,7 +312,7 @@ namespace Exemplar
     };
     std::map<unsigned int, Target> targets;
     for (unsigned int h = 0; h < handles.size(); ++h)
-      for (unsigned int point = 0; point < handles[h].nodes.size(); ++point)
+      for (unsigned int point = 0; point < handles[h].held_nodes().size(); ++point)
       {
         const unsigned int node = handles[h].nodes[point];
         if (shared.count(node) == 0)
@@ -307,7 +346,7 @@ namespace Exemplar
   {
     std::set<unsigned int> dofs;
     for (const Handle &handle : handles)
-      for (const unsigned int node : handle.nodes)
+      for (const unsigned int node : handle.held_nodes())
         for (const unsigned int c : handle.components)
           dofs.insert(3 * node + c);
     return { dofs.begin(), dofs.end() };
@@ -318,7 +357,7 @@ namespace Exemplar
   {
     const Displacements all = displacements(time);
     for (unsigned int h = 0; h < handles.size(); ++h)
-      for (unsigned int point = 0; point < handles[h].nodes.size(); ++point)
+      for (unsigned int point = 0; point < handles[h].held_nodes().size(); ++point)
       {
         const unsigned int node = handles[h].nodes[point];
         for (const unsigned int c : handles[h].components)
@@ -352,7 +391,7 @@ namespace Exemplar
   {
     dealii::Tensor<1, 3> sum;
     const Exchange      &exchange = fe_space.exchange();
-    for (const unsigned int node : handles[handle].nodes)
+    for (const unsigned int node : handles[handle].held_nodes())
       for (const unsigned int c : handles[handle].components)
         if (exchange.owns(node))
           sum[c] += field[3 * node + c];

@@ -12,8 +12,8 @@ namespace Exemplar
     using Points = std::vector<dealii::Point<3>>;
     using Arms   = std::vector<dealii::Tensor<1, 3>>;
 
-    const double degree      = std::acos(-1.) / 180.;
-    const double least_angle = 20. * degree;
+    const double degree    = std::acos(-1.) / 180.;
+    const double min_angle = 20. * degree;
 
     /// From the centroid to the points.
     Arms
@@ -77,15 +77,15 @@ namespace Exemplar
 
     /// Least size on the straight way, relative to the smaller one of its ends'.
     double
-    least_relative_size(const Arms &start, const Arms &way)
+    min_relative_size(const Arms &start, const Arms &way)
     {
       const double at_start = product(start, start), length = product(way, way);
       const double mixed    = product(start, way);
       const double at_end   = at_start + 2. * mixed + length;
       const double progress = length > 0. ? std::clamp(-mixed / length, 0., 1.) : 0.;
-      const double least    = at_start + progress * (2. * mixed + progress * length);
+      const double minimum  = at_start + progress * (2. * mixed + progress * length);
       const double smaller  = std::min(at_start, at_end);
-      return smaller > 0. ? std::sqrt(std::max(least, 0.) / smaller) : 1.;
+      return smaller > 0. ? std::sqrt(std::max(minimum, 0.) / smaller) : 1.;
     }
 
     std::string
@@ -122,14 +122,14 @@ namespace Exemplar
         most_turned = k;
       }
     }
-    if (turn.angle < least_angle || are_collinear(rest))
+    if (turn.angle < min_angle || are_collinear(rest))
       return none;
 
     const Arms start = arms(rest);
     const Arms way   = sum(arms(places[most_turned]), -1., start);
     if (!lies_on_straight_lines(start, way, places, most_turned))
       return none;
-    const double size = least_relative_size(across(turn.axis, start), across(turn.axis, way));
+    const double size = min_relative_size(across(turn.axis, start), across(turn.axis, way));
     return 1. - size < 0.5 * (1. - std::cos(0.5 * turn.angle)) ? none
                                                                : StraightTurn{ turn.angle, size };
   }
@@ -155,32 +155,32 @@ namespace Exemplar
   void
   Handles::look_for_large_turns(const TimeAxis &axis)
   {
-    constexpr std::size_t most_nodes = 8, most_steps = 20; // a millisecond
+    constexpr std::size_t max_nodes = 8, max_steps = 20; // a millisecond
     for (const Handle &handle : handles)
     {
       if (handle.path || handle.function || handle.components.size() < 3)
         continue;
       Points            rest;
       const Points      all    = rest_positions(handle);
-      const std::size_t stride = all.size() / most_nodes + 1;
+      const std::size_t stride = all.size() / max_nodes + 1;
       for (std::size_t i = 0; i < all.size(); i += stride)
         rest.push_back(all[i]);
       if (rest.size() < 3 || are_collinear(rest))
         continue;
-      double            greatest = 0.;
-      const std::size_t n_steps  = std::min<std::size_t>(axis.n_steps(), most_steps);
+      double            maximum = 0.;
+      const std::size_t n_steps = std::min<std::size_t>(axis.n_steps(), max_steps);
       for (std::size_t k = 1; k <= n_steps; ++k)
       {
         const auto step = static_cast<unsigned int>(k * axis.n_steps() / n_steps);
-        greatest
-            = std::max(greatest, handle.turn_between(rest, axis.time(step - 1), axis.time(step)));
+        maximum
+            = std::max(maximum, handle.turn_between(rest, axis.time(step - 1), axis.time(step)));
       }
-      if (greatest > 179.9 * degree)
+      if (maximum > 179.9 * degree)
         warnings.push_back("Handles/" + handle.name + "/Motion turns the held nodes by "
-                           + rounded(greatest / degree)
+                           + rounded(maximum / degree)
                            + " degrees in a step, which knows only where they end: the body goes "
                              "the shorter way. Take "
-                           + rounded(std::ceil(greatest / (30. * degree)))
+                           + rounded(std::ceil(maximum / (30. * degree)))
                            + " times as many steps (Time/Increments, or Time/Step).");
     }
   }
@@ -188,7 +188,7 @@ namespace Exemplar
   void
   Handles::look_for_progress_beyond(const TimeAxis &axis)
   {
-    constexpr double  most      = 2.; // a swing goes beyond its pose, but not twice as far
+    constexpr double  maximum   = 2.; // a swing goes beyond its pose, but not twice as far
     const std::size_t n_samples = std::min<std::size_t>(axis.n_steps(), 1000);
     for (const Handle &handle : handles)
     {
@@ -200,7 +200,7 @@ namespace Exemplar
         if (std::abs(progress - 0.5) > std::abs(farthest - 0.5))
           farthest = progress;
       }
-      if (std::abs(farthest - 0.5) > most - 0.5)
+      if (std::abs(farthest - 0.5) > maximum - 0.5)
         warnings.push_back("Handles/" + handle.name + "/Progress goes to " + short_text(farthest)
                            + ", but 0 is at rest and 1 in the pose: the way is extrapolated far "
                              "beyond it. Let Progress end at 1, as t does in a static scene.");
@@ -216,9 +216,9 @@ namespace Exemplar
       if (handle.path || handle.components.size() < 3 || handle.nodes.size() < 3)
         continue;
       // long runs of large handles: not in all steps, to stay below a tenth of a second
-      const std::size_t   most_samples = std::max<std::size_t>(20, 100000 / handle.nodes.size());
-      const std::size_t   n_samples    = std::min<std::size_t>(axis.n_steps(), most_samples);
-      const Points        rest         = rest_positions(handle);
+      const std::size_t   max_samples = std::max<std::size_t>(20, 100000 / handle.nodes.size());
+      const std::size_t   n_samples   = std::min<std::size_t>(axis.n_steps(), max_samples);
+      const Points        rest        = rest_positions(handle);
       std::vector<Points> places;
       for (std::size_t k = 0; k <= n_samples; ++k)
       {
@@ -236,7 +236,7 @@ namespace Exemplar
             + rounded(turn.angle / degree)
             + " degrees while each of them moves on a straight line: on the way the handle is "
               "crushed to "
-            + rounded(100. * turn.least_size) + " % of its width. "
+            + rounded(100. * turn.min_size) + " % of its width. "
             + (handle.function ? "Give the cache more samples."
                                : "Set " + key
                                      + "/Follow pose instead, or write Motion with cos and sin of "

@@ -75,9 +75,9 @@ namespace Exemplar
           : cells(cells), kinds(kinds), around(cells_by_node(cells, n_mesh_nodes)),
             beside(cells_beside(cells)), patch(cells.size(), no_patch)
       {
-        for (const std::size_t least : { 18, 9 }) // at an inner node there are 24 on average
+        for (const std::size_t minimum : { 18, 9 }) // at an inner node there are 24 on average
         {
-          take_stars(least);
+          take_stars(minimum);
           join_neighbours(0);
         }
         join_neighbours(1);
@@ -99,23 +99,23 @@ namespace Exemplar
         for (const unsigned int cell : around[node])
           if (patch[cell] == no_patch)
             free[kinds[cell]].push_back(cell);
-        std::vector<unsigned int> most;
+        std::vector<unsigned int> maximum;
         for (auto &[kind, of_kind] : free)
-          if (of_kind.size() > most.size())
-            most = std::move(of_kind);
-        return most;
+          if (of_kind.size() > maximum.size())
+            maximum = std::move(of_kind);
+        return maximum;
       }
 
-      /// The stars of `least` cells or more become patches, the greatest first.
+      /// The stars of `minimum` cells or more become patches, the greatest first.
       void
-      take_stars(const std::size_t least)
+      take_stars(const std::size_t minimum)
       {
         // by number of cells, then by least node; a number may be older than the last patch
         using Entry = std::pair<std::size_t, long>;
         std::priority_queue<Entry> queue;
         const auto                 push = [&](const unsigned int node)
         {
-          if (const std::size_t n = star(node).size(); n >= least)
+          if (const std::size_t n = star(node).size(); n >= minimum)
             queue.emplace(n, -static_cast<long>(node));
         };
         for (unsigned int node = 0; node < around.size(); ++node)
@@ -152,13 +152,13 @@ namespace Exemplar
       /// Cells without a patch join one with which they share a face, as long as it gains no more
       /// than so many nodes; the cell with the best choice is always the next.
       void
-      join_neighbours(const int most_gain)
+      join_neighbours(const int max_gain)
       {
         std::priority_queue<Choice, std::vector<Choice>, std::greater<>> queue;
         const auto push = [&](const unsigned int cell)
         {
           if (patch[cell] == no_patch)
-            if (const Choice choice = best_choice(cell); choice[0] <= most_gain)
+            if (const Choice choice = best_choice(cell); choice[0] <= max_gain)
               queue.push(choice);
         };
         for (unsigned int cell = 0; cell < patch.size(); ++cell)

@@ -52,13 +52,13 @@ namespace Exemplar
     }
 
     unsigned int
-    greatest_component(const dealii::Tensor<1, 3> &v)
+    max_component(const dealii::Tensor<1, 3> &v)
     {
-      unsigned int greatest = 0;
+      unsigned int maximum = 0;
       for (unsigned int d = 1; d < 3; ++d)
-        if (std::abs(v[d]) > std::abs(v[greatest]))
-          greatest = d;
-      return greatest;
+        if (std::abs(v[d]) > std::abs(v[maximum]))
+          maximum = d;
+      return maximum;
     }
 
     unsigned int
@@ -116,9 +116,8 @@ namespace Exemplar
     const auto  a = cell[0], b = cell[1], c = cell[2];
 
     // b may move along the dominant direction of ab only, c within the plane abc
-    const unsigned int along = greatest_component(x[b] - x[a]);
-    const unsigned int normal
-        = greatest_component(dealii::cross_product_3d(x[b] - x[a], x[c] - x[a]));
+    const unsigned int along  = max_component(x[b] - x[a]);
+    const unsigned int normal = max_component(dealii::cross_product_3d(x[b] - x[a], x[c] - x[a]));
     std::vector<unsigned int> held = { 3 * a, 3 * a + 1, 3 * a + 2, 3 * c + normal };
     for (unsigned int d = 0; d < 3; ++d)
       if (d != along)

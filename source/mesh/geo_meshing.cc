@@ -114,16 +114,16 @@ namespace Exemplar
         std::vector<std::size_t> tags;
         std::vector<double>      places, parameters;
         gmsh::model::mesh::getNodes(tags, places, parameters);
-        std::size_t greatest = 0;
+        std::size_t maximum = 0;
         for (const std::size_t tag : tags)
-          greatest = std::max(greatest, tag);
-        std::vector<char> is_used(greatest + 1);
+          maximum = std::max(maximum, tag);
+        std::vector<char> is_used(maximum + 1);
         for (const MshElement &element : msh.elements)
           for (const std::size_t tag : element.nodes)
             is_used.at(tag) = 1;
         double scale = 1.;
         gmsh::option::getNumber("Mesh.ScalingFactor", scale);
-        std::vector<std::size_t> index(greatest + 1);
+        std::vector<std::size_t> index(maximum + 1);
         for (std::size_t i = 0; i < tags.size(); ++i)
           if (is_used[tags[i]] != 0)
           {

@@ -23,7 +23,7 @@ namespace Exemplar
   namespace
   {
     /// Limits of a text, far beyond any that is meant: inclusions may double it again and again.
-    constexpr std::size_t most_inclusions = 10000, most_levels = 100, most_tokens = 20000000;
+    constexpr std::size_t max_inclusions = 10000, max_levels = 100, max_tokens = 20000000;
 
     /// A file by what it is, not by a path that leads to it.
     using FileIdentity = std::pair<dev_t, ino_t>;
@@ -96,13 +96,14 @@ namespace Exemplar
       void
       add_script(const fs::path &path, const FileIdentity &file, Stack within)
       {
-        if (!within.insert(file).second || within.size() > most_levels)
-          throw UserError(path.string() + ": the file includes itself, in however many steps, or "
-                          "inclusions are too deep.");
+        if (!within.insert(file).second || within.size() > max_levels)
+          throw UserError(path.string()
+                          + ": the file includes itself, in however many steps, or "
+                            "inclusions are too deep.");
         const auto tokens = tokens_of_geo(files.bytes_of(file), path.string());
         for (std::size_t i = 0; i < tokens.size();)
           i = add_piece(tokens, i, path, within);
-        if (script.size() > most_tokens)
+        if (script.size() > max_tokens)
           throw UserError(path.string() + ": with all that it includes, the script is too long.");
       }
 
@@ -147,7 +148,7 @@ namespace Exemplar
           refuse_geo(tokens[i].origin, tokens[i].text
                                            + " takes a file whose name is not a plain text in "
                                              "quotes, so it is not known what it does");
-        if (++n_inclusions > most_inclusions)
+        if (++n_inclusions > max_inclusions)
           refuse_geo(tokens[i].origin, "there are too many inclusions");
         const FileIdentity file     = open_named(name, path);
         const bool         is_merge = tokens[i].text != "Include";
@@ -234,8 +235,7 @@ namespace Exemplar
     {
       for (std::size_t i = 0; i < tokens.size(); ++i)
       {
-        const bool begins_line
-            = i == 0 || !are_on_one_line(tokens[i].origin, tokens[i - 1].origin);
+        const bool begins_line = i == 0 || !are_on_one_line(tokens[i].origin, tokens[i - 1].origin);
         if (begins_line)
           text.origins.push_back(tokens[i].origin);
         if (i > 0 && (begins_line || needs_gap(tokens[i - 1], tokens[i])))
@@ -264,9 +264,9 @@ namespace Exemplar
     for (std::size_t found; (found = messages.find(mark, at)) != std::string::npos;)
     {
       const std::size_t digits = found + mark.size();
-      const std::size_t end    = std::min(messages.find_first_not_of("0123456789", digits),
-                                          messages.size());
-      const auto        line   = std::strtoul(messages.c_str() + digits, nullptr, 10);
+      const std::size_t end
+          = std::min(messages.find_first_not_of("0123456789", digits), messages.size());
+      const auto line = std::strtoul(messages.c_str() + digits, nullptr, 10);
       text += messages.substr(at, found - at);
       if (line >= 1 && line <= origins.size())
         text += "'" + *origins[line - 1].file + "', line " + std::to_string(origins[line - 1].line);

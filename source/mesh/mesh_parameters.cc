@@ -28,7 +28,7 @@ namespace Exemplar
                   "as rest.msh). Leave it empty if Generator = box.");
     keys.add("Cells", n_cells,
              "How many tetrahedra a surface is filled with, about, if File is one.",
-             Bounds{ least_n_cells, most_n_cells });
+             Bounds{ min_n_cells, max_n_cells });
     keys.add("Repair", repair,
              "Whether a surface that File names is mended before: holes, turned and intersecting "
              "faces; what cannot be mended is wrapped.");

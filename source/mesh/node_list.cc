@@ -40,7 +40,7 @@ namespace Exemplar
       {
         for (unsigned int node = 0; node < mesh.node_numbers.size(); ++node)
           index[mesh.node_numbers[node]] = node;
-        least = *std::min_element(mesh.node_numbers.begin(), mesh.node_numbers.end());
+        minimum = *std::min_element(mesh.node_numbers.begin(), mesh.node_numbers.end());
       }
 
       std::vector<unsigned int>
@@ -74,8 +74,8 @@ namespace Exemplar
           throw UserError(key + ": " + in_quotes(word) + " in " + file.string()
                           + " is no node number of " + mesh_name
                           + (number == 0.
-                                 ? ", whose nodes are counted from " + std::to_string(least)
-                                       + ": add " + std::to_string(least) + " to all."
+                                 ? ", whose nodes are counted from " + std::to_string(minimum)
+                                       + ": add " + std::to_string(minimum) + " to all."
                                  : ".")
                           + remedy);
         nodes.insert(found->second);
@@ -132,8 +132,9 @@ namespace Exemplar
           throw UserError(key + ": " + file.string()
                           + " holds True and False. Save the numbers of the nodes that are meant, "
                             "which are counted from "
-                          + std::to_string(least) + ": numpy.save(FILE, numpy.flatnonzero(mask) + "
-                          + std::to_string(least) + ").");
+                          + std::to_string(minimum)
+                          + ": numpy.save(FILE, numpy.flatnonzero(mask) + "
+                          + std::to_string(minimum) + ").");
         if (!std::regex_search(header, type, type_pattern))
           fail_npy("holds no numbers of this machine's byte order");
         const std::string data = bytes.substr(begin + header_size);
@@ -202,7 +203,7 @@ namespace Exemplar
           = " List node numbers of the mesh file, separated by blanks, commas or line breaks; # "
             "begins a comment. Arrays of numpy.save() are read, too.";
       std::unordered_map<std::size_t, unsigned int> index;
-      std::size_t                                   least = 0; ///< of the mesh's node numbers
+      std::size_t                                   minimum = 0; ///< of the mesh's node numbers
       std::set<unsigned int>                        nodes;
     };
   } // namespace

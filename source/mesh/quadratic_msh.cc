@@ -151,9 +151,9 @@ namespace Exemplar
         keep[node] = true;
     remove_nodes(msh, keep);
     msh.note += (msh.note.empty() ? "" : " ") + name
-               + ": has 10-node tetrahedra with straight edges, of which the corners are taken. "
-                 "Model/Element = P2 puts nodes into the middles of the edges again, P1 does "
-                 "without.";
+                + ": has 10-node tetrahedra with straight edges, of which the corners are taken. "
+                  "Model/Element = P2 puts nodes into the middles of the edges again, P1 does "
+                  "without.";
   }
 
   std::vector<dealii::Point<3>>
@@ -207,11 +207,11 @@ namespace Exemplar
                const std::vector<Edge>             &edges,
                const std::vector<dealii::Point<3>> &places)
   {
-    MshFile result       = mesh;
-    result.nodes         = places;
-    std::size_t greatest = *std::max_element(mesh.node_numbers.begin(), mesh.node_numbers.end());
+    MshFile result      = mesh;
+    result.nodes        = places;
+    std::size_t maximum = *std::max_element(mesh.node_numbers.begin(), mesh.node_numbers.end());
     while (result.node_numbers.size() < places.size())
-      result.node_numbers.push_back(++greatest);
+      result.node_numbers.push_back(++maximum);
     for (MshElement &element : result.elements)
     {
       const ElementPair *const pair  = find_pair(element.type, &ElementPair::linear);

@@ -56,12 +56,12 @@ namespace Exemplar
     Tensor1
     perpendicular(const Tensor1 &u)
     {
-      int least = 0;
+      int minimum = 0;
       for (int d = 1; d < 3; ++d)
-        if (std::abs(u[d]) < std::abs(u[least]))
-          least = d;
+        if (std::abs(u[d]) < std::abs(u[minimum]))
+          minimum = d;
       Tensor1 e;
-      e[least]        = 1.;
+      e[minimum]      = 1.;
       const Tensor1 n = dealii::cross_product_3d(u, e);
       return n / n.norm();
     }

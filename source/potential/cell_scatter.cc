@@ -69,10 +69,18 @@ namespace Exemplar
   CellScatter::CellScatter(const FESpace          &fe_space,
                            const SymmetricPattern &pattern,
                            const FreeDofs         &free_dofs)
-      : fe_space(fe_space), pattern(pattern), free_dofs(free_dofs),
-        block_positions(n_block_columns(nodes_per_cell(fe_space.element())) * fe_space.n_cells(),
-                        FreeDofs::held)
+      : fe_space(fe_space), pattern(pattern), free_dofs(free_dofs)
   {
+    reinit();
+  }
+
+  void
+  CellScatter::reinit()
+  {
+    block_positions.assign(n_block_columns(nodes_per_cell(fe_space.element())) * fe_space.n_cells(),
+                           FreeDofs::held);
+    mixed.clear();
+    beside_held.clear();
     for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
     {
       std::vector<int> n_held;

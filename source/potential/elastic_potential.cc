@@ -74,15 +74,22 @@ namespace Exemplar
   ElasticPotential::ElasticPotential(const ElasticParts     &parts,
                                      PotentialTerms          new_terms,
                                      const SymmetricPattern &pattern)
-      : parts(parts), pattern(pattern),
-        cells(parts.laws,
-              parts.examples == nullptr ? default_guard_bound : parts.examples->guard_bound(),
-              parts.fe_space,
-              parts.cell_material,
-              parts.n_threads),
+      : parts(parts), pattern(pattern), cells(parts.laws,
+                                              parts.examples.guard_bound(),
+                                              parts.fe_space,
+                                              parts.cell_material,
+                                              parts.n_threads),
         scatter(parts.fe_space, pattern, parts.free_dofs), terms(std::move(new_terms)),
         rounding(estimate_rounding(parts))
   {
+    for (const auto &term : terms)
+      term->attach(pattern, parts.free_dofs, cells);
+  }
+
+  void
+  ElasticPotential::follow_pattern()
+  {
+    scatter.reinit();
     for (const auto &term : terms)
       term->attach(pattern, parts.free_dofs, cells);
   }
@@ -91,9 +98,8 @@ namespace Exemplar
   ElasticPotential::rounding_weight_gradient() const
   {
     double greatest = 0.;
-    for (unsigned int weight = 0; weight < parts.examples->n_weights(); ++weight)
-      greatest
-          = max_or_nan(greatest, rounding.stress_norm * parts.examples->strain_norm(weight));
+    for (unsigned int weight = 0; weight < parts.examples.n_weights(); ++weight)
+      greatest = max_or_nan(greatest, rounding.stress_norm * parts.examples.strain_norm(weight));
     return greatest;
   }
 
@@ -102,11 +108,10 @@ namespace Exemplar
                          const std::vector<double> &weights,
                          const RotationUse          rotations)
   {
-    CellTask task = cells.task(positions, rotations);
-    if (parts.examples != nullptr)
-      task.examples = parts.examples->arrays();
+    CellTask task         = cells.task(positions, rotations);
+    task.examples         = parts.examples.arrays();
     task.weights          = weights.data();
-    task.with_weight_sums = has_unknown_weights();
+    task.with_weight_sums = parts.weights.n_unknown() > 0;
     return task;
   }
 
@@ -117,30 +122,21 @@ namespace Exemplar
       term->tell_cells(at);
   }
 
-  Matrix3<double>
-  ElasticPotential::example_strain(const unsigned int         point,
-                                   const std::vector<double> &weights) const
-  {
-    return parts.examples == nullptr ? Matrix3<double>{}
-                                     : parts.examples->strain(point, weights);
-  }
-
   void
   ElasticPotential::add_penalty(const std::vector<double> &weights, ElasticEvaluation &result) const
   {
     const double                      stress_norm = std::sqrt(result.stress_square);
-    const ExamplePoses               &examples = *parts.examples;
-    const dealii::FullMatrix<double> &form     = parts.weights->penalty_matrix();
-    for (unsigned int v = 0; v < weights.size(); ++v)
+    const ExamplePoses               &examples    = parts.examples;
+    const dealii::FullMatrix<double> &form        = parts.weights.penalty_matrix();
+    for (unsigned int v = 0; v < form.m(); ++v)
     {
       double penalty = 0.;
-      for (unsigned int w = 0; w < weights.size(); ++w)
+      for (unsigned int w = 0; w < form.m(); ++w)
         penalty += form(v, w) * weights[w];
       result.energy += 0.5 * penalty * weights[v];
       result.weight_gradient[v] += penalty;
       result.weight_scale = max_or_nan(result.weight_scale,
-                                       stress_norm * examples.strain_norm(v)
-                                           + std::abs(penalty));
+                                       stress_norm * examples.strain_norm(v) + std::abs(penalty));
     }
   }
 
@@ -149,11 +145,11 @@ namespace Exemplar
                                         const std::vector<double> &linear_term,
                                         ElasticEvaluation         &result) const
   {
-    const dealii::FullMatrix<double> &H = parts.weights->weight_form().H;
-    for (unsigned int v = 0; v < weights.size(); ++v)
+    const dealii::FullMatrix<double> &H = parts.weights.weight_form().H;
+    for (unsigned int v = 0; v < H.m(); ++v)
     {
       result.weight_gradient[v] = -linear_term[v];
-      for (unsigned int w = 0; w < weights.size(); ++w)
+      for (unsigned int w = 0; w < H.m(); ++w)
         result.weight_gradient[v] += H(v, w) * weights[w];
     }
   }
@@ -167,7 +163,7 @@ namespace Exemplar
   {
     CellTask cell_task = task(positions, weights, rotations);
     cell_task.with_weight_sums &= linear_term == nullptr;
-    const std::size_t       n_lanes = has_unknown_weights() ? batch_size * weights.size() : 0;
+    const std::size_t       n_lanes    = batch_size * parts.weights.n_unknown();
     NodalSums              &nodal_sums = cells.get_nodal_sums();
     std::vector<StripeSums> stripes(nodal_sums.n_stripes());
     nodal_sums.clear();
@@ -201,8 +197,6 @@ namespace Exemplar
       term->add({ positions, weights }, own);
     nodal_sums.add_to(own->gradient, own->force_scale);
     result = complete(parts.fe_space.exchange(), std::move(own));
-    if (!has_unknown_weights())
-      return;
     add_penalty(weights, result);
     if (linear_term != nullptr)
       set_weight_gradient(weights, *linear_term, result);
@@ -212,7 +206,7 @@ namespace Exemplar
   ElasticPotential::weight_linear_term(const Vector &positions, const RotationUse rotations)
   {
     const CellTask                cell_task = task(positions, {}, rotations);
-    dealii::AlignedVector<double> weight_sums(batch_size * parts.examples->n_weights());
+    dealii::AlignedVector<double> weight_sums(batch_size * parts.examples.n_weights());
     cells.for_each_law(cell_task,
                        [&](const CellTask &of_law) {
                          cells.loops().weight_linear_term(of_law, 0, of_law.cells.n_batches(),
@@ -238,19 +232,19 @@ namespace Exemplar
     CellResults results{ std::vector<double>(n), std::vector<double>(n), std::vector<double>(n) };
     for (unsigned int point = 0; point < n_points; ++point)
     {
-      const unsigned int         cell   = parts.fe_space.cell_of(point);
-      const Matrix3<double>      F      = parts.fe_space.deformation_gradient(point, positions);
-      const Matrix3<double>      R      = cells.rotation(point);
-      Matrix3<double>            T;
-      double                     energy = densities[point];
-      cells.get_batches().with_cell(point, R, F,
-                                    [&](const auto &state)
-                                    {
-                                      energy += state.elastic_density();
-                                      energy
-                                          += state.is_stretched() ? state.stretch().energy() : 0.;
-                                      T = state.stress_towards(example_strain(point, weights));
-                                    });
+      const unsigned int    cell = parts.fe_space.cell_of(point);
+      const Matrix3<double> F    = parts.fe_space.deformation_gradient(point, positions);
+      const Matrix3<double> R    = cells.rotation(point);
+      Matrix3<double>       T;
+      double                energy = densities[point];
+      cells.get_batches().with_cell(
+          point, R, F,
+          [&](const auto &state)
+          {
+            energy += state.elastic_density();
+            energy += state.is_stretched() ? state.stretch().energy() : 0.;
+            T = state.stress_towards(parts.examples.strain(point, weights));
+          });
       const double third = trace(T) / 3.;
       for (int i = 0; i < 3; ++i)
         T[i][i] -= third;

@@ -9,6 +9,129 @@
 
 namespace Exemplar
 {
+  namespace
+  {
+    /// Whether the tangent of a law is R K R^T.
+    bool
+    is_rotated_stiffness(const CellLaw law, const Tangent tangent)
+    {
+      const ModelTraits traits = traits_of(law);
+      return tangent == Tangent::exact ? traits.exact_is_rotated : traits.convex_is_rotated;
+    }
+
+    /// What a displacement changes at single quadrature points, by the tangent of a kind at some positions
+    /// and weights; it is added to `sums`.
+    class PointResponse
+    {
+    public:
+      PointResponse(const ElasticParts &parts,
+                    const CellField    &cells,
+                    const Tangent       tangent,
+                    const TermPoint    &at,
+                    ElasticSums        &sums)
+          : parts(parts), cells(cells), tangent(tangent), at(at), sums(sums)
+      {
+      }
+
+      void
+      add(const unsigned int point, const Vector &displacement)
+      {
+        const CellLaw         law = cells.get_batches().law(point);
+        const Matrix3<double> M   = transpose_times(
+              cells.rotation(point), parts.fe_space.deformation_gradient(point, displacement));
+        with_cell_model<double>(law,
+                                [&](auto model)
+                                {
+                                  using Cell = typename decltype(model)::type;
+                                  if (is_rotated_stiffness(law, tangent))
+                                    add_rotated<typename Cell::Constants>(point, M);
+                                  else if constexpr (!Cell::traits.exact_is_rotated)
+                                    add_of_law<Cell>(point, M);
+                                });
+      }
+
+    private:
+      /// Of R K R^T, where R^T dF = M.
+      template <typename Constants>
+      void
+      add_rotated(const unsigned int point, const Matrix3<double> &M)
+      {
+        const auto            C  = cells.get_batches().constants<Constants>(point);
+        const Matrix3<double> de = symmetric_part(M);
+        add_force(point, stress(C.scaled(1. + cells.get_damping().factor(point)), de));
+        const Matrix3<double> dT = stress(C, de);
+        subtract_from_weights(point, [&](const Matrix3<double> &E) { return contract(dT, E); });
+      }
+
+      template <typename Cell>
+      void
+      add_of_law(const unsigned int point, const Matrix3<double> &M)
+      {
+        const Cell state = state_at<Cell>(point);
+        add_force(point, state.response(M));
+        const double factor = 1. / (1. + cells.get_damping().factor(point));
+        subtract_from_weights(point, [&](const Matrix3<double> &E)
+                              { return factor * contract(state.example_response(E), M); });
+      }
+
+      template <typename Cell>
+      Cell
+      state_at(const unsigned int point) const
+      {
+        Cell state = cells.get_batches().cell<Cell>(
+            point, cells.rotation(point), parts.fe_space.deformation_gradient(point, at.positions));
+        const StrainDamping &damping = cells.get_damping();
+        Matrix3<double>      D       = parts.examples.strain(point, at.weights);
+        if (const double s = damping.factor(point); s > 0.)
+          D = state.damp(D, s, damping.past_strain(point));
+        state.set_target(D);
+        if constexpr (Cell::traits.trace_gradient_is_R)
+          state.add_pressure(cells.pressure(point));
+        if constexpr (!Cell::traits.convex_is_rotated)
+          if (tangent == Tangent::convex)
+            state.make_convex();
+        return state;
+      }
+
+      /// Nodal forces of a change of R^T P.
+      void
+      add_force(const unsigned int point, const Matrix3<double> &dP)
+      {
+        const Matrix3<double> P     = cells.rotation(point) * dP;
+        const auto            nodes = parts.fe_space.nodes(parts.fe_space.cell_of(point));
+        const auto            g     = parts.fe_space.gradients(point);
+        for (unsigned int a = 0; a < nodes.size(); ++a)
+        {
+          const Vector3<double> force = P * g[a];
+          for (unsigned int c = 0; c < 3; ++c)
+            sums->gradient[3 * nodes[a] + c] += force[c] * parts.fe_space.volume(point);
+        }
+      }
+
+      /// `change` is that of the energy density with eta E_i [Pa].
+      template <typename Change>
+      void
+      subtract_from_weights(const unsigned int point, const Change &change)
+      {
+        if (sums->weight_gradient.empty())
+          return;
+        parts.examples.for_each_weight(
+            point,
+            [&](const unsigned int weight, const unsigned int i, const double share)
+            {
+              sums->weight_gradient[weight]
+                  -= share * parts.fe_space.volume(point) * change(parts.examples.strain(point, i));
+            });
+      }
+
+      const ElasticParts &parts;
+      const CellField    &cells;
+      const Tangent       tangent;
+      const TermPoint    &at;
+      ElasticSums        &sums;
+    };
+  } // namespace
+
   void
   ElasticPotential::add_tangent_of_law(const CellTask    &task,
                                        const TangentTask &tangent,
@@ -53,7 +176,7 @@ namespace Exemplar
   {
     constexpr std::size_t n_rows   = 3 * nodes_per_cell(element);
     const Tangent         kind     = tangent.convex ? Tangent::convex : Tangent::exact;
-    const ExamplePoses   &examples = *parts.examples;
+    const ExamplePoses   &examples = parts.examples;
     const std::size_t     n = parts.free_dofs.local_list().size(), n_strained = task.examples.n;
     columns.assign(n * examples.n_strained_weights(), 0.);
     dealii::AlignedVector<double> forces(n_rows * batch_size * n_strained);
@@ -84,49 +207,6 @@ namespace Exemplar
     }
   }
 
-  template <typename Constants>
-  void
-  ElasticPotential::add_rotated_response(const unsigned int     point,
-                                         const Matrix3<double> &M,
-                                         ElasticSums           &sums) const
-  {
-    const auto            C  = cells.get_batches().constants<Constants>(point);
-    const Matrix3<double> de = symmetric_part(M);
-    add_force(point, stress(C.scaled(1. + cells.get_damping().factor(point)), de), sums->gradient);
-    if (sums->weight_gradient.empty())
-      return;
-    const Matrix3<double> dT     = stress(C, de);
-    const double          factor = parts.fe_space.volume(point);
-    parts.examples->for_each_weight(
-        point,
-        [&](const unsigned int weight, const unsigned int i, const double share)
-        {
-          sums->weight_gradient[weight]
-              -= share * factor * contract(dT, parts.examples->strain(point, i));
-        });
-  }
-
-  template <typename Cell>
-  Cell
-  ElasticPotential::cell_state(const Tangent      tangent,
-                               const unsigned int point,
-                               const TermPoint   &at) const
-  {
-    Cell state = cells.get_batches().cell<Cell>(
-        point, cells.rotation(point), parts.fe_space.deformation_gradient(point, at.positions));
-    const StrainDamping &damping = cells.get_damping();
-    Matrix3<double>      D       = example_strain(point, at.weights);
-    if (const double s = damping.factor(point); s > 0.)
-      D = state.damp(D, s, damping.past_strain(point));
-    state.set_target(D);
-    if constexpr (Cell::traits.trace_gradient_is_R)
-      state.add_pressure(cells.pressure(point));
-    if constexpr (!Cell::traits.convex_is_rotated)
-      if (tangent == Tangent::convex)
-        state.make_convex();
-    return state;
-  }
-
   void
   ElasticPotential::assemble_tangent(const Tangent              tangent,
                                      const Vector              &positions,
@@ -147,35 +227,12 @@ namespace Exemplar
       add_stretch_stiffness(parts.fe_space, parts.cell_material, cells, scatter, positions,
                             matrix_values);
     columns.clear();
-    if (has_unknown_weights() && parts.fe_space.element() == Element::P1)
+    if (parts.weights.n_unknown() > 0 && parts.fe_space.element() == Element::P1)
       assemble_coupling<Element::P1>(cell_task, to, columns);
-    else if (has_unknown_weights())
+    else if (parts.weights.n_unknown() > 0)
       assemble_coupling<Element::P2>(cell_task, to, columns);
     for (const auto &term : terms)
       term->add_tangent({ positions, weights }, tangent, matrix_values, columns);
-  }
-
-  template <typename Cell>
-  void
-  ElasticPotential::add_cell_response(const Tangent          tangent,
-                                      const unsigned int     point,
-                                      const Matrix3<double> &M,
-                                      const TermPoint       &at,
-                                      ElasticSums           &sums) const
-  {
-    const Cell state = cell_state<Cell>(tangent, point, at);
-    add_force(point, state.response(M), sums->gradient);
-    if (sums->weight_gradient.empty())
-      return;
-    const double factor = parts.fe_space.volume(point) / (1. + cells.get_damping().factor(point));
-    parts.examples->for_each_weight(
-        point,
-        [&](const unsigned int weight, const unsigned int i, const double share)
-        {
-          sums->weight_gradient[weight]
-              -= share * factor
-                 * contract(state.example_response(parts.examples->strain(point, i)), M);
-        });
   }
 
   void
@@ -207,38 +264,8 @@ namespace Exemplar
     tell_cells(at);
     for (const auto &term : terms)
       term->add_response(at, tangent, displacement, sums);
-    for_points_beside_held_nodes(
-        [&](const unsigned int point)
-        {
-          const CellLaw         law = cells.get_batches().law(point);
-          const Matrix3<double> M   = transpose_times(
-                cells.rotation(point), parts.fe_space.deformation_gradient(point, displacement));
-          with_cell_model<double>(law,
-                                  [&](auto model)
-                                  {
-                                    using Cell = typename decltype(model)::type;
-                                    if (is_rotated_stiffness(law, tangent))
-                                      add_rotated_response<typename Cell::Constants>(point, M,
-                                                                                     sums);
-                                    else if constexpr (!Cell::traits.exact_is_rotated)
-                                      add_cell_response<Cell>(tangent, point, M, at, sums);
-                                  });
-        });
-  }
-
-  void
-  ElasticPotential::add_force(const unsigned int     point,
-                              const Matrix3<double> &dP,
-                              Vector                &gradient) const
-  {
-    const Matrix3<double> P     = cells.rotation(point) * dP;
-    const auto            nodes = parts.fe_space.nodes(parts.fe_space.cell_of(point));
-    const auto            g     = parts.fe_space.gradients(point);
-    for (unsigned int a = 0; a < nodes.size(); ++a)
-    {
-      const Vector3<double> force = P * g[a];
-      for (unsigned int c = 0; c < 3; ++c)
-        gradient[3 * nodes[a] + c] += force[c] * parts.fe_space.volume(point);
-    }
+    PointResponse response(parts, cells, tangent, at, sums);
+    for_points_beside_held_nodes([&](const unsigned int point)
+                                 { response.add(point, displacement); });
   }
 } // namespace Exemplar

@@ -35,6 +35,16 @@ namespace Exemplar
       return couplings;
     }
 
+    std::vector<PotentialTerm *>
+    pointers_to(const PotentialTerms &elastic_terms, const PotentialTerms &terms)
+    {
+      std::vector<PotentialTerm *> all;
+      for (const PotentialTerms *some : { &elastic_terms, &terms })
+        for (const auto &term : *some)
+          all.push_back(term.get());
+      return all;
+    }
+
     /// a + c (b - a)
     void
     mix(std::vector<double> &a, const std::vector<double> &b, const double c)
@@ -44,26 +54,52 @@ namespace Exemplar
     }
   } // namespace
 
+  void
+  HeldBackForces::hold(const FreeDofs &free_dofs, const Vector &gradient, const Vector &positions)
+  {
+    part   = 1.;
+    origin = positions;
+    forces.reinit(gradient.size());
+    for (const unsigned int dof : free_dofs.local_list())
+      forces[dof] = gradient[dof];
+  }
+
+  void
+  HeldBackForces::add(const Exchange &exchange,
+                      const Vector   &positions,
+                      Evaluation     &evaluation) const
+  {
+    if (part == 0.)
+      return;
+    Vector displacement = positions;
+    displacement -= origin;
+    evaluation.gradient.add(-part, forces);
+    evaluation.potential -= part * exchange.product(forces, displacement);
+  }
+
   IncrementalPotential::IncrementalPotential(const ElasticParts &parts,
                                              PotentialTerms      elastic_terms,
                                              PotentialTerms      new_terms,
                                              TimeIntegrator     *integrator)
-      : terms(std::move(new_terms)),
+      : terms(std::move(new_terms)), fe_space(parts.fe_space),
         pattern(make_pattern(parts.fe_space, couplings_of(elastic_terms, terms), parts.free_dofs)),
         cells(parts, std::move(elastic_terms), pattern), weights(parts.weights),
-        integrator(integrator), free_dofs(parts.free_dofs)
+        integrator(integrator), free_dofs(parts.free_dofs),
+        all_terms(pointers_to(cells.get_terms(), terms))
   {
     for (const auto &term : terms)
       term->attach(pattern, free_dofs, cells.get_field());
   }
 
-  template <typename Function>
   void
-  IncrementalPotential::for_each_term(const Function &function) const
+  IncrementalPotential::renew_pattern()
   {
-    for (const PotentialTerms *some : { &cells.get_terms(), &terms })
-      for (const auto &term : *some)
-        function(*term);
+    const unsigned int version = pattern.version;
+    pattern         = make_pattern(fe_space, couplings_of(cells.get_terms(), terms), free_dofs);
+    pattern.version = version + 1;
+    cells.follow_pattern();
+    for (const auto &term : terms)
+      term->attach(pattern, free_dofs, cells.get_field());
   }
 
   void
@@ -76,14 +112,22 @@ namespace Exemplar
       in_dynamic_step = true;
       cells.set_damping(integrator->stiffness_damping_factor(), integrator->history(start));
     }
-    for_each_term([&](PotentialTerm &term) { term.begin_step(start); });
+    bool has_new_couplings = false;
+    for (PotentialTerm *term : all_terms)
+    {
+      term->begin_step(start);
+      has_new_couplings |= term->has_new_couplings();
+    }
+    if (free_dofs.exchange().any(has_new_couplings))
+      renew_pattern();
   }
 
   void
   IncrementalPotential::end_step(State &end)
   {
     end.history = cells.get_field().advance_history(end.positions);
-    for_each_term([&](PotentialTerm &term) { term.end_step(end); });
+    for (PotentialTerm *term : all_terms)
+      term->end_step(end);
   }
 
   void
@@ -92,25 +136,25 @@ namespace Exemplar
     in_dynamic_step = false;
     cells.get_field().set_history(at.history);
     cells.set_damping(0., {});
-    for_each_term([](PotentialTerm &term) { term.leave_step(); });
+    for (PotentialTerm *term : all_terms)
+      term->leave_step();
   }
 
   void
   IncrementalPotential::set_time(const double time, State &state)
   {
     state.time = time;
-    for_each_term([&](PotentialTerm &term) { term.set_time(time); });
-    if (weights != nullptr && !weights->are_unknown())
-      state.weights = weights->at(time);
+    for (PotentialTerm *term : all_terms)
+      term->set_time(time);
+    state.weights = weights.at(time, state.weights);
   }
 
   bool
   IncrementalPotential::is_driven(const State &from, const double time) const
   {
-    if (weights != nullptr && !weights->are_unknown() && weights->at(time) != from.weights)
-      return true;
-    bool differs = false;
-    for_each_term([&](const PotentialTerm &term) { differs |= term.differs(from.time, time); });
+    bool differs = weights.at(time, from.weights) != from.weights;
+    for (const PotentialTerm *term : all_terms)
+      differs |= term->differs(from.time, time);
     return free_dofs.exchange().any(differs);
   }
 
@@ -128,7 +172,7 @@ namespace Exemplar
                                               const RotationUse rotations,
                                               Evaluation       &evaluation)
   {
-    if (unknown_weights() == nullptr)
+    if (weights.n_unknown() == 0)
     {
       evaluate(at, rotations, evaluation);
       return;
@@ -136,24 +180,9 @@ namespace Exemplar
     // the loop over the cells needs the weights, so their linear term takes a loop of its own,
     // which leaves the rotations that both need
     const std::vector<double> c = cells.weight_linear_term(at.positions, RotationUse::update);
-    at.weights                  = weights->best(c, at.weights);
+    at.weights                  = weights.best(c, at.weights);
     cells.evaluate(at.positions, at.weights, evaluation.elastic, RotationUse::keep, &c);
     add_terms(at.positions, evaluation);
-  }
-
-  void
-  IncrementalPotential::evaluate_cells(const State &at, Evaluation &evaluation)
-  {
-    cells.evaluate(at.positions, at.weights, evaluation.elastic);
-  }
-
-  void
-  IncrementalPotential::add_response(const Tangent tangent,
-                                     const Vector &displacement,
-                                     const State  &from,
-                                     Evaluation   &evaluation)
-  {
-    cells.add_response(tangent, displacement, from.positions, from.weights, evaluation.elastic);
   }
 
   void
@@ -172,28 +201,14 @@ namespace Exemplar
     }
     exchange.sum(evaluation.term_energies);
     const ElasticEvaluation sums = complete(exchange, std::move(own));
-    evaluation.gradient    = evaluation.elastic.gradient;
-    evaluation.force_scale = evaluation.elastic.force_scale;
-    evaluation.potential   = evaluation.elastic.energy + evaluation.elastic.energy_damping;
+    evaluation.gradient          = evaluation.elastic.gradient;
+    evaluation.force_scale       = evaluation.elastic.force_scale;
+    evaluation.potential         = evaluation.elastic.energy + evaluation.elastic.energy_damping;
     evaluation.gradient += sums.gradient;
     evaluation.force_scale += sums.force_scale;
     for (const double energy : evaluation.term_energies)
       evaluation.potential += energy;
-    if (held_back.part == 0.)
-      return;
-    Vector displacement = positions;
-    displacement -= held_back.positions;
-    evaluation.gradient.add(-held_back.part, held_back.gradient);
-    evaluation.potential
-        -= held_back.part * free_dofs.exchange().product(held_back.gradient, displacement);
-  }
-
-  void
-  IncrementalPotential::hold_back(const Vector &gradient, const Vector &positions)
-  {
-    held_back = { 1., Vector(gradient.size()), positions };
-    for (const unsigned int dof : free_dofs.local_list())
-      held_back.gradient[dof] = gradient[dof];
+    held_back.add(exchange, positions, evaluation);
   }
 
   void
@@ -227,33 +242,22 @@ namespace Exemplar
     }
   }
 
-  double
-  IncrementalPotential::max_free_gradient(const Evaluation &evaluation) const
-  {
-    MaxMagnitude greatest;
-    for (const unsigned int dof : free_dofs.list())
-      greatest.add(evaluation.gradient[dof]);
-    return free_dofs.exchange().max(greatest.value());
-  }
-
   Residual
   IncrementalPotential::residual(const State &at, const Evaluation &evaluation) const
   {
     double rounding = cells.rounding_force();
-    for_each_term([&](const PotentialTerm &term) { rounding += term.rounding_force(); });
+    for (const PotentialTerm *term : all_terms)
+      rounding += term->rounding_force();
     rounding = free_dofs.exchange().max(rounding);
     Residual residual;
-    residual.positions = relative(max_free_gradient(evaluation),
-                                  free_dofs.exchange().max(max_entry(evaluation.force_scale.begin(),
-                                                                     evaluation.force_scale.end())),
-                                  rounding);
-    if (!evaluation.elastic.weight_gradient.empty())
-    {
-      WeightResidual of_weights = weights->residual(at.weights, evaluation.elastic.weight_gradient);
-      residual.weights          = relative(of_weights.deviation, evaluation.elastic.weight_scale,
-                                           cells.rounding_weight_gradient());
-      residual.multipliers      = std::move(of_weights.multipliers);
-    }
+    residual.positions        = relative(free_dofs.max_magnitude(evaluation.gradient),
+                                         free_dofs.exchange().max(max_entry(evaluation.force_scale.begin(),
+                                                                            evaluation.force_scale.end())),
+                                         rounding);
+    WeightResidual of_weights = weights.residual(at.weights, evaluation.elastic.weight_gradient);
+    residual.weights          = relative(of_weights.deviation, evaluation.elastic.weight_scale,
+                                         cells.rounding_weight_gradient());
+    residual.multipliers      = std::move(of_weights.multipliers);
     return residual;
   }
 
@@ -261,20 +265,22 @@ namespace Exemplar
   IncrementalPotential::max_step(const Vector &positions, const Vector &displacement) const
   {
     double part = 1.;
-    for_each_term([&](const PotentialTerm &term)
-                  { part = std::min(part, term.max_step(positions, displacement)); });
+    for (const PotentialTerm *term : all_terms)
+      part = std::min(part, term->max_step(positions, displacement));
     return free_dofs.exchange().min(part);
   }
 
   void
   IncrementalPotential::save(boost::archive::binary_oarchive &archive) const
   {
-    for_each_term([&](const PotentialTerm &term) { term.save(archive); });
+    for (const PotentialTerm *term : all_terms)
+      term->save(archive);
   }
 
   void
   IncrementalPotential::load(boost::archive::binary_iarchive &archive)
   {
-    for_each_term([&](PotentialTerm &term) { term.load(archive); });
+    for (PotentialTerm *term : all_terms)
+      term->load(archive);
   }
 } // namespace Exemplar

@@ -23,7 +23,7 @@ namespace Exemplar
   } // namespace
 
   PatchDilatation::PatchDilatation(const Patches      &patches,
-                                   const ExamplePoses *examples,
+                                   const ExamplePoses &examples,
                                    const FESpace      &fe_space,
                                    const Material     &material)
       : patches(patches), examples(examples), fe_space(fe_space), thin(fe_space),
@@ -82,11 +82,9 @@ namespace Exemplar
   double
   PatchDilatation::target(const unsigned int patch, const std::vector<double> &weights) const
   {
-    if (examples == nullptr)
-      return 0.;
     double sum = 0.;
     for (unsigned int weight = 0; weight < weights.size(); ++weight)
-      sum += weights[weight] * examples->patch_dilatation(patch, weight);
+      sum += weights[weight] * examples.patch_dilatation(patch, weight);
     return sum;
   }
 
@@ -156,7 +154,7 @@ namespace Exemplar
       sums->energy += 0.5 * stiffness(patch) * deviation * deviation;
       for (unsigned int weight = 0; weight < sums->weight_gradient.size(); ++weight)
         sums->weight_gradient[weight]
-            -= stiffness(patch) * deviation * examples->patch_dilatation(patch, weight);
+            -= stiffness(patch) * deviation * examples.patch_dilatation(patch, weight);
       if (const double s = damping_factor(patch); s > 0.)
       {
         const double change = means[patch] - past_means[patch];
@@ -185,7 +183,7 @@ namespace Exemplar
     find_means(positions);
     for (unsigned int patch = 0; patch < patches.size(); ++patch)
       for (unsigned int weight = 0; weight < c.size(); ++weight)
-        c[weight] += stiffness(patch) * means[patch] * examples->patch_dilatation(patch, weight);
+        c[weight] += stiffness(patch) * means[patch] * examples.patch_dilatation(patch, weight);
   }
 
   double
@@ -252,11 +250,11 @@ namespace Exemplar
                                const std::vector<double> &b,
                                std::vector<double>       &columns) const
   {
-    for (unsigned int weight = 0; weight < examples->n_weights(); ++weight)
-      if (examples->is_strained(weight))
+    for (unsigned int weight = 0; weight < examples.n_weights(); ++weight)
+      if (examples.is_strained(weight))
         scatter->add_column(
-            patch, stiffness(patch) * examples->patch_dilatation(patch, weight), b,
-            &columns[free_dofs->local_list().size() * examples->strained_index(weight)]);
+            patch, stiffness(patch) * examples.patch_dilatation(patch, weight), b,
+            &columns[free_dofs->local_list().size() * examples.strained_index(weight)]);
   }
 
   void
@@ -319,7 +317,7 @@ namespace Exemplar
       sums->gradient[3 * nodes[i / 3] + i % 3] += forces[i];
     for (unsigned int weight = 0; weight < sums->weight_gradient.size(); ++weight)
       sums->weight_gradient[weight]
-          -= stiffness(patch) * change * examples->patch_dilatation(patch, weight);
+          -= stiffness(patch) * change * examples.patch_dilatation(patch, weight);
   }
 
   void

@@ -74,13 +74,13 @@ namespace Exemplar
   PatchGuard::PatchGuard(const Patches      &patches,
                          const FESpace      &fe_space,
                          const Material     &material,
-                         const ExamplePoses *examples)
+                         const ExamplePoses &examples)
       : patches(patches), fe_space(fe_space), material(material),
         bounds(patches.size(), least_bound)
   {
-    for (unsigned int pose = 0; examples != nullptr && pose < examples->size(); ++pose)
+    for (unsigned int pose = 0; pose < examples.size(); ++pose)
     {
-      const std::vector<double> of_pose = mean_squares_of(patches, fe_space, examples->pose(pose));
+      const std::vector<double> of_pose = mean_squares_of(patches, fe_space, examples.pose(pose));
       for (unsigned int patch = 0; patch < patches.size(); ++patch)
         bounds[patch] = std::max(bounds[patch], 1.2 * of_pose[patch]);
     }

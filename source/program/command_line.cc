@@ -130,8 +130,8 @@ Exit status:
       command
           .add_option("--surface", arguments.mesh.meshing.surface, "the surface (.obj .ply .stl)")
           ->required();
-      add_number_option(command, "--cells", arguments.mesh.meshing.n_cells, least_n_cells,
-                        most_n_cells, "how many tetrahedra, about");
+      add_number_option(command, "--cells", arguments.mesh.meshing.n_cells, min_n_cells,
+                        max_n_cells, "how many tetrahedra, about");
       command.add_option("--output", arguments.mesh.output,
                          "the mesh (.msh); a table (.csv) beside");
       command.add_option("--list-faults", arguments.mesh.faults,

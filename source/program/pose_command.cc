@@ -152,9 +152,8 @@ namespace Exemplar
         const PoseQuality &q = poses[k].quality;
         csv.stream() << poses[k].file.stem().string() << ',' << q.n_inverted;
         for (const double value :
-             { q.least_det, q.greatest_det, q.least_stretch, q.stretch_1, q.stretch_99,
-               q.greatest_stretch, 100. * q.mean_error, 100. * q.greatest_error, q.rotation,
-               q.shift, poses[k].seconds })
+             { q.min_det, q.max_det, q.min_stretch, q.stretch_1, q.stretch_99, q.max_stretch,
+               100. * q.mean_error, 100. * q.max_error, q.rotation, q.shift, poses[k].seconds })
           csv.stream() << ',' << shortest_text(value);
         csv.stream() << '\n';
       }
@@ -178,9 +177,8 @@ namespace Exemplar
         std::snprintf(
             line, sizeof(line),
             "  %8u   %.3f to %6.3f  %8.3f %7.3f %6.3f %6.3f   %6.3f %6.3f   %6.1f  %5.1f s",
-            q.n_inverted, q.least_det, q.greatest_det, q.least_stretch, q.stretch_1, q.stretch_99,
-            q.greatest_stretch, 100. * q.mean_error, 100. * q.greatest_error, q.rotation,
-            poses[k].seconds);
+            q.n_inverted, q.min_det, q.max_det, q.min_stretch, q.stretch_1, q.stretch_99,
+            q.max_stretch, 100. * q.mean_error, 100. * q.max_error, q.rotation, poses[k].seconds);
         std::cout << std::left << std::setw(static_cast<int>(width))
                   << printable(poses[k].file.stem().string()) << line << '\n';
       }

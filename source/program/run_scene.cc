@@ -122,7 +122,7 @@ namespace Exemplar
         writer.add_step(report);
         if (!is_success(report.status))
           end_with_failure(problem, report, writer, log);
-        StepClock::Scope scope(problem.clock, Part::output);
+        StepClock::Scope scope(problem.clock, Phase::output);
         review.add_step(report);
         progress.update(problem.state.step, progress_text(report));
       }
@@ -159,7 +159,7 @@ namespace Exemplar
   {
     const SceneFile scene(options.scene_file, options.overrides);
     JointRun::require_same(scene.get_text(), "reads another scene than",
-                             "Let all machines see the same files.");
+                           "Let all machines see the same files.");
     RunLog     log(options.quiet);
     const auto problem
         = make_problem_and_warn(scene.get_parameters(), options, log, options.n_threads);
@@ -169,7 +169,7 @@ namespace Exemplar
     if (const std::string warning = blas_warning(); !warning.empty())
       log.warn(warning);
     {
-      StepClock::Scope scope(problem->clock, Part::output);
+      StepClock::Scope scope(problem->clock, Phase::output);
       log.say(header_text(*problem));
     }
 

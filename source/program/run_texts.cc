@@ -54,8 +54,8 @@ namespace Exemplar
     std::string
     range_text(const Range &range)
     {
-      const std::string least = plain(range.least), greatest = plain(range.greatest);
-      return least == greatest ? least : least + " to " + greatest;
+      const std::string minimum = plain(range.least), maximum = plain(range.greatest);
+      return minimum == maximum ? minimum : minimum + " to " + maximum;
     }
 
     /// What shows a wrong unit.
@@ -79,12 +79,12 @@ namespace Exemplar
     }
 
     std::string
-    examples_text(const ExamplePoses *poses)
+    examples_text(const ExamplePoses &poses)
     {
       std::ostringstream text;
       text << "Examples  ";
-      if (poses != nullptr)
-        text << poses->size() << ", importance " << poses->importance() << '\n';
+      if (poses.size() > 0)
+        text << poses.size() << ", importance " << poses.importance() << '\n';
       else
         text << "none\n";
       return text.str();
@@ -131,14 +131,14 @@ namespace Exemplar
     std::string
     times_text(const RunTotals &totals)
     {
-      const PartSeconds &seconds = totals.seconds;
-      const double       total   = std::accumulate(seconds.begin(), seconds.end(), 0.);
-      std::ostringstream text;
+      const PhaseSeconds &seconds = totals.seconds;
+      const double        total   = std::accumulate(seconds.begin(), seconds.end(), 0.);
+      std::ostringstream  text;
       text << "\nWhere the time went\n" << std::fixed;
-      for (unsigned int part = 0; part < n_parts; ++part)
-        text << "  " << std::left << std::setw(12) << part_names[part] << std::right << std::setw(9)
-             << std::setprecision(3) << seconds[part] << " s " << std::setw(5)
-             << std::setprecision(1) << 100. * seconds[part] / total << " %\n";
+      for (unsigned int phase = 0; phase < n_phases; ++phase)
+        text << "  " << std::left << std::setw(12) << phase_names[phase] << std::right
+             << std::setw(9) << std::setprecision(3) << seconds[phase] << " s " << std::setw(5)
+             << std::setprecision(1) << 100. * seconds[phase] / total << " %\n";
       text << "  " << std::left << std::setw(12) << "total" << std::right << std::setw(9)
            << std::setprecision(3) << total << " s\n"
            << totals.iterations << " iterations, " << totals.factorizations << " factorisations\n";
@@ -184,7 +184,7 @@ namespace Exemplar
   {
     return "Scene     " + printable(problem.parameters.name) + '\n' + mesh_text(problem)
            + made_text(problem.body.made.get()) + body_text(problem)
-           + examples_text(problem.examples.poses.get()) + solver_text(problem) + "Output    "
+           + examples_text(problem.examples.poses) + solver_text(problem) + "Output    "
            + problem.parameters.output.directory + '\n' + notes_text(problem);
   }
 

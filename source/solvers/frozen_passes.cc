@@ -10,7 +10,7 @@ namespace Exemplar
   FrozenPasses::FrozenPasses(const SolverParameters &parameters,
                              IncrementalPotential   &potential,
                              StepSystem             &system,
-                             const Handles          *handles,
+                             const Handles          &handles,
                              StepClock              &clock)
       : parameters(parameters), potential(potential), system(system), handles(handles),
         clock(clock), prediction(potential.get_free_dofs(), handles)
@@ -22,19 +22,20 @@ namespace Exemplar
   {
     // the rotations are those of the last accepted positions, before the handles move: the
     // paper's choice
-    StepClock::Scope scope(clock, Part::evaluate);
+    StepClock::Scope scope(clock, Phase::evaluate);
     potential.set_time(time, trial);
     if (potential.changes_between_steps())
-      potential.evaluate_cells(trial, evaluation);
+      potential.get_cells().evaluate(trial.positions, trial.weights, evaluation.elastic);
     // Only the cells beside held nodes feel that the handles move, and as long as the
     // rotations are frozen their forces are linear in the displacement.
-    if (handles != nullptr)
+    if (handles.size() > 0)
     {
       const State from = trial;
-      handles->move(time, trial.positions);
+      handles.move(time, trial.positions);
       Vector displacement = from.positions;
       displacement.sadd(-1., 1., trial.positions);
-      potential.add_response(Tangent::convex, displacement, from, evaluation);
+      potential.get_cells().add_response(Tangent::convex, displacement, from.positions,
+                                         from.weights, evaluation.elastic);
     }
     potential.add_terms(trial.positions, evaluation);
   }
@@ -48,7 +49,7 @@ namespace Exemplar
   {
     // forces with frozen rotations are linear in the positions: where a pass starts from does
     // not matter, but of where the rotations are does
-    StepClock::Scope scope(clock, Part::evaluate);
+    StepClock::Scope scope(clock, Phase::evaluate);
     potential.set_time(time, trial);
     prediction.predict(accepted, step_size, trial);
     potential.evaluate(trial, RotationUse::update, evaluation);
@@ -64,7 +65,7 @@ namespace Exemplar
     system.add(system.solve(trial, evaluation), trial);
     ++report.iterations;
     {
-      StepClock::Scope scope(clock, Part::evaluate);
+      StepClock::Scope scope(clock, Phase::evaluate);
       potential.evaluate(trial, RotationUse::update, evaluation);
     }
     const bool goes_on = report_iteration(potential, evaluation, trial, report);

@@ -3,7 +3,7 @@
 
 namespace Exemplar
 {
-  MotionPrediction::MotionPrediction(const FreeDofs &free_dofs, const Handles *handles)
+  MotionPrediction::MotionPrediction(const FreeDofs &free_dofs, const Handles &handles)
       : free_dofs(free_dofs), handles(handles), velocities(free_dofs.exchange())
   {
   }
@@ -15,7 +15,6 @@ namespace Exemplar
     free_dofs.gather(accepted.velocities, velocity);
     velocities.add(std::move(velocity));
     free_dofs.add(step_size, velocities.next(), trial.positions);
-    if (handles != nullptr)
-      handles->move(trial.time, trial.positions);
+    handles.move(trial.time, trial.positions);
   }
 } // namespace Exemplar

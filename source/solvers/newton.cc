@@ -51,11 +51,11 @@ namespace Exemplar
       HoldBack(IncrementalPotential &potential, const Vector &gradient, const Vector &positions)
           : potential(potential)
       {
-        potential.hold_back(gradient, positions);
+        potential.get_held_back().hold(potential.get_free_dofs(), gradient, positions);
       }
       ~HoldBack()
       {
-        potential.let_go();
+        potential.get_held_back().let_go();
       }
     };
 
@@ -64,7 +64,7 @@ namespace Exemplar
   Newton::Newton(const SolverParameters &parameters,
                  IncrementalPotential   &potential,
                  StepSystem             &system,
-                 const Handles          *handles,
+                 const Handles          &handles,
                  StepClock              &clock)
       : parameters(parameters), potential(potential), system(system), handles(handles), clock(clock)
   {
@@ -144,7 +144,7 @@ namespace Exemplar
     {
       const double to    = std::min(1., raised + stage);
       Trial        trial = start;
-      potential.set_held_back(1. - to);
+      potential.get_held_back().set_part(1. - to);
       try_to(
           [&]
           {
@@ -184,8 +184,7 @@ namespace Exemplar
   bool
   Newton::is_driven(const State &from, const double time) const
   {
-    return potential.is_driven(from, time)
-           || (handles != nullptr && handles->are_elsewhere(time, from.positions));
+    return potential.is_driven(from, time) || handles.are_elsewhere(time, from.positions);
   }
 
   void
@@ -195,7 +194,7 @@ namespace Exemplar
                   Trial       &trial,
                   Evaluation  &evaluation)
   {
-    StepClock::Scope scope(clock, Part::evaluate);
+    StepClock::Scope scope(clock, Phase::evaluate);
     potential.set_time(time, trial.state);
     const Vector *inertial = potential.inertial_positions();
     if (inertial == nullptr || !is_whole_step)
@@ -206,16 +205,14 @@ namespace Exemplar
     // inertia predicts better than any tangent: x + h v
     for (const unsigned int dof : potential.get_free_dofs().local_list())
       trial.state.positions[dof] = (*inertial)[dof];
-    if (handles != nullptr)
-      handles->move(time, trial.state.positions);
+    handles.move(time, trial.state.positions);
   }
 
   void
   Newton::predict_along_tangent(Trial &start, Trial &trial, Evaluation &evaluation)
   {
     // so that free nodes move with the handles instead of being crushed by them
-    if (handles != nullptr)
-      handles->move(trial.state.time, trial.state.positions);
+    handles.move(trial.state.time, trial.state.positions);
     Vector displacement = trial.state.positions;
     displacement -= start.state.positions;
     if (!add_tangent_step(start, displacement, Tangent::exact, trial, evaluation))
@@ -236,8 +233,9 @@ namespace Exemplar
     {
       const bool has_factor = tangent == Tangent::exact && find_factor(start.linearization);
       potential.get_cells().update_rotations(from.positions);
-      potential.evaluate_cells(from, evaluation);
-      potential.add_response(tangent, displacement, from, evaluation);
+      potential.get_cells().evaluate(from.positions, from.weights, evaluation.elastic);
+      potential.get_cells().add_response(tangent, displacement, from.positions, from.weights,
+                                         evaluation.elastic);
       potential.add_terms(from.positions, evaluation);
       if (!has_factor)
         system.factorize(from.positions, from.weights, tangent == Tangent::convex ? 1. : 0.);
@@ -269,7 +267,7 @@ namespace Exemplar
   void
   Newton::evaluate(State &state, Evaluation &evaluation)
   {
-    StepClock::Scope scope(clock, Part::evaluate);
+    StepClock::Scope scope(clock, Phase::evaluate);
     potential.minimize_over_weights(state, RotationUse::update, evaluation);
   }
 
@@ -311,7 +309,7 @@ namespace Exemplar
   Newton::is_placed(const State &state, const Evaluation &evaluation)
   {
     // inertia holds a body, but in statics small forces can move soft or thin parts far
-    if (potential.inertial_positions() != nullptr || system.n_factorizations() == 0)
+    if (potential.inertial_positions() != nullptr || !system.has_factor())
       return true;
     try
     {

@@ -33,7 +33,7 @@ namespace Exemplar
   QuasiNewton::QuasiNewton(const SolverParameters &parameters,
                            IncrementalPotential   &potential,
                            StepSystem             &system,
-                           const Handles          *handles,
+                           const Handles          &handles,
                            StepClock              &clock)
       : parameters(parameters), potential(potential), system(system), clock(clock),
         newton(parameters, potential, system, handles, clock),
@@ -85,7 +85,7 @@ namespace Exemplar
                        State       &trial,
                        Evaluation  &evaluation)
   {
-    StepClock::Scope scope(clock, Part::evaluate);
+    StepClock::Scope scope(clock, Phase::evaluate);
     potential.set_time(trial.time, trial);
     prediction.predict(accepted, step_size, trial);
     rebuild_metric(trial);
@@ -96,7 +96,7 @@ namespace Exemplar
   QuasiNewton::make_metric(const Vector &positions, const std::vector<double> &weights)
   {
     system.factorize(positions, weights, 1.);
-    StepClock::Scope scope(clock, Part::factorize);
+    StepClock::Scope scope(clock, Phase::factorize);
     potential.get_cells().node_rotations(node_rotations);
     metric.reinit(system.bordered(), node_rotations);
     metric.rotate(node_rotations);
@@ -125,7 +125,7 @@ namespace Exemplar
       renew_metric(trial);
     else
     {
-      StepClock::Scope scope(clock, Part::solve);
+      StepClock::Scope scope(clock, Phase::solve);
       potential.get_cells().node_rotations(node_rotations);
       metric.rotate(node_rotations);
     }
@@ -144,16 +144,15 @@ namespace Exemplar
   double
   QuasiNewton::find_step(const State &trial, const Evaluation &evaluation, Iteration &iteration)
   {
-    StepClock::Scope     scope(clock, Part::solve);
+    StepClock::Scope     scope(clock, Phase::solve);
     std::vector<double> &step = iteration.rotated;
     step                      = iteration.gradient;
     for (double &entry : step)
       entry = -entry;
     metric.rotate_back(step);
-    if (const ExampleWeights *weights = potential.unknown_weights())
-      metric.add_example_forces(metric.find_weight_changes(step, evaluation.elastic.weight_gradient,
-                                                           weights->lower_changes(trial.weights)),
-                                step);
+    const std::vector<double> lower = potential.get_weights().lower_changes(trial.weights);
+    metric.add_example_forces(
+        metric.find_weight_changes(step, evaluation.elastic.weight_gradient, lower), step);
     lbfgs.before(step);
     metric.apply(step);
     lbfgs.after(step);
@@ -179,7 +178,7 @@ namespace Exemplar
     for (unsigned int halving = 0;; ++halving)
     {
       {
-        StepClock::Scope scope(clock, Part::evaluate);
+        StepClock::Scope scope(clock, Phase::evaluate);
         potential.minimize_over_weights(trial, RotationUse::find_and_forget, evaluation);
       }
       if (is_better({ potential, evaluation }, before, length * slope))
@@ -201,20 +200,17 @@ namespace Exemplar
                      const double               step_length,
                      Iteration                 &iteration)
   {
-    StepClock::Scope scope(clock, Part::solve);
+    StepClock::Scope scope(clock, Phase::solve);
     for (std::size_t i = 0; i < change.size(); ++i)
     {
       change[i] = iteration.gradient[i] - change[i];
       iteration.rotated[i] *= step_length;
     }
     metric.rotate_back(change);
-    if (potential.unknown_weights() != nullptr)
-    {
-      std::vector<double> weight_change(old_weights.size());
-      for (std::size_t i = 0; i < weight_change.size(); ++i)
-        weight_change[i] = trial.weights[i] - old_weights[i];
-      metric.add_example_forces(weight_change, change);
-    }
+    std::vector<double> weight_change(old_weights.size());
+    for (std::size_t i = 0; i < weight_change.size(); ++i)
+      weight_change[i] = trial.weights[i] - old_weights[i];
+    metric.add_example_forces(weight_change, change);
     lbfgs.add_pair(iteration.rotated, change);
   }
 
@@ -264,7 +260,7 @@ namespace Exemplar
           return;
         if (n_with_metric < max_iterations) // the line search gave up, and went back
         {
-          StepClock::Scope scope(clock, Part::evaluate);
+          StepClock::Scope scope(clock, Phase::evaluate);
           potential.minimize_over_weights(trial, RotationUse::update, evaluation);
         }
         free_dofs.gather(evaluation.gradient, iteration.gradient);
@@ -301,16 +297,10 @@ namespace Exemplar
   void
   QuasiNewton::save(boost::archive::binary_oarchive &archive) const
   {
-    const FreeDofs &free_dofs = potential.get_free_dofs();
-    if (free_dofs.exchange().n_processes() == 1)
-    {
-      archive &history &lbfgs;
-      prediction.save(archive);
-      return;
-    }
-    MetricHistory of_body    = history;
-    Lbfgs         body_lbfgs = lbfgs;
-    of_body.positions        = whole(free_dofs.exchange(), history.positions);
+    const FreeDofs &free_dofs  = potential.get_free_dofs();
+    MetricHistory   of_body    = history;
+    Lbfgs           body_lbfgs = lbfgs;
+    of_body.positions          = whole(free_dofs.exchange(), history.positions);
     body_lbfgs.map([&](const std::vector<double> &vector) { return free_dofs.whole(vector); });
     archive &of_body &body_lbfgs;
     prediction.save(archive);

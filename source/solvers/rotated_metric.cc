@@ -29,11 +29,9 @@ namespace Exemplar
   {
     if (empty()) // the first time
       find_rotated_nodes();
-    rotations_then = rotations;
-    inverse        = system.keep();
-    form           = system.weight_form();
-    if (form == nullptr)
-      return;
+    rotations_then              = rotations;
+    inverse                     = system.keep();
+    form                        = &system.weight_form();
     std::vector<double> columns = system.columns();
     if (!form->coupled.empty())
       system.apply_inverse(columns);

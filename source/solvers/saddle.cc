@@ -29,9 +29,7 @@ namespace Exemplar
 
     /// K v, by central differences; only what belongs to free degrees of freedom means anything.
     Vector
-    times_tangent(IncrementalPotential &potential,
-                  const State          &at,
-                  const Vector         &displacement)
+    times_tangent(IncrementalPotential &potential, const State &at, const Vector &displacement)
     {
       Evaluation   evaluation;
       const double length = 1e-6 * extent(at.positions, potential.get_free_dofs().exchange());
@@ -61,11 +59,9 @@ namespace Exemplar
   } // namespace
 
   Vector
-  downward_curvature(StepSystem           &system,
-                     IncrementalPotential &potential,
-                     const State          &at)
+  downward_curvature(StepSystem &system, IncrementalPotential &potential, const State &at)
   {
-    const std::vector<double> none(potential.unknown_weights() == nullptr ? 0 : at.weights.size());
+    const std::vector<double> none(potential.get_weights().n_unknown());
     Vector                    v = arbitrary_displacement(potential, at.positions.size());
     for (unsigned int i = 0; i < max_power_iterations; ++i)
     {

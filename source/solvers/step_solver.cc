@@ -24,7 +24,7 @@ namespace Exemplar
   make_step_solver(const SolverParameters &parameters,
                    IncrementalPotential   &potential,
                    StepSystem             &system,
-                   const Handles          *handles,
+                   const Handles          &handles,
                    StepClock              &clock)
   {
     switch (parameters.method)

@@ -6,11 +6,13 @@
 
 namespace Exemplar
 {
-  StepSystem::StepSystem(IncrementalPotential           &potential,
-                         std::unique_ptr<BorderedSystem> system,
-                         StepClock                      &clock,
-                         const bool                      turns_freely)
-      : potential(potential), system(std::move(system)), clock(clock), turns_freely(turns_freely)
+  StepSystem::StepSystem(IncrementalPotential &potential,
+                         MakeSystem            new_make_system,
+                         StepClock            &clock,
+                         const bool            turns_freely)
+      : potential(potential), make_system(std::move(new_make_system)), system(make_system()),
+        pattern_version(potential.matrix_pattern().version), clock(clock),
+        turns_freely(turns_freely)
   {
   }
 
@@ -19,13 +21,20 @@ namespace Exemplar
                         const std::vector<double> &weights,
                         const double               convexity)
   {
+    if (pattern_version != potential.matrix_pattern().version)
     {
-      StepClock::Scope scope(clock, Part::assemble);
+      system.reset(); // its memory first
+      system          = make_system();
+      pattern_version = potential.matrix_pattern().version;
+    }
+    {
+      StepClock::Scope scope(clock, Phase::assemble);
       potential.assemble(positions, weights, convexity, system->matrix_values(), system->columns());
       potential.get_free_dofs().assemble_columns(system->columns());
     }
-    StepClock::Scope scope(clock, Part::factorize);
+    StepClock::Scope scope(clock, Phase::factorize);
     ++factorizations;
+    factor_of = potential.get_free_dofs().version();
     system->factorize(positions);
   }
 
@@ -34,28 +43,24 @@ namespace Exemplar
                     const Vector              &gradient,
                     const std::vector<double> &weight_gradient)
   {
-    StepClock::Scope scope(clock, Part::solve);
+    StepClock::Scope scope(clock, Phase::solve);
     const auto      &free = potential.get_free_dofs().list();
     BorderedVector   unknowns;
     unknowns.positions.reserve(free.size());
     for (const unsigned int dof : free)
       unknowns.positions.push_back(-gradient[dof]);
-    std::vector<double> lower;
-    if (const ExampleWeights *weights = potential.unknown_weights())
-    {
-      for (const double derivative : weight_gradient)
-        unknowns.weights.push_back(-derivative);
-      unknowns.multipliers = weights->missing_sums(at.weights);
-      lower                = weights->lower_changes(at.weights);
-    }
-    system->solve(unknowns, lower);
+    for (const double derivative : weight_gradient)
+      unknowns.weights.push_back(-derivative);
+    const ExampleWeights &weights = potential.get_weights();
+    unknowns.multipliers          = weights.missing_sums(at.weights);
+    system->solve(unknowns, weights.lower_changes(at.weights));
     return unknowns;
   }
 
   void
   StepSystem::prepare()
   {
-    StepClock::Scope scope(clock, Part::solve);
+    StepClock::Scope scope(clock, Phase::solve);
     system->prepare();
   }
 
@@ -78,8 +83,7 @@ namespace Exemplar
   StepSystem::add(const BorderedVector &step, State &state) const
   {
     state.positions += displacement(state, step);
-    if (const ExampleWeights *weights = potential.unknown_weights())
-      weights->add(step.weights, state.weights);
+    potential.get_weights().add(step.weights, state.weights);
   }
 
   double
@@ -95,10 +99,8 @@ namespace Exemplar
   std::size_t
   StepSystem::memory_of_weights() const
   {
-    const WeightForm *form = system->weight_form();
-    if (form == nullptr)
-      return 0;
+    const WeightForm &form = system->weight_form();
     return dealii::MemoryConsumption::memory_consumption(system->columns())
-           + form->H.memory_consumption() + form->N.memory_consumption();
+           + form.H.memory_consumption() + form.N.memory_consumption();
   }
 } // namespace Exemplar

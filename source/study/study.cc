@@ -94,8 +94,8 @@ namespace Exemplar
         row.extra       = read_last_values(RunDirectory(directory).statistics(), columns);
         if (record.status != "refused")
         {
-          row.seconds.median = median(record.seconds);
-          row.seconds.least  = *std::min_element(record.seconds.begin(), record.seconds.end());
+          row.seconds.median  = median(record.seconds);
+          row.seconds.minimum = *std::min_element(record.seconds.begin(), record.seconds.end());
         }
         row.extra.resize(columns.size() + (probe ? 3 : 0), std::nan(""));
         if (record.succeeded())

@@ -161,10 +161,10 @@ namespace Exemplar
     double
     extent(const std::vector<dealii::Point<3>> &points)
     {
-      double greatest = 0.;
+      double maximum = 0.;
       for (const auto &point : points)
-        greatest = std::max(greatest, point.distance(points[0]));
-      return greatest;
+        maximum = std::max(maximum, point.distance(points[0]));
+      return maximum;
     }
 
     /// For each node of `pose` that of the reference; empty if one has none.
@@ -252,10 +252,10 @@ namespace Exemplar
   double
   FinalPose::max_displacement() const
   {
-    double greatest = 0.;
+    double maximum = 0.;
     for (unsigned int i = 0; i < rest.size(); ++i)
-      greatest = std::max(greatest, positions[i].distance(rest[i]));
-    return greatest;
+      maximum = std::max(maximum, positions[i].distance(rest[i]));
+    return maximum;
   }
 
   dealii::Tensor<1, 3>

@@ -58,10 +58,10 @@ namespace Exemplar
       dealii::Point<3> in_box, nearest = mesh.get_nodes()[0];
       for (unsigned int c = 0; c < 3; ++c)
       {
-        const auto [least, greatest]
+        const auto [minimum, maximum]
             = std::minmax_element(mesh.get_nodes().begin(), mesh.get_nodes().end(),
                                   [&](const auto &a, const auto &b) { return a[c] < b[c]; });
-        in_box[c] = std::clamp((*study.probe)[c], (*least)[c], (*greatest)[c]);
+        in_box[c] = std::clamp((*study.probe)[c], (*minimum)[c], (*maximum)[c]);
       }
       for (const dealii::Point<3> &node : mesh.get_nodes())
         if (node.distance_square(*study.probe) < nearest.distance_square(*study.probe))

@@ -43,7 +43,7 @@ namespace Exemplar
       append("error_position_max", row.errors.max);
       append("error_energy", row.error_energy);
       append("seconds_median", row.seconds.median);
-      append("seconds_min", row.seconds.least);
+      append("seconds_min", row.seconds.minimum);
       append("steps", row.statistics.steps);
       append("iterations", row.statistics.iterations);
       append("factorizations", row.summary.factorizations);

@@ -56,7 +56,8 @@ namespace Exemplar::Verification
     public:
       Differences(Problem &problem, const dealii::Vector<double> &positions, Rotations rotations)
           : problem(problem), x(positions),
-            w(problem.examples.poses ? weights : std::vector<double>()), rotations(rotations)
+            w(problem.examples.poses.size() > 0 ? weights : std::vector<double>()),
+            rotations(rotations)
       {
         problem.potential.get_cells().update_rotations(x);
         at = evaluate(x, w);
@@ -71,14 +72,14 @@ namespace Exemplar::Verification
       double
       of_gradient() const
       {
-        double greatest = 0.;
+        double maximum = 0.;
         for (unsigned int dof = 0; dof < x.size(); ++dof)
         {
           const double slope
               = derivative([&](const double h) { return shifted(unit(dof), h).energy; });
-          greatest = max_or_nan(greatest, std::abs(slope - at.gradient[dof]));
+          maximum = max_or_nan(maximum, std::abs(slope - at.gradient[dof]));
         }
-        return greatest / (1. + max_entry(at.gradient.begin(), at.gradient.end()));
+        return maximum / (1. + max_entry(at.gradient.begin(), at.gradient.end()));
       }
 
       /// Error of the slope of the energy along the forces themselves: |f|.
@@ -99,26 +100,26 @@ namespace Exemplar::Verification
       double
       of_tangent() const
       {
-        const auto &free     = problem.constraints.free_dofs.list();
-        double      greatest = 0., scale = 1.;
+        const auto &free    = problem.constraints.free_dofs.list();
+        double      maximum = 0., scale = 1.;
         for (unsigned int j = 0; j < free.size(); ++j)
         {
           const auto column = derivative_of_gradient(unit(free[j]));
           for (unsigned int i = 0; i < free.size(); ++i)
           {
-            greatest = max_or_nan(greatest, std::abs(column[free[i]] - entry(i, j)));
-            scale    = max_or_nan(scale, std::abs(entry(i, j)));
+            maximum = max_or_nan(maximum, std::abs(column[free[i]] - entry(i, j)));
+            scale   = max_or_nan(scale, std::abs(entry(i, j)));
           }
         }
-        return greatest / scale;
+        return maximum / scale;
       }
 
       /// Greatest error of the derivatives by the weights and of the coupling -G.
       double
       of_weights() const
       {
-        const auto &free     = problem.constraints.free_dofs.list();
-        double      greatest = 0.;
+        const auto &free    = problem.constraints.free_dofs.list();
+        double      maximum = 0.;
         for (unsigned int k = 0; k < w.size(); ++k)
         {
           const auto weight_moved = [&](const double h)
@@ -128,19 +129,19 @@ namespace Exemplar::Verification
             return evaluate(x, moved);
           };
           const double slope = derivative([&](const double h) { return weight_moved(h).energy; });
-          greatest           = max_or_nan(greatest, std::abs(slope - at.weight_gradient[k]));
+          maximum            = max_or_nan(maximum, std::abs(slope - at.weight_gradient[k]));
           for (unsigned int i = 0; i < free.size(); ++i)
           {
             const double change
                 = derivative([&](const double h) { return weight_moved(h).gradient[free[i]]; });
             const double entry
-                = problem.examples.poses->is_strained(k)
-                      ? columns[problem.examples.poses->strained_index(k) * free.size() + i]
+                = problem.examples.poses.is_strained(k)
+                      ? columns[problem.examples.poses.strained_index(k) * free.size() + i]
                       : 0.;
-            greatest = max_or_nan(greatest, std::abs(change + entry));
+            maximum = max_or_nan(maximum, std::abs(change + entry));
           }
         }
-        return greatest / (1. + max_entry(at.gradient.begin(), at.gradient.end()));
+        return maximum / (1. + max_entry(at.gradient.begin(), at.gradient.end()));
       }
 
       /// Whether the guard acts: its derivative is left out of the tangent, Eq. (18).

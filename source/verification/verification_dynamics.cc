@@ -177,8 +177,8 @@ namespace Exemplar::Verification
                          + section("Initial", set("Pose function", "1.1*x; y+0.05*x*x; z+0.1*y")
                                                   + set("Velocity", "-3*y; 3*x; x"))
                          + time(h, 0.2) + model_and_solver);
-      Problem     &p        = scene.problem;
-      double       greatest = 0.;
+      Problem     &p       = scene.problem;
+      double       maximum = 0.;
       while (p.state.step < p.time_axis.n_steps())
       {
         const State before = p.state;
@@ -187,9 +187,9 @@ namespace Exemplar::Verification
             = tensor(torque(p.state.velocities, mass_times(*p.actions.mass, before.velocities)));
         const auto law = p.actions.mass->motion_sums(before).angular_momentum + h * gain;
         const auto now = p.actions.mass->motion_sums(p.state).angular_momentum;
-        greatest       = max_or_nan(greatest, (now - law).norm() / now.norm());
+        maximum        = max_or_nan(maximum, (now - law).norm() / now.norm());
       }
-      return greatest;
+      return maximum;
     }
 
     std::vector<Measurement>
@@ -217,8 +217,8 @@ namespace Exemplar::Verification
     {
       Scene    scene(falling_bar + held_left + examples_with("simplex")
                      + section("Initial", set("Velocity", "0; 2*x; -x")) + time(0.05, 1.));
-      Problem &p        = scene.problem;
-      double   greatest = -1.;
+      Problem &p       = scene.problem;
+      double   maximum = -1.;
       while (p.state.step < p.time_axis.n_steps())
       {
         const State  before = p.state;
@@ -229,9 +229,9 @@ namespace Exemplar::Verification
         change.velocities -= before.velocities;
         const double left
             = p.evaluation.elastic.energy + p.actions.mass->motion_sums(change).kinetic_energy;
-        greatest = max_or_nan(greatest, left / bound - 1.);
+        maximum = max_or_nan(maximum, left / bound - 1.);
       }
-      return { { "greatest excess", 1e-12, greatest, Comparison::at_most } };
+      return { { "greatest excess", 1e-12, maximum, Comparison::at_most } };
     }
   } // namespace
 

@@ -45,13 +45,13 @@ namespace Exemplar::Verification
                      + section("Solver", set("Tolerance", 1e-12)));
       Problem &p        = scene.problem;
       double   residual = 0., weight_error = 0., distance = 0.;
-      for (unsigned int i = 0; i < p.examples.poses->size(); ++i)
+      for (unsigned int i = 0; i < p.examples.poses.size(); ++i)
       {
         State start      = p.state;
-        start.positions  = moved_rigidly(p.examples.poses->pose(i),
+        start.positions  = moved_rigidly(p.examples.poses.pose(i),
                                          rotation_about({ { 1., 1., 0. } }, 2.), { { 5., 5., 5. } });
         start.velocities = 0.;
-        std::vector<double> unit(p.examples.poses->size(), 0.);
+        std::vector<double> unit(p.examples.poses.size(), 0.);
         unit[i] = 1.;
         const ElasticEvaluation strained
             = evaluate(p, start.positions, std::vector<double>{ 1., 0., 0. });
@@ -100,7 +100,8 @@ namespace Exemplar::Verification
     {
       Scene scene(dragged
                   + examples_of(twisted, set("Importance", importance) + set("Energy", "scaled")
-                                             + set("Weights", "free") + set("Weight penalty", "0")));
+                                             + set("Weights", "free")
+                                             + set("Weight penalty", "0")));
       return importance * scene.solve().weights[1];
     }
 
@@ -222,18 +223,18 @@ namespace Exemplar::Verification
     }
 
     double
-    least_by_brute_force(const WeightQp &qp)
+    min_by_brute_force(const WeightQp &qp)
     {
-      double least = std::numeric_limits<double>::infinity();
+      double minimum = std::numeric_limits<double>::infinity();
       for (unsigned int set = 1; set < (1u << qp.c.size()); ++set)
       {
         std::vector<unsigned int> active;
         for (unsigned int i = 0; i < qp.c.size(); ++i)
           if ((set >> i & 1u) != 0)
             active.push_back(i);
-        least = min_or_nan(least, value_on_active_set(qp, active));
+        minimum = min_or_nan(minimum, value_on_active_set(qp, active));
       }
-      return least;
+      return minimum;
     }
 
     /// How far a solution is from the conditions of Karush, Kuhn and Tucker.
@@ -247,8 +248,8 @@ namespace Exemplar::Verification
         for (unsigned int j = 0; j < qp.c.size(); ++j)
           derivative += qp.H(i, j) * solution.weights[j];
         sum += solution.weights[i];
-        for (const double violation : { -solution.weights[i], -derivative,
-                                        solution.weights[i] > 0. ? derivative : 0. })
+        for (const double violation :
+             { -solution.weights[i], -derivative, solution.weights[i] > 0. ? derivative : 0. })
           error = max_or_nan(error, violation);
       }
       return max_or_nan(error, std::abs(sum - 1.));
@@ -258,18 +259,18 @@ namespace Exemplar::Verification
     simplex_kkt()
     {
       std::mt19937 generator(1);
-      double       greatest_kkt = 0., greatest_value = 0.;
+      double       max_kkt = 0., max_value = 0.;
       for (unsigned int sample = 0; sample < 300; ++sample)
       {
         const unsigned int k  = 1 + sample % 6;
         const WeightQp     qp = random_qp(generator, k);
         const auto best = minimize_over_weights(qp.H, qp.c, { 1. }, std::vector<double>(k, 0.));
-        greatest_kkt    = max_or_nan(greatest_kkt, kkt_error(qp, best));
-        greatest_value  = max_or_nan(greatest_value,
-                                     std::abs(qp.value(best.weights) - least_by_brute_force(qp)));
+        max_kkt         = max_or_nan(max_kkt, kkt_error(qp, best));
+        max_value
+            = max_or_nan(max_value, std::abs(qp.value(best.weights) - min_by_brute_force(qp)));
       }
-      return { { "conditions of KKT", 0., greatest_kkt, Comparison::absolute, 1e-10 },
-               { "value less brute force", 0., greatest_value, Comparison::absolute, 1e-10 } };
+      return { { "conditions of KKT", 0., max_kkt, Comparison::absolute, 1e-10 },
+               { "value less brute force", 0., max_value, Comparison::absolute, 1e-10 } };
     }
   } // namespace
 

@@ -95,7 +95,7 @@ namespace Exemplar::Verification
       const auto   far   = p.body.mesh.n_nodes() - 1; // the corner x+, y+, z+
       const double width = state.positions[3 * far + 2] - (nodes[far][2] - 1.);
       return { { "force", youngs_modulus * (s - 1.),
-                 p.constraints.handles->sum_over(1, p.evaluation.gradient)[0], Comparison::relative,
+                 p.constraints.handles.sum_over(1, p.evaluation.gradient)[0], Comparison::relative,
                  1e-10 },
                { "lateral stretch", 1. - poissons_ratio * (s - 1.), width, Comparison::relative,
                  1e-10 } };
@@ -114,7 +114,7 @@ namespace Exemplar::Verification
                           + section("Examples", set("Pose functions", "1.2*x; 0.9*y; z+0.1*x")
                                                     + set("Importance", 0.7) + set("Energy", energy)
                                                     + set("Weight penalty", "0")));
-        const auto &pose = scene.problem.examples.poses->pose(1);
+        const auto &pose = scene.problem.examples.poses.pose(1);
         const auto  with = evaluate(scene.problem, pose, { 0., 1. });
         all.push_back({ "energy left, " + energy, left, with.energy / with.energy_elastic,
                         Comparison::relative, 1e-12 });

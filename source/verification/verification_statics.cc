@@ -107,15 +107,15 @@ namespace Exemplar::Verification
     double
     strain_error(const Problem &p, const State &state)
     {
-      double greatest = 0.;
+      double maximum = 0.;
       for (unsigned int cell = 0; cell < p.body.mesh.n_cells(); ++cell)
       {
         const Matrix3<double> F     = p.body.fe_space.deformation_gradient(cell, state.positions);
         const Matrix3<double> error = combine(1., corotated_strain(closest_rotation(F), F), -1.,
-                                              p.examples.poses->strain(cell, 1));
-        greatest                    = max_or_nan(greatest, std::sqrt(contract(error, error)));
+                                              p.examples.poses.strain(cell, 1));
+        maximum                     = max_or_nan(maximum, std::sqrt(contract(error, error)));
       }
-      return greatest;
+      return maximum;
     }
 
     /// The weights go from pose to pose evenly, and so must the body: where it jumps from one
@@ -145,11 +145,10 @@ namespace Exemplar::Verification
       const double           longest = *std::max_element(ways.begin(), ways.end());
       const double           mean    = std::accumulate(ways.begin(), ways.end(), 0.) / increments;
       dealii::Vector<double> aligned = p.state.positions;
-      align(p.examples.poses->pose(1), aligned, p.body.exchange());
+      align(p.examples.poses.pose(1), aligned, p.body.exchange());
       return { { "|S - I - E|", 1e-12, strain_error(p, p.state), Comparison::at_most },
-               { "distance to the pose", 0.,
-                 max_difference(aligned, p.examples.poses->pose(1)) / 4., Comparison::absolute,
-                 1e-8 },
+               { "distance to the pose", 0., max_difference(aligned, p.examples.poses.pose(1)) / 4.,
+                 Comparison::absolute, 1e-8 },
                { "longest increment, of the mean", 2., longest / mean, Comparison::at_most } };
     }
   } // namespace

@@ -108,7 +108,7 @@ namespace Exemplar
       {
         if (options.reference)
           reference = std::make_unique<Reference>(options);
-        problem.clock.switch_to(Part::evaluate);
+        problem.clock.switch_to(Phase::evaluate);
       }
 
       /// Whether all steps succeeded.
@@ -151,24 +151,24 @@ namespace Exemplar
       bool
       measure_step()
       {
-        SolveReport       step_report;
-        const PartSeconds before   = problem.clock.read();
-        const Duration    duration = duration_of(
+        SolveReport        step_report;
+        const PhaseSeconds before   = problem.clock.read();
+        const Duration     duration = duration_of(
             [&]
             {
               step_report = problem.advance();
-              StepClock::Scope scope(problem.clock, Part::output);
+              StepClock::Scope scope(problem.clock, Phase::output);
               diagnostics.add_step();
               written += diagnostics.row(problem.state, step_report).size();
             });
-        const PartSeconds after = problem.clock.read();
-        worst_status            = std::max(worst_status, step_report.status);
+        const PhaseSeconds after = problem.clock.read();
+        worst_status             = std::max(worst_status, step_report.status);
         iterations += step_report.iterations;
         if (!is_success(step_report.status))
           return false;
         steps.push_back(duration);
-        for (unsigned int part = 0; part < n_parts; ++part)
-          seconds[part] += after[part] - before[part];
+        for (unsigned int phase = 0; phase < n_phases; ++phase)
+          seconds[phase] += after[phase] - before[phase];
         return true;
       }
 
@@ -188,7 +188,7 @@ namespace Exemplar
       {
         json["scene"]    = std::filesystem::path(options.scene_file).stem().string();
         json["method"]   = method_name(problem.parameters.solver.method);
-        json["examples"] = problem.examples.poses != nullptr ? problem.examples.poses->size() : 0;
+        json["examples"] = problem.examples.poses.size();
         json["cells"]    = problem.body.mesh.n_cells();
         json["dofs"]     = problem.constraints.free_dofs.size();
         json["steps"]    = steps.size();
@@ -216,11 +216,11 @@ namespace Exemplar
         const Duration total     = std::accumulate(steps.begin(), steps.end(), Duration());
         json["mean_step_ms"]     = 1e3 * total.wall / n;
         json["mean_step_cpu_ms"] = 1e3 * total.cpu / n;
-        for (const Part part :
-             { Part::evaluate, Part::assemble, Part::factorize, Part::solve, Part::output })
+        for (const Phase phase :
+             { Phase::evaluate, Phase::assemble, Phase::factorize, Phase::solve, Phase::output })
         {
-          const unsigned int p            = static_cast<unsigned int>(part);
-          json["parts_ms"][part_names[p]] = 1e3 * seconds[p] / n;
+          const unsigned int p             = static_cast<unsigned int>(phase);
+          json["parts_ms"][phase_names[p]] = 1e3 * seconds[p] / n;
         }
         if (!options.no_unit)
           json["units"] = total.cpu / n / median(unit.both).cpu;
@@ -278,7 +278,7 @@ namespace Exemplar
       std::unique_ptr<Reference> reference;
       Unit                       unit;
       std::vector<Duration>      steps;
-      PartSeconds                seconds{};
+      PhaseSeconds               seconds{};
       SolveStatus                worst_status = SolveStatus::initial;
       unsigned int               iterations   = 0;
       std::size_t                written      = 0; ///< so that no row is optimised away

@@ -63,10 +63,10 @@ namespace Exemplar
         A(i, j) = 1. / (1. + i + j);
         B(i, j) = i < j ? 1. : 0.5;
       }
-    double least = std::numeric_limits<double>::infinity();
+    double minimum = std::numeric_limits<double>::infinity();
     for (unsigned int repetition = 0; repetition < 4; ++repetition)
-      least = std::min(least, duration_of([&] { A.mmult(C, B); }).cpu);
-    return 2e-9 * n * n * n / least;
+      minimum = std::min(minimum, duration_of([&] { A.mmult(C, B); }).cpu);
+    return 2e-9 * n * n * n / minimum;
   }
 
   double
@@ -75,15 +75,15 @@ namespace Exemplar
     const std::size_t         n = 1 << 23; // thrice 64 MiB, more than caches hold
     const std::vector<double> b(n, 1.), c(n, 2.);
     std::vector<double>       a(n, 0.);
-    double                    least = std::numeric_limits<double>::infinity();
+    double                    minimum = std::numeric_limits<double>::infinity();
     for (unsigned int repetition = 0; repetition < 5; ++repetition)
-      least = std::min(least, duration_of(
-                                  [&]
-                                  {
-                                    for (std::size_t i = 0; i < n; ++i)
-                                      a[i] = b[i] + 0.5 * c[i];
-                                  })
-                                  .cpu);
-    return a[n / 2] > 0. ? 3e-9 * sizeof(double) * n / least : 0.;
+      minimum = std::min(minimum, duration_of(
+                                      [&]
+                                      {
+                                        for (std::size_t i = 0; i < n; ++i)
+                                          a[i] = b[i] + 0.5 * c[i];
+                                      })
+                                      .cpu);
+    return a[n / 2] > 0. ? 3e-9 * sizeof(double) * n / minimum : 0.;
   }
 } // namespace Exemplar

@@ -62,7 +62,7 @@ namespace
         end_unless(got > 0);
         n += static_cast<std::uint64_t>(got);
       }
-      for (char *at = text; at < text + size && n < most; at += __builtin_strlen(at) + 1)
+      for (char *at = text; at < text + size && n < maximum; at += __builtin_strlen(at) + 1)
         pointers[n++] = at;
       pointers[n] = nullptr;
     }
@@ -74,17 +74,17 @@ namespace
       std::free(text);
     }
 
-    static constexpr std::size_t most = 1000;
+    static constexpr std::size_t maximum = 1000;
 
     char       *text;
-    char       *pointers[most + 1];
+    char       *pointers[maximum + 1];
     std::size_t n = 0;
   };
 
   void
-  limit(const int resource, const std::uint64_t most)
+  limit(const int resource, const std::uint64_t maximum)
   {
-    const rlimit limits{ most, most };
+    const rlimit limits{ maximum, maximum };
     setrlimit(static_cast<__rlimit_resource>(resource), &limits);
   }
 

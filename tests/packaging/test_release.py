@@ -22,6 +22,7 @@ WHO = {f"GIT_{role}_{what}": "nobody@localhost" for role in ("AUTHOR", "COMMITTE
 class Release(unittest.TestCase):
     def setUp(self):
         self.directory = Path(self.enterContext(tempfile.TemporaryDirectory()))
+        self.make_cmake("true")
         (self.directory / "packaging").mkdir()
         shutil.copy(TOP / "packaging/release", self.directory / "packaging")
         for name, text in FILES.items():
@@ -29,8 +30,18 @@ class Release(unittest.TestCase):
         self.git("init", "-q")
         self.commit()
 
+    def make_cmake(self, answer):
+        """In place of cmake, which would build the program: keeps what it is asked for."""
+        self.tools = Path(self.enterContext(tempfile.TemporaryDirectory()))
+        (self.tools / "cmake").write_text(f'#!/bin/sh\necho "$@" >> {self.tools}/asked\n{answer}\n')
+        (self.tools / "cmake").chmod(0o755)
+
+    def asked(self):
+        return (self.tools / "asked").read_text() if (self.tools / "asked").exists() else ""
+
     def call(self, *call):
-        return subprocess.run(call, cwd=self.directory, env={**os.environ, **WHO}, capture_output=True, text=True)
+        environment = {**os.environ, **WHO, "PATH": f"{self.tools}:{os.environ['PATH']}"}
+        return subprocess.run(call, cwd=self.directory, env=environment, capture_output=True, text=True)
 
     def git(self, *words):
         done = self.call("git", *words)
@@ -60,10 +71,12 @@ class Release(unittest.TestCase):
         self.check_files()
         self.assertEqual((self.git("tag"), self.git("status", "--porcelain")), ("", ""))
         self.assertEqual(self.git("log", "--format=%s").split(), ["files"])
+        self.assertEqual(self.asked(), "")
 
     def test_tag(self):
         done = self.release("--tag")
         self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("--target tutorial_tables", self.asked())
         self.check_files()
         self.assertEqual(self.git("tag", "--format=%(contents)").strip(), "- Something new.")
         self.assertEqual(self.git("status", "--porcelain"), "")
@@ -79,6 +92,10 @@ class Release(unittest.TestCase):
     def test_a_dirty_tree_is_refused(self):
         (self.directory / "new").write_text("x")
         self.check_refused("not committed")
+
+    def test_tables_of_another_program_are_refused(self):
+        self.make_cmake("false")
+        self.check_refused("tables of the tutorial")
 
     def test_versions_that_differ_are_refused(self):
         for name in ("CITATION.cff", "codemeta.json", "CHANGELOG.md"):

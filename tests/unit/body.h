@@ -148,15 +148,16 @@ namespace Exemplar::Testing
     std::unique_ptr<const Patches> patches; ///< null: cells know their own dilatation
   };
 
-  /// The pattern that a potential refers to, made before it.
+  /// What a potential refers to, made before it.
   struct MatrixPattern
   {
     SymmetricPattern matrix_pattern;
+    Examples         none;
   };
 
   /// The patches of a body, if it has any.
   inline PotentialTerms
-  elastic_terms(const Body &body, const ExamplePoses *poses)
+  elastic_terms(const Body &body, const ExamplePoses &poses)
   {
     PotentialTerms terms;
     if (body.patches != nullptr)
@@ -196,10 +197,11 @@ namespace Exemplar::Testing
                   const LawsOfCells &laws,
                   const Examples    &examples,
                   const FreeDofs    &free_dofs)
-        : MatrixPattern{ make_pattern(body.fe_space, couplings_of(body), free_dofs) },
+        : MatrixPattern{ make_pattern(body.fe_space, couplings_of(body), free_dofs),
+                         body.examples(ExampleParameters()) },
           ElasticPotential({ laws, body.fe_space, body.material, body.cell_material,
-                             examples.poses.get(), examples.weights.get(), free_dofs },
-                           elastic_terms(body, examples.poses.get()),
+                             *given(examples).poses, *given(examples).weights, free_dofs },
+                           elastic_terms(body, *given(examples).poses),
                            matrix_pattern)
     {
     }
@@ -219,6 +221,13 @@ namespace Exemplar::Testing
       ElasticEvaluation evaluation;
       evaluate(x, weights, evaluation, RotationUse::update);
       return evaluation;
+    }
+
+  private:
+    const Examples &
+    given(const Examples &examples) const
+    {
+      return examples.poses == nullptr ? none : examples;
     }
   };
 } // namespace Exemplar::Testing

@@ -134,12 +134,15 @@ namespace Exemplar::Testing
     TwoUnknowns(const std::vector<Landscape> &landscapes, const double a, const double b)
         : body(box_mesh(4., 4, 1), soft()), dofs{ { 0, body.fe_space.n_dofs() - 1 } },
           free_dofs(body.fe_space.n_dofs(), all_but_two(), Exchange::serial()),
-          potential({ CellLaw::linear, body.fe_space, body.material, body.material, nullptr,
-                      nullptr, free_dofs },
+          none(body.examples(ExampleParameters())),
+          handles({}, body.mesh, body.fe_space, TimeAxis::of_increments(TimeParameters())),
+          potential({ CellLaw::linear, body.fe_space, body.material, body.material, *none.poses,
+                      *none.weights, free_dofs },
                     {},
                     terms(landscapes),
                     nullptr),
-          system(potential, plain_system(), clock, false)
+          system(
+              potential, [this] { return plain_system(); }, clock, false)
     {
       state.positions = body.fe_space.rest_positions();
       state.velocities.reinit(state.positions.size());
@@ -152,7 +155,7 @@ namespace Exemplar::Testing
     SolveReport
     solve(const SolverParameters &parameters, std::function<bool(const SolveReport &)> observe = {})
     {
-      const auto solver = make_step_solver(parameters, potential, system, nullptr, clock);
+      const auto solver = make_step_solver(parameters, potential, system, handles, clock);
       solver->observe   = std::move(observe);
       return solver->solve(state, evaluation, 1., 1.);
     }
@@ -172,7 +175,9 @@ namespace Exemplar::Testing
     const Body                        body;
     const std::array<unsigned int, 2> dofs; ///< of a and b
     const FreeDofs                    free_dofs;
-    StepClock                         clock{ Part::evaluate };
+    StepClock                         clock{ Phase::evaluate };
+    const Examples                    none;
+    const Handles                     handles;
     IncrementalPotential              potential;
     StepSystem                        system;
     State                             state;
@@ -211,7 +216,7 @@ namespace Exemplar::Testing
     {
       auto matrix = make_cholesky_operator();
       matrix->reinit(potential.matrix_pattern());
-      return make_block_system(std::move(matrix), nullptr, Exchange::serial());
+      return make_block_system(std::move(matrix), none.weights->weight_form(), Exchange::serial());
     }
 
     double

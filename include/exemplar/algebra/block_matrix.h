@@ -2,10 +2,10 @@
 #ifndef exemplar_block_matrix_h
 #define exemplar_block_matrix_h
 
-#include <deal.II/base/partitioner.h>
+#include <exemplar/algebra/halo.h>
 
 #include <cstddef>
-#include <memory>
+#include <functional>
 #include <vector>
 
 namespace Exemplar
@@ -27,11 +27,8 @@ namespace Exemplar
       float value;
     };
 
-    /// With `n_own` columns of blocks, and `n_others` of other processes, which `partitioner` knows
-    /// as four numbers a block. It is null if there are none.
-    BlockMatrix(std::size_t                                                n_own,
-                std::size_t                                                n_others,
-                std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner);
+    /// For vectors with this halo, of four numbers a block.
+    explicit BlockMatrix(Halo halo);
 
     /// The next row of blocks; sorts the entries.
     void
@@ -52,7 +49,7 @@ namespace Exemplar
     BlockVector
     zeros() const
     {
-      return BlockVector(4 * (n_own + n_others), 0.F);
+      return BlockVector(halo.n_own() + halo.n_others(), 0.F);
     }
 
     std::size_t
@@ -109,11 +106,25 @@ namespace Exemplar
     void
     share(BlockVector &vector) const;
 
-    std::size_t                                                n_own, n_others;
-    std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
-    std::vector<int>                                           start, column;
+    Halo               halo;
+    std::vector<int>   start, column;
     std::vector<float> values; ///< 9 a block, and some behind, as registers of four are read
   };
+
+  /// Reads a row of a matrix of numbers, by its own number: columns by local number, and the values
+  /// there. Returns how many they are, and makes the vectors longer where they are too short.
+  using ReadRow
+      = std::function<int(int row, std::vector<int> &columns, std::vector<double> &values)>;
+
+  /// A copy of a matrix of numbers with `n_rows` rows of blocks in this process. Blocks of columns are
+  /// numbered from `firsts` on, as first_numbers() tells; `columns` are the numbers among all
+  /// processes of the columns of numbers here, the own ones first.
+  BlockMatrix
+  make_block_matrix(std::size_t                     n_rows,
+                    const std::vector<std::size_t> &firsts,
+                    const std::vector<std::size_t> &columns,
+                    const ReadRow                  &read_row,
+                    const Exchange                 &exchange);
 
   /// result = factor * D^-1 x, with three by three numbers for each block of x in D^-1.
   void

@@ -21,6 +21,7 @@ namespace Exemplar
     std::vector<unsigned int>  coupled; ///< the weights whose column of G is not zero, ascending
   };
 
+  /// A vector of the bordered system: a right side or a solution, in three parts.
   struct BorderedVector
   {
     std::vector<double> positions;   ///< free degrees of freedom
@@ -34,7 +35,7 @@ namespace Exemplar
   ///     [ -G^T   H   N^T ] [ dw ] = [ r_w ]
   ///     [  0     N    0  ] [ l  ]   [ r_c ]
   ///
-  /// Without weights to find only A is there.
+  /// Without weights to find the form is empty, and only A is there.
   class BorderedSystem
   {
   public:
@@ -57,8 +58,8 @@ namespace Exemplar
       return G;
     }
 
-    /// The weights' part; null without weights to find.
-    const WeightForm *
+    /// The weights' part; empty without weights to find.
+    const WeightForm &
     weight_form() const
     {
       return form;
@@ -101,9 +102,9 @@ namespace Exemplar
     }
 
   protected:
-    explicit BorderedSystem(const WeightForm *form) : form(form) {}
+    explicit BorderedSystem(const WeightForm &form) : form(form) {}
 
-    const WeightForm          *form;
+    const WeightForm          &form;
     std::vector<double>        G;
     dealii::FullMatrix<double> schur;
   };
@@ -117,15 +118,15 @@ namespace Exemplar
                         const Exchange            &exchange);
 
   /// Block elimination: one call for A^-1 [r_x, G], then the dense Schur complement bordered by N.
-  /// `matrix` has its pattern; `form`, which may be null, and `exchange` must outlive the system.
+  /// `matrix` has its pattern; `form` and `exchange` must outlive the system.
   std::unique_ptr<BorderedSystem>
   make_block_system(std::unique_ptr<SpdOperator> matrix,
-                    const WeightForm            *form,
+                    const WeightForm            &form,
                     const Exchange              &exchange);
 
-  /// The whole bordered matrix at once by UMFPACK; for checking.
+  /// The whole bordered matrix at once by UMFPACK; for checking. `form` must outlive the system.
   std::unique_ptr<BorderedSystem>
-  make_umfpack_system(const SymmetricPattern &pattern, const WeightForm *form);
+  make_umfpack_system(const SymmetricPattern &pattern, const WeightForm &form);
 } // namespace Exemplar
 
 #endif

@@ -80,7 +80,7 @@ namespace Exemplar
     double
     min(const double own) const
     {
-      return n_processes() == 1 ? own : -max(-own);
+      return -max(-own);
     }
 
     /// Whether it is so in any process.
@@ -107,6 +107,13 @@ namespace Exemplar
     /// What all processes give, one after the other.
     virtual std::vector<std::size_t>
     collect(std::vector<std::size_t> own) const
+    {
+      return own;
+    }
+
+    /// The same where all know how many each gives, and need not tell: as first_numbers() of them.
+    virtual std::vector<float>
+    collect(std::vector<float> own, const std::vector<std::size_t> & /*firsts*/) const
     {
       return own;
     }
@@ -234,7 +241,7 @@ namespace Exemplar
   inline Vector
   whole(const Exchange &exchange, const Vector &field, const bool everywhere = false)
   {
-    if (exchange.n_processes() == 1 || field.size() == 0)
+    if (field.size() == 0)
       return field;
     const std::vector<double> all = exchange.whole(field.begin(), 3, field.size() / 3, everywhere);
     return { all.begin(), all.end() };
@@ -244,7 +251,7 @@ namespace Exemplar
   inline Vector
   part(const Exchange &exchange, const Vector &field)
   {
-    if (exchange.n_processes() == 1 || field.size() == 0)
+    if (field.size() == 0)
       return field;
     const std::vector<double> own = exchange.part({ field.begin(), field.end() }, 3);
     return { own.begin(), own.end() };

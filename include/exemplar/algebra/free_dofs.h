@@ -11,7 +11,8 @@ namespace Exemplar
 {
   /// The degrees of freedom that a solve determines. Degree of freedom 3 i + c is component c of
   /// node i; held ones are no unknowns of the linear system. Processes that share a body assemble
-  /// for all free ones that they have, of which each is the unknown of one process.
+  /// for all free ones that they have, of which each is the unknown of one process. Which are held
+  /// may change between steps.
   class FreeDofs
   {
   public:
@@ -21,25 +22,21 @@ namespace Exemplar
     FreeDofs(const unsigned int               n_dofs,
              const std::vector<unsigned int> &held_dofs,
              const Exchange                  &exchange)
-        : index(n_dofs, 0), with_others(exchange)
+        : index(n_dofs), own_index(n_dofs), with_others(exchange)
     {
-      for (const unsigned int dof : held_dofs)
-        index[dof] = held;
-      for (unsigned int dof = 0; dof < n_dofs; ++dof)
-        if (index[dof] != held)
-        {
-          index[dof] = static_cast<int>(dofs.size());
-          dofs.push_back(dof);
-        }
-      if (exchange.n_processes() == 1)
-        return;
-      own_index.assign(n_dofs, held);
-      for (const unsigned int dof : dofs)
-        if (exchange.owns(dof / 3))
-        {
-          own_index[dof] = static_cast<int>(own_dofs.size());
-          own_dofs.push_back(dof);
-        }
+      reinit(held_dofs);
+    }
+
+    /// From now on these are held. All processes must call this.
+    void
+    reinit(const std::vector<unsigned int> &held_dofs);
+
+    /// How often reinit() has been called: whoever remembers this number knows whether what he has
+    /// made of the degrees of freedom is still theirs.
+    unsigned int
+    version() const
+    {
+      return n_reinits;
     }
 
     /// Unknowns of this process.
@@ -67,14 +64,14 @@ namespace Exemplar
     const std::vector<unsigned int> &
     list() const
     {
-      return own_index.empty() ? dofs : own_dofs;
+      return own_dofs;
     }
 
     /// Number in list(), or `held` for what is no unknown of this process.
     int
     unknown_index(const unsigned int dof) const
     {
-      return own_index.empty() ? index[dof] : own_index[dof];
+      return own_index[dof];
     }
 
     /// All free degrees of freedom of this process' nodes, which the matrices of its cells couple,
@@ -91,6 +88,10 @@ namespace Exemplar
     {
       return index[dof];
     }
+
+    /// The greatest magnitude of a field at the unknowns of all processes, which all must call.
+    double
+    max_magnitude(const Vector &field) const;
 
     /// The unknowns among a field.
     void
@@ -133,9 +134,10 @@ namespace Exemplar
 
     std::vector<int>          index;
     std::vector<unsigned int> dofs;
-    std::vector<int>          own_index; ///< empty in one process: as `index`
-    std::vector<unsigned int> own_dofs;  ///< empty in one process: as `dofs`
+    std::vector<int>          own_index; ///< of those that this process owns
+    std::vector<unsigned int> own_dofs;
     const Exchange           &with_others;
+    unsigned int              n_reinits = 0;
   };
 } // namespace Exemplar
 

@@ -72,6 +72,7 @@ namespace Exemplar
     after(std::vector<double> &vector) const;
 
   private:
+    /// A step s and the change y of the gradient along it.
     struct Pair
     {
       std::vector<double> s, y;

@@ -68,6 +68,9 @@ namespace Exemplar
     std::vector<std::size_t>
     collect(std::vector<std::size_t> own) const override;
 
+    std::vector<float>
+    collect(std::vector<float> own, const std::vector<std::size_t> &firsts) const override;
+
     int
     node_here(unsigned int in_whole) const override;
 

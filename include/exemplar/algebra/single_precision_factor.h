@@ -25,6 +25,7 @@ namespace Exemplar
     static constexpr std::size_t max_lanes = 16; ///< in a register
   };
 
+  /// A Cholesky factor in single precision, for solutions that need a few digits only.
   class SinglePrecisionFactor
   {
   public:

@@ -20,6 +20,7 @@ namespace Exemplar
   {
     std::vector<int> column_start; ///< n + 1 entries
     std::vector<int> row;
+    unsigned int     version = 0; ///< how often it was made anew
 
     unsigned int
     n() const
@@ -110,6 +111,7 @@ namespace Exemplar
   /// Conjugate gradients to a residual of `tolerance` times the right side, preconditioned
   /// with ML's smoothed aggregation, whose coarse spaces hold the six rigid motions of the
   /// nodes. Results depend on the matrix, the positions of the nodes and the right side alone.
+  /// The pattern that reinit() is given must outlive it.
   /// Throws UserError in a build without Trilinos, and where MPI neither runs nor may be started
   /// (MpiSession).
   std::unique_ptr<SpdOperator>

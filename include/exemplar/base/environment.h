@@ -32,6 +32,7 @@ namespace Exemplar
   class OpenMPScope
   {
   public:
+    /// How many threads OpenMP may use.
     enum class Threads
     {
       one,

@@ -8,8 +8,8 @@
 
 namespace Exemplar
 {
-  /// The parts of a run whose times are reported.
-  enum class Part
+  /// The phases of a run whose times are reported.
+  enum class Phase
   {
     read,
     evaluate,
@@ -19,25 +19,25 @@ namespace Exemplar
     output
   };
 
-  constexpr unsigned int n_parts = 6;
+  constexpr unsigned int n_phases = 6;
 
-  inline const std::array<std::string, n_parts> part_names
+  inline const std::array<std::string, n_phases> phase_names
       = { { "read", "evaluate", "assemble", "factorize", "solve", "output" } };
 
-  using PartSeconds = std::array<double, n_parts>;
+  using PhaseSeconds = std::array<double, n_phases>;
 
-  /// Attributes every moment to exactly one part, so that the parts sum to the
+  /// Attributes every moment to exactly one phase, so that the phases sum to the
   /// whole. Times are only ever reported; no decision depends on them.
   class StepClock
   {
   public:
-    /// Time belongs to `part` while this object lives, then again to the part before.
+    /// Time belongs to `phase` while this object lives, then again to the phase before.
     class Scope
     {
     public:
-      Scope(StepClock &clock, const Part part) : clock(clock), before(clock.current)
+      Scope(StepClock &clock, const Phase phase) : clock(clock), before(clock.current)
       {
-        clock.switch_to(part);
+        clock.switch_to(phase);
       }
 
       ~Scope()
@@ -51,26 +51,26 @@ namespace Exemplar
           = delete;
 
     private:
-      StepClock &clock;
-      const Part before;
+      StepClock  &clock;
+      const Phase before;
     };
 
-    explicit StepClock(const Part first) : current(first), since(std::chrono::steady_clock::now())
+    explicit StepClock(const Phase first) : current(first), since(std::chrono::steady_clock::now())
     {
     }
 
     void
-    switch_to(const Part part)
+    switch_to(const Phase phase)
     {
       const auto now = std::chrono::steady_clock::now();
       seconds[static_cast<unsigned int>(current)]
           += std::chrono::duration<double>(now - since).count();
       since   = now;
-      current = part;
+      current = phase;
     }
 
-    /// Seconds of each part until now.
-    const PartSeconds &
+    /// Seconds of each phase until now.
+    const PhaseSeconds &
     read()
     {
       switch_to(current);
@@ -78,9 +78,9 @@ namespace Exemplar
     }
 
   private:
-    Part                                  current;
+    Phase                                 current;
     std::chrono::steady_clock::time_point since;
-    PartSeconds                           seconds{};
+    PhaseSeconds                          seconds{};
   };
 } // namespace Exemplar
 

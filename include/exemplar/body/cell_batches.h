@@ -123,6 +123,7 @@ namespace Exemplar
     memory_consumption() const;
 
   private:
+    /// What the cells of one law have, in batches of all cells.
     struct OfLaw
     {
       CellLaw                       law;

@@ -9,6 +9,7 @@ namespace Exemplar
 {
   class KeyTable;
 
+  /// How the blended strain acts, Eq. (5).
   enum class ExampleEnergy
   {
     scaled,
@@ -16,6 +17,7 @@ namespace Exemplar
     mixed
   };
 
+  /// Which weights are allowed, and who finds them.
   enum class WeightRule
   {
     simplex,

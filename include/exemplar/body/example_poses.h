@@ -27,7 +27,7 @@ namespace Exemplar
   /// and (5), computed once; eta is Examples/Importance.
   /// Example 0 is the rest pose where it is included. Each example has one weight or,
   /// with Weights per region, one a region: weight r * size() + i is that of example i in
-  /// region r.
+  /// region r. Of a scene without examples it is empty.
   class ExamplePoses
   {
   public:

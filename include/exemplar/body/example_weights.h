@@ -22,6 +22,7 @@ namespace Exemplar
   /// The rule by which example weights are found: whether they are prescribed functions of time or
   /// unknowns, their bounds and sums, and the part of the energy that depends on them alone. Weight
   /// r * n_per_region() + i is that of example i in region r; the weights of a region sum to one.
+  /// A scene without examples has no weights, and all loops over them are empty.
   class ExampleWeights
   {
   public:
@@ -36,38 +37,52 @@ namespace Exemplar
     unsigned int
     size() const
     {
-      return form.H.n();
+      return poses.n_weights();
     }
 
     unsigned int
     n_regions() const
     {
-      return form.N.m();
+      return poses.n_regions();
     }
 
     /// As many as there are examples.
     unsigned int
     n_per_region() const
     {
-      return size() / n_regions();
+      return poses.size();
     }
 
-    /// Whether steps have to find them; else they are prescribed.
-    bool
-    are_unknown() const
+    /// Those that steps have to find: none if they are prescribed.
+    unsigned int
+    n_unknown() const
     {
-      return prescribed.empty();
+      return form.H.m();
+    }
+
+    bool
+    are_prescribed() const
+    {
+      return !prescribed.empty();
     }
 
     /// Prescribed weights at time t.
     std::vector<double>
     at(double time) const;
 
+    /// What these weights are at time t: others if they are prescribed.
+    std::vector<double>
+    at(const double time, const std::vector<double> &weights) const
+    {
+      return are_prescribed() ? at(time) : weights;
+    }
+
     /// Prescribed weights at t = 0; one on the first example if they are unknown.
     std::vector<double>
     initial() const;
 
-    /// Their quadratic form H, Eq. (9), sums and coupled columns, for linear systems.
+    /// The quadratic form H, Eq. (9), of the unknown ones, their sums and coupled columns, for linear
+    /// systems. It is empty where none is unknown.
     const WeightForm &
     weight_form() const
     {
@@ -75,7 +90,8 @@ namespace Exemplar
     }
 
     /// The second derivative by the weights of what depends on them alone: the ridge and
-    /// p eta (1 - eta) sum V E_i : C : E_j [J], where p is the blended part of the energy.
+    /// p eta (1 - eta) sum V E_i : C : E_j [J], where p is the blended part of the energy. Of unknown
+    /// weights.
     const dealii::FullMatrix<double> &
     penalty_matrix() const
     {

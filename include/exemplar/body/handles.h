@@ -24,8 +24,8 @@ namespace Exemplar
   /// towards the axis on the way.
   struct StraightTurn
   {
-    double angle;      ///< [rad], 0 if there is no such turn
-    double least_size; ///< relative to that at the nearer end of the way
+    double angle;    ///< [rad], 0 if there is no such turn
+    double min_size; ///< relative to that at the nearer end of the way
   };
 
   /// Look for a straight turn in the places that points take one after the other,
@@ -58,6 +58,34 @@ namespace Exemplar
             const NamedPoses                    &poses   = {},
             const NamedNodes                    &nodes   = {},
             const NamedMotions                  &motions = {});
+
+    /// A further handle, of all components of some nodes of this process, ascending, that `motion`
+    /// moves. Throws UserError if there is a handle of that name. All processes must call this and the two
+    /// functions below.
+    void
+    grab(const std::string &name, const std::vector<unsigned int> &nodes, Motion motion);
+
+    /// From now on a handle holds nothing, until hold(). Throws UserError if no handle has this name.
+    void
+    let_go(const std::string &name)
+    {
+      find(name).holds = false;
+    }
+
+    /// From now on a handle holds its nodes again.
+    void
+    hold(const std::string &name)
+    {
+      find(name).holds = true;
+    }
+
+    /// Of each handle whether it holds its nodes.
+    std::vector<bool>
+    holding() const;
+
+    /// As when holding() was this: handles that came later are gone.
+    void
+    restore(const std::vector<bool> &holding);
 
     /// Degrees of freedom 3 i + c that are held, ascending, each once.
     std::vector<unsigned int>
@@ -102,7 +130,7 @@ namespace Exemplar
       return handles[handle].nodes;
     }
 
-    /// Sum over a handle's held degrees of freedom of a nodal field, by component.
+    /// Sum over a handle's held degrees of freedom of a nodal field, by component; 0 if it is let go.
     dealii::Tensor<1, 3>
     sum_over(unsigned int handle, const dealii::Vector<double> &field) const;
 
@@ -114,6 +142,7 @@ namespace Exemplar
     }
 
   private:
+    /// Nodes of this process that move together, and how.
     struct Handle
     {
       std::string               name;
@@ -123,6 +152,15 @@ namespace Exemplar
       Expression                progress; ///< on the path, if there is one
       std::optional<RigidPath>  path;     ///< of all of the handle to the pose that is followed
       Motion                    function; ///< a program's, instead of all these
+      bool                      holds = true;
+
+      /// What it holds now: its nodes, or none.
+      const std::vector<unsigned int> &
+      held_nodes() const
+      {
+        static const std::vector<unsigned int> none;
+        return holds ? nodes : none;
+      }
 
       std::vector<unsigned int> places_in_path = {}; ///< of each node, among those of all processes
 
@@ -142,6 +180,10 @@ namespace Exemplar
     make_handle(const HandleParameters &parameters,
                 const NamedPoses       &poses,
                 const NamedNodes       &nodes) const;
+
+    /// Throws UserError if no handle has this name.
+    Handle &
+    find(const std::string &name);
 
     /// A motion of the nodes of the mesh file among some (ascending), and that of the middles of
     /// edges as the means of their ends.

@@ -78,6 +78,7 @@ namespace Exemplar
     named_loads(double time, dealii::Vector<double> &force) const;
 
   private:
+    /// A dead force and the nodes of this process that share it.
     struct Load
     {
       std::string               name;

@@ -18,6 +18,7 @@ namespace Exemplar
     bool                is_factor = true; ///< of what the scene says, or instead of it
   };
 
+  /// The constants that a scene paints on its surface; one without values is not painted.
   struct PaintedMaterial
   {
     PaintedConstant youngs_modulus, poissons_ratio, density;
@@ -64,6 +65,7 @@ namespace Exemplar
     }
 
   private:
+    /// The constants of a region, or of a cell where they are painted.
     struct Constants
     {
       CellMaterial<double> elasticity;

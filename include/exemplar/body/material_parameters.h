@@ -17,6 +17,7 @@ namespace Exemplar
   OwnConstants
   default_own_constants();
 
+  /// The constants of a material as a scene gives them.
   struct ElasticConstants
   {
     double youngs_modulus = 1e6;  ///< E [Pa]
@@ -26,6 +27,7 @@ namespace Exemplar
     OwnConstants own = default_own_constants();
   };
 
+  /// Whether the masses of neighbouring nodes are coupled, or lumped at the nodes.
   enum class MassMatrix
   {
     consistent,

@@ -8,6 +8,7 @@ namespace Exemplar
 {
   class KeyTable;
 
+  /// Whether forces follow the rotations, Eq. (17), or hold them fixed, Eq. (6).
   enum class GradientKind
   {
     consistent,

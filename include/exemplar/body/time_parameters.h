@@ -6,6 +6,7 @@ namespace Exemplar
 {
   class KeyTable;
 
+  /// The time stepping: Eq. (12) or Eq. (21).
   enum class TimeScheme
   {
     implicit_euler,

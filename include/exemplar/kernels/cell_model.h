@@ -29,6 +29,7 @@ namespace Exemplar
   using CellLaws = std::
       tuple<CorotationalCell<Number>, FrozenCell<Number>, LinearCell<Number>, GreenCell<Number>>;
 
+  /// Stands for a law in calls of templates; without data.
   template <typename Cell>
   struct CellModel
   {

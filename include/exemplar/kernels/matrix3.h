@@ -10,6 +10,7 @@
 
 namespace Exemplar
 {
+  /// Three numbers; a number may be a pack of lanes, one for each of several cells.
   template <typename Number>
   struct Vector3
   {
@@ -28,6 +29,7 @@ namespace Exemplar
     }
   };
 
+  /// A matrix of 3 x 3 numbers, by rows.
   template <typename Number>
   struct Matrix3
   {

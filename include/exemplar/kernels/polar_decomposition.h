@@ -31,6 +31,7 @@ namespace Exemplar
       Number value[4][4];
     };
 
+    /// A rotation, if its norm is one.
     template <typename Number>
     struct Quaternion
     {

@@ -99,6 +99,7 @@ namespace Exemplar
     return change;
   }
 
+  /// The guard of stretched cells, G of Eq. (24), and its derivatives.
   template <typename Number>
   class StretchGuard
   {

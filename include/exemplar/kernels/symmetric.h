@@ -10,6 +10,7 @@ namespace Exemplar
 {
   constexpr std::size_t n_symmetric = 6;
 
+  /// The six different entries of a symmetric matrix of 3 x 3.
   template <typename Number>
   struct SymmetricEntries
   {

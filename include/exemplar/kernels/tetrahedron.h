@@ -9,6 +9,7 @@
 
 namespace Exemplar
 {
+  /// The degree of the shape functions.
   enum class Element
   {
     P1, ///< linear: 4 nodes, one quadrature point

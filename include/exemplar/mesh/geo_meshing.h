@@ -9,6 +9,7 @@
 
 namespace Exemplar
 {
+  /// What the process in which gmsh runs is kept from.
   enum class Confinement
   {
     none,

@@ -18,6 +18,7 @@ namespace Exemplar
   /// A piece of a script.
   struct GeoToken
   {
+    /// What a piece is.
     enum class Kind
     {
       word,

@@ -9,6 +9,7 @@ namespace Exemplar
 {
   class KeyTable;
 
+  /// What makes the mesh where no file does.
   enum class MeshGenerator
   {
     none,
@@ -58,7 +59,7 @@ namespace Exemplar
   is_surface_file(const std::string &file);
 
   /// How many cells may be asked for.
-  constexpr unsigned int least_n_cells = 10, most_n_cells = 10000000;
+  constexpr unsigned int min_n_cells = 10, max_n_cells = 10000000;
 } // namespace Exemplar
 
 #endif

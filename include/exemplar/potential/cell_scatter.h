@@ -19,7 +19,8 @@ namespace Exemplar
                const std::vector<std::pair<unsigned int, unsigned int>> &couplings,
                const FreeDofs                                           &free_dofs);
 
-  /// Where the entries of the cells' matrices are in the matrix of the body.
+  /// Where the entries of the cells' matrices are in the matrix of the body. Made for the pattern and
+  /// the free degrees of freedom as they are, until reinit().
   class CellScatter
   {
   public:
@@ -27,6 +28,10 @@ namespace Exemplar
     CellScatter(const FESpace          &fe_space,
                 const SymmetricPattern &pattern,
                 const FreeDofs         &free_dofs);
+
+    /// Anew for the pattern and the free degrees of freedom as they are now.
+    void
+    reinit();
 
     /// Of TangentTask, from a batch of points on; those of mixed cells are left out.
     const int *

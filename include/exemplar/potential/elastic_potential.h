@@ -22,16 +22,16 @@ namespace Exemplar
     std::vector<double> von_mises_stress; ///< of the corotated stress C:(e - eta E(w)) [Pa]
   };
 
-  /// What the cells of a body are: their laws, geometry and material, and the examples, both null
-  /// if the scene has none. All must outlive whoever holds this.
+  /// What the cells of a body are: their laws, geometry and material, and the examples, which may be
+  /// none. All must outlive whoever holds this.
   struct ElasticParts
   {
     LawsOfCells           laws;
     const FESpace        &fe_space;
     const Material       &material;      ///< of the body
     const Material       &cell_material; ///< of the cells' own energies, beside those of terms
-    const ExamplePoses   *examples;
-    const ExampleWeights *weights;
+    const ExamplePoses   &examples;
+    const ExampleWeights &weights;
     const FreeDofs       &free_dofs;
     unsigned int          n_threads = 1; ///< of the loops; no result depends on it
   };
@@ -55,6 +55,10 @@ namespace Exemplar
     ElasticPotential(const ElasticParts     &parts,
                      PotentialTerms          terms,
                      const SymmetricPattern &pattern);
+
+    /// The pattern, or what is held, is another from now on.
+    void
+    follow_pattern();
 
     /// R at every point from the polar decomposition at these positions. Models other
     /// than the corotational have none: theirs stay I.
@@ -142,30 +146,12 @@ namespace Exemplar
     memory_consumption() const;
 
   private:
-    bool
-    has_unknown_weights() const
-    {
-      return parts.weights != nullptr && parts.weights->are_unknown();
-    }
-
-    /// Whether the tangent of a law is R K R^T.
-    static bool
-    is_rotated_stiffness(const CellLaw law, const Tangent tangent)
-    {
-      const ModelTraits traits = traits_of(law);
-      return tangent == Tangent::exact ? traits.exact_is_rotated : traits.convex_is_rotated;
-    }
-
     CellTask
     task(const Vector &positions, const std::vector<double> &weights, RotationUse rotations);
 
     /// Terms write what cells must know for their tangent.
     void
     tell_cells(const TermPoint &at);
-
-    /// eta E(w) at a point; 0 without examples.
-    Matrix3<double>
-    example_strain(unsigned int point, const std::vector<double> &weights) const;
 
     void
     add_penalty(const std::vector<double> &weights, ElasticEvaluation &result) const;
@@ -175,11 +161,6 @@ namespace Exemplar
     set_weight_gradient(const std::vector<double> &weights,
                         const std::vector<double> &linear_term,
                         ElasticEvaluation         &result) const;
-
-    /// The state of a cell's point at these positions and weights, with the damping.
-    template <typename Cell>
-    Cell
-    cell_state(Tangent tangent, unsigned int point, const TermPoint &at) const;
 
     /// Call function(point) for the quadrature points of the cells beside held nodes.
     template <typename Function>
@@ -215,28 +196,10 @@ namespace Exemplar
                      const TermPoint &at,
                      ElasticSums     &sums);
 
-    /// What R^T dF = `M` at a point of this law changes.
-    template <typename Cell>
-    void
-    add_cell_response(Tangent                tangent,
-                      unsigned int           point,
-                      const Matrix3<double> &M,
-                      const TermPoint       &at,
-                      ElasticSums           &sums) const;
-
-    /// The same where the tangent is R K R^T.
-    template <typename Constants>
-    void
-    add_rotated_response(unsigned int point, const Matrix3<double> &M, ElasticSums &sums) const;
-
-    /// Into the gradient: nodal forces of a change of R^T P.
-    void
-    add_force(unsigned int point, const Matrix3<double> &dP, Vector &gradient) const;
-
     const ElasticParts      parts;
     const SymmetricPattern &pattern;
     CellField               cells;
-    const CellScatter       scatter;
+    CellScatter             scatter;
     const PotentialTerms    terms;
     const CellRounding      rounding;
   };

@@ -17,6 +17,36 @@ namespace Exemplar
     std::vector<double> multipliers;    ///< of each region's sum of unknown weights [J]
   };
 
+  /// -part f.(x - x_0) with forces f [N] and the positions x_0 [m] at which the gradient of the
+  /// potential is f: for part = 1 the body is at rest there. Nothing is held back at first.
+  class HeldBackForces
+  {
+  public:
+    /// All of `gradient` that acts on free degrees of freedom, until let_go().
+    void
+    hold(const FreeDofs &free_dofs, const Vector &gradient, const Vector &positions);
+
+    void
+    set_part(const double new_part)
+    {
+      part = new_part;
+    }
+
+    void
+    let_go()
+    {
+      *this = {};
+    }
+
+    /// Add it to the potential at these positions and to its gradient.
+    void
+    add(const Exchange &exchange, const Vector &positions, Evaluation &evaluation) const;
+
+  private:
+    double part = 0.;
+    Vector forces, origin;
+  };
+
   /// What a step minimises over positions and weights: Phi(x, w), Eqs. (5), (12) and (22), the sum
   /// over the cells and then the terms, in the order given.
   class IncrementalPotential
@@ -28,6 +58,11 @@ namespace Exemplar
                          PotentialTerms      elastic_terms,
                          PotentialTerms      terms,
                          TimeIntegrator     *integrator);
+
+    /// The free degrees of freedom, or the couplings of terms, are others from now on. All processes
+    /// must call this.
+    void
+    renew_pattern();
 
     /// A step of length h [s] (of dynamics; not used otherwise) begins at `start`.
     void
@@ -61,37 +96,9 @@ namespace Exemplar
     void
     minimize_over_weights(State &at, RotationUse rotations, Evaluation &evaluation);
 
-    /// The cells alone, with their rotations as they are.
-    void
-    evaluate_cells(const State &at, Evaluation &evaluation);
-
-    /// Add to the cells' forces what a displacement of held nodes from these positions changes.
-    void
-    add_response(Tangent       tangent,
-                 const Vector &displacement,
-                 const State  &from,
-                 Evaluation   &evaluation);
-
     /// Sum cells, as they are in `evaluation`, and terms at these positions.
     void
     add_terms(const Vector &positions, Evaluation &evaluation) const;
-
-    /// Until let_go(), add -part f.(x - x_0) with the forces f [N] and the positions x_0 at which the
-    /// gradient is f: for part = 1 the body is at rest there. `part` is that of set_held_back().
-    void
-    hold_back(const Vector &gradient, const Vector &positions);
-
-    void
-    set_held_back(const double part)
-    {
-      held_back.part = part;
-    }
-
-    void
-    let_go()
-    {
-      held_back = {};
-    }
 
     /// The matrix A and the columns G: exact for convexity 0, convex for 1, a mixture between.
     void
@@ -105,10 +112,6 @@ namespace Exemplar
     Residual
     residual(const State &at, const Evaluation &evaluation) const;
 
-    /// max |dPhi/dx| over the free degrees of freedom [N].
-    double
-    max_free_gradient(const Evaluation &evaluation) const;
-
     /// x_hat in a step of dynamics, else null.
     const Vector *
     inertial_positions() const
@@ -121,7 +124,7 @@ namespace Exemplar
     bool
     changes_between_steps() const
     {
-      return (weights != nullptr && !weights->are_unknown())
+      return weights.are_prescribed()
              || (in_dynamic_step && integrator->stiffness_damping_factor() > 0.);
     }
 
@@ -144,11 +147,10 @@ namespace Exemplar
     void
     load(boost::archive::binary_iarchive &archive);
 
-    /// Null without weights to find.
-    const ExampleWeights *
-    unknown_weights() const
+    const ExampleWeights &
+    get_weights() const
     {
-      return weights != nullptr && weights->are_unknown() ? weights : nullptr;
+      return weights;
     }
 
     const FreeDofs &
@@ -175,6 +177,12 @@ namespace Exemplar
       return terms;
     }
 
+    HeldBackForces &
+    get_held_back()
+    {
+      return held_back;
+    }
+
     /// Of A.
     const SymmetricPattern &
     matrix_pattern() const
@@ -183,12 +191,6 @@ namespace Exemplar
     }
 
   private:
-    struct HeldBack
-    {
-      double part = 0.;
-      Vector gradient, positions;
-    };
-
     void
     assemble_tangent(Tangent                    tangent,
                      const Vector              &positions,
@@ -196,19 +198,17 @@ namespace Exemplar
                      std::vector<double>       &matrix_values,
                      std::vector<double>       &columns);
 
-    /// Of all terms, those of Psi first.
-    template <typename Function>
-    void
-    for_each_term(const Function &function) const;
-
-    const PotentialTerms   terms;
-    const SymmetricPattern pattern; ///< of cells and terms
-    ElasticPotential       cells;
-    const ExampleWeights  *weights; ///< null without examples
-    TimeIntegrator        *integrator;
-    const FreeDofs        &free_dofs;
-    HeldBack               held_back;
-    bool                   in_dynamic_step = false;
+    const PotentialTerms  terms;
+    const FESpace        &fe_space;
+    SymmetricPattern      pattern; ///< of cells and terms
+    ElasticPotential      cells;
+    const ExampleWeights &weights;
+    TimeIntegrator       *integrator;
+    const FreeDofs       &free_dofs;
+    /// Those of Psi first.
+    const std::vector<PotentialTerm *> all_terms;
+    HeldBackForces                     held_back;
+    bool                               in_dynamic_step = false;
   };
 } // namespace Exemplar
 

@@ -21,9 +21,9 @@ namespace Exemplar
   class PatchDilatation : public PotentialTerm
   {
   public:
-    /// `examples` may be null; `material` is that of the body, with lambda. All must outlive it.
+    /// `material` is that of the body, with lambda. All must outlive it.
     PatchDilatation(const Patches      &patches,
-                    const ExamplePoses *examples,
+                    const ExamplePoses &examples,
                     const FESpace      &fe_space,
                     const Material     &material);
 
@@ -150,7 +150,7 @@ namespace Exemplar
     }
 
     const Patches              &patches;
-    const ExamplePoses         *examples;
+    const ExamplePoses         &examples;
     const FESpace              &fe_space;
     CellField                  *cells     = nullptr; ///< since attach()
     const FreeDofs             *free_dofs = nullptr; ///< since attach()

@@ -27,11 +27,11 @@ namespace Exemplar
   class PatchGuard
   {
   public:
-    /// All must outlive it. `examples` may be null.
+    /// All must outlive it.
     PatchGuard(const Patches      &patches,
                const FESpace      &fe_space,
                const Material     &material,
-               const ExamplePoses *examples);
+               const ExamplePoses &examples);
 
     /// Anew for these positions, the points' tr(e), and theta_p and m_p of the patches.
     void
@@ -85,6 +85,7 @@ namespace Exemplar
       double sum = 0.;
     };
 
+    /// A quadrature point of a patch in which the guard acts, and what the guard needs of it.
     struct Point
     {
       double                      excess; ///< tr(e) - theta_p

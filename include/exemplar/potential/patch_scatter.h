@@ -80,6 +80,7 @@ namespace Exemplar
     memory_consumption() const;
 
   private:
+    /// Where the numbers of a patch go in the matrix.
     struct Layout
     {
       std::vector<unsigned int> nodes;

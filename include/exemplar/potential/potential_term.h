@@ -55,9 +55,17 @@ namespace Exemplar
       return {};
     }
 
+    /// Whether begin_step() has changed the couplings, as contact does. The pattern then follows
+    /// before the step goes on.
+    virtual bool
+    has_new_couplings() const
+    {
+      return false;
+    }
+
     /// Known from now on: the pattern on which add_tangent() writes, the free degrees of freedom, and
     /// the cells, with their rotations and dilatations. All outlive the term. Called again when the
-    /// pattern has grown.
+    /// pattern or what is held has changed.
     virtual void
     attach(const SymmetricPattern & /*pattern*/,
            const FreeDofs & /*free_dofs*/,

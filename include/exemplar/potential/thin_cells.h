@@ -62,6 +62,7 @@ namespace Exemplar
                 dealii::FullMatrix<double> &matrix) const;
 
   private:
+    /// A quadrature point at which the trace is continued, and what its derivatives need.
     struct Point
     {
       CorotationalCell<double> state; ///< of no material: its S and its turn

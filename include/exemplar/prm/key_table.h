@@ -172,6 +172,7 @@ namespace Exemplar
     /// Writes a text to a variable; false if it is not allowed.
     using Setter = std::function<bool(const std::string &)>;
 
+    /// A key and how its text becomes a value.
     struct Entry
     {
       DeclaredKey declared;

@@ -29,43 +29,43 @@ namespace Exemplar
   /// The whole number that a text such as 1e4 or 10,000 means, as a question with a blank behind it;
   /// nothing for other texts.
   inline std::string
-  meant_number(const std::string &text, const double least, const double most)
+  meant_number(const std::string &text, const double minimum, const double maximum)
   {
     static const std::regex groups("[1-9]\\d{0,2}([,_']\\d{3})+");
     const bool              has_groups = text.size() < 30 && std::regex_match(text, groups);
     const std::string       digits
         = has_groups ? std::regex_replace(text, std::regex("[,_']"), "") : text;
     const double number = parse_number(digits);
-    return number == std::floor(number) && number >= least && number <= most
+    return number == std::floor(number) && number >= minimum && number <= maximum
                ? "Did you mean " + std::to_string(static_cast<long long>(number)) + "? "
                : "";
   }
 
-  /// Declare an option that takes a number from `least` to `most`, in decimal digits alone: CLI11 itself
-  /// would take NaN for a number in any range, and octal and hexadecimal ones. Whoever gives another
-  /// text gets a UserError, with `remedy`, a sentence with a blank behind it. `target` may be a
-  /// std::optional.
+  /// Declare an option that takes a number from `minimum` to `maximum`, in decimal digits alone:
+  /// CLI11 itself would take NaN for a number in any range, and octal and hexadecimal ones. Whoever
+  /// gives another text gets a UserError, with `remedy`, a sentence with a blank behind it. `target`
+  /// may be a std::optional.
   template <typename Target, typename Number>
   CLI::Option *
   add_number_option(CLI::App          &app,
                     const std::string &name,
                     Target            &target,
-                    const Number       least,
-                    const Number       most,
+                    const Number       minimum,
+                    const Number       maximum,
                     const std::string &description,
                     const std::string &remedy = "")
   {
     const std::string command = app.get_parent() == nullptr ? "" : app.get_name() + " ";
-    const auto        read = [&target, name, least, most, remedy, command](const std::string &text)
+    const auto read = [&target, name, minimum, maximum, remedy, command](const std::string &text)
     {
       const bool is_whole = std::is_integral<Number>::value;
       const auto number   = decimal_number<Number>(text);
-      if (!number || *number < least || *number > most)
+      if (!number || *number < minimum || *number > maximum)
         throw UserError(name + ": expected a " + (is_whole ? "whole number" : "number") + " from "
-                        + bound_text(least) + " to " + bound_text(most)
+                        + bound_text(minimum) + " to " + bound_text(maximum)
                         + " in decimal digits, found " + in_quotes(text) + ". "
-                        + (is_whole ? meant_number(text, least, most) : "") + remedy + "exemplar "
-                        + command + "--help lists what is allowed.");
+                        + (is_whole ? meant_number(text, minimum, maximum) : "") + remedy
+                        + "exemplar " + command + "--help lists what is allowed.");
       target = *number;
     };
     return app.add_option_function<std::string>(name, read, description)

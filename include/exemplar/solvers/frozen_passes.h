@@ -15,7 +15,7 @@ namespace Exemplar
     FrozenPasses(const SolverParameters &parameters,
                  IncrementalPotential   &potential,
                  StepSystem             &system,
-                 const Handles          *handles,
+                 const Handles          &handles,
                  StepClock              &clock);
 
     SolveReport
@@ -61,7 +61,7 @@ namespace Exemplar
     const SolverParameters parameters;
     IncrementalPotential  &potential;
     StepSystem            &system;
-    const Handles         *handles;
+    const Handles         &handles;
     StepClock             &clock;
     MotionPrediction       prediction;
   };

@@ -16,7 +16,7 @@ namespace Exemplar
 
     Merit(const IncrementalPotential &potential, const Evaluation &evaluation)
         : potential(evaluation.potential),
-          max_free_gradient(potential.max_free_gradient(evaluation))
+          max_free_gradient(potential.get_free_dofs().max_magnitude(evaluation.gradient))
     {
     }
   };

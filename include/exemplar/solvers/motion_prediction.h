@@ -13,8 +13,8 @@ namespace Exemplar
   class MotionPrediction
   {
   public:
-    /// `handles` is null without handles; both must outlive the object.
-    MotionPrediction(const FreeDofs &free_dofs, const Handles *handles);
+    /// Both must outlive the object.
+    MotionPrediction(const FreeDofs &free_dofs, const Handles &handles);
 
     /// Put `trial`, which is at the positions of `accepted` but has the time of the step's end,
     /// where the last velocities lead in a step of length h [s]. To be called once a step.
@@ -57,7 +57,7 @@ namespace Exemplar
 
   private:
     const FreeDofs  &free_dofs;
-    const Handles   *handles;
+    const Handles   &handles;
     LinearPrediction velocities; ///< of the last steps, by free degree of freedom
   };
 } // namespace Exemplar

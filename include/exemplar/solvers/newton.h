@@ -21,7 +21,7 @@ namespace Exemplar
     Newton(const SolverParameters &parameters,
            IncrementalPotential   &potential,
            StepSystem             &system,
-           const Handles          *handles,
+           const Handles          &handles,
            StepClock              &clock);
 
     SolveReport
@@ -156,7 +156,7 @@ namespace Exemplar
     const SolverParameters parameters;
     IncrementalPotential  &potential;
     StepSystem            &system;
-    const Handles         *handles;
+    const Handles         &handles;
     StepClock             &clock;
     Linearization          accepted;
     bool                   may_be_interrupted = true;

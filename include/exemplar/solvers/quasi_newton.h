@@ -22,7 +22,7 @@ namespace Exemplar
     QuasiNewton(const SolverParameters &parameters,
                 IncrementalPotential   &potential,
                 StepSystem             &system,
-                const Handles          *handles,
+                const Handles          &handles,
                 StepClock              &clock);
 
     SolveReport

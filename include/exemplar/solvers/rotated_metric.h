@@ -73,7 +73,7 @@ namespace Exemplar
     double
     cost_in_iterations() const
     {
-      return inverse->cost_in_iterations(form == nullptr ? 0 : form->coupled.size());
+      return inverse->cost_in_iterations(form->coupled.size());
     }
 
     void
@@ -105,9 +105,9 @@ namespace Exemplar
     std::unique_ptr<KeptInverse> inverse;
     std::vector<float>           rotations_then;
     std::vector<float>           rotations_since; ///< W, nine numbers a rotated node
-    const WeightForm            *form = nullptr;
-    std::vector<float>           G, Z;  ///< columns of the coupled weights; Z = A^-1 G
-    dealii::FullMatrix<double>   schur; ///< H - G^T Z
+    const WeightForm            *form = nullptr;  ///< of the system that the inverse is of
+    std::vector<float>           G, Z;            ///< columns of the coupled weights; Z = A^-1 G
+    dealii::FullMatrix<double>   schur;           ///< H - G^T Z
   };
 } // namespace Exemplar
 

@@ -7,6 +7,7 @@
 
 namespace Exemplar
 {
+  /// How a step has ended; `initial`: there was none.
   enum class SolveStatus
   {
     initial,

@@ -8,6 +8,7 @@ namespace Exemplar
 {
   class KeyTable;
 
+  /// How a step is solved.
   enum class Method
   {
     automatic,
@@ -24,6 +25,7 @@ namespace Exemplar
     predicted
   };
 
+  /// How a linear system is solved.
   enum class LinearSolver
   {
     automatic,

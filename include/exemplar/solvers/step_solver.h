@@ -74,12 +74,12 @@ namespace Exemplar
                      SolveReport                &report) const;
   };
 
-  /// `handles` is null without handles; all must outlive the solver.
+  /// All must outlive the solver.
   std::unique_ptr<StepSolver>
   make_step_solver(const SolverParameters &parameters,
                    IncrementalPotential   &potential,
                    StepSystem             &system,
-                   const Handles          *handles,
+                   const Handles          &handles,
                    StepClock              &clock);
 } // namespace Exemplar
 

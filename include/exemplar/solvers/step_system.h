@@ -6,6 +6,7 @@
 #include <exemplar/base/step_clock.h>
 #include <exemplar/potential/incremental_potential.h>
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -16,12 +17,15 @@ namespace Exemplar
   class StepSystem
   {
   public:
+    /// Makes a bordered system for the potential's pattern and free degrees of freedom as they are.
+    using MakeSystem = std::function<std::unique_ptr<BorderedSystem>()>;
+
     /// `turns_freely`: the held degrees of freedom only keep A regular, and steps are freed of
     /// their rigid motion. The potential and the clock must outlive the system.
-    StepSystem(IncrementalPotential           &potential,
-               std::unique_ptr<BorderedSystem> system,
-               StepClock                      &clock,
-               bool                            turns_freely);
+    StepSystem(IncrementalPotential &potential,
+               MakeSystem            make_system,
+               StepClock            &clock,
+               bool                  turns_freely);
 
     /// Assemble at these positions and weights, with the rotations as they are, and factorise.
     /// `convexity` as for IncrementalPotential::assemble(). Throws SolverFailure if the matrix is
@@ -40,9 +44,7 @@ namespace Exemplar
     /// The same for any derivatives: by degree of freedom [N] and, with weights to find, by weight
     /// [J].
     BorderedVector
-    solve(const State               &at,
-          const Vector              &gradient,
-          const std::vector<double> &weight_gradient);
+    solve(const State &at, const Vector &gradient, const std::vector<double> &weight_gradient);
 
     /// Solve for all columns of the weights now, as the first solve() would.
     void
@@ -59,6 +61,13 @@ namespace Exemplar
     /// The derivative of the potential along a step at fixed weights [J].
     double
     slope(const Evaluation &evaluation, const BorderedVector &step) const;
+
+    /// Whether solve() has a factor: there was one since the free degrees of freedom changed.
+    bool
+    has_factor() const
+    {
+      return factor_of == potential.get_free_dofs().version();
+    }
 
     /// Factorisations so far. Whoever remembers this number knows whether the factor is still his.
     unsigned int
@@ -84,11 +93,14 @@ namespace Exemplar
     memory_of_weights() const;
 
   private:
-    IncrementalPotential                 &potential;
-    const std::unique_ptr<BorderedSystem> system;
-    StepClock                            &clock;
-    const bool                            turns_freely;
-    unsigned int                          factorizations = 0;
+    IncrementalPotential           &potential;
+    const MakeSystem                make_system;
+    std::unique_ptr<BorderedSystem> system;
+    unsigned int                    pattern_version; ///< of the system
+    StepClock                      &clock;
+    const bool                      turns_freely;
+    unsigned int                    factorizations = 0;
+    unsigned int                    factor_of      = 0; ///< FreeDofs::version(); 0: none was made
   };
 } // namespace Exemplar
 

@@ -16,8 +16,8 @@ namespace Exemplar
   /// How long the repeats of a run took [s].
   struct RunSeconds
   {
-    double median = std::numeric_limits<double>::quiet_NaN();
-    double least  = std::numeric_limits<double>::quiet_NaN();
+    double median  = std::numeric_limits<double>::quiet_NaN();
+    double minimum = std::numeric_limits<double>::quiet_NaN();
   };
 
   /// What is known of a run of a study; NaN what is not.

@@ -28,6 +28,7 @@ namespace Exemplar
 
   namespace Verification
   {
+    /// How a number that was found is held against the expected one.
     enum class Comparison
     {
       absolute, ///< |got - expected| <= tolerance
@@ -49,6 +50,7 @@ namespace Exemplar
       passes() const;
     };
 
+    /// A reference case: what it is, and how its numbers are found.
     struct Case
     {
       std::string                               name;        ///< in kebab-case

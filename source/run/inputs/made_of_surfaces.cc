@@ -38,10 +38,10 @@ namespace Exemplar
                       + value("surface_to_mesh_mean") + " % on average");
     for (const MadeOfSurfaces::Pose &pose : made.poses)
       lines.push_back(pose.file + ": " + std::to_string(pose.quality.n_inverted)
-                      + " inverted cells, det F from " + short_text(pose.quality.least_det) + " to "
-                      + short_text(pose.quality.greatest_det) + "; "
-                      + percent(pose.quality.greatest_error) + " from the surface at most, "
-                      + percent(pose.quality.mean_error) + " on average");
+                      + " inverted cells, det F from " + short_text(pose.quality.min_det) + " to "
+                      + short_text(pose.quality.max_det) + "; " + percent(pose.quality.max_error)
+                      + " from the surface at most, " + percent(pose.quality.mean_error)
+                      + " on average");
     return lines;
   }
 
@@ -50,8 +50,8 @@ namespace Exemplar
   {
     std::vector<std::string> warnings = made.warnings;
     for (const MadeOfSurfaces::Pose &pose : made.poses)
-      if (pose.quality.greatest_error > tolerable_error)
-        warnings.push_back(pose.file + ": the mesh is up to " + percent(pose.quality.greatest_error)
+      if (pose.quality.max_error > tolerable_error)
+        warnings.push_back(pose.file + ": the mesh is up to " + percent(pose.quality.max_error)
                            + " of its diagonal away from this surface ("
                            + percent(pose.quality.mean_error)
                            + " on average). Attach it more strongly, by Examples/Attach, take "

@@ -96,9 +96,9 @@ namespace Exemplar
       unsigned long long size  = bytes.size();
       MPI_Send(&size, 1, MPI_UNSIGNED_LONG_LONG, static_cast<int>(process), message_tag,
                communicator);
-      constexpr std::size_t most = std::numeric_limits<int>::max();
-      for (std::size_t first = 0; first < bytes.size(); first += most)
-        MPI_Send(bytes.data() + first, static_cast<int>(std::min(most, bytes.size() - first)),
+      constexpr std::size_t maximum = std::numeric_limits<int>::max();
+      for (std::size_t first = 0; first < bytes.size(); first += maximum)
+        MPI_Send(bytes.data() + first, static_cast<int>(std::min(maximum, bytes.size() - first)),
                  MPI_CHAR, static_cast<int>(process), message_tag, communicator);
     }
 
@@ -108,9 +108,9 @@ namespace Exemplar
       unsigned long long size = 0;
       MPI_Recv(&size, 1, MPI_UNSIGNED_LONG_LONG, 0, message_tag, communicator, MPI_STATUS_IGNORE);
       std::string           bytes(size, '\0');
-      constexpr std::size_t most = std::numeric_limits<int>::max();
-      for (std::size_t first = 0; first < bytes.size(); first += most)
-        MPI_Recv(bytes.data() + first, static_cast<int>(std::min(most, bytes.size() - first)),
+      constexpr std::size_t maximum = std::numeric_limits<int>::max();
+      for (std::size_t first = 0; first < bytes.size(); first += maximum)
+        MPI_Recv(bytes.data() + first, static_cast<int>(std::min(maximum, bytes.size() - first)),
                  MPI_CHAR, 0, message_tag, communicator, MPI_STATUS_IGNORE);
       std::istringstream              in(bytes);
       boost::archive::binary_iarchive archive(in);
@@ -486,8 +486,8 @@ namespace Exemplar
     parcel.body.mesh.exchange
         = std::make_shared<const MpiExchange>(communicator, std::move(parcel.nodes));
     Inputs own;
-    own.poses  = std::move(parcel.poses);
-    own.nodes  = std::move(parcel.selections);
+    own.poses     = std::move(parcel.poses);
+    own.nodes     = std::move(parcel.selections);
     own.made      = inputs.made;
     own.geo_walls = inputs.mesh.geo_walls;
     own.shared    = std::make_shared<SharedBody>(std::move(parcel.body));

@@ -58,9 +58,9 @@ namespace Exemplar
     std::string
     to_text(const PoseQuality &q)
     {
-      return Json{ q.n_inverted, q.least_det,        q.greatest_det, q.least_stretch,  q.stretch_1,
-                   q.stretch_99, q.greatest_stretch, q.mean_error,   q.greatest_error, q.rotation,
-                   q.shift }
+      return Json{ q.n_inverted, q.min_det,    q.max_det,     q.min_stretch,
+                   q.stretch_1,  q.stretch_99, q.max_stretch, q.mean_error,
+                   q.max_error,  q.rotation,   q.shift }
           .dump();
     }
 
@@ -72,8 +72,8 @@ namespace Exemplar
       q.n_inverted  = n.at(0);
       std::size_t i = 1;
       for (double *const number :
-           { &q.least_det, &q.greatest_det, &q.least_stretch, &q.stretch_1, &q.stretch_99,
-             &q.greatest_stretch, &q.mean_error, &q.greatest_error, &q.rotation, &q.shift })
+           { &q.min_det, &q.max_det, &q.min_stretch, &q.stretch_1, &q.stretch_99, &q.max_stretch,
+             &q.mean_error, &q.max_error, &q.rotation, &q.shift })
         *number = n.at(i++);
       return q;
     }
@@ -138,8 +138,8 @@ namespace Exemplar
         [&]
         {
           announce("filling " + mesh.file + " with " + std::to_string(mesh.n_cells) + " cells");
-          return Exemplar::make_mesh({ mesh.file, mesh.n_cells, mesh.repair, "", "Mesh/Cells",
-                                       "Mesh/Repair = true" });
+          return Exemplar::make_mesh(
+              { mesh.file, mesh.n_cells, mesh.repair, "", "Mesh/Cells", "Mesh/Repair = true" });
         });
     get_made_anew().mesh = report_in(kept.bytes);
     add_warning(kept.warning);

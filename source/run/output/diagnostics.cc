@@ -49,22 +49,22 @@ namespace Exemplar
   Diagnostics::add_step()
   {
     const State   &state        = problem.state;
-    const Handles *handles      = problem.constraints.handles.get();
+    const Handles &handles      = problem.constraints.handles;
     const Loads   *loads        = problem.actions.loads.get();
     Vector         displacement = state.positions;
     displacement -= last_positions;
     const Exchange &exchange = problem.body.exchange();
-    if (handles != nullptr)
+    if (handles.size() > 0)
     {
       double own = exchange.is_root() ? work.handles : 0.;
-      for (const unsigned int dof : handles->held_dofs())
+      for (const unsigned int dof : handles.held_dofs())
         if (exchange.owns(dof / 3))
           own += problem.evaluation.gradient[dof] * displacement[dof];
       work.handles = exchange.sum(own);
     }
     if (loads != nullptr && loads->has_gravity())
-      work.gravity += loads->ramp_factor(state.time)
-                      * exchange.product(loads->gravity(), displacement);
+      work.gravity
+          += loads->ramp_factor(state.time) * exchange.product(loads->gravity(), displacement);
     if (loads != nullptr && loads->has_named_loads())
     {
       Vector force(displacement.size());
@@ -77,9 +77,9 @@ namespace Exemplar
   StatisticsRow
   Diagnostics::row(const State &shown, const SolveReport &report) const
   {
-    const ElasticEvaluation &elastic      = problem.evaluation.elastic;
-    const Mass              *mass         = problem.actions.mass.get();
-    const bool               has_examples = problem.examples.poses != nullptr;
+    const ElasticEvaluation &elastic          = problem.evaluation.elastic;
+    const Mass              *mass             = problem.actions.mass.get();
+    const bool               is_with_examples = problem.examples.poses.size() > 0;
     const MotionSums         sums = mass != nullptr ? mass->motion_sums(shown) : MotionSums();
     StatisticsRow            row  = { { "step", shown.step, true },
                                       { "time", shown.time, true },
@@ -89,7 +89,7 @@ namespace Exemplar
     if (report.status == SolveStatus::failed)
       row.back().value = std::monostate();
     append(row, "energy_elastic", elastic.energy_elastic);
-    if (has_examples)
+    if (is_with_examples)
       append(row, "energy_example", elastic.energy_example());
     if (mass != nullptr)
       append(row, "energy_kinetic", sums.kinetic_energy);
@@ -97,7 +97,7 @@ namespace Exemplar
     append_weights(row, shown, report);
     append(row, "min_det_F", elastic.min_det_F);
     row.push_back({ "inverted_cells", elastic.inverted_cells });
-    if (has_examples)
+    if (is_with_examples)
       row.push_back({ "guarded_cells", elastic.guarded_cells });
     if (mass != nullptr)
     {
@@ -105,10 +105,9 @@ namespace Exemplar
       append(row, "angular_momentum", sums.angular_momentum);
     }
     append_work(row);
-    if (const Handles *handles = problem.constraints.handles.get())
-      for (unsigned int h = 0; h < handles->size(); ++h)
-        append(row, "reaction_" + handles->name(h),
-               handles->sum_over(h, problem.evaluation.gradient));
+    const Handles &handles = problem.constraints.handles;
+    for (unsigned int h = 0; h < handles.size(); ++h)
+      append(row, "reaction_" + handles.name(h), handles.sum_over(h, problem.evaluation.gradient));
     return row;
   }
 
@@ -128,13 +127,13 @@ namespace Exemplar
                               const State       &shown,
                               const SolveReport &report) const
   {
-    const ExampleWeights *weights = problem.examples.weights.get();
+    const ExampleWeights &weights = problem.examples.weights;
     for (unsigned int i = 0; i < shown.weights.size(); ++i)
-      append(row, weights->weight_name("weight", i), shown.weights[i]);
-    if (weights == nullptr || !weights->are_unknown())
+      append(row, weights.weight_name("weight", i), shown.weights[i]);
+    if (weights.n_unknown() == 0)
       return;
     for (unsigned int region = 0; region < shown.multipliers.size(); ++region)
-      append(row, weights->region_name("multiplier", region), shown.multipliers[region]);
+      append(row, weights.region_name("multiplier", region), shown.multipliers[region]);
     append(row, "kkt_residual", report.kkt_residual);
   }
 
@@ -142,7 +141,7 @@ namespace Exemplar
   Diagnostics::append_work(StatisticsRow &row) const
   {
     const Loads *loads = problem.actions.loads.get();
-    if (problem.constraints.handles != nullptr)
+    if (problem.constraints.handles.size() > 0)
       append(row, "work_handles", work.handles);
     if (loads != nullptr && loads->has_gravity())
       append(row, "work_gravity", work.gravity);
@@ -151,7 +150,7 @@ namespace Exemplar
   }
 
   void
-  Diagnostics::append_seconds(StatisticsRow &row, const std::optional<PartSeconds> &seconds)
+  Diagnostics::append_seconds(StatisticsRow &row, const std::optional<PhaseSeconds> &seconds)
   {
     const auto append_one = [&](const std::string &name, const double value)
     {
@@ -160,8 +159,8 @@ namespace Exemplar
         row.back().value = value;
     };
     append_one("step", seconds ? std::accumulate(seconds->begin(), seconds->end(), 0.) : 0.);
-    for (unsigned int part = 0; part < n_parts; ++part)
-      if (part != static_cast<unsigned int>(Part::read))
-        append_one(part_names[part], seconds ? (*seconds)[part] : 0.);
+    for (unsigned int phase = 0; phase < n_phases; ++phase)
+      if (phase != static_cast<unsigned int>(Phase::read))
+        append_one(phase_names[phase], seconds ? (*seconds)[phase] : 0.);
   }
 } // namespace Exemplar

@@ -71,7 +71,7 @@ namespace Exemplar
   Vector
   FrameOutput::displacement_of_weight(const unsigned int i) const
   {
-    const ExamplePoses &poses    = *problem.examples.poses;
+    const ExamplePoses &poses    = problem.examples.poses;
     const FESpace      &fe_space = problem.body.fe_space;
     const unsigned int  region   = i / poses.size();
     Vector              u        = poses.pose(i % poses.size());
@@ -105,9 +105,9 @@ namespace Exemplar
       file.commit();
     };
     write("rest", Vector(problem.body.fe_space.n_dofs()));
-    if (const auto &weights = problem.examples.weights; weights != nullptr)
-      for (unsigned int i = 0; i < problem.examples.poses->n_weights(); ++i)
-        write(weights->weight_name("weight", i), displacement_of_weight(i));
+    const ExampleWeights &weights = problem.examples.weights;
+    for (unsigned int i = 0; i < weights.size(); ++i)
+      write(weights.weight_name("weight", i), displacement_of_weight(i));
   }
 
   bool

@@ -73,7 +73,7 @@ namespace Exemplar
       return files;
     };
     {
-      StepClock::Scope scope(problem.clock, Part::output);
+      StepClock::Scope scope(problem.clock, Phase::output);
       at_root(
           [&]
           {
@@ -104,9 +104,9 @@ namespace Exemplar
   }
 
   void
-  RunWriter::write_row(StatisticsRow                     row,
-                       const std::optional<PartSeconds> &seconds,
-                       const bool                        is_of_state)
+  RunWriter::write_row(StatisticsRow                      row,
+                       const std::optional<PhaseSeconds> &seconds,
+                       const bool                         is_of_state)
   {
     at_root(
         [&]
@@ -121,7 +121,7 @@ namespace Exemplar
   void
   RunWriter::end_reading()
   {
-    problem.clock.switch_to(Part::evaluate);
+    problem.clock.switch_to(Phase::evaluate);
   }
 
   void
@@ -152,15 +152,15 @@ namespace Exemplar
                                    directory.rest_mesh());
   }
 
-  PartSeconds
+  PhaseSeconds
   RunWriter::lap()
   {
-    const PartSeconds now = problem.clock.read();
-    PartSeconds       seconds;
-    for (unsigned int part = 0; part < n_parts; ++part)
+    const PhaseSeconds now = problem.clock.read();
+    PhaseSeconds       seconds;
+    for (unsigned int phase = 0; phase < n_phases; ++phase)
     {
-      seconds[part] = now[part] - last_lap[part];
-      totals.seconds[part] += seconds[part];
+      seconds[phase] = now[phase] - last_lap[phase];
+      totals.seconds[phase] += seconds[phase];
     }
     last_lap = now;
     return seconds;
@@ -170,7 +170,7 @@ namespace Exemplar
   RunWriter::add_step(const SolveReport &report)
   {
     const bool       accepted = is_success(report.status);
-    StepClock::Scope scope(problem.clock, Part::output);
+    StepClock::Scope scope(problem.clock, Phase::output);
 
     totals.iterations += report.iterations;
     totals.factorizations = earlier_factorizations + problem.system.n_factorizations();
@@ -231,7 +231,7 @@ namespace Exemplar
   RunWriter::finish(const std::string &status, const std::vector<std::string> &warnings)
   {
     {
-      StepClock::Scope scope(problem.clock, Part::output);
+      StepClock::Scope scope(problem.clock, Phase::output);
       frames.drain();
       write_final_pose();
       save(); // whatever happens to animations and estimates

@@ -39,7 +39,7 @@ namespace Exemplar
     share(exchange, checkpoint);
     restore(checkpoint, directory.checkpoint(), problem); // the last thing that may refuse
     {
-      StepClock::Scope scope(problem.clock, Part::output);
+      StepClock::Scope scope(problem.clock, Phase::output);
       at_root(
           [&]
           {
@@ -107,7 +107,7 @@ namespace Exemplar
     share(exchange, checkpoint);
     restore(checkpoint, file, problem);
     {
-      StepClock::Scope scope(problem.clock, Part::output);
+      StepClock::Scope scope(problem.clock, Phase::output);
       diagnostics.resume(checkpoint.work);
       StatisticsRow row = diagnostics.row(problem.state, SolveReport());
       Diagnostics::append_seconds(row, {});
@@ -156,7 +156,7 @@ namespace Exemplar
     earlier_factorizations = totals.factorizations;
     end_reading();
     last_lap = problem.clock.read();
-    for (unsigned int part = 0; part < n_parts; ++part)
-      totals.seconds[part] += last_lap[part];
+    for (unsigned int phase = 0; phase < n_phases; ++phase)
+      totals.seconds[phase] += last_lap[phase];
   }
 } // namespace Exemplar

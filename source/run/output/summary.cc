@@ -29,12 +29,12 @@ namespace Exemplar
     }
 
     Json
-    seconds_of(const PartSeconds &seconds)
+    seconds_of(const PhaseSeconds &seconds)
     {
       Json json;
       json["total"] = std::accumulate(seconds.begin(), seconds.end(), 0.);
-      for (unsigned int part = 0; part < n_parts; ++part)
-        json[part_names[part]] = seconds[part];
+      for (unsigned int phase = 0; phase < n_phases; ++phase)
+        json[phase_names[phase]] = seconds[phase];
       return json;
     }
 
@@ -82,12 +82,12 @@ namespace Exemplar
       for (const auto &[file, quality] : poses)
         json.push_back({ { "pose", printable(file) },
                          { "inverted_cells", quality.n_inverted },
-                         { "min_det_F", quality.least_det },
-                         { "max_det_F", quality.greatest_det },
+                         { "min_det_F", quality.min_det },
+                         { "max_det_F", quality.max_det },
                          { "stretch_1", quality.stretch_1 },
                          { "stretch_99", quality.stretch_99 },
                          { "surface_error_mean", 100. * quality.mean_error },
-                         { "surface_error_max", 100. * quality.greatest_error } });
+                         { "surface_error_max", 100. * quality.max_error } });
       return json;
     }
 
@@ -162,7 +162,7 @@ namespace Exemplar
     if (problem.body.geo_walls)
       json["geo_confinement"] = *problem.body.geo_walls;
     json["linear_solver"]  = problem.system.bordered().traits().name;
-    json["examples"]       = problem.examples.poses != nullptr ? problem.examples.poses->size() : 0;
+    json["examples"]       = problem.examples.poses.size();
     json["steps"]          = problem.state.step;
     json["iterations"]     = totals.iterations;
     json["factorizations"] = totals.factorizations;

@@ -56,20 +56,19 @@ namespace Exemplar
     bool
     may_rest(const Examples &examples)
     {
-      return examples.poses == nullptr
-             || (examples.weights->are_unknown() && !examples.poses->is_strained(0));
+      return examples.poses.size() == 0
+             || (!examples.weights.are_prescribed() && !examples.poses.is_strained(0));
     }
   } // namespace
 
   std::vector<std::string>
   idle_load_warnings(const Problem &problem)
   {
-    const Handles *const handles = problem.constraints.handles.get();
-    const Loads *const   loads   = problem.actions.loads.get();
-    if (handles == nullptr || loads == nullptr || !loads->has_named_loads())
+    const Loads *const loads = problem.actions.loads.get();
+    if (loads == nullptr || !loads->has_named_loads())
       return {};
     std::vector<std::string>        warnings;
-    const std::vector<unsigned int> held = handles->held_dofs();
+    const std::vector<unsigned int> held = problem.constraints.handles.held_dofs();
     for (unsigned int load = 0; load < loads->size(); ++load)
       if (const auto directions = directions_of(problem.parameters.loads.named[load]);
           !directions.empty()
@@ -90,9 +89,9 @@ namespace Exemplar
         && !is_any_handle_moved(problem))
       notes.push_back("nothing will happen: no handle moves, no load acts, and the body starts at "
                       "rest (Handles/NAME/Motion, Loads/Gravity, Loads/Names)");
-    const ExampleWeights *const weights = problem.examples.weights.get();
-    if (problem.parameters.examples.weights_per_region && weights != nullptr
-        && weights->n_regions() == 1)
+    const ExampleWeights &weights = problem.examples.weights;
+    if (problem.parameters.examples.weights_per_region && weights.n_regions() == 1
+        && weights.size() > 0)
       notes.push_back("Examples/Weights per region does nothing: the body has one region");
     return notes;
   }

@@ -8,7 +8,7 @@ namespace Exemplar
   initial_state(const InitialParameters &parameters,
                 const Mesh              &mesh,
                 const FESpace           &fe_space,
-                const ExampleWeights    *weights,
+                const ExampleWeights    &weights,
                 const bool               dynamic,
                 const NamedPoses        &poses)
   {
@@ -39,10 +39,8 @@ namespace Exemplar
       set_node_field(Expression("Initial/Velocity", parameters.velocity, "xyz", 3),
                      state.velocities);
     }
-    if (weights != nullptr)
-      state.weights = weights->initial();
-    if (weights != nullptr && weights->are_unknown())
-      state.multipliers.assign(weights->n_regions(), 0.);
+    state.weights = weights.initial();
+    state.multipliers.assign(weights.weight_form().N.m(), 0.);
     return state;
   }
 } // namespace Exemplar

@@ -19,10 +19,10 @@ namespace Exemplar
     memory_of_mass(const Problem &problem)
     {
       const Actions &actions = problem.actions;
-      return actions.mass == nullptr ? 0
-                                     : actions.mass->memory_consumption()
-                                           + actions.integrator->memory_consumption()
-                                           + memory_of_term(problem, "inertia");
+      return actions.mass == nullptr
+                 ? 0
+                 : actions.mass->memory_consumption() + actions.integrator->memory_consumption()
+                       + memory_of_term(problem, "inertia");
     }
 
     std::size_t
@@ -37,17 +37,17 @@ namespace Exemplar
   std::vector<PartOfProblem>
   inventory(const Problem &problem)
   {
-    const TimeParameters &time         = problem.parameters.time;
-    const Actions        &actions      = problem.actions;
-    const ExamplePoses   *poses        = problem.examples.poses.get();
-    const bool            is_dynamic   = actions.mass != nullptr;
-    const bool            has_weights  = problem.potential.unknown_weights() != nullptr;
-    const OperatorTraits  solver       = problem.system.bordered().traits();
-    const auto            solver_is    = [&](const char *name) { return solver.name == name; };
-    const bool            has_gravity  = actions.loads != nullptr && actions.loads->has_gravity();
-    const std::size_t     loads        = memory_of_term(problem, "loads");
-    const std::size_t     quasi_newton = memory_of_quasi_newton(problem);
-    const std::size_t     cells        = problem.body.fe_space.memory_consumption()
+    const TimeParameters &time          = problem.parameters.time;
+    const Actions        &actions       = problem.actions;
+    const ExamplePoses   &poses         = problem.examples.poses;
+    const bool            is_dynamic    = actions.mass != nullptr;
+    const bool            finds_weights = problem.examples.weights.n_unknown() > 0;
+    const OperatorTraits  solver        = problem.system.bordered().traits();
+    const auto            solver_is     = [&](const char *name) { return solver.name == name; };
+    const bool            has_gravity   = actions.loads != nullptr && actions.loads->has_gravity();
+    const std::size_t     loads         = memory_of_term(problem, "loads");
+    const std::size_t     quasi_newton  = memory_of_quasi_newton(problem);
+    const std::size_t     cells         = problem.body.fe_space.memory_consumption()
                               + problem.potential.get_cells().memory_consumption();
     std::vector<PartOfProblem> parts = {
       { "mesh", {}, problem.body.mesh.memory_consumption() },
@@ -57,19 +57,18 @@ namespace Exemplar
       { "second-order time scheme", is_dynamic && time.scheme != TimeScheme::implicit_euler, {} },
       { "mass damping", is_dynamic && time.mass_damping > 0., {} },
       { "stiffness damping", is_dynamic && time.stiffness_damping > 0., {} },
-      { "handles", problem.constraints.handles != nullptr, {} },
+      { "handles", problem.constraints.handles.size() > 0, {} },
       { "own support of interpolation", problem.constraints.support.has_value(), {} },
       { "gravity", has_gravity, has_gravity ? loads : 0 }, // one vector holds both
-      { "loads",
-        actions.loads != nullptr && actions.loads->has_named_loads(),
+      { "loads", actions.loads != nullptr && actions.loads->has_named_loads(),
         has_gravity ? 0 : loads },
       { "mean dilatation by patches", problem.body.patches != nullptr, {} },
-      { "example poses", poses != nullptr, poses == nullptr ? 0 : poses->memory_consumption() },
-      { "weight block", has_weights, problem.system.memory_of_weights() },
+      { "example poses", poses.size() > 0, poses.memory_consumption() },
+      { "weight block", finds_weights, problem.system.memory_of_weights() },
       { "weights per region",
-        poses != nullptr && problem.parameters.examples.weights_per_region,
+        poses.size() > 0 && problem.parameters.examples.weights_per_region,
         {} },
-      { "Schur complement", has_weights && !solver_is("umfpack"), {} },
+      { "Schur complement", finds_weights && !solver_is("umfpack"), {} },
       { "CHOLMOD", solver_is("cholesky"), {} },
       { "algebraic multigrid", solver_is("iterative"), {} },
       { "UMFPACK", solver_is("umfpack"), {} },

@@ -97,7 +97,7 @@ namespace Exemplar
     {
       const Vector               &rest = problem.body.fe_space.rest_positions();
       std::array<MaxMagnitude, 3> greatest;
-      for (const unsigned int node : problem.constraints.handles->nodes(handle))
+      for (const unsigned int node : problem.constraints.handles.nodes(handle))
         for (unsigned int dof = 3 * node; dof < 3 * node + 3; ++dof)
         {
           if (moved[dof] == rest[dof])
@@ -116,7 +116,7 @@ namespace Exemplar
     {
       const double      size = problem.body.mesh.diameter();
       const Beginning   at   = look_at_beginning(problem, handle, moved);
-      const std::string key  = "Handles/" + problem.constraints.handles->name(handle);
+      const std::string key  = "Handles/" + problem.constraints.handles.name(handle);
       if (at.from_rest > small_way * size && at.from_double_rest < 1e-9 * at.from_rest)
         return key
                + ": at t = 0 its motion moves every node by the node's own place, as if it gave "
@@ -138,7 +138,7 @@ namespace Exemplar
     travel_of(const Problem &problem)
     {
       Travel travel;
-      if (problem.constraints.handles == nullptr)
+      if (problem.constraints.handles.size() == 0)
         return travel;
       const Exchange &exchange = problem.body.exchange();
       try
@@ -146,7 +146,7 @@ namespace Exemplar
         do_in_agreement(exchange,
                         [&]
                         {
-                          travel = look_at_travel(*problem.constraints.handles, problem.time_axis,
+                          travel = look_at_travel(problem.constraints.handles, problem.time_axis,
                                                   problem.body.fe_space.rest_positions());
                         });
       }
@@ -161,7 +161,7 @@ namespace Exemplar
     void
     add_beginnings(const Problem &problem, std::vector<std::string> &warnings)
     {
-      const Handles &handles = *problem.constraints.handles;
+      const Handles &handles = problem.constraints.handles;
       Vector         moved   = problem.body.fe_space.rest_positions();
       handles.move(problem.time_axis.time(0), moved);
       for (unsigned int handle = 0; handle < handles.size(); ++handle)
@@ -185,7 +185,7 @@ namespace Exemplar
   motion_warnings(const Problem &problem, const bool is_resumed)
   {
     const std::optional<Travel> travel = travel_of(problem);
-    if (problem.constraints.handles == nullptr || !travel)
+    if (problem.constraints.handles.size() == 0 || !travel)
       return {};
     return warnings_of_handles(problem, *travel, !is_resumed);
   }
@@ -193,12 +193,12 @@ namespace Exemplar
   std::vector<std::string>
   next_step_warnings(const Problem &problem)
   {
-    const Handles *const handles = problem.constraints.handles.get();
-    if (handles == nullptr)
+    const Handles &handles = problem.constraints.handles;
+    if (handles.size() == 0)
       return {};
     const Vector &before = problem.state.positions;
     Vector        after  = before;
-    handles->move(problem.time_axis.time(problem.state.step + 1), after);
+    handles.move(problem.time_axis.time(problem.state.step + 1), after);
     Travel travel;
     travel.in_step = problem.body.exchange().max(greatest_difference(before, after));
     return warnings_of_handles(problem, travel, problem.state.step == 0);

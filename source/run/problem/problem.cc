@@ -38,21 +38,21 @@ namespace Exemplar
         constraints(parameters, body, time_axis, inputs),
         examples(parameters, body, time_axis, inputs), actions(parameters, body, inputs),
         potential({ parameters.model.law(), body.fe_space, body.material, body.cell_material,
-                    examples.poses.get(), examples.weights.get(), constraints.free_dofs,
+                    examples.poses, examples.weights, constraints.free_dofs,
                     parameters.solver.n_threads },
                   make_elastic_terms(body, examples),
                   actions.make_terms(body),
                   actions.integrator.get()),
-        system(potential,
-               make_bordered_system(parameters.solver, potential),
-               clock,
-               turns_freely() && !parameters.model.is_frozen()),
-        solver(make_step_solver(
-            parameters.solver, potential, system, constraints.handles.get(), clock)),
+        system(
+            potential,
+            [this] { return make_bordered_system(parameters.solver, potential); },
+            clock,
+            turns_freely() && !parameters.model.is_frozen()),
+        solver(make_step_solver(parameters.solver, potential, system, constraints.handles, clock)),
         state(initial_state(parameters.initial,
                             body.mesh,
                             body.fe_space,
-                            examples.weights.get(),
+                            examples.weights,
                             parameters.scene == SceneKind::dynamic,
                             inputs.poses))
   {
@@ -100,7 +100,7 @@ namespace Exemplar
   void
   Problem::start(State &at)
   {
-    StepClock::Scope scope(clock, Part::evaluate);
+    StepClock::Scope scope(clock, Phase::evaluate);
     potential.leave_step(at);
     potential.set_time(at.time, at);
     potential.evaluate(at, RotationUse::update, evaluation);
@@ -114,7 +114,7 @@ namespace Exemplar
     {
       const auto greatest = std::max_element(state.weights.begin(), state.weights.end());
       state.positions
-          = examples.poses->pose((greatest - state.weights.begin()) % examples.poses->size());
+          = examples.poses.pose((greatest - state.weights.begin()) % examples.poses.size());
     }
   }
 
@@ -184,9 +184,17 @@ namespace Exemplar
   void
   Problem::set_motion(const std::string &handle, Motion motion)
   {
-    if (constraints.handles == nullptr)
-      throw UserError("There is no handle '" + handle + "' to be moved. Add it to Handles/Names.");
-    constraints.handles->set_motion(handle, std::move(motion));
+    constraints.handles.set_motion(handle, std::move(motion));
+  }
+
+  void
+  Problem::change_handles(const std::function<void(Handles &)> &change)
+  {
+    if (constraints.support)
+      throw UserError(parameters.name + ": an interpolation has no handles to change.");
+    constraints.change_handles(change, parameters, body);
+    potential.renew_pattern();
+    solver->forget(); // what it remembers is of other unknowns
   }
 
   void
@@ -228,7 +236,7 @@ namespace Exemplar
              + report.failure;
     std::ostringstream message;
     const bool         lacks_derivative = parameters.solver.method == Method::fixed_point
-                                  && examples.poses != nullptr
+                                  && examples.poses.size() > 0
                                   && parameters.model.law() == CellLaw::corotational;
     message << step
             << (report.status == SolveStatus::stalled ? " stalled"
@@ -256,7 +264,7 @@ namespace Exemplar
     result.matrix                           = system.bordered().traits().pivot_ratio;
     const dealii::FullMatrix<double> &schur = solver->schur_complement();
     if (schur.m() > 0)
-      result.schur = condition_number(form_of_differences(schur, examples.weights->n_per_region()));
+      result.schur = condition_number(form_of_differences(schur, examples.weights.n_per_region()));
     return result;
   }
 
@@ -278,7 +286,7 @@ namespace Exemplar
     if (body.made != nullptr)
       for (const std::string &warning : warnings_of(*body.made))
         all.push_back(warning);
-    append(constraints.handles);
+    append(&constraints.handles);
     // statics refuse what can turn
     for (const std::string &warning : actions.mass != nullptr
                                           ? constraints.describe_single_nodes(body)
@@ -290,8 +298,8 @@ namespace Exemplar
           = describe_displacements(function, body.mesh, body.fe_space, state.positions);
           !problem.empty())
         all.push_back("Initial/Pose function" + problem);
-    append(examples.poses);
-    append(examples.weights);
+    append(&examples.poses);
+    append(&examples.weights);
     return all;
   }
 
@@ -300,7 +308,7 @@ namespace Exemplar
   {
     try
     {
-      const StepClock clock(Part::read);
+      const StepClock clock(Phase::read);
       return std::make_unique<Problem>(parameters, read(parameters), clock);
     }
     catch (const SolverFailure &failure)

@@ -20,18 +20,6 @@ namespace Exemplar
       return parameters.scene == SceneKind::dynamic;
     }
 
-    std::unique_ptr<Handles>
-    make_handles(const SceneParameters &parameters,
-                 const Body            &body,
-                 const TimeAxis        &axis,
-                 const Inputs          &inputs)
-    {
-      if (parameters.handles.empty())
-        return nullptr;
-      return std::make_unique<Handles>(parameters.handles, body.mesh, body.fe_space, axis,
-                                       inputs.poses, inputs.nodes, body.readings.motions);
-    }
-
     std::optional<StaticallyDeterminateSupport>
     make_support(const SceneParameters &parameters, const Body &body)
     {
@@ -80,13 +68,14 @@ namespace Exemplar
     }
 
     std::vector<unsigned int>
-    held_dofs(const SceneParameters &parameters, const Body &body, const Constraints &constraints)
+    held_dofs(const SceneParameters                             &parameters,
+              const Body                                        &body,
+              const Handles                                     &handles,
+              const std::optional<StaticallyDeterminateSupport> &support)
     {
-      if (constraints.support)
-        return dofs_here(body.exchange(), constraints.support->held_dofs);
-      if (constraints.handles == nullptr)
-        return {};
-      const std::vector<unsigned int> held = constraints.handles->held_dofs();
+      if (support)
+        return dofs_here(body.exchange(), support->held_dofs);
+      const std::vector<unsigned int> held = handles.held_dofs();
       if (!body.exchange().any(held.size() < body.fe_space.n_dofs()))
         throw UserError(parameters.name
                         + ": the handles hold every node, so there is nothing to solve. Make "
@@ -112,28 +101,6 @@ namespace Exemplar
       return !parameters.examples.in_use()
              || (parameters.examples.weights != WeightRule::prescribed
                  && !parameters.model.is_frozen());
-    }
-
-    std::unique_ptr<ExamplePoses>
-    make_poses(const SceneParameters &parameters, const Body &body, const Inputs &inputs)
-    {
-      if (!parameters.examples.in_use())
-        return nullptr;
-      return std::make_unique<ExamplePoses>(parameters.examples, parameters.model.law(), body.mesh,
-                                            body.fe_space, body.cell_material, body.patches.get(),
-                                            inputs.poses, body.readings.shares);
-    }
-
-    std::unique_ptr<ExampleWeights>
-    make_weights(const SceneParameters &parameters,
-                 const Body            &body,
-                 const ExamplePoses    *poses,
-                 const TimeAxis        &axis)
-    {
-      if (poses == nullptr)
-        return nullptr;
-      return std::make_unique<ExampleWeights>(parameters.examples, *poses,
-                                              unit_energy(body.fe_space, body.material), axis);
     }
 
     /// Operations of a factorisation, for each value of the matrix, from which multigrid is faster:
@@ -241,9 +208,16 @@ namespace Exemplar
                            const Body            &body,
                            const TimeAxis        &axis,
                            const Inputs          &inputs)
-      : handles(make_handles(parameters, body, axis, inputs)),
+      : handles(parameters.handles,
+                body.mesh,
+                body.fe_space,
+                axis,
+                inputs.poses,
+                inputs.nodes,
+                body.readings.motions),
         support(make_support(parameters, body)),
-        free_dofs(body.fe_space.n_dofs(), held_dofs(parameters, body, *this), body.exchange())
+        free_dofs(
+            body.fe_space.n_dofs(), held_dofs(parameters, body, handles, support), body.exchange())
   {
     if (body.exchange().any(free_dofs.size() == 0))
       throw UserError(parameters.name + ": of " + std::to_string(body.exchange().n_processes())
@@ -268,11 +242,11 @@ namespace Exemplar
   Constraints::describe_single_nodes(const Body &body) const
   {
     std::vector<std::string> all;
-    for (unsigned int h = 0; handles != nullptr && h < handles->size(); ++h)
-      if (handles->n_nodes(h) == 1)
-        all.push_back("Handle '" + handles->name(h)
+    for (unsigned int h = 0; h < handles.size(); ++h)
+      if (handles.n_nodes(h) == 1)
+        all.push_back("Handle '" + handles.name(h)
                       + "' holds a single node, about which the body can turn. "
-                      + remedy_of_single_node(*handles, h, body));
+                      + remedy_of_single_node(handles, h, body));
     return all;
   }
 
@@ -281,25 +255,53 @@ namespace Exemplar
   {
     const HandleParameters   usual;
     std::vector<std::string> all;
-    for (unsigned int h = 0; handles != nullptr && h < handles->size(); ++h)
+    for (unsigned int h = 0; h < handles.size(); ++h)
       if (const HandleParameters &handle = parameters.handles[h];
           handle.select.is_of_space() && handle.motion != usual.motion
-          && handle.components == usual.components && handles->n_nodes(h) == 1)
+          && handle.components == usual.components && handles.n_nodes(h) == 1)
         all.push_back("Handle '" + handle.name + "' pulls at the single node in its "
                       + handle.select.text
                       + ", so the strain there depends on the size of the cells. "
-                      + remedy_of_single_node(*handles, h, body));
+                      + remedy_of_single_node(handles, h, body));
     return all;
   }
 
   void
   Constraints::check(const SceneParameters &parameters, const Body &body) const
   {
+    check_rigid_motions(parameters, body, held_dofs(parameters, body, handles, support));
+  }
+
+  void
+  Constraints::change_handles(const std::function<void(Handles &)> &change,
+                              const SceneParameters                &parameters,
+                              const Body                           &body)
+  {
+    const std::vector<bool> holding = handles.holding();
+    try
+    {
+      change(handles);
+      const std::vector<unsigned int> held = held_dofs(parameters, body, handles, support);
+      check_rigid_motions(parameters, body, held);
+      free_dofs.reinit(held);
+    }
+    catch (const UserError &)
+    {
+      handles.restore(holding);
+      throw;
+    }
+  }
+
+  void
+  Constraints::check_rigid_motions(const SceneParameters           &parameters,
+                                   const Body                      &body,
+                                   const std::vector<unsigned int> &held) const
+  {
     if (parameters.scene != SceneKind::statics)
       return;
-    const unsigned int n_free = n_free_rigid_motions(body.mesh, body.fe_space.rest_positions(),
-                                                     held_dofs(parameters, body, *this));
-    std::string        single_nodes;
+    const unsigned int n_free
+        = n_free_rigid_motions(body.mesh, body.fe_space.rest_positions(), held);
+    std::string single_nodes;
     for (const std::string &sentence : describe_single_nodes(body))
       single_nodes += " " + sentence;
     if (n_free > 0)
@@ -315,8 +317,15 @@ namespace Exemplar
                      const Body            &body,
                      const TimeAxis        &axis,
                      const Inputs          &inputs)
-      : poses(make_poses(parameters, body, inputs)),
-        weights(make_weights(parameters, body, poses.get(), axis))
+      : poses(parameters.examples,
+              parameters.model.law(),
+              body.mesh,
+              body.fe_space,
+              body.cell_material,
+              body.patches.get(),
+              inputs.poses,
+              body.readings.shares),
+        weights(parameters.examples, poses, unit_energy(body.fe_space, body.material), axis)
   {
   }
 
@@ -337,7 +346,7 @@ namespace Exemplar
   {
     PotentialTerms terms;
     if (body.patches != nullptr)
-      terms.push_back(std::make_unique<PatchDilatation>(*body.patches, examples.poses.get(),
+      terms.push_back(std::make_unique<PatchDilatation>(*body.patches, examples.poses,
                                                         body.fe_space, body.material));
     return terms;
   }
@@ -357,11 +366,10 @@ namespace Exemplar
   make_bordered_system(const SolverParameters &solver, const IncrementalPotential &potential)
   {
     const SymmetricPattern &pattern = potential.matrix_pattern();
-    const ExampleWeights   *weights = potential.unknown_weights();
-    const WeightForm       *form    = weights != nullptr ? &weights->weight_form() : nullptr;
+    const WeightForm       &form    = potential.get_weights().weight_form();
     if (solver.linear_solver == LinearSolver::umfpack)
       return make_umfpack_system(pattern, form);
-    const unsigned int n_examples = form != nullptr ? form->coupled.size() : 0;
+    const unsigned int n_examples = form.coupled.size();
     const Exchange    &exchange   = potential.get_free_dofs().exchange();
     auto matrix = find_cholesky_operator(solver, exchange.n_processes(), n_examples, pattern);
     if (matrix == nullptr)

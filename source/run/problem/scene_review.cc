@@ -83,8 +83,8 @@ namespace Exemplar
     Warning
     review_prescribed_weights(const Problem &problem)
     {
-      const ExampleWeights *weights = problem.examples.weights.get();
-      if (weights == nullptr || weights->are_unknown())
+      const ExampleWeights &weights = problem.examples.weights;
+      if (!weights.are_prescribed())
         return {};
       double             least = 0., greatest = 1.;
       const unsigned int n_looks = std::min(problem.time_axis.n_steps(), 100u);
@@ -92,7 +92,7 @@ namespace Exemplar
       {
         const auto step
             = static_cast<unsigned int>(std::size_t(look) * problem.time_axis.n_steps() / n_looks);
-        const auto values = weights->at(problem.time_axis.time(step));
+        const auto values = weights.at(problem.time_axis.time(step));
         least             = std::min(least, *std::min_element(values.begin(), values.end()));
         greatest          = std::max(greatest, *std::max_element(values.begin(), values.end()));
       }
@@ -145,8 +145,7 @@ namespace Exemplar
     Warning
     review_lone_example(const Problem &problem)
     {
-      const ExamplePoses *poses = problem.examples.poses.get();
-      if (poses == nullptr || poses->size() > 1
+      if (problem.examples.poses.size() != 1
           || problem.parameters.scene == SceneKind::interpolation)
         return {};
       return "There is one example, and Examples/Include rest pose is false: its weight is always "

@@ -98,7 +98,7 @@ namespace Exemplar
     displacement(const Problem &quadratic, const Vector &positions)
     {
       Vector rest = quadratic.body.fe_space.rest_positions();
-      if (quadratic.constraints.handles == nullptr)
+      if (quadratic.constraints.handles.size() == 0)
         align(positions, rest, quadratic.body.exchange());
       Vector u = positions;
       u -= rest;
@@ -132,8 +132,8 @@ namespace Exemplar
         // the change of R^T F, of Green's strain that of F^T F / 2
         const CellLaw         law = quadratic.parameters.model.law();
         const Matrix3<double> R   = law == CellLaw::green ? F : model_rotation(law, F);
-        const Matrix3<double> e = symmetric_part(
-            transpose_times(R, fe_space.deformation_gradient(point, displacement)));
+        const Matrix3<double> e   = symmetric_part(
+              transpose_times(R, fe_space.deformation_gradient(point, displacement)));
         densities[cell] += 0.5 * fe_space.volume(point) / fe_space.cell_volume(cell)
                            * contract(stress(C.without_dilatation(), e), e);
         traces[part_of(cell)] += fe_space.volume(point) / volume_of(cell) * trace(e);
@@ -235,12 +235,11 @@ namespace Exemplar
         for (double &entry : *part)
           entry *= length;
       Vector moves = quadratic->system.displacement(trial.to, scaled);
-      if (problem.constraints.handles == nullptr)
+      if (problem.constraints.handles.size() == 0)
         remove_rigid_motion(trial.to.positions, moves, problem.body.exchange());
       trial.moves += moves;
       trial.to.positions += moves;
-      if (const ExampleWeights *weights = quadratic->potential.unknown_weights())
-        weights->add(scaled.weights, trial.to.weights);
+      quadratic->examples.weights.add(scaled.weights, trial.to.weights);
       trial.at              = evaluate(trial);
       const double decrease = correction.at.potential - trial.at.potential;
       if (has_energy && !(decrease >= -1e-4 * length * slope))
@@ -292,7 +291,7 @@ namespace Exemplar
       error.displacement = over(norm(fe_space, correction.moves), norm(fe_space, u), length);
       error.energy = over(std::abs(corrected.energy - linear.elastic.energy - correction.work),
                           std::max(corrected.energy_elastic, corrected.energy), energy);
-      if (quadratic->potential.unknown_weights() != nullptr)
+      if (quadratic->examples.weights.n_unknown() > 0)
       {
         error.weights = 0.;
         for (std::size_t i = 0; i < correction.to.weights.size(); ++i)

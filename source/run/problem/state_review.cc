@@ -130,14 +130,14 @@ namespace Exemplar
     std::optional<unsigned int>
     only_example(const Problem &problem)
     {
-      const ExamplePoses *poses = problem.examples.poses.get();
-      if (poses == nullptr || poses->importance() != 1.)
+      const ExamplePoses &poses = problem.examples.poses;
+      if (poses.importance() != 1.)
         return {};
       std::optional<unsigned int> only;
       for (unsigned int weight = 0; weight < problem.state.weights.size(); ++weight)
       {
         const double       value   = problem.state.weights[weight];
-        const unsigned int example = weight % poses->size();
+        const unsigned int example = weight % poses.size();
         if (std::abs(value) < 1e-12)
           continue;
         if (std::abs(value - 1.) > 1e-12 || (only && *only != example))
@@ -165,7 +165,7 @@ namespace Exemplar
         return {};
       const Exchange &exchange = problem.body.exchange();
       const auto      reached  = points_of(whole(exchange, problem.state.positions, true));
-      const auto pose = points_of(whole(exchange, problem.examples.poses->pose(*example), true));
+      const auto pose = points_of(whole(exchange, problem.examples.poses.pose(*example), true));
       const RigidMotion motion = best_rigid_motion(pose, reached);
       double            miss   = 0.;
       for (std::size_t node = 0; node < pose.size(); ++node)
@@ -174,7 +174,7 @@ namespace Exemplar
       if (!(miss > 1e-4))
         return {};
       return "The interpolation ends beside example " + std::to_string(*example) + " ("
-             + problem.examples.poses->name(*example) + "), by up to " + short_text(100. * miss)
+             + problem.examples.poses.name(*example) + "), by up to " + short_text(100. * miss)
              + " % of the body's size: another state has its strains, or less energy, as where an "
                "example has inverted cells. Look at the frames, or take smaller steps"
              + (problem.body.patches != nullptr ? ", or Model/Dilatation = cells." : ".");
@@ -184,13 +184,12 @@ namespace Exemplar
     bool
     is_unloaded(const Problem &problem)
     {
-      const ExampleWeights *weights = problem.examples.weights.get();
       if (problem.parameters.scene != SceneKind::statics || problem.actions.loads != nullptr
-          || (weights != nullptr && !weights->are_unknown()))
+          || problem.examples.weights.are_prescribed())
         return false;
       const Vector &rest = problem.body.fe_space.rest_positions();
       Vector        held = rest;
-      problem.constraints.handles->move(problem.state.time, held);
+      problem.constraints.handles.move(problem.state.time, held);
       held -= rest;
       return problem.body.exchange().max(max_entry(held.begin(), held.end()))
              < 1e-10 * problem.body.mesh.diameter();

@@ -287,9 +287,9 @@ namespace Exemplar
   WeightEstimate
   estimate_weight(const Problem &problem, const BodyMeasures &measures)
   {
-    const Handles *handles = problem.constraints.handles.get();
+    const Handles &handles = problem.constraints.handles;
     const Loads   *loads   = problem.actions.loads.get();
-    if (handles == nullptr || handles->size() == 0 || loads == nullptr || !loads->has_gravity())
+    if (handles.size() == 0 || loads == nullptr || !loads->has_gravity())
       return { 0., 0. };
     const auto                &g       = problem.parameters.loads.gravity;
     const double               gravity = gravity_of(problem);
@@ -297,7 +297,7 @@ namespace Exemplar
     const double               factor   = measures.weight_over_stiffness(gravity);
     const double               squared  = measures.thickness() * measures.thickness();
     const FESpace             &fe_space = problem.body.fe_space;
-    const auto                 boxes    = boxes_of(*handles, fe_space);
+    const auto                 boxes    = boxes_of(handles, fe_space);
     double                     sag = 0., distance = 0.;
     for (unsigned int node = 0; node < fe_space.n_nodes(); ++node)
     {

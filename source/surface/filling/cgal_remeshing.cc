@@ -18,7 +18,7 @@ namespace Exemplar
   namespace
   {
     constexpr double       sharp_angle  = 60.; // degrees
-    constexpr double       least_chain  = 5.;  // edge lengths
+    constexpr double       min_chain    = 5.;  // edge lengths
     constexpr unsigned int n_iterations = 5;
     constexpr double       tip_spacing  = .5; // edge lengths
 
@@ -46,7 +46,7 @@ namespace Exemplar
         if (kept[edge])
           lengths[chains.root(mesh.vertex(edge, 0))] += length_of(mesh, edge);
       for (const auto edge : mesh.edges())
-        if (kept[edge] && lengths[chains.root(mesh.vertex(edge, 0))] < least_chain * edge_length)
+        if (kept[edge] && lengths[chains.root(mesh.vertex(edge, 0))] < min_chain * edge_length)
           kept[edge] = false;
     }
 

@@ -198,12 +198,12 @@ namespace Exemplar
         continue;
       }
       const MaterialSeed *nearest = nullptr;
-      double              least   = std::numeric_limits<double>::infinity();
+      double              minimum = std::numeric_limits<double>::infinity();
       for (const MaterialSeed *seed : in_region.at(region))
         if (const double distance = square_distance(corners_of(mesh, c), seed->place);
-            distance < least)
+            distance < minimum)
         {
-          least   = distance;
+          minimum = distance;
           nearest = seed;
         }
       result.of_cell.push_back(nearest->id);

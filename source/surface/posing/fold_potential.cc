@@ -33,7 +33,7 @@ namespace Exemplar
 
     /// The least curvature of a mode that a Newton step counts on, as a share of the stiffness at
     /// rest: flatter and concave ones would make it long without making it better.
-    constexpr double least_stiffness = 1e-3;
+    constexpr double min_stiffness = 1e-3;
   } // namespace
 
   FoldPotential::FoldPotential(const Points &nodes, const Cells &cells)
@@ -172,7 +172,7 @@ namespace Exemplar
     double          stiffness[9];
     for (int m = 0; m < 9; ++m)
     {
-      stiffness[m] = rest[c].volume * std::max(modes.stiffness[m], least_stiffness);
+      stiffness[m] = rest[c].volume * std::max(modes.stiffness[m], min_stiffness);
       for (int a = 0; a < 4; ++a)
       {
         const Vector3<double> push = modes.direction[m] * rest[c].shape_gradient[a];

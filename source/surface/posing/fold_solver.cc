@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/surface/posing/fold_patch.h>
+#include <exemplar/surface/posing/fold_neighbourhood.h>
 #include <exemplar/surface/posing/fold_solver.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ namespace Exemplar
     constexpr double hasty = 0.4, patient = 0.1, calm = 4e-4;
 
     /// Cells that are inverted at a smaller eps stay so.
-    constexpr double least_eps = 5e-3;
+    constexpr double min_eps = 5e-3;
 
     /// Eps to begin with: from far away, and near a solution.
     constexpr double far_eps = 1., near_eps = 0.1;
@@ -35,7 +35,7 @@ namespace Exemplar
     constexpr unsigned int first_rings = 4; ///< around inverted cells
 
     double
-    least(const std::vector<double> &values)
+    minimum(const std::vector<double> &values)
     {
       return *std::min_element(values.begin(), values.end());
     }
@@ -138,8 +138,8 @@ namespace Exemplar
       const double after = potential.value(x, eps);
       if (after <= before + 1e-4 * length * slope)
       {
-        result.x         = std::move(x);
-        result.least_det = least(potential.determinants(result.x));
+        result.x       = std::move(x);
+        result.min_det = minimum(potential.determinants(result.x));
         return (before - after) / (before + 5.);
       }
     }
@@ -148,19 +148,16 @@ namespace Exemplar
 
   /// Eps is reduced as Garanzha et al. (2021) do it, Eq. (6).
   void
-  FoldSolver::untangle(Result           &result,
-                       double            eps,
-                       const double      least_share,
-                       const std::size_t n_left)
+  FoldSolver::untangle(Result &result, double eps, const double min_share, const std::size_t n_left)
   {
-    while (eps > least_eps && result.least_det <= margin)
+    while (eps > min_eps && result.min_det <= margin)
     {
       if (eps < near_eps && count(nodes_of_inverted(potential, result.x)) <= n_left)
         return;
       const double gone = std::max(0., step(result, eps));
       const double share
-          = std::max({ gone, patient, std::min(least_share, least_share * calm / gone) });
-      const double det = result.least_det, root = std::hypot(det, eps);
+          = std::max({ gone, patient, std::min(min_share, min_share * calm / gone) });
+      const double det = result.min_det, root = std::hypot(det, eps);
       eps *= det >= 0. ? 1. - share : 1. - share * root / (std::abs(det) + root);
     }
   }
@@ -188,20 +185,20 @@ namespace Exemplar
   /// Once more around the cells that are inverted, with the patience that would be dear for the
   /// whole body, with more and more of the body free to move and softer and softer springs.
   void
-  FoldSolver::untangle_patches(Result &result, const Points &rest)
+  FoldSolver::untangle_neighbourhoods(Result &result, const Points &rest)
   {
-    for (unsigned int attempt = 0; attempt < max_attempts && result.least_det <= margin; ++attempt)
+    for (unsigned int attempt = 0; attempt < max_attempts && result.min_det <= margin; ++attempt)
     {
       if (attempt > 0)
         release(result);
-      FoldPatch  patch(potential, rest, result.x, nodes_of_inverted(potential, result.x),
-                       first_rings + attempt);
-      FoldSolver solver(patch.get_potential());
-      Result     local{ patch.get_start() };
-      local.least_det = least(patch.get_potential().determinants(local.x));
+      FoldNeighbourhood neighbourhood(
+          potential, rest, result.x, nodes_of_inverted(potential, result.x), first_rings + attempt);
+      FoldSolver solver(neighbourhood.get_potential());
+      Result     local{ neighbourhood.get_start() };
+      local.min_det = minimum(neighbourhood.get_potential().determinants(local.x));
       solver.untangle(local, far_eps, patient, 0);
-      patch.copy_back(local.x, result.x);
-      result.least_det = least(potential.determinants(result.x));
+      neighbourhood.copy_back(local.x, result.x);
+      result.min_det = minimum(potential.determinants(result.x));
       result.iterations += local.iterations;
     }
   }
@@ -211,15 +208,15 @@ namespace Exemplar
   {
     const Attachment given = potential.attachment;
     Result           result{ nearest_rotations() };
-    result.least_det = least(potential.determinants(result.x));
+    result.min_det = minimum(potential.determinants(result.x));
     untangle(result, far_eps, hasty, rest.size() / few);
     for (unsigned int attempt = 0; attempt < 3; ++attempt)
     {
-      untangle_patches(result, rest);
-      if (result.least_det <= margin)
+      untangle_neighbourhoods(result, rest);
+      if (result.min_det <= margin)
         break;
       settle(result);
-      if (result.least_det > margin)
+      if (result.min_det > margin)
         return result;
     }
     potential.attachment = given;

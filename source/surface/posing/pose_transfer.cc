@@ -115,26 +115,26 @@ namespace Exemplar
   {
     const auto         &cells = potential->get_cells();
     std::vector<double> stretches;
-    quality.least_det    = std::numeric_limits<double>::infinity();
-    quality.greatest_det = -quality.least_det;
+    quality.min_det = std::numeric_limits<double>::infinity();
+    quality.max_det = -quality.min_det;
     for (std::size_t c = 0; c < cells.size(); ++c)
     {
       const Matrix3<double> F   = potential->gradient_of_cell(x, c);
       const double          det = determinant(F);
       quality.n_inverted += det > 0. ? 0 : 1;
-      quality.least_det    = std::min(quality.least_det, det);
-      quality.greatest_det = std::max(quality.greatest_det, det);
-      const auto squares   = symmetric_eigensystem(transpose_times(F, F)).values;
+      quality.min_det    = std::min(quality.min_det, det);
+      quality.max_det    = std::max(quality.max_det, det);
+      const auto squares = symmetric_eigensystem(transpose_times(F, F)).values;
       for (int d = 0; d < 3; ++d)
         stretches.push_back(std::sqrt(std::max(0., squares[d])));
     }
     std::sort(stretches.begin(), stretches.end());
     const auto quantile = [&](const double share)
     { return stretches[static_cast<std::size_t>(share * (stretches.size() - 1) + 0.5)]; };
-    quality.least_stretch    = stretches.front();
-    quality.stretch_1        = quantile(0.01);
-    quality.stretch_99       = quantile(0.99);
-    quality.greatest_stretch = stretches.back();
+    quality.min_stretch = stretches.front();
+    quality.stretch_1   = quantile(0.01);
+    quality.stretch_99  = quantile(0.99);
+    quality.max_stretch = stretches.back();
   }
 
   void
@@ -146,7 +146,7 @@ namespace Exemplar
     {
       const double error = x[which[k]].distance(targets[k]) / size;
       quality.mean_error += error / which.size();
-      quality.greatest_error = std::max(quality.greatest_error, error);
+      quality.max_error = std::max(quality.max_error, error);
     }
   }
 
@@ -165,7 +165,7 @@ namespace Exemplar
     {
       const double error = norm(minus(places[v], vertices[v])) / size;
       quality.mean_error += error / static_cast<double>(measured.size());
-      quality.greatest_error = std::max(quality.greatest_error, error);
+      quality.max_error = std::max(quality.max_error, error);
     }
   }
 } // namespace Exemplar

@@ -120,17 +120,17 @@ namespace Exemplar
       std::vector<double>       volumes;
       for (unsigned int shell = 0; shell < n; ++shell)
         volumes.push_back(std::abs(enclosed_volume(shell_of(surface, shells, shell))));
-      const double    least = .01 * *std::max_element(volumes.begin(), volumes.end());
+      const double    minimum = .01 * *std::max_element(volumes.begin(), volumes.end());
       TriangleSurface kept{ surface.vertices, {}, {} };
       for (std::size_t t = 0; t < shells.size(); ++t)
-        if (volumes[shells[t]] >= least)
+        if (volumes[shells[t]] >= minimum)
         {
           kept.triangles.push_back(surface.triangles[t]);
           kept.groups.push_back(surface.groups[t]);
         }
       report.add("loose parts of less than 1 % of the volume left out",
                  static_cast<std::size_t>(std::count_if(
-                     volumes.begin(), volumes.end(), [&](const double v) { return v < least; })));
+                     volumes.begin(), volumes.end(), [&](const double v) { return v < minimum; })));
       surface = std::move(kept);
       drop_unused_vertices(surface);
     }

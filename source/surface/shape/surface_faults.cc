@@ -15,7 +15,7 @@ namespace Exemplar
 {
   namespace
   {
-    constexpr double most_seconds = 600.; // [s]; checks of a million faces take seconds
+    constexpr double max_seconds = 600.; // [s]; checks of a million faces take seconds
 
     SurfaceMesh::Vertex
     place_of(const FaultyElement &element, const SurfaceMesh &surface)
@@ -62,6 +62,6 @@ namespace Exemplar
       return table.str();
     };
     return in_process_copy(check, { file.string() + ": checking the surface",
-                                    "Simplify it in the program that made it.", most_seconds });
+                                    "Simplify it in the program that made it.", max_seconds });
   }
 } // namespace Exemplar

@@ -16,8 +16,8 @@ namespace Exemplar
 
   SurfacePaths::SurfacePaths(const TriangleSurface           &on,
                              const std::vector<unsigned int> &sources,
-                             const double                     greatest)
-      : surface(on), limit(greatest)
+                             const double                     maximum)
+      : surface(on), limit(maximum)
   {
     number_points(sources);
     search();
@@ -121,9 +121,9 @@ namespace Exemplar
     SurfaceMesh::Vertex at{ { 0., 0., 0. } };
     for (unsigned int a = 0; a < 3; ++a)
       at = plus(at, point.share[a], surface.vertices[t[a]]);
-    double least = infinite;
+    double minimum = infinite;
     for (const unsigned int other : around[point.triangle])
-      least = std::min(least, distances[other] + norm(minus(place(other), at)));
-    return least <= limit ? least : infinite;
+      minimum = std::min(minimum, distances[other] + norm(minus(place(other), at)));
+    return minimum <= limit ? minimum : infinite;
   }
 } // namespace Exemplar

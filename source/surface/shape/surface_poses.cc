@@ -14,7 +14,7 @@ namespace Exemplar
   namespace
   {
     /// Sizes differ by less in any pose of a body, and by more between units.
-    constexpr double greatest_ratio = 8.;
+    constexpr double max_ratio = 8.;
 
     /// A pose is taken for a mirror image if it fits one this many times better than it fits the
     /// surface at rest.
@@ -107,10 +107,10 @@ namespace Exemplar
                        const TriangleSurface &pose,
                        const std::string     &prefix)
     {
-      constexpr double great_stretch = 3., greatest_growth = 1.5;
+      constexpr double great_stretch = 3., max_growth = 1.5;
       const double     growth  = spread(points_of(pose)) / spread(points_of(rest));
       const double     stretch = median_stretch(rest, pose);
-      if (growth < greatest_growth && growth > 1. / greatest_growth && stretch > great_stretch)
+      if (growth < max_growth && growth > 1. / max_growth && stretch > great_stretch)
         throw UserError(prefix + "most sides of its faces are " + short_text(stretch)
                         + " times as long or longer, though it is as large as the surface at rest: "
                           "its vertices are in another order."
@@ -121,7 +121,7 @@ namespace Exemplar
     check_unit(const TriangleSurface &rest, const TriangleSurface &pose, const std::string &prefix)
     {
       const double ratio = std::sqrt(total_area(pose) / total_area(rest));
-      if (ratio < greatest_ratio && ratio > 1. / greatest_ratio)
+      if (ratio < max_ratio && ratio > 1. / max_ratio)
         return;
       throw UserError(prefix + "it is " + short_text(ratio > 1. ? ratio : 1. / ratio) + " times "
                       + (ratio > 1. ? "larger" : "smaller")

@@ -71,12 +71,12 @@ namespace Exemplar
       std::array<dealii::Point<3>, 4> corners;
       for (int a = 0; a < 4; ++a)
         corners[a] = mesh.get_nodes()[mesh.get_cells()[cell][a]];
-      const auto   shares = barycentric(corners, point);
-      const double least  = *std::min_element(shares.begin(), shares.end());
-      if (least > depth || (!best && least == depth))
+      const auto   shares  = barycentric(corners, point);
+      const double minimum = *std::min_element(shares.begin(), shares.end());
+      if (minimum > depth || (!best && minimum == depth))
       {
         best  = Place{ cell, shares };
-        depth = least;
+        depth = minimum;
       }
     }
     return best;

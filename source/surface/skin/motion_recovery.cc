@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/dense.h>
 #include <exemplar/mesh/mesh.h>
 #include <exemplar/surface/skin/motion_recovery.h>
 
@@ -15,7 +16,7 @@ namespace Exemplar
     using Neighbours = std::vector<std::vector<unsigned int>>;
 
     constexpr std::size_t  n_sufficient = 24; ///< neighbours; two rings inside have more
-    constexpr unsigned int most_rings   = 3;
+    constexpr unsigned int max_rings    = 3;
 
     /// The nodes that share a cell with each node, itself included.
     Neighbours
@@ -35,34 +36,36 @@ namespace Exemplar
 
     /// The node and the rings of nodes around it, as many as a fit needs.
     std::vector<unsigned int>
-    patch_of(const unsigned int node, const Neighbours &neighbours)
+    neighbourhood_of(const unsigned int node, const Neighbours &neighbours)
     {
-      std::set<unsigned int> patch = { node };
-      for (unsigned int ring = 0; ring < most_rings && patch.size() <= n_sufficient; ++ring)
-        for (const unsigned int inner : std::vector<unsigned int>(patch.begin(), patch.end()))
-          patch.insert(neighbours[inner].begin(), neighbours[inner].end());
-      return { patch.begin(), patch.end() };
+      std::set<unsigned int> neighbourhood = { node };
+      for (unsigned int ring = 0; ring < max_rings && neighbourhood.size() <= n_sufficient; ++ring)
+        for (const unsigned int inner :
+             std::vector<unsigned int>(neighbourhood.begin(), neighbourhood.end()))
+          neighbourhood.insert(neighbours[inner].begin(), neighbours[inner].end());
+      return { neighbourhood.begin(), neighbourhood.end() };
     }
 
     /// The inverse of the Cholesky factor of the mean of d d^T over the differences d of the
-    /// patch's places from the node's: flat patches are as good as round ones.
+    /// neighbourhood's places from the node's: flat neighbourhoods are as good as round ones.
     dealii::Tensor<2, 3>
-    rounding_map(const unsigned int node, const std::vector<unsigned int> &patch, const Mesh &mesh)
+    rounding_map(const unsigned int               node,
+                 const std::vector<unsigned int> &neighbourhood,
+                 const Mesh                      &mesh)
     {
       dealii::Tensor<2, 3> M, L;
-      for (const unsigned int other : patch)
+      for (const unsigned int other : neighbourhood)
       {
         const dealii::Tensor<1, 3> d = mesh.get_nodes()[other] - mesh.get_nodes()[node];
-        M += dealii::outer_product(d, d) / static_cast<double>(patch.size());
+        M += dealii::outer_product(d, d) / static_cast<double>(neighbourhood.size());
       }
+      dealii::FullMatrix<double> factor(3, 3);
       for (unsigned int i = 0; i < 3; ++i)
         for (unsigned int j = 0; j <= i; ++j)
-        {
-          double rest = M[i][j];
-          for (unsigned int k = 0; k < j; ++k)
-            rest -= L[i][k] * L[j][k];
-          L[i][j] = i == j ? std::sqrt(std::max(rest, 1e-28 * M[i][i])) : rest / L[j][j];
-        }
+          factor(i, j) = M[i][j];
+      factorize_by_cholesky(factor, [](unsigned int, const double pivot, const double entry)
+                            { return std::max(pivot, 1e-28 * entry); });
+      factor.copy_to(L);
       return dealii::invert(L);
     }
   } // namespace
@@ -106,21 +109,21 @@ namespace Exemplar
     const Neighbours neighbours = neighbours_of_nodes(mesh);
     for (unsigned int node = 0; node < mesh.n_nodes(); ++node)
       if (is_wanted[node])
-        fits[node] = make_fit(node, patch_of(node, neighbours), mesh);
+        fits[node] = make_fit(node, neighbourhood_of(node, neighbours), mesh);
   }
 
   MotionRecovery::Fit
   MotionRecovery::make_fit(const unsigned int               node,
-                           const std::vector<unsigned int> &patch,
+                           const std::vector<unsigned int> &neighbourhood,
                            const Mesh                      &mesh)
   {
     Fit fit;
-    fit.to_patch = rounding_map(node, patch, mesh);
+    fit.to_round = rounding_map(node, neighbourhood, mesh);
     dealii::FullMatrix<double> matrix(n_monomials, n_monomials); // of the normal equations
-    for (const unsigned int other : patch)
+    for (const unsigned int other : neighbourhood)
       if (other != node)
       {
-        const auto p = monomials(fit.to_patch * (mesh.get_nodes()[other] - mesh.get_nodes()[node]));
+        const auto p = monomials(fit.to_round * (mesh.get_nodes()[other] - mesh.get_nodes()[node]));
         fit.neighbours.push_back(other);
         fit.coefficients.push_back(p);
         for (std::size_t i = 0; i < n_monomials; ++i)
@@ -153,7 +156,7 @@ namespace Exemplar
     std::array<dealii::Tensor<1, 3>, n_monomials> seen; // derivatives that the fit gives y itself
     for (std::size_t k = 0; k < fit.neighbours.size(); ++k)
     {
-      const auto y = fit.to_patch * (mesh.get_nodes()[fit.neighbours[k]] - mesh.get_nodes()[node]);
+      const auto y = fit.to_round * (mesh.get_nodes()[fit.neighbours[k]] - mesh.get_nodes()[node]);
       for (std::size_t i = 0; i < n_monomials; ++i)
         seen[i] += fit.coefficients[k][i] * y;
     }
@@ -181,10 +184,10 @@ namespace Exemplar
                              NodalSum                   &sum) const
   {
     const Fit                 &fit     = fits[node];
-    const dealii::Tensor<1, 3> along   = fit.to_patch * first;
-    const dealii::Tensor<1, 3> outward = fit.to_patch * second;
+    const dealii::Tensor<1, 3> along   = fit.to_round * first;
+    const dealii::Tensor<1, 3> outward = fit.to_round * second;
     auto                       values  = monomials(outward);
-    // 3 is the mean square of the neighbours' distances in the round patch
+    // 3 is the mean square of the neighbours' distances in the round neighbourhood
     const double held = 3. / std::max(3., outward.norm_square());
     for (std::size_t i = 0; i < n_monomials; ++i)
       values[i] = i < 3 ? along[static_cast<unsigned int>(i)] : held * values[i];

@@ -16,7 +16,7 @@ namespace Exemplar
 
     /// Of the vertices from the boundary, and on average of the boundary from the surface, over the
     /// size of the body.
-    constexpr double greatest_outside = 0.1, mean_outside = 0.02, mean_between = 0.1;
+    constexpr double max_outside = 0.1, mean_outside = 0.02, mean_between = 0.1;
 
     /// The surface of the mesh at rest; a triangle's number is that of the mesh's face.
     TriangleSurface
@@ -199,7 +199,7 @@ namespace Exemplar
       for (const unsigned int vertex : face)
         is_used[vertex] = true;
     const double size = mesh.diameter();
-    double       sum = 0., greatest = 0.;
+    double       sum = 0., maximum = 0.;
     std::size_t  n_used = 0, farthest = 0;
     for (std::size_t v = 0; v < anchors.size(); ++v)
       if (is_used[v])
@@ -207,20 +207,19 @@ namespace Exemplar
         const double distance = anchors[v].place.distance(point_at(surface.vertices[v]));
         sum += distance;
         ++n_used;
-        if (distance > greatest)
+        if (distance > maximum)
         {
-          greatest = distance;
+          maximum  = distance;
           farthest = v;
         }
       }
     const auto percent
         = [&](const double length) { return short_text(100. * length / size) + " %"; };
     const std::string ratio = size_text(diagonal_of(surface.vertices) / size);
-    if (greatest > greatest_outside * size
-        || sum > mean_outside * size * static_cast<double>(n_used))
+    if (maximum > max_outside * size || sum > mean_outside * size * static_cast<double>(n_used))
       refuse(surface_name, mesh,
              "its vertex " + std::to_string(farthest + 1) + " is farthest outside the body, by "
-                 + percent(greatest) + " of the body's size (" + short_text(greatest / scale)
+                 + percent(maximum) + " of the body's size (" + short_text(maximum / scale)
                  + " in the unit of the files), the mean is "
                  + percent(sum / static_cast<double>(n_used)) + "." + ratio);
     const TriangleSurface triangles = triangulate(surface);

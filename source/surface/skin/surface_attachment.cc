@@ -20,7 +20,7 @@ namespace Exemplar
     using Offset   = dealii::Tensor<1, 3>;
 
     /// Of the boundary nodes from the surface at rest, over the size of the body.
-    constexpr double greatest_distance = 0.1, mean_distance = 0.02;
+    constexpr double max_distance = 0.1, mean_distance = 0.02;
 
     dealii::Point<3>
     point(const SurfaceMesh::Vertex &x)
@@ -179,7 +179,7 @@ namespace Exemplar
     const auto   farthest  = std::max_element(distances.begin(), distances.end());
     const double mean = std::accumulate(distances.begin(), distances.end(), 0.) / distances.size();
     const double size = mesh.diameter();
-    if (*farthest < greatest_distance * size && mean < mean_distance * size)
+    if (*farthest < max_distance * size && mean < mean_distance * size)
       return;
     constexpr double other_unit = 8.; // a body is as large as its surface
     if (const double ratio = diagonal_of(attachment.get_surface().vertices) / size;

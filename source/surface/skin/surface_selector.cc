@@ -165,27 +165,27 @@ namespace Exemplar
     {
       const SurfacePaths paths(boundary.get_surface(), vertices, limit);
       Nodes              nodes;
-      double             least = std::numeric_limits<double>::infinity();
+      double             minimum = std::numeric_limits<double>::infinity();
       for (std::size_t k = 0; k < boundary.get_nodes().size(); ++k)
       {
         const double there = paths.distance(boundary.get_points()[k]);
-        least              = std::min(least, there);
+        minimum            = std::min(minimum, there);
         if (there <= limit)
           nodes.push_back(boundary.get_nodes()[k]);
       }
-      return std::make_pair(nodes, least);
+      return std::make_pair(nodes, minimum);
     };
     const Nodes nodes = select(distance).first;
     if (nodes.empty())
     {
-      const double least = select(std::numeric_limits<double>::infinity()).second;
-      if (std::isinf(least))
+      const double minimum = select(std::numeric_limits<double>::infinity()).second;
+      if (std::isinf(minimum))
         throw UserError(choice + " selects no node: no face of the surface uses "
                         + (vertices.size() > 1 ? "these vertices" : "this vertex")
                         + ". Pick one that lies on a face.");
       throw UserError(
           choice + " selects no node: the nearest node of the boundary of " + mesh.get_name()
-          + " is " + short_text(least)
+          + " is " + short_text(minimum)
           + " m away, along the surface. Enlarge the distance, or leave 'within' out to "
             "take the nearest node.");
     }

@@ -70,8 +70,10 @@ namespace Exemplar::Testing
       return columns;
     }
 
+    const WeightForm no_weights;
+
     std::unique_ptr<BorderedSystem>
-    block_system(const SymmetricPattern &pattern, const WeightForm *form)
+    block_system(const SymmetricPattern &pattern, const WeightForm &form)
     {
       auto matrix = make_cholesky_operator();
       matrix->reinit(pattern);
@@ -104,8 +106,8 @@ namespace Exemplar::Testing
         system.solve(vector, {});
         return vector;
       };
-      const BorderedVector a = solve(*block_system(pattern, &weight_form()));
-      const BorderedVector b = solve(*make_umfpack_system(pattern, &weight_form()));
+      const BorderedVector a = solve(*block_system(pattern, weight_form()));
+      const BorderedVector b = solve(*make_umfpack_system(pattern, weight_form()));
       for (unsigned int i = 0; i < n; ++i)
         EXPECT_NEAR(a.positions[i], b.positions[i], 1e-12);
       for (unsigned int i = 0; i < k; ++i)
@@ -118,7 +120,7 @@ namespace Exemplar::Testing
     {
       // residual of the first and second block rows, written out
       const SymmetricPattern pattern = banded_pattern();
-      const auto             system  = block_system(pattern, &weight_form());
+      const auto             system  = block_system(pattern, weight_form());
       fill(system->matrix_values(), pattern, 8.);
       system->columns() = random_columns();
       system->factorize({});
@@ -162,8 +164,8 @@ namespace Exemplar::Testing
         system.solve(vector, {});
         return vector.positions;
       };
-      const auto a = solve(*block_system(pattern, nullptr));
-      const auto b = solve(*make_umfpack_system(pattern, nullptr));
+      const auto a = solve(*block_system(pattern, no_weights));
+      const auto b = solve(*make_umfpack_system(pattern, no_weights));
       for (unsigned int i = 0; i < n; ++i)
         EXPECT_NEAR(a[i], b[i], 1e-13);
     }
@@ -171,7 +173,7 @@ namespace Exemplar::Testing
     TEST(BorderedSystem, ReportsAnIndefiniteMatrix)
     {
       const SymmetricPattern pattern = banded_pattern();
-      const auto             system  = block_system(pattern, nullptr);
+      const auto             system  = block_system(pattern, no_weights);
       fill(system->matrix_values(), pattern, 0.1);
       EXPECT_THROW(system->factorize({}), SolverFailure);
       fill(system->matrix_values(), pattern, 8.); // and can be used again

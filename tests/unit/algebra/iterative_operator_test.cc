@@ -114,13 +114,13 @@ namespace Exemplar::Testing
     double
     relative_difference(const Columns &a, const Columns &b)
     {
-      double difference = 0., greatest = 0.;
+      double difference = 0., maximum = 0.;
       for (std::size_t i = 0; i < a.size(); ++i)
       {
         difference = std::max(difference, std::abs(a[i] - b[i]));
-        greatest   = std::max(greatest, std::abs(b[i]));
+        maximum    = std::max(maximum, std::abs(b[i]));
       }
-      return difference / greatest;
+      return difference / maximum;
     }
 
     void

@@ -34,9 +34,9 @@ namespace Exemplar::Testing
     EXPECT_EQ(min_or_nan(1., 2.), 1.);
     EXPECT_EQ(min_or_nan(2., 1.), 1.);
     for (const auto &[a, b] : { std::pair(nan, 1.), std::pair(1., nan), std::pair(nan, nan) })
-      {
-        EXPECT_TRUE(std::isnan(max_or_nan(a, b)));
-        EXPECT_TRUE(std::isnan(min_or_nan(a, b)));
-      }
+    {
+      EXPECT_TRUE(std::isnan(max_or_nan(a, b)));
+      EXPECT_TRUE(std::isnan(min_or_nan(a, b)));
+    }
   }
 } // namespace Exemplar::Testing

@@ -92,7 +92,7 @@ namespace Exemplar::Testing
         expect_kkt(qp, found, lower);
 
         // every subset of free weights, the others 0: the least value among the feasible
-        double least = std::numeric_limits<double>::max();
+        double minimum = std::numeric_limits<double>::max();
         for (unsigned int set = 1; set < (1u << k); ++set)
         {
           std::vector<unsigned int> free;
@@ -108,9 +108,9 @@ namespace Exemplar::Testing
           }
           const auto w = minimize_over_weights(part.H, part.c, { 1. }, {}).weights;
           if (*std::min_element(w.begin(), w.end()) >= 0.)
-            least = std::min(least, value(part, w));
+            minimum = std::min(minimum, value(part, w));
         }
-        EXPECT_NEAR(value(qp, found.weights), least, 1e-10 * (1. + std::abs(least)));
+        EXPECT_NEAR(value(qp, found.weights), minimum, 1e-10 * (1. + std::abs(minimum)));
       }
     }
 

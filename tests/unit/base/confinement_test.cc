@@ -40,10 +40,10 @@ namespace Exemplar::Testing
 
     TEST_F(ConfinementTest, WhatIsNotNeededIsGivenUp)
     {
-      const std::string file = write_file("file", "text");
-      const std::string here = directory;
-      const auto        opens
-          = [&](const std::string &path, const int flags) { return open(path.c_str(), flags, 0666) >= 0; };
+      const std::string file  = write_file("file", "text");
+      const std::string here  = directory;
+      const auto        opens = [&](const std::string &path, const int flags)
+      { return open(path.c_str(), flags, 0666) >= 0; };
       const pid_t parent = getpid();
       EXPECT_FALSE(can([] { return std::system("true") == 0; }));
       EXPECT_FALSE(can([] { return fork() >= 0; }));

@@ -29,9 +29,10 @@ namespace Exemplar::Testing
       const Examples            free       = body.examples(two_poses(WeightRule::free));
       const Examples            prescribed = body.examples(two_poses(WeightRule::prescribed));
       const std::vector<double> some       = { 0.5, 0.2, 0.3 };
-      EXPECT_TRUE(simplex.weights->are_unknown());
-      EXPECT_TRUE(free.weights->are_unknown());
-      EXPECT_FALSE(prescribed.weights->are_unknown());
+      EXPECT_EQ(simplex.weights->n_unknown(), 3u);
+      EXPECT_EQ(free.weights->n_unknown(), 3u);
+      EXPECT_TRUE(prescribed.weights->are_prescribed());
+      EXPECT_EQ(prescribed.weights->n_unknown(), 0u);
       EXPECT_EQ(simplex.weights->lower_changes(some), (std::vector<double>{ -0.5, -0.2, -0.3 }));
       EXPECT_TRUE(free.weights->lower_changes(some).empty());
       EXPECT_EQ(simplex.weights->initial(), (std::vector<double>{ 1., 0., 0. }));

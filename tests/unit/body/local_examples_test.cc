@@ -99,10 +99,10 @@ namespace Exemplar::Testing
       const std::string keys = "set Importance = 1\nset Weights = prescribed\n"
                                "set Weights per region = true\n";
       Scene             same(scene(drag, keys + "set Prescribed weights = 1-t; t; 0\n"));
-      EXPECT_EQ(same.problem.examples.weights->at(0.25),
+      EXPECT_EQ(same.problem.examples.weights.at(0.25),
                 (std::vector<double>{ 0.75, 0.25, 0., 0.75, 0.25, 0. }));
       Scene each(scene(drag, keys + "set Prescribed weights = 1-t; t; 0 | 1; 0; 0\n"));
-      EXPECT_EQ(each.problem.examples.weights->at(0.25),
+      EXPECT_EQ(each.problem.examples.weights.at(0.25),
                 (std::vector<double>{ 0.75, 0.25, 0., 1., 0., 0. }));
       EXPECT_THROW(
           Scene(scene(drag, keys + "set Prescribed weights = 1; 0; 0 | 1; 0; 0 | 1; 0; 0\n")),

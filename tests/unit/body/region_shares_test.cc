@@ -59,12 +59,12 @@ namespace Exemplar::Testing
       const Body         body(bar_of_two_regions(3.9997, box_mesh(4., 4000, 1)));
       const RegionShares shares(body.fe_space, body.mesh.get_material_ids(),
                                 body.mesh.whole().material_ids, 1e3);
-      double             greatest = 0.;
+      double             maximum = 0.;
       for (unsigned int cell = 0; cell < body.fe_space.n_cells(); ++cell)
-        greatest = std::max(greatest, share_of(shares, 1, cell));
+        maximum = std::max(maximum, share_of(shares, 1, cell));
       ASSERT_EQ(shares.n_regions(), 2u);
-      EXPECT_GT(greatest, 0.);
-      EXPECT_LT(greatest, 1e-3);
+      EXPECT_GT(maximum, 0.);
+      EXPECT_LT(maximum, 1e-3);
     }
 
     TEST(RegionShares, OneRegionIsGlobal)

@@ -98,14 +98,14 @@ namespace Exemplar::Testing
     double
     difference(const Vector &a, const Vector &b)
     {
-      double greatest = 0., scale = 1e-300;
+      double maximum = 0., scale = 1e-300;
       EXPECT_EQ(a.size(), b.size());
       for (std::size_t i = 0; i < a.size(); ++i)
       {
-        greatest = std::max<double>(greatest, std::abs(a[i] - b[i]));
-        scale    = std::max<double>(scale, std::abs(a[i]));
+        maximum = std::max<double>(maximum, std::abs(a[i] - b[i]));
+        scale   = std::max<double>(scale, std::abs(a[i]));
       }
-      return greatest / scale;
+      return maximum / scale;
     }
 
     class CellKernelsTest : public testing::TestWithParam<std::tuple<Element, CellLaw, bool>>

@@ -109,8 +109,8 @@ namespace Exemplar::Testing
       EXPECT_EQ(refusal("Merge 'part.stl';"), "");
       EXPECT_NE(refusal("Include 'part.stl';"), "");
       expect_contains(refusal("\nMerge 'absent.geo';"), "script.geo:2: ");
-      for (const std::string &name : { std::string("script.geo"),
-                                       "../" + directory.filename().string() + "/script.geo" })
+      for (const std::string &name :
+           { std::string("script.geo"), "../" + directory.filename().string() + "/script.geo" })
         expect_contains(refusal("If (0)\nInclude '" + name + "';\nEndIf"), "includes itself");
       write_file("twice.geo", "Include 'twice_0.geo';");
       write_file("twice_14.geo", "");
@@ -124,8 +124,9 @@ namespace Exemplar::Testing
 
     TEST_F(GeoScriptTest, TheTextIsTheScriptsWithoutThemselves)
     {
-      const auto geo = write_file("script.geo", "a = 1; // one\n\nb += .5e-3;Include \"sub/part.inc\"; "
-                                                "c/**/=\n{0 : 2}; e = 1d;\n");
+      const auto geo
+          = write_file("script.geo", "a = 1; // one\n\nb += .5e-3;Include \"sub/part.inc\"; "
+                                     "c/**/=\n{0 : 2}; e = 1d;\n");
       std::filesystem::create_directory(directory / "sub");
       write_file("sub/part.inc", "/* part\n */ d = 'x;';Merge \"../part.any\";");
       write_file("part.any", "solid\nfacet");
@@ -143,7 +144,8 @@ namespace Exemplar::Testing
 
     TEST_F(GeoScriptTest, TheDigestIsOfTheText)
     {
-      const auto geo = write_file("script.geo", "Include 'part.inc'; Merge 'part.stl'; a() = ListFromFile(\"list\");");
+      const auto geo = write_file(
+          "script.geo", "Include 'part.inc'; Merge 'part.stl'; a() = ListFromFile(\"list\");");
       write_file("part.inc", "a = 1;");
       write_file("part.stl", "solid facet");
       write_file("list", "1 2");

@@ -145,8 +145,8 @@ namespace Exemplar::Testing
 
     TEST_F(GeoTest, SaysWhenGmshSaysTooMuch)
     {
-      std::ofstream(parameters.file) << "For i In {1:1e9}\nPrintf(\"" << std::string(900, 'x')
-                                     << "\");\nEndFor\n";
+      std::ofstream(parameters.file)
+          << "For i In {1:1e9}\nPrintf(\"" << std::string(900, 'x') << "\");\nEndFor\n";
       expect_contains(error_of([&] { Mesh mesh(parameters); }),
                       "gmsh wrote more than 16 MiB of messages and was ended. Is there a loop");
     }
@@ -228,9 +228,11 @@ namespace Exemplar::Testing
              "Physical Surface(7) = {1}; Physical Volume(5) = {1}; Mesh.SaveAll = 1;",
              "Mesh.ScalingFactor = 1e-3; Mesh 2; Physical Volume(5) = {1};", "" })
       {
-        std::ofstream(parameters.file) << box << script << "\n"; // gmsh drops a line that has no end
-        ASSERT_EQ(std::system(("cd '" + directory.string() + "' && cp *bar*.geo itself.geo && "
-                               "gmsh -3 -format msh22 itself.geo -o itself.msh > /dev/null 2>&1")
+        std::ofstream(parameters.file)
+            << box << script << "\n"; // gmsh drops a line that has no end
+        ASSERT_EQ(std::system(("cd '" + directory.string()
+                               + "' && cp *bar*.geo itself.geo && "
+                                 "gmsh -3 -format msh22 itself.geo -o itself.msh > /dev/null 2>&1")
                                   .c_str()),
                   0);
         MshFile made   = mesh_geo_file(parameters.file, false);

@@ -41,12 +41,12 @@ namespace Exemplar::Testing
     }
 
     double
-    greatest_distance(const Points &a, const Points &b)
+    max_distance(const Points &a, const Points &b)
     {
-      double greatest = 0.;
+      double maximum = 0.;
       for (std::size_t i = 0; i < a.size(); ++i)
-        greatest = std::max(greatest, a[i].distance(b[i]));
-      return greatest;
+        maximum = std::max(maximum, a[i].distance(b[i]));
+      return maximum;
     }
 
     Points
@@ -61,11 +61,11 @@ namespace Exemplar::Testing
     double
     distortion(const Points &a, const Points &b)
     {
-      double greatest = 0.;
+      double maximum = 0.;
       for (std::size_t i = 0; i < a.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)
-          greatest = std::max(greatest, std::abs(a[i].distance(a[j]) - b[i].distance(b[j])));
-      return greatest;
+          maximum = std::max(maximum, std::abs(a[i].distance(a[j]) - b[i].distance(b[j])));
+      return maximum;
     }
 
     double
@@ -89,7 +89,7 @@ namespace Exemplar::Testing
       {
         const Points      targets = moved(turn_by(degrees * degree), points);
         const RigidMotion motion  = best_rigid_motion(points, targets);
-        EXPECT_LT(greatest_distance(moved(motion, points), targets), 1e-14 * 10) << degrees;
+        EXPECT_LT(max_distance(moved(motion, points), targets), 1e-14 * 10) << degrees;
         EXPECT_NEAR(axis_and_angle(motion.rotation).angle, degrees * degree, 1e-14 * 10);
       }
     }
@@ -172,7 +172,7 @@ namespace Exemplar::Testing
                             + ((x - points[0]) * u / u.norm_square() * u.norm() / v.norm()) * v);
         const RigidMotion motion = best_rigid_motion(points, targets);
         EXPECT_TRUE(are_collinear(points));
-        EXPECT_LT(greatest_distance(moved(motion, points), targets), 1e-14 * 10);
+        EXPECT_LT(max_distance(moved(motion, points), targets), 1e-14 * 10);
         EXPECT_NEAR(axis_and_angle(motion.rotation).angle, angle, 1e-14 * 10);
         EXPECT_NEAR(angle_between(points, points), 0., 1e-14);
 
@@ -181,7 +181,7 @@ namespace Exemplar::Testing
                                               { { { -1., 0., 0. }, { 0., -1., 0. }, { 0., 0., -1. } } } },
                                             points);
         const RigidMotion half_turn = best_rigid_motion(points, reversed);
-        EXPECT_LT(greatest_distance(moved(half_turn, points), reversed), 1e-14 * 10);
+        EXPECT_LT(max_distance(moved(half_turn, points), reversed), 1e-14 * 10);
         EXPECT_NEAR(axis_and_angle(half_turn.rotation).angle, M_PI, 1e-14);
         EXPECT_NEAR(determinant(half_turn.rotation), 1., 1e-14);
       }
@@ -210,8 +210,7 @@ namespace Exemplar::Testing
         const Points targets = moved(turn_by(degrees * degree), points);
         EXPECT_FALSE(are_collinear(points));
         EXPECT_NEAR(angle_between(points, targets), degrees * degree, 1e-13);
-        EXPECT_LT(greatest_distance(moved(best_rigid_motion(points, targets), points), targets),
-                  1e-13);
+        EXPECT_LT(max_distance(moved(best_rigid_motion(points, targets), points), targets), 1e-13);
       }
     }
 
@@ -223,8 +222,8 @@ namespace Exemplar::Testing
         const RigidMotion motion  = turn_by(degrees * degree);
         const Points      targets = moved(motion, points);
         const RigidPath   path(points, targets);
-        EXPECT_EQ(greatest_distance(at(path, points, 0.), points), 0.);
-        EXPECT_LT(greatest_distance(at(path, points, 1.), targets), 1e-13);
+        EXPECT_EQ(max_distance(at(path, points, 0.), points), 0.);
+        EXPECT_LT(max_distance(at(path, points, 1.), targets), 1e-13);
         const auto start = centroid(points), end = centroid(targets);
         for (const double s : { -0.3, 0.1, 0.5, 0.9, 1.4 })
         {
@@ -244,7 +243,7 @@ namespace Exemplar::Testing
       const Points half = moved({ centroid(points), centroid(at(path, points, 0.5)),
                                   rotation_about(oblique, 78.5 * degree) },
                                 points);
-      EXPECT_LT(greatest_distance(at(path, points, 0.5), half), 1e-13);
+      EXPECT_LT(max_distance(at(path, points, 0.5), half), 1e-13);
     }
 
     TEST(RigidPath, AddsTheRemainderInProportionTurnedAlong)
@@ -255,7 +254,7 @@ namespace Exemplar::Testing
       for (auto &y : targets)
         y = dealii::Point<3>() + 1.3 * y;
       const RigidPath path(points, targets);
-      EXPECT_LT(greatest_distance(at(path, points, 1.), targets), 1e-13);
+      EXPECT_LT(max_distance(at(path, points, 1.), targets), 1e-13);
       const auto start = centroid(points), end = centroid(targets);
       for (const double s : { -0.5, 0.25, 0.5, 0.75, 2. })
       {
@@ -264,7 +263,7 @@ namespace Exemplar::Testing
           enlarged.push_back(start + (1. + 0.3 * s) * (x - start));
         const RigidMotion part
             = { start, start + s * (end - start), rotation_about(oblique, 2. * s) };
-        EXPECT_LT(greatest_distance(at(path, points, s), moved(part, enlarged)), 1e-13) << s;
+        EXPECT_LT(max_distance(at(path, points, s), moved(part, enlarged)), 1e-13) << s;
       }
     }
 
@@ -274,9 +273,9 @@ namespace Exemplar::Testing
       {
         const Points    points = random_points(n, 20 + n), targets = random_points(n, 30 + n);
         const RigidPath path(points, targets), to_one_place(points, Points(n, targets[0]));
-        EXPECT_EQ(greatest_distance(at(path, points, 0.), points), 0.);
-        EXPECT_LT(greatest_distance(at(path, points, 1.), targets), 1e-13);
-        EXPECT_LT(greatest_distance(at(to_one_place, points, 1.), Points(n, targets[0])), 1e-13);
+        EXPECT_EQ(max_distance(at(path, points, 0.), points), 0.);
+        EXPECT_LT(max_distance(at(path, points, 1.), targets), 1e-13);
+        EXPECT_LT(max_distance(at(to_one_place, points, 1.), Points(n, targets[0])), 1e-13);
       }
       const Points points = random_points(1, 40), targets = random_points(1, 41);
       const auto   half = at(RigidPath(points, targets), points, 0.5);

@@ -186,12 +186,12 @@ namespace Exemplar::Testing
       ExampleParameters parameters   = two_examples();
       parameters.weights_per_region  = test_case.per_region;
       parameters.region_blend_length = 2.;
-      const auto      examples       = body.examples(parameters, test_case.laws);
-      const FreeDofs  free_dofs(body.fe_space.n_dofs(), { 0, 4, 8, 30 }, Exchange::serial());
-      BodyPotential   elastic(body, test_case.laws, examples, free_dofs);
-      std::mt19937  generator(4);
-      auto          positions = body.random_positions(generator, 0.05);
-      const auto    past = body.random_positions(generator, 0.05), before = past;
+      const auto     examples        = body.examples(parameters, test_case.laws);
+      const FreeDofs free_dofs(body.fe_space.n_dofs(), { 0, 4, 8, 30 }, Exchange::serial());
+      BodyPotential  elastic(body, test_case.laws, examples, free_dofs);
+      std::mt19937   generator(4);
+      auto           positions = body.random_positions(generator, 0.05);
+      const auto     past = body.random_positions(generator, 0.05), before = past;
       elastic.begin_step(test_case.damping, { { 1.5, &past }, { -0.5, &before } });
       std::vector<double> weights  = test_case.per_region
                                          ? std::vector<double>{ 0.2, 0.5, 0.3, 0.6, 0.1, 0.3 }
@@ -269,8 +269,8 @@ namespace Exemplar::Testing
     LawsOfCells
     alternating_laws(const Discretisation &discretisation, const unsigned int n_cells)
     {
-      const std::vector<CellLaw>       strains = strains_of(discretisation);
-      std::vector<CellLaw>             laws;
+      const std::vector<CellLaw> strains = strains_of(discretisation);
+      std::vector<CellLaw>       laws;
       for (unsigned int cell = 0; cell < n_cells; ++cell)
         laws.push_back(strains[cell % strains.size()]);
       return LawsOfCells(laws);

@@ -25,6 +25,20 @@ namespace Exemplar::Testing
 
       SpringTerm(const unsigned int a, const unsigned int b, const double k) : a(a), b(b), k(k) {}
 
+      /// From its second step on it ends at another node.
+      void
+      begin_step(const State &) override
+      {
+        is_new = (++n_steps == 2);
+        b -= is_new ? 1 : 0;
+      }
+
+      bool
+      has_new_couplings() const override
+      {
+        return is_new;
+      }
+
       void
       add(const TermPoint &at, ElasticSums &sums) override
       {
@@ -51,6 +65,8 @@ namespace Exemplar::Testing
       void
       attach(const SymmetricPattern &pattern, const FreeDofs &free_dofs, CellField &) override
       {
+        diagonal.clear();
+        beside.clear();
         for (unsigned int c = 0; c < 3; ++c)
         {
           const int i = free_dofs.free_index(3 * a + c), j = free_dofs.free_index(3 * b + c);
@@ -85,7 +101,9 @@ namespace Exemplar::Testing
       }
 
     private:
-      const unsigned int a, b;
+      const unsigned int a;
+      unsigned int       b, n_steps = 0;
+      bool               is_new = false;
       const double       k;
       std::vector<int>   diagonal, beside;
     };
@@ -96,8 +114,9 @@ namespace Exemplar::Testing
       explicit SprungBar(const Exchange &exchange = Exchange::serial())
           : body(box_mesh(4., 6, 1)),
             free_dofs(body.fe_space.n_dofs(), { 0, 1, 2, 5, 9 }, exchange),
-            potential({ CellLaw::corotational, body.fe_space, body.material, body.material, nullptr,
-                        nullptr, free_dofs },
+            examples(body.examples(ExampleParameters())),
+            potential({ CellLaw::corotational, body.fe_space, body.material, body.material,
+                        *examples.poses, *examples.weights, free_dofs },
                       {},
                       springs(body.fe_space.n_nodes() - 1),
                       nullptr)
@@ -124,14 +143,15 @@ namespace Exemplar::Testing
       }
 
       const Body           body;
-      const FreeDofs       free_dofs;
+      FreeDofs             free_dofs;
+      const Examples       examples;
       IncrementalPotential potential;
       State                state;
     };
 
-    TEST(IncrementalPotential, ATermAddsItsEnergyForcesAndTangent)
+    void
+    expect_derivatives_of_each_other(SprungBar &bar)
     {
-      SprungBar           bar;
       const Evaluation    at = bar.evaluate();
       std::vector<double> matrix(bar.potential.matrix_pattern().n_values()), no_columns;
       bar.potential.assemble(bar.state.positions, {}, 0., matrix, no_columns);
@@ -165,6 +185,26 @@ namespace Exemplar::Testing
       }
     }
 
+    TEST(IncrementalPotential, ATermAddsItsEnergyForcesAndTangent)
+    {
+      SprungBar bar;
+      expect_derivatives_of_each_other(bar);
+    }
+
+    TEST(IncrementalPotential, ThePatternFollowsWhatATermCouplesAndWhatIsHeld)
+    {
+      SprungBar bar;
+      for (const unsigned int version : { 0, 1 })
+      {
+        bar.potential.begin_step(bar.state, 0.);
+        EXPECT_EQ(bar.potential.matrix_pattern().version, version);
+        expect_derivatives_of_each_other(bar);
+      }
+      bar.free_dofs.reinit({ 0, 1, 2, 3, 4, 5, 7, 20 });
+      bar.potential.renew_pattern();
+      expect_derivatives_of_each_other(bar);
+    }
+
     TEST(IncrementalPotential, ATermsRoundingCounts)
     {
       // forces below the rounding that a term claims are no residual
@@ -196,8 +236,8 @@ namespace Exemplar::Testing
     {
       const WithAnother another;
       SprungBar         alone, together(another);
-      const double      own = alone.potential.max_free_gradient(alone.evaluate());
-      EXPECT_EQ(together.potential.max_free_gradient(together.evaluate()), 3. * own);
+      const double      own = alone.free_dofs.max_magnitude(alone.evaluate().gradient);
+      EXPECT_EQ(together.free_dofs.max_magnitude(together.evaluate().gradient), 3. * own);
     }
   } // namespace
 } // namespace Exemplar::Testing

@@ -47,7 +47,8 @@ namespace Exemplar::Testing
       elastic.evaluate(origin, { 1. }, evaluation);
       auto matrix = make_cholesky_operator();
       matrix->reinit(elastic.matrix_pattern);
-      const auto          solver = make_block_system(std::move(matrix), nullptr, Exchange::serial());
+      const WeightForm no_weights;
+      const auto solver = make_block_system(std::move(matrix), no_weights, Exchange::serial());
       std::vector<double> columns;
       elastic.assemble_tangent(Tangent::convex, origin, { 1. }, solver->matrix_values(), columns);
       solver->factorize(origin);

@@ -85,9 +85,9 @@ namespace Exemplar::Testing
       for (const unsigned int dof : potential.get_free_dofs().list())
         state.positions[dof] += 0.05 * normal(generator);
       potential.evaluate(state, RotationUse::update, free);
-      potential.hold_back(free.gradient, state.positions);
+      potential.get_held_back().hold(potential.get_free_dofs(), free.gradient, state.positions);
       potential.evaluate(state, RotationUse::update, held);
-      EXPECT_EQ(potential.max_free_gradient(held), 0.);
+      EXPECT_EQ(potential.get_free_dofs().max_magnitude(held.gradient), 0.);
       EXPECT_EQ(held.potential, free.potential); // where they are held back they have done no work
     }
 
@@ -119,7 +119,7 @@ namespace Exemplar::Testing
                      + examples(two_poses + "set Weights = free\n"));
       Problem &p     = scene.problem;
       State    state = p.state;
-      p.constraints.handles->move(1., state.positions);
+      p.constraints.handles.move(1., state.positions);
       state.weights = { 0.2, 0.5, 0.3 };
       Evaluation evaluation;
       p.potential.evaluate(state, RotationUse::update, evaluation);
@@ -155,7 +155,7 @@ namespace Exemplar::Testing
       Problem   &p     = scene.problem;
       State      state = p.state;
       Evaluation evaluation;
-      p.constraints.handles->move(1., state.positions);
+      p.constraints.handles.move(1., state.positions);
       p.potential.minimize_over_weights(state, RotationUse::update, evaluation);
       EXPECT_LT(p.potential.residual(state, evaluation).weights, 1e-12);
       EXPECT_EQ(p.potential.residual(state, evaluation).multipliers.size(), 1u);

@@ -44,14 +44,14 @@ namespace Exemplar::Testing
       const double alpha = 3., beta = 0.004, h = 0.01;
       for (const bool is_bdf2 : { false, true })
       {
-        Scene               scene(swing, { "Model/Strain=linear", "Time/Mass damping=3",
-                                           "Time/Stiffness damping=0.004", "Time/Step=0.01", "Time/End=0.06",
-                                           std::string("Time/Scheme=") + (is_bdf2 ? "bdf2" : "implicit euler") });
-        Problem            &p = scene.problem;
-        ElasticPotential    undamped(
-               { p.parameters.model.law(), p.body.fe_space, p.body.material, p.body.cell_material,
-                 nullptr, nullptr, p.constraints.free_dofs },
-               make_elastic_terms(p.body, p.examples), p.potential.matrix_pattern());
+        Scene            scene(swing, { "Model/Strain=linear", "Time/Mass damping=3",
+                                        "Time/Stiffness damping=0.004", "Time/Step=0.01", "Time/End=0.06",
+                                        std::string("Time/Scheme=") + (is_bdf2 ? "bdf2" : "implicit euler") });
+        Problem         &p = scene.problem;
+        ElasticPotential undamped(
+            { p.parameters.model.law(), p.body.fe_space, p.body.material, p.body.cell_material,
+              p.examples.poses, p.examples.weights, p.constraints.free_dofs },
+            make_elastic_terms(p.body, p.examples), p.potential.matrix_pattern());
         std::vector<Vector> x = { p.state.positions }, v = { p.state.velocities };
         while (p.state.step < p.time_axis.n_steps())
         {

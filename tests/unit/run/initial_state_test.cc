@@ -21,7 +21,8 @@ namespace Exemplar::Testing
       State
       state(const bool is_dynamic, const Body &of = Body(box_mesh(4., 2, 1))) const
       {
-        return initial_state(parameters, of.mesh, of.fe_space, nullptr, is_dynamic, poses);
+        return initial_state(parameters, of.mesh, of.fe_space,
+                             *of.examples(ExampleParameters()).weights, is_dynamic, poses);
       }
 
       const Body        body = Body(box_mesh(4., 2, 1));

@@ -74,6 +74,95 @@ namespace Exemplar::Testing
       return "no exception";
     }
 
+    const std::string swung_bar = "set Scene = dynamic\n" + bar + drag
+                                  + "subsection Time\n set Step = 0.02\n set End = 1\nend\n"
+                                    "subsection Solver\n set Tolerance = 1e-11\nend\n";
+
+    /// The same bar, of which only the left end is held.
+    const std::string hanging_bar = "set Scene = dynamic\n" + bar
+                                    + "subsection Handles\n set Names = left\n" + held_left
+                                    + "end\nsubsection Time\n set Step = 0.02\n set End = 1\nend\n"
+                                      "subsection Solver\n set Tolerance = 1e-11\nend\n";
+
+    void
+    advance(Problem &problem, const unsigned int n_steps)
+    {
+      for (unsigned int step = 0; step < n_steps; ++step)
+        ASSERT_TRUE(is_success(problem.advance().status));
+    }
+
+    std::vector<unsigned int>
+    nodes_beyond(const Problem &problem, const double x)
+    {
+      std::vector<unsigned int> nodes;
+      for (unsigned int node = 0; node < problem.body.mesh.n_nodes(); ++node)
+        if (problem.body.mesh.get_nodes()[node][0] > x)
+          nodes.push_back(node);
+      return nodes;
+    }
+
+    TEST(Problem, WhatIsLetGoMovesAsIfItHadNeverBeenHeld)
+    {
+      for (const std::string method : { "newton", "quasi newton", "one pass" })
+      {
+        Scene scene(swung_bar, { "Solver/Method=" + method }),
+            free(hanging_bar, { "Solver/Method=" + method });
+        advance(scene.problem, 5);
+        scene.problem.change_handles([](Handles &handles) { handles.let_go("right"); });
+        free.problem.resume_from(scene.problem.state);
+        advance(scene.problem, 5);
+        advance(free.problem, 5);
+        EXPECT_LT(max_difference(scene.problem.state.positions, free.problem.state.positions), 1e-8)
+            << method;
+        EXPECT_EQ(scene.problem.constraints.free_dofs.list(),
+                  free.problem.constraints.free_dofs.list());
+        EXPECT_EQ(scene.problem.constraints.handles.sum_over(1, scene.problem.evaluation.gradient),
+                  (dealii::Tensor<1, 3>()));
+      }
+    }
+
+    TEST(Problem, WhatIsGrabbedMovesAsIfItHadAlwaysBeenAHandle)
+    {
+      for (const std::string method : { "newton", "quasi newton", "one pass" })
+      {
+        Scene scene(hanging_bar, { "Solver/Method=" + method }),
+            held(swung_bar, { "Solver/Method=" + method });
+        advance(scene.problem, 5);
+        const auto way = [](const std::vector<dealii::Point<3>> &rest, const double t)
+        {
+          return std::vector<dealii::Tensor<1, 3>>(
+              rest.size(), dealii::Tensor<1, 3>({ 0.2 * t, 0.6 * t, 0.3 * t }));
+        };
+        const auto nodes = nodes_beyond(scene.problem, 3.9);
+        scene.problem.change_handles([&](Handles &handles) { handles.grab("hand", nodes, way); });
+        held.problem.resume_from(scene.problem.state);
+        advance(scene.problem, 5);
+        advance(held.problem, 5);
+        EXPECT_LT(max_difference(scene.problem.state.positions, held.problem.state.positions), 1e-8)
+            << method;
+      }
+    }
+
+    TEST(Problem, ChangesThatLeaveABodyFreeOrHeldAltogetherAreRefused)
+    {
+      Scene      scene(static_bar), same(static_bar);
+      const auto let_go = [](Handles &handles) { handles.let_go("left"), handles.let_go("right"); };
+      const auto grab_all
+          = [&](Handles &handles) { handles.grab("all", nodes_beyond(scene.problem, -1.), {}); };
+      const auto let_go_another = [](Handles &handles) { handles.let_go("middle"); };
+      advance(scene.problem, 1);
+      advance(same.problem, 1);
+      expect_contains(message_of([&] { scene.problem.change_handles(let_go); }),
+                      "6 of 6 rigid motions free");
+      expect_contains(message_of([&] { scene.problem.change_handles(grab_all); }),
+                      "nothing to solve");
+      expect_contains(message_of([&] { scene.problem.change_handles(let_go_another); }),
+                      "There is no handle 'middle'. Handles/Names has: left, right.");
+      advance(scene.problem, 1);
+      advance(same.problem, 1);
+      expect_same_bytes(scene.problem.state, same.problem.state);
+    }
+
     TEST(Problem, MotionsThatAreNoneAreRefused)
     {
       Scene      scene(static_bar);

@@ -20,8 +20,7 @@ namespace Exemplar::Testing
       MotionPredictionTest()
           : scene("set Scene = dynamic\n" + bar + drag),
             free_dofs(scene.problem.constraints.free_dofs),
-            prediction(free_dofs, scene.problem.constraints.handles.get()),
-            state(scene.problem.state)
+            prediction(free_dofs, scene.problem.constraints.handles), state(scene.problem.state)
       {
       }
 
@@ -62,7 +61,7 @@ namespace Exemplar::Testing
       const Vector predicted = predict(0.7, -0.2);
       expect_free_velocity(predicted, 0.7, -0.2);
       Vector held = state.positions;
-      scene.problem.constraints.handles->move(h, held);
+      scene.problem.constraints.handles.move(h, held);
       for (unsigned int dof = 0; dof < held.size(); ++dof)
         if (free_dofs.free_index(dof) == FreeDofs::held)
         {

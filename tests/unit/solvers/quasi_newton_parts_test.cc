@@ -88,7 +88,8 @@ namespace Exemplar::Testing
     struct Factored
     {
       explicit Factored(const MeshParameters &mesh, const double degrees)
-          : body(mesh), free_dofs(body.fe_space.n_dofs(), { 0, 1, 2, 3, 4, 5, 16 }, Exchange::serial()),
+          : body(mesh),
+            free_dofs(body.fe_space.n_dofs(), { 0, 1, 2, 3, 4, 5, 16 }, Exchange::serial()),
             mass(body.fe_space, body.material, MassMatrix::consistent),
             integrator(TimeParameters()), inertia(mass, integrator),
             elastic(body, ModelParameters(), {}, free_dofs),
@@ -108,7 +109,7 @@ namespace Exemplar::Testing
         inertia.attach(elastic.matrix_pattern, free_dofs, elastic.get_field());
         auto matrix = make_cholesky_operator();
         matrix->reinit(elastic.matrix_pattern);
-        system = make_block_system(std::move(matrix), nullptr, Exchange::serial());
+        system = make_block_system(std::move(matrix), no_weights, Exchange::serial());
         elastic.update_rotations(positions);
         std::vector<double> columns;
         inertia.add_tangent({ positions, {} }, Tangent::convex, system->matrix_values(), columns);
@@ -117,6 +118,7 @@ namespace Exemplar::Testing
         elastic.node_rotations(rotations);
       }
 
+      const WeightForm                no_weights;
       Body                            body;
       FreeDofs                        free_dofs;
       Mass                            mass;

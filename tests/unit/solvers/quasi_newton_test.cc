@@ -50,7 +50,7 @@ namespace Exemplar::Testing
     }
 
     double
-    greatest_error(const std::string &text, const std::vector<std::string> &overrides = {})
+    max_error(const std::string &text, const std::vector<std::string> &overrides = {})
     {
       const std::vector<double> all = errors(text, overrides);
       return *std::max_element(all.begin(), all.end());
@@ -59,11 +59,10 @@ namespace Exemplar::Testing
     TEST(QuasiNewton, KeepsToItsStepTolerance)
     {
       const std::string plain = turned_bar("", "0.02");
-      EXPECT_LT(greatest_error(plain), 1e-3); // the default
-      EXPECT_LT(greatest_error(plain, { "Solver/Step tolerance=1e-5" }), 1e-5);
-      EXPECT_LT(greatest_error(plain, { "Time/Scheme=bdf2" }), 1e-3);
-      EXPECT_LT(greatest_error(plain, { "Time/Stiffness damping=0.01", "Time/Mass damping=0.5" }),
-                1e-3);
+      EXPECT_LT(max_error(plain), 1e-3); // the default
+      EXPECT_LT(max_error(plain, { "Solver/Step tolerance=1e-5" }), 1e-5);
+      EXPECT_LT(max_error(plain, { "Time/Scheme=bdf2" }), 1e-3);
+      EXPECT_LT(max_error(plain, { "Time/Stiffness damping=0.01", "Time/Mass damping=0.5" }), 1e-3);
     }
 
     TEST(PassRotations, PredictedOnesMakeOnePassMoreAccurate)
@@ -87,7 +86,7 @@ namespace Exemplar::Testing
       const std::string poses = "set Pose functions = " + twist(60.) + " | 1.2*x; 0.9*y; z\n";
       for (const std::string weights : { "simplex", "free" })
         EXPECT_LT(
-            greatest_error(turned_bar(examples(poses + "set Weights = " + weights + "\n"), "0.02")),
+            max_error(turned_bar(examples(poses + "set Weights = " + weights + "\n"), "0.02")),
             1e-3);
     }
 
@@ -171,9 +170,9 @@ namespace Exemplar::Testing
       // soft, and turned by half a radian a step: cells invert
       Scene scene(turned_bar("", "0.1"), { "Material/Young's modulus=1e4", "Time/End=0.5" });
       EXPECT_NO_THROW(scene.solve());
-      EXPECT_LT(greatest_error(
-                    turned_bar("subsection Material\n set Young's modulus = 1e4\nend\n", "0.1")),
-                1e-3);
+      EXPECT_LT(
+          max_error(turned_bar("subsection Material\n set Young's modulus = 1e4\nend\n", "0.1")),
+          1e-3);
     }
   } // namespace
 } // namespace Exemplar::Testing

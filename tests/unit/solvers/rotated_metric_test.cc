@@ -24,7 +24,7 @@ namespace Exemplar::Testing
       {
         p.potential.begin_step(state, 0.1);
         p.potential.set_time(0.1, state);
-        p.constraints.handles->move(0.1, state.positions);
+        p.constraints.handles.move(0.1, state.positions);
         state.weights = { 0.4, 0.35, 0.25 };
         p.potential.evaluate(state, RotationUse::update, evaluation);
         p.system.factorize(state.positions, state.weights, 1.);
@@ -44,7 +44,7 @@ namespace Exemplar::Testing
         metric.rotate_back(step);
         const std::vector<double> changes
             = metric.find_weight_changes(step, evaluation.elastic.weight_gradient,
-                                         p.examples.weights->lower_changes(state.weights));
+                                         p.examples.weights.lower_changes(state.weights));
         metric.add_example_forces(changes, step);
         metric.apply(step);
         metric.rotate_forth(step);

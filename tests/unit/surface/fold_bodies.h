@@ -77,12 +77,12 @@ namespace Exemplar::Testing
   }
 
   inline double
-  greatest_distance_between(const Points &a, const Points &b)
+  max_distance_between(const Points &a, const Points &b)
   {
-    double greatest = 0.;
+    double maximum = 0.;
     for (std::size_t i = 0; i < a.size(); ++i)
-      greatest = std::max(greatest, a[i].distance(b[i]));
-    return greatest;
+      maximum = std::max(maximum, a[i].distance(b[i]));
+    return maximum;
   }
 } // namespace Exemplar::Testing
 

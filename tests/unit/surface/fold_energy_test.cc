@@ -57,14 +57,14 @@ namespace Exemplar::Testing
 
     TEST(FoldEnergy, IsInfiniteForInvertedCellsOnlyWithoutRegularisation)
     {
-      for (const double least : { 0., -0.2 })
+      for (const double minimum : { 0., -0.2 })
       {
-        EXPECT_EQ(fold_energy(diagonal(1., 1., least), 0.),
+        EXPECT_EQ(fold_energy(diagonal(1., 1., minimum), 0.),
                   std::numeric_limits<double>::infinity());
         double before = 0.;
         for (const double eps : { 1., 1e-2, 1e-4 })
         {
-          const double now = fold_energy(diagonal(1., 1., least), eps);
+          const double now = fold_energy(diagonal(1., 1., minimum), eps);
           EXPECT_TRUE(std::isfinite(now));
           EXPECT_GT(now, 10. * before);
           before = std::max(now, 0.1);
@@ -98,13 +98,13 @@ namespace Exemplar::Testing
         {
           const FoldModes       modes = fold_modes(F, eps);
           const Matrix3<double> M = random_matrix(generator), expected = product(modes, M);
-          const double          h        = 1e-5 * eps;
-          const Matrix3<double> change   = combine(0.5 / h, fold_stress(combine(1., F, h, M), eps),
-                                                   -0.5 / h, fold_stress(combine(1., F, -h, M), eps));
-          double                greatest = 1.;
+          const double          h       = 1e-5 * eps;
+          const Matrix3<double> change  = combine(0.5 / h, fold_stress(combine(1., F, h, M), eps),
+                                                  -0.5 / h, fold_stress(combine(1., F, -h, M), eps));
+          double                maximum = 1.;
           for (const double stiffness : modes.stiffness)
-            greatest = std::max(greatest, std::abs(stiffness));
-          EXPECT_LT(max_difference(change, expected), 1e-6 * greatest * size(M)) << eps;
+            maximum = std::max(maximum, std::abs(stiffness));
+          EXPECT_LT(max_difference(change, expected), 1e-6 * maximum * size(M)) << eps;
         }
     }
 

@@ -85,11 +85,11 @@ namespace Exemplar::Testing
       const double              h        = 1e-6;
       const auto                after    = potential.gradient(moved(h), 0.),
                  before                  = potential.gradient(moved(-h), 0.);
-      double greatest                    = 0.;
+      double maximum                     = 0.;
       for (const double entry : expected)
-        greatest = std::max(greatest, std::abs(entry));
+        maximum = std::max(maximum, std::abs(entry));
       for (std::size_t k = 0; k < direction.size(); ++k)
-        EXPECT_NEAR((after[k] - before[k]) / (2. * h), expected[k], 1e-6 * greatest);
+        EXPECT_NEAR((after[k] - before[k]) / (2. * h), expected[k], 1e-6 * maximum);
     }
 
     TEST_F(FoldPotentialTest, MatrixIsPositiveWhereCellsAreInverted)

@@ -18,8 +18,8 @@ namespace Exemplar::Testing
                          const std::vector<std::array<unsigned int, 3>> &triangles,
                          const dealii::Point<3>                         &x)
     {
-      double    least = 1e300;
-      const int n     = 60;
+      double    minimum = 1e300;
+      const int n       = 60;
       for (const auto &triangle : triangles)
         for (int i = 0; i <= n; ++i)
           for (int j = 0; i + j <= n; ++j)
@@ -28,9 +28,9 @@ namespace Exemplar::Testing
                 = vertices[triangle[0]]
                   + double(i) / n * (vertices[triangle[1]] - vertices[triangle[0]])
                   + double(j) / n * (vertices[triangle[2]] - vertices[triangle[0]]);
-            least = std::min(least, p.distance(x));
+            minimum = std::min(minimum, p.distance(x));
           }
-      return least;
+      return minimum;
     }
 
     TEST(ClosestPoints, AgreeWithSampling)

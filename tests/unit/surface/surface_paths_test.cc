@@ -53,7 +53,7 @@ namespace Exemplar::Testing
     /// gives them.
     template <typename Exact>
     double
-    greatest_error(const TriangleSurface &surface, const unsigned int n, const Exact &exact)
+    max_error(const TriangleSurface &surface, const unsigned int n, const Exact &exact)
     {
       const SurfacePaths paths(surface, { 0 }, no_limit);
       double             error = 0.;
@@ -74,8 +74,8 @@ namespace Exemplar::Testing
                                        [](const double u, const double v) {
                                  return SurfaceMesh::Vertex{ { u, v, 0. } };
                                });
-      const double       error = greatest_error(
-                plane, n, [](const double u, const double v) { return std::hypot(u, v); });
+      const double       error
+          = max_error(plane, n, [](const double u, const double v) { return std::hypot(u, v); });
       EXPECT_LT(error, 0.01);
       RecordProperty("error", std::to_string(error));
     }
@@ -88,9 +88,8 @@ namespace Exemplar::Testing
                   [](const double u, const double v) {
                     return SurfaceMesh::Vertex{ { std::cos(3. * u), std::sin(3. * u), v } };
                   });
-      EXPECT_LT(greatest_error(cylinder, n,
-                               [](const double u, const double v)
-                               { return std::hypot(3. * u, v); }),
+      EXPECT_LT(max_error(cylinder, n,
+                          [](const double u, const double v) { return std::hypot(3. * u, v); }),
                 0.03); // triangles three times as long as wide
     }
 

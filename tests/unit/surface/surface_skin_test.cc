@@ -47,7 +47,7 @@ namespace Exemplar::Testing
     }
 
     double
-    greatest_error(const Mesh &bar, const SurfaceMesh &surface, const Map &map)
+    max_error(const Mesh &bar, const SurfaceMesh &surface, const Map &map)
     {
       const auto carried = SurfaceSkin(surface, bar, "skin").carry(displacement_by(bar, map));
       double     error   = 0.;
@@ -78,20 +78,20 @@ namespace Exemplar::Testing
       for (const unsigned int n_across : { 2u, 3u })
       {
         const Mesh bar = small_bar(n_across);
-        EXPECT_LT(greatest_error(bar, points_around(bar, .1), quadratic), 1e-8);
+        EXPECT_LT(max_error(bar, points_around(bar, .1), quadratic), 1e-8);
       }
     }
 
     TEST(SurfaceSkin, CarriesLinearMotionsExactlyByMeshesThatDoNotTellSquares)
     {
       const Mesh bar = small_bar(1);
-      EXPECT_LT(greatest_error(bar, points_around(bar, .3), linear), 1e-8);
+      EXPECT_LT(max_error(bar, points_around(bar, .3), linear), 1e-8);
       const Mesh  one(make_msh({ { 0., 0., 0. }, { 1., 0., 0. }, { 0., 1., 0. }, { 0., 0., 1. } },
                                { { { 0, 1, 2, 3 } } }),
                       "one");
       SurfaceMesh surface;
       surface.vertices = { { { .1, .1, .1 } }, { { 1., 0., 0. } }, { { -.1, .3, .3 } } };
-      EXPECT_LT(greatest_error(one, surface, linear), 1e-12);
+      EXPECT_LT(max_error(one, surface, linear), 1e-12);
     }
 
     TEST(SurfaceSkin, AThinPlateCarriesAsAThickOne)
@@ -104,7 +104,7 @@ namespace Exemplar::Testing
       SurfaceMesh surface = points_around(plate, .1);
       for (auto &vertex : surface.vertices)
         vertex[2] *= 1e-5;
-      EXPECT_LT(greatest_error(plate, surface, linear), 1e-8);
+      EXPECT_LT(max_error(plate, surface, linear), 1e-8);
     }
 
     TEST(SurfaceSkin, AtRestVerticesStayToTheLastBitInTheUnitOfTheFile)
@@ -192,17 +192,17 @@ namespace Exemplar::Testing
       static std::pair<double, double>
       measure(const std::vector<SurfaceMesh::Vertex> &x)
       {
-        double greatest = 0., sum = 0.;
+        double maximum = 0., sum = 0.;
         for (std::size_t v = 0; v < x.size(); v += 4)
         {
           const SpaceVector along = minus(x[v + 1], x[v]);
           const SpaceVector n     = cross(along, minus(x[v + 2], x[v])),
                             m     = cross(minus(x[v + 3], x[v]), along);
           const double angle      = std::atan2(norm(cross(n, m)), dot(n, m));
-          greatest                = std::max(greatest, angle);
+          maximum                 = std::max(maximum, angle);
           sum += angle;
         }
-        return { greatest * 180. / M_PI, 4. * sum / x.size() * 180. / M_PI };
+        return { maximum * 180. / M_PI, 4. * sum / x.size() * 180. / M_PI };
       }
 
     private:

@@ -10,6 +10,7 @@
 
 namespace Exemplar
 {
+  /// Which byte of a number comes first in a file.
   enum class ByteOrder
   {
     little,

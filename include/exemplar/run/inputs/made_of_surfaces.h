@@ -10,14 +10,15 @@ namespace Exemplar
   /// What of a scene's inputs was made of surfaces, for the user to judge.
   struct MadeOfSurfaces
   {
+    /// A pose that was carried onto the mesh, and how well.
     struct Pose
     {
       std::string file;
       PoseQuality quality;
     };
 
-    MeshingReport     mesh; ///< empty if the mesh was not made of one
-    std::vector<Pose> poses;
+    MeshingReport            mesh; ///< empty if the mesh was not made of one
+    std::vector<Pose>        poses;
     std::vector<std::string> warnings; ///< of the making
   };
 

@@ -27,7 +27,7 @@ namespace Exemplar
     unsigned int iterations     = 0;
     unsigned int factorizations = 0;
     double       worst_residual = 0.;
-    PartSeconds  seconds{};
+    PhaseSeconds seconds{};
 
     // by these a state is known as one of this run
     std::string            first_scene; ///< digest_of() the scene with which the run began

@@ -66,7 +66,7 @@ namespace Exemplar
 
     /// The seconds of a step by part; without values in the row of the initial state.
     static void
-    append_seconds(StatisticsRow &row, const std::optional<PartSeconds> &seconds);
+    append_seconds(StatisticsRow &row, const std::optional<PhaseSeconds> &seconds);
 
   private:
     void

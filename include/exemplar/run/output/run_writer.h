@@ -102,7 +102,7 @@ namespace Exemplar
 
     /// Write a row of statistics.csv; of a failed step it is of no state.
     void
-    write_row(StatisticsRow row, const std::optional<PartSeconds> &seconds, bool is_of_state);
+    write_row(StatisticsRow row, const std::optional<PhaseSeconds> &seconds, bool is_of_state);
 
     void
     save();
@@ -141,7 +141,7 @@ namespace Exemplar
     end_reading();
 
     /// Seconds by part since the last call.
-    PartSeconds
+    PhaseSeconds
     lap();
 
     Problem                                 &problem;
@@ -154,7 +154,7 @@ namespace Exemplar
     RunTotals                                totals;
     std::uintmax_t accepted_bytes = 0; ///< of statistics.csv, without the row of a failed step
     unsigned int   earlier_factorizations = 0; ///< before a resume
-    PartSeconds    last_lap{};
+    PhaseSeconds   last_lap{};
     std::chrono::steady_clock::time_point last_checkpoint;
     FrameOutput                           frames;
     SpaceErrorEstimator                   estimator;

@@ -17,7 +17,7 @@ namespace Exemplar
   initial_state(const InitialParameters &parameters,
                 const Mesh              &mesh,
                 const FESpace           &fe_space,
-                const ExampleWeights    *weights,
+                const ExampleWeights    &weights,
                 bool                     dynamic,
                 const NamedPoses        &poses = {});
 } // namespace Exemplar

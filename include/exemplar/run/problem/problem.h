@@ -21,7 +21,7 @@ namespace Exemplar
     /// `inputs` are what read_inputs() gives, or arrays that a program hands in: then the scene
     /// needs no file. `clock` may run since the inputs are read. Throws UserError for whatever
     /// is no valid scene; writes nothing.
-    Problem(SceneParameters scene, Inputs inputs, StepClock clock = StepClock(Part::read));
+    Problem(SceneParameters scene, Inputs inputs, StepClock clock = StepClock(Phase::read));
 
     /// Solve the next step from `state`, which is replaced if the solve succeeds.
     SolveReport
@@ -31,6 +31,12 @@ namespace Exemplar
     /// no handle has this name.
     void
     set_motion(const std::string &handle, Motion motion);
+
+    /// Between steps, let `change` change which nodes handles hold: hold(), let_go(), grab(). A
+    /// degree of freedom that is let go keeps its velocity. Throws UserError, with nothing changed, for interpolations, and for what Constraints::change_handles() refuses.
+    /// All processes must call this.
+    void
+    change_handles(const std::function<void(Handles &)> &change);
 
     /// Go on from a state of an earlier run.
     void
@@ -59,7 +65,7 @@ namespace Exemplar
     const TimeAxis                           time_axis;
     const Body                               body;
     const std::shared_ptr<const SurfaceMesh> surface; ///< of the body; null unless it is needed
-    const Constraints                        constraints;
+    Constraints                              constraints;
     const Examples                           examples;
     const Actions                            actions;
     IncrementalPotential                     potential;

@@ -13,6 +13,7 @@
 #include <exemplar/run/inputs/surface_readings.h>
 #include <exemplar/run/scene/scene_parameters.h>
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -64,6 +65,14 @@ namespace Exemplar
     void
     check(const SceneParameters &parameters, const Body &body) const;
 
+    /// Let `change` change which nodes handles hold. Throws UserError, with nothing changed, for what
+    /// would hold everything or, in statics, leave the body free to move rigidly. All processes must
+    /// call this.
+    void
+    change_handles(const std::function<void(Handles &)> &change,
+                   const SceneParameters                &parameters,
+                   const Body                           &body);
+
     /// A warning of each handle of one node, and how to enlarge it. All processes must call this.
     std::vector<std::string>
     describe_single_nodes(const Body &body) const;
@@ -73,12 +82,18 @@ namespace Exemplar
     std::vector<std::string>
     describe_pulled_nodes(const SceneParameters &parameters, const Body &body) const;
 
-    const std::unique_ptr<Handles>                    handles;
+    Handles                                           handles;
     const std::optional<StaticallyDeterminateSupport> support; ///< of an interpolation
-    const FreeDofs                                    free_dofs;
+    FreeDofs                                          free_dofs;
+
+  private:
+    void
+    check_rigid_motions(const SceneParameters           &parameters,
+                        const Body                      &body,
+                        const std::vector<unsigned int> &held) const;
   };
 
-  /// The example poses and the rule of their weights.
+  /// The example poses and the rule of their weights; both empty in a scene without examples.
   struct Examples
   {
     Examples(const SceneParameters &parameters,
@@ -86,8 +101,8 @@ namespace Exemplar
              const TimeAxis        &axis,
              const Inputs          &inputs);
 
-    const std::unique_ptr<ExamplePoses>   poses;
-    const std::unique_ptr<ExampleWeights> weights;
+    const ExamplePoses   poses;
+    const ExampleWeights weights;
   };
 
   /// The terms of Psi, Eq. (5), beside the cells' own energies.

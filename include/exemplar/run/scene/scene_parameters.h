@@ -19,6 +19,7 @@
 
 namespace Exemplar
 {
+  /// What is to be solved.
   enum class SceneKind
   {
     interpolation,

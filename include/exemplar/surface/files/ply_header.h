@@ -10,6 +10,7 @@ namespace Exemplar
 {
   class SurfaceScanner;
 
+  /// A type of numbers in a .ply file.
   enum class PlyType
   {
     int8,
@@ -22,6 +23,7 @@ namespace Exemplar
     float64
   };
 
+  /// A number, or a list of numbers, that each element of a kind has.
   struct PlyProperty
   {
     std::string            name;
@@ -29,6 +31,7 @@ namespace Exemplar
     std::optional<PlyType> count; ///< of a list: the type of its length
   };
 
+  /// A kind of elements, vertices for instance, and how many there are.
   struct PlyElement
   {
     std::string              name;

@@ -18,10 +18,11 @@ namespace Exemplar
     /// det F of a cell that counts as not inverted is greater.
     static constexpr double margin = 1e-3;
 
+    /// Where the nodes are, and how they came there.
     struct Result
     {
       Points       x;               ///< [m]
-      double       least_det  = 1.; ///< of F over the cells
+      double       min_det    = 1.; ///< of F over the cells
       unsigned int iterations = 0;  ///< of Newton's method
       unsigned int releases   = 0;  ///< how often springs were softened
     };
@@ -33,7 +34,7 @@ namespace Exemplar
     /// regularised energies to one that is infinite for inverted cells. Springs around cells that
     /// stay inverted are softened, in the potential, and the search goes on. If that does not help
     /// either, from `rest`, the nodes at rest, and never through an inverted cell. There remain
-    /// inverted cells only if Result::least_det is not greater than the margin.
+    /// inverted cells only if Result::min_det is not greater than the margin.
     Result
     solve(const Points &rest);
 
@@ -41,9 +42,9 @@ namespace Exemplar
     Points
     nearest_rotations() const;
     void
-    untangle(Result &result, double eps, double least_share, std::size_t n_left);
+    untangle(Result &result, double eps, double min_share, std::size_t n_left);
     void
-    untangle_patches(Result &result, const Points &rest);
+    untangle_neighbourhoods(Result &result, const Points &rest);
     void
     settle(Result &result);
     double

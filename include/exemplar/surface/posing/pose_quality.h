@@ -8,9 +8,9 @@ namespace Exemplar
   struct PoseQuality
   {
     unsigned int n_inverted = 0;
-    double       least_det = 0., greatest_det = 0.;
-    double       least_stretch = 0., stretch_1 = 0., stretch_99 = 0., greatest_stretch = 0.;
-    double       mean_error = 0., greatest_error = 0.; ///< over the diagonal, see PoseTransfer
+    double       min_det = 0., max_det = 0.;
+    double       min_stretch = 0., stretch_1 = 0., stretch_99 = 0., max_stretch = 0.;
+    double       mean_error = 0., max_error = 0.; ///< over the diagonal, see PoseTransfer
     double       rotation   = 0.; ///< of the rigid motion that was stripped [degrees]
     double       shift      = 0.; ///< of the body's boundary [m]
     unsigned int iterations = 0, releases = 0;

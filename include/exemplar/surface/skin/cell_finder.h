@@ -22,6 +22,7 @@ namespace Exemplar
 
     ~CellFinder();
 
+    /// A cell, and where in it a point lies.
     struct Place
     {
       unsigned int          cell;

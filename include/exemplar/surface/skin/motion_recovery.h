@@ -20,6 +20,7 @@ namespace Exemplar
     void
     add(unsigned int node, double coefficient);
 
+    /// A summand: the coefficient of a node.
     struct Share
     {
       unsigned int node;
@@ -69,13 +70,13 @@ namespace Exemplar
     /// the node.
     struct Fit
     {
-      dealii::Tensor<2, 3>                         to_patch; ///< in which the patch is round
-      std::vector<unsigned int>                    neighbours;
+      dealii::Tensor<2, 3>      to_round; ///< in which the neighbourhood is round
+      std::vector<unsigned int> neighbours;
       std::vector<std::array<double, n_monomials>> coefficients;
     };
 
     static Fit
-    make_fit(unsigned int node, const std::vector<unsigned int> &patch, const Mesh &mesh);
+    make_fit(unsigned int node, const std::vector<unsigned int> &neighbourhood, const Mesh &mesh);
 
     /// Take rounding out of what a fit gives for linear motions.
     static void

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/surface/posing/fold_patch.h>
+#include <exemplar/surface/posing/fold_neighbourhood.h>
 
 #include <algorithm>
 #include <cmath>
@@ -27,8 +27,8 @@ namespace Exemplar
     return marked;
   }
 
-  FoldPatch::Numbering
-  FoldPatch::number(const FoldPotential::Cells &cells, const std::vector<char> &free)
+  FoldNeighbourhood::Numbering
+  FoldNeighbourhood::number(const FoldPotential::Cells &cells, const std::vector<char> &free)
   {
     Numbering result{ std::vector<int>(free.size(), -1), {}, {} };
     for (const auto &cell : cells)
@@ -52,8 +52,8 @@ namespace Exemplar
     return result;
   }
 
-  FoldPatch::Points
-  FoldPatch::selected(const Points &points, const std::vector<unsigned int> &which)
+  FoldNeighbourhood::Points
+  FoldNeighbourhood::selected(const Points &points, const std::vector<unsigned int> &which)
   {
     Points result;
     for (const unsigned int i : which)
@@ -61,16 +61,16 @@ namespace Exemplar
     return result;
   }
 
-  FoldPatch::FoldPatch(const FoldPotential &whole,
-                       const Points        &rest,
-                       const Points        &x,
-                       std::vector<char>    marked,
-                       const unsigned int   n_rings)
+  FoldNeighbourhood::FoldNeighbourhood(const FoldPotential &whole,
+                                       const Points        &rest,
+                                       const Points        &x,
+                                       std::vector<char>    marked,
+                                       const unsigned int   n_rings)
       : free(grown(whole.get_cells(), std::move(marked), n_rings - 1)),
         numbering(number(whole.get_cells(), free)), start(selected(x, numbering.nodes)),
         potential(selected(rest, numbering.nodes), numbering.cells)
   {
-    // energies are means over the patch
+    // energies are means over the neighbourhood
     const double share = whole.get_volume() / potential.get_volume();
     const double held  = holding / std::pow(potential.get_volume(), 2. / 3.);
     for (std::size_t k = 0; k < start.size(); ++k)
@@ -83,10 +83,10 @@ namespace Exemplar
   }
 
   void
-  FoldPatch::copy_back(const Points &of_patch, Points &x) const
+  FoldNeighbourhood::copy_back(const Points &of_neighbourhood, Points &x) const
   {
-    for (std::size_t k = 0; k < of_patch.size(); ++k)
+    for (std::size_t k = 0; k < of_neighbourhood.size(); ++k)
       if (free[numbering.nodes[k]] != 0)
-        x[numbering.nodes[k]] = of_patch[k];
+        x[numbering.nodes[k]] = of_neighbourhood[k];
   }
 } // namespace Exemplar

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef exemplar_fold_patch_h
-#define exemplar_fold_patch_h
+#ifndef exemplar_fold_neighbourhood_h
+#define exemplar_fold_neighbourhood_h
 
 #include <exemplar/surface/posing/fold_potential.h>
 
@@ -8,18 +8,18 @@ namespace Exemplar
 {
   /// The surroundings of some cells of a body as a body of their own, which is small where these
   /// cells are few. What lies around is held where it is.
-  class FoldPatch
+  class FoldNeighbourhood
   {
   public:
     using Points = FoldPotential::Points;
 
     /// Around the nodes that are marked, as many rings of cells as `n_rings`, at least one. `rest`
     /// and `x` are the nodes of the whole body at rest and now.
-    FoldPatch(const FoldPotential &whole,
-              const Points        &rest,
-              const Points        &x,
-              std::vector<char>    marked,
-              unsigned int         n_rings);
+    FoldNeighbourhood(const FoldPotential &whole,
+                      const Points        &rest,
+                      const Points        &x,
+                      std::vector<char>    marked,
+                      unsigned int         n_rings);
 
     FoldPotential &
     get_potential()
@@ -27,19 +27,19 @@ namespace Exemplar
       return potential;
     }
 
-    /// Of the nodes of the patch.
+    /// Of the nodes of the neighbourhood.
     const Points &
     get_start() const
     {
       return start;
     }
 
-    /// Write places of the patch's nodes to those of the whole body.
+    /// Write places of the neighbourhood's nodes to those of the whole body.
     void
-    copy_back(const Points &of_patch, Points &x) const;
+    copy_back(const Points &of_neighbourhood, Points &x) const;
 
   private:
-    /// Number in the patch of each node of the body, or -1; nodes and cells of the patch.
+    /// Number in the neighbourhood of each node of the body, or -1; nodes and cells of the neighbourhood.
     struct Numbering
     {
       std::vector<int>          number;

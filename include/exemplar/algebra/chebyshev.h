@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_chebyshev_h
+#define exemplar_chebyshev_h
+
+namespace Exemplar
+{
+  /// The factors of Chebyshev's iteration for eigenvalues between two numbers: a step is `keep`
+  /// times the last and `take` times the preconditioned residual.
+  class ChebyshevFactors
+  {
+  public:
+    ChebyshevFactors(const double least, const double greatest)
+        : center(0.5 * (greatest + least)), radius(0.5 * (greatest - least)), rho(radius / center),
+          take(1. / center)
+    {
+    }
+
+    void
+    advance()
+    {
+      const double next = 1. / (2. * center / radius - rho);
+      keep              = next * rho;
+      take              = 2. * next / radius;
+      rho               = next;
+    }
+
+  private:
+    double center, radius, rho;
+
+  public:
+    double keep = 0., take;
+  };
+} // namespace Exemplar
+
+#endif

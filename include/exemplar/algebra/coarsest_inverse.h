@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_coarsest_inverse_h
+#define exemplar_coarsest_inverse_h
+
+#include <exemplar/algebra/block_matrix.h>
+
+#include <vector>
+
+namespace Exemplar
+{
+  /// The inverse of the matrix of the coarsest level of multigrid as a dense matrix in single
+  /// precision, of which a process has its rows. What rows that depend on others would determine
+  /// is zero.
+  class CoarsestInverse
+  {
+  public:
+    /// `exchange` must outlive this. All processes must call this and solve().
+    CoarsestInverse(const BlockMatrix &matrix, const Exchange &exchange);
+
+    void
+    solve(const BlockVector &right_side, BlockVector &solution) const;
+
+    /// In bytes.
+    std::size_t
+    memory_consumption() const
+    {
+      return sizeof(float) * inverse.capacity();
+    }
+
+  private:
+    const Exchange          &exchange;
+    std::vector<std::size_t> firsts; ///< first_numbers() of the rows
+    std::vector<float>       inverse;
+  };
+} // namespace Exemplar
+
+#endif
