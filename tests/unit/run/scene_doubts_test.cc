@@ -60,7 +60,9 @@ namespace Exemplar::Testing
         if (part.is_there == are_there)
           names.insert(part.name);
         if (part.bytes && part.is_there)
+        {
           EXPECT_EQ(*part.bytes > 0, *part.is_there) << part.name;
+        }
       }
       return names;
     }

@@ -64,7 +64,9 @@ namespace Exemplar::Testing
       scene.problem.constraints.handles.move(h, held);
       for (unsigned int dof = 0; dof < held.size(); ++dof)
         if (free_dofs.free_index(dof) == FreeDofs::held)
+        {
           EXPECT_EQ(predicted[dof], held[dof]);
+        }
       EXPECT_GT(max_difference(held, state.positions), 0.05); // 0.6 t of the right end
     }
 

@@ -51,7 +51,7 @@ namespace Exemplar::Testing
     INSTANTIATE_TEST_SUITE_P(,
                              SolverMemoryTest,
                              testing::ValuesIn(cases()),
-                             [](const auto &info) { return info.param.name; });
+                             [](const auto &instance) { return instance.param.name; });
 
     TEST_P(SolverMemoryTest, AResumedProblemGoesOnInTheSameBytes)
     {

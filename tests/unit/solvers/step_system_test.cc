@@ -76,7 +76,9 @@ namespace Exemplar::Testing
       EXPECT_NEAR(change / 2e-5, slope, 1e-5 * std::abs(slope));
       for (unsigned int dof = 0; dof < way.size(); ++dof)
         if (p.constraints.free_dofs.free_index(dof) == FreeDofs::held)
+        {
           EXPECT_EQ(way[dof], 0.);
+        }
     }
 
     TEST(StepSystem, StepsOfABodyThatNothingHoldsDoNotTurnIt)
