@@ -77,7 +77,8 @@ namespace Exemplar
                              const Patches                          *patches,
                              const NamedPoses                       &poses,
                              const std::vector<std::vector<double>> &painted)
-      : fe_space(fe_space), eta(parameters.importance), laws(laws),
+      : fe_space(fe_space),
+        laws(laws), example_constants{ ExampleConstants().guard_bound, parameters.importance },
         regions(make_regions(parameters, mesh, fe_space, painted)),
         first_strained(parameters.include_rest_pose ? 1 : 0)
   {
@@ -131,6 +132,7 @@ namespace Exemplar
   {
     strains.resize(batched_size(fe_space.n_points(), 6 * n_strained()), 0.);
     strain_norms.assign(n_weights(), 0.);
+    double &p_0 = example_constants.guard_bound;
     for (unsigned int point = 0; point < fe_space.n_points(); ++point)
     {
       const CellLaw law = laws[fe_space.cell_of(point)];
@@ -138,7 +140,7 @@ namespace Exemplar
       {
         const Matrix3<double> F = fe_space.deformation_gradient(point, positions[i]);
         const Matrix3<double> E = model_strain(law, model_rotation(law, F), F);
-        add_to_stored(strains.data(), point, n_strained(), i - first_strained, eta, E);
+        add_to_stored(strains.data(), point, n_strained(), i - first_strained, importance(), E);
         if (traits_of(law).has_guard)
           p_0 = min_or_nan(p_0, 0.5 * guard_product(E));
       }
@@ -182,8 +184,11 @@ namespace Exemplar
           point,
           [&](const unsigned int v, const unsigned int i, const double share_v)
           {
-            const Matrix3<double> T
-                = stress(cell_material.elasticity(fe_space.cell_of(point)), strain(point, i));
+            const unsigned int    cell = fe_space.cell_of(point);
+            const Matrix3<double> T    = model_stress(
+                   laws[cell],
+                   [&](const std::size_t k) { return cell_material.number(laws[cell], cell, k); },
+                   strain(point, i));
             for_each_weight(point,
                             [&](const unsigned int w, const unsigned int j, const double share_w) {
                               gram(v, w) += fe_space.volume(point) * share_v * share_w

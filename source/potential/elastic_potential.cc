@@ -76,7 +76,7 @@ namespace Exemplar
                                      const SymmetricPattern &pattern)
       : parts(parts), pattern(pattern),
         cells(parts.laws,
-              parts.examples == nullptr ? default_guard_bound : parts.examples->guard_bound(),
+              parts.examples == nullptr ? ExampleConstants() : parts.examples->constants(),
               parts.fe_space,
               parts.cell_material,
               parts.n_threads),

@@ -226,7 +226,7 @@ namespace Exemplar::Loops
     {
       const Number          s    = load(task.damping.factors, group, 1, 0);
       const Matrix3<Number> past = load_strain(task.damping.strains, group, 1, 0);
-      sums.damping += s * tet.volume * cell.energy(past);
+      sums.damping += s * tet.volume * cell.damping_density(past);
       scale += s * (cell.elastic_scale() + cell.scale_of(past));
       D = cell.damp(has_examples ? D : Matrix3<Number>{}, s, past);
     }
