@@ -338,8 +338,9 @@ namespace Exemplar
       correct_with_same_factor(trial.state, evaluation);
     here.factor = system.n_factorizations();
     // statics predict with the factor, if it is that of the exact tangent
-    const bool is_used_again = potential.inertial_positions() == nullptr && report.convexity == 0.;
-    trial.linearization      = is_used_again ? std::move(here) : Linearization();
+    const bool is_used_again = potential.inertial_positions() == nullptr && report.convexity == 0.
+                               && !potential.remembers();
+    trial.linearization = is_used_again ? std::move(here) : Linearization();
   }
 
   void

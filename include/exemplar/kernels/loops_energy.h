@@ -217,7 +217,14 @@ namespace Exemplar::Loops
     }
     else
     {
-      sums.energy += elastic;
+      // what a law remembers costs energy that is no longer elastic, and acts like a target
+      if constexpr (Cell::traits.n_history > 0)
+      {
+        sums.energy += tet.volume * cell.energy(Matrix3<Number>{});
+        sums.guarded.add(group, is_real & cell.is_guarded());
+      }
+      else
+        sums.energy += elastic;
       if (task.damping.factors == nullptr)
         P = cell.elastic_force();
     }

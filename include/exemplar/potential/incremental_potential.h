@@ -116,12 +116,20 @@ namespace Exemplar
       return in_dynamic_step ? &integrator->predicted_positions() : nullptr;
     }
 
+    /// Whether some law remembers what steps have done: then energies and tangents at the same
+    /// positions are others in the next step.
+    bool
+    remembers() const
+    {
+      return cells.get_field().get_batches().remembers();
+    }
+
     /// Whether the cells' forces at the same positions differ from step to step: with prescribed
-    /// weights and with stiffness damping.
+    /// weights, with stiffness damping, and where laws remember.
     bool
     changes_between_steps() const
     {
-      return (weights != nullptr && !weights->are_unknown())
+      return remembers() || (weights != nullptr && !weights->are_unknown())
              || (in_dynamic_step && integrator->stiffness_damping_factor() > 0.);
     }
 
