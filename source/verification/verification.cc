@@ -197,6 +197,6 @@ namespace Exemplar
     if (!processes.is_root())
       return;
     for (const Verification::Case &one : Verification::all_cases(processes.n_processes))
-      std::cout << std::left << std::setw(32) << one.name << one.description << '\n';
+      std::cout << std::left << std::setw(31) << one.name << ' ' << one.description << '\n';
   }
 } // namespace Exemplar
