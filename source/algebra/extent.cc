@@ -17,7 +17,7 @@ namespace Exemplar
         min = std::min(min, positions[dof]);
         max = std::max(max, positions[dof]);
       }
-      greatest = std::max(greatest, exchange.max(max) - exchange.min(min));
+      greatest = std::max(greatest, exchange.max(max) - min_of_all(exchange, min));
     }
     return greatest;
   }

@@ -102,7 +102,7 @@ namespace Exemplar
   MpiExchange::first_text(std::string own) const
   {
     const double none  = n_processes();
-    const double first = min(own.empty() ? none : own_process);
+    const double first = min_of_all(*this, own.empty() ? none : own_process);
     if (first == none)
       return {};
     return dealii::Utilities::MPI::broadcast(mpi_communicator, own,

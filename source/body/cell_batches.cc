@@ -8,11 +8,11 @@
 
 namespace Exemplar
 {
-  CellBatches::CellBatches(const FESpace  &fe_space,
-                           const Material &material,
-                           LawsOfCells     laws_of_cells,
-                           const double    guard_bound)
-      : fe_space(fe_space), laws(std::move(laws_of_cells)), guard_bound(guard_bound),
+  CellBatches::CellBatches(const FESpace          &fe_space,
+                           const Material         &material,
+                           LawsOfCells             laws_of_cells,
+                           const ExampleConstants &examples)
+      : fe_space(fe_space), laws(std::move(laws_of_cells)), examples(examples),
         n_points(fe_space.n_points()), n_nodes(nodes_per_cell(fe_space.element())),
         nodes(batched_size(n_points, n_nodes)), gradients(batched_size(n_points, 3 * n_nodes - 3)),
         volumes(batched_size(n_points, 1)), rotations(batched_size(n_points, 9))
@@ -72,7 +72,7 @@ namespace Exemplar
     OfLaw &first = of_laws.front();
     return { n_points,         nodes.data(), gradients.data(),       volumes.data(),
              rotations.data(), first.law,    first.constants.data(), first.history.data(),
-             guard_bound };
+             examples };
   }
 
   std::size_t

@@ -141,7 +141,9 @@ namespace Exemplar
                              const Patches                          *patches,
                              const NamedPoses                       &named_poses,
                              const std::vector<std::vector<double>> &painted)
-      : fe_space(fe_space), eta(parameters.importance), laws(laws),
+      : fe_space(fe_space),
+        laws(laws), example_constants{ ExampleConstants().guard_bound,
+                                       parameters.in_use() ? parameters.importance : 0. },
         regions(make_regions(parameters, mesh, fe_space, painted)),
         poses(make_poses(parameters, mesh, fe_space, named_poses)),
         first_strained(parameters.in_use() && parameters.include_rest_pose ? 1 : 0),
@@ -160,6 +162,7 @@ namespace Exemplar
   {
     strains.resize(batched_size(fe_space.n_points(), 6 * n_strained()), 0.);
     strain_norms.assign(n_weights(), 0.);
+    double &p_0 = example_constants.guard_bound;
     for (unsigned int point = 0; point < fe_space.n_points(); ++point)
     {
       const CellLaw law = laws[fe_space.cell_of(point)];
@@ -167,7 +170,7 @@ namespace Exemplar
       {
         const Matrix3<double> F = fe_space.deformation_gradient(point, poses[i].positions);
         const Matrix3<double> E = model_strain(law, model_rotation(law, F), F);
-        add_to_stored(strains.data(), point, n_strained(), i - first_strained, eta, E);
+        add_to_stored(strains.data(), point, n_strained(), i - first_strained, importance(), E);
         if (traits_of(law).has_guard)
           p_0 = min_or_nan(p_0, 0.5 * guard_product(E));
       }
@@ -180,7 +183,7 @@ namespace Exemplar
                       });
     }
     fe_space.exchange().sum(strain_norms);
-    p_0 = fe_space.exchange().min(p_0);
+    p_0 = min_of_all(fe_space.exchange(), p_0);
     for (double &norm : strain_norms)
       norm = std::sqrt(norm);
     if (!std::isfinite(max_entry(strain_norms)) || !std::isfinite(p_0))
@@ -211,8 +214,11 @@ namespace Exemplar
           point,
           [&](const unsigned int v, const unsigned int i, const double share_v)
           {
-            const Matrix3<double> T
-                = stress(cell_material.elasticity(fe_space.cell_of(point)), strain(point, i));
+            const unsigned int    cell = fe_space.cell_of(point);
+            const Matrix3<double> T    = model_stress(
+                   laws[cell],
+                   [&](const std::size_t k) { return cell_material.number(laws[cell], cell, k); },
+                   strain(point, i));
             for_each_weight(point,
                             [&](const unsigned int w, const unsigned int j, const double share_w) {
                               gram(v, w) += fe_space.volume(point) * share_v * share_w

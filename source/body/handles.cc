@@ -44,6 +44,13 @@ namespace Exemplar
       return chosen;
     }
 
+    /// Of a handle that overlaps with others.
+    std::string
+    remedy_of_all(const std::string &handle)
+    {
+      return ". Handles/" + handle + "/Select selects all nodes of the body: make it smaller.";
+    }
+
     /// The displacements that a program's function has given for `n_points`.
     std::vector<dealii::Tensor<1, 3>>
     checked(std::vector<dealii::Tensor<1, 3>> displacements,
@@ -76,7 +83,7 @@ namespace Exemplar
     {
       handles.push_back(make_handle(p, poses, nodes));
       if (const auto given = motions.find(p.name); given != motions.end())
-        handles.back().function = at_middles_too(given->second, handles.back().nodes);
+        handles.back().function = at_middles_too(given->second, handles.back().nodes, fe_space);
     }
     dealii::Vector<double> anywhere(fe_space.n_dofs());
     move(axis.time(0), anywhere); // are the formulas finite?
@@ -107,75 +114,11 @@ namespace Exemplar
     {
       const auto pose = fe_space.numbering().complete(
           mesh.find_pose(poses, p.follow_pose, key + "/Follow pose"), key + "/Follow pose");
-      handle.path.emplace(whole_handle(handle.nodes, rest_positions(handle)),
-                          whole_handle(handle.nodes, choose(pose, handle.nodes)));
-      handle.places_in_path = places_in_whole(handle.nodes);
+      handle.path.emplace(whole_handle(handle.nodes, rest_positions(handle), fe_space),
+                          whole_handle(handle.nodes, choose(pose, handle.nodes), fe_space));
+      handle.places_in_path = places_in_whole(handle.nodes, fe_space);
     }
     return handle;
-  }
-
-  Motion
-  Handles::at_middles_too(const Motion &motion, const std::vector<unsigned int> &nodes) const
-  {
-    const auto position = [&](const unsigned int node)
-    { return std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin(); };
-    const auto n_vertices = static_cast<std::size_t>(position(mesh.n_nodes()));
-
-    std::vector<std::array<std::size_t, 2>> ends; // of the edges, among the nodes
-    for (std::size_t i = n_vertices; i < nodes.size(); ++i)
-    {
-      const auto &[a, b] = fe_space.numbering().ends(nodes[i]);
-      ends.push_back(
-          { { static_cast<std::size_t>(position(a)), static_cast<std::size_t>(position(b)) } });
-    }
-    return [=](const std::vector<dealii::Point<3>> &rest, const double time)
-    {
-      const auto                        end    = rest.begin() + std::ptrdiff_t(n_vertices);
-      std::vector<dealii::Tensor<1, 3>> result = motion({ rest.begin(), end }, time);
-      for (const auto &[a, b] : ends)
-        result.push_back(0.5 * (result.at(a) + result.at(b)));
-      return result;
-    };
-  }
-
-  std::vector<double>
-  Handles::whole_mask(const std::vector<unsigned int> &nodes) const
-  {
-    std::vector<double> mask(fe_space.n_nodes(), 0.);
-    for (const unsigned int node : nodes)
-      mask[node] = 1.;
-    return fe_space.exchange().whole(mask.data(), 1, mask.size(), true);
-  }
-
-  std::vector<dealii::Point<3>>
-  Handles::whole_handle(const std::vector<unsigned int>     &nodes,
-                        const std::vector<dealii::Point<3>> &places) const
-  {
-    Vector field(fe_space.n_dofs());
-    for (std::size_t i = 0; i < nodes.size(); ++i)
-      for (unsigned int c = 0; c < 3; ++c)
-        field[3 * nodes[i] + c] = places[i][c];
-    const Vector                  all  = whole(fe_space.exchange(), field, true);
-    const std::vector<double>     mask = whole_mask(nodes);
-    std::vector<dealii::Point<3>> chosen;
-    for (std::size_t node = 0; node < mask.size(); ++node)
-      if (mask[node] > 0.)
-        chosen.emplace_back(all[3 * node], all[3 * node + 1], all[3 * node + 2]);
-    return chosen;
-  }
-
-  std::vector<unsigned int>
-  Handles::places_in_whole(const std::vector<unsigned int> &nodes) const
-  {
-    std::vector<double> n_before = whole_mask(nodes);
-    double              n        = 0.;
-    for (double &entry : n_before)
-      n += std::exchange(entry, n);
-    const std::vector<double> own = fe_space.exchange().part(std::move(n_before), 1);
-    std::vector<unsigned int> places;
-    for (const unsigned int node : nodes)
-      places.push_back(static_cast<unsigned int>(own[node]));
-    return places;
   }
 
   std::vector<dealii::Point<3>>
@@ -273,7 +216,7 @@ namespace Exemplar
                         Expression(key + "/Motion", "0; 0; 0", "xyzt", 3),
                         Expression(key + "/Progress", "t", "t", 1),
                         {},
-                        at_middles_too(motion, all) });
+                        at_middles_too(motion, all, fe_space) });
   }
 
   std::set<unsigned int>
@@ -285,16 +228,6 @@ namespace Exemplar
         if (!seen.insert(node).second)
           shared.insert(node);
     return shared;
-  }
-
-  std::string
-  Handles::remedy_of_overlap(const Handle &first, const Handle &second) const
-  {
-    for (const Handle *const handle : { &first, &second })
-      if (handle->nodes.size() == fe_space.n_nodes())
-        return ". Handles/" + handle->name
-               + "/Select selects all nodes of the body: make it smaller.";
-    return ". Change Handles/" + second.name + "/Select so that they do not overlap.";
   }
 
   void
@@ -321,22 +254,16 @@ namespace Exemplar
           const auto [first, is_new] = targets.emplace(3 * node + c, Target{ displacement[c], h });
           if (std::abs(first->second.displacement - displacement[c]) > tolerance)
             throw UserError("Handles '" + handles[first->second.handle].name + "' and '"
-                            + handles[h].name + "' both hold " + name_of_node(node)
+                            + handles[h].name + "' both hold " + name_of_node(node, mesh, fe_space)
                             + ", but move it differently at t = " + shortest_text(time)
-                            + remedy_of_overlap(handles[first->second.handle], handles[h]));
+                            + (handles[first->second.handle].nodes.size() == fe_space.n_nodes()
+                                   ? remedy_of_all(handles[first->second.handle].name)
+                               : handles[h].nodes.size() == fe_space.n_nodes()
+                                   ? remedy_of_all(handles[h].name)
+                                   : ". Change Handles/" + handles[h].name
+                                         + "/Select so that they do not overlap."));
         }
       }
-  }
-
-  std::string
-  Handles::name_of_node(const unsigned int node) const
-  {
-    const auto number = [&](const unsigned int vertex)
-    { return std::to_string(mesh.get_contents().node_numbers[vertex]); };
-    if (node < mesh.n_nodes())
-      return "node " + number(node);
-    const auto &[a, b] = fe_space.numbering().ends(node);
-    return "the middle between nodes " + number(a) + " and " + number(b);
   }
 
   std::vector<unsigned int>

@@ -13,7 +13,7 @@ namespace Exemplar
     {
       EnumTable<CellLaw> strains;
       for (const CellLaw law : all_laws())
-        if (!std::string(traits_of(law).strain).empty())
+        if (traits_of(law).is_strain())
           strains.emplace_back(law, traits_of(law).name);
       return strains;
     }
@@ -38,6 +38,20 @@ namespace Exemplar
       return text + ". Example strains are of the same measure.";
     }
 
+    /// The strains of which patches may have the volume part.
+    std::string
+    strains_with_patches()
+    {
+      std::vector<std::string> names;
+      for (const auto &[law, name] : strains)
+        if (traits_of(law).trace_gradient_is_R)
+          names.push_back(name);
+      std::string text;
+      for (std::size_t i = 0; i < names.size(); ++i)
+        text += (i == 0 ? "" : i + 1 < names.size() ? ", " : " and ") + names[i];
+      return text;
+    }
+
     const EnumTable<GradientKind> gradient_kinds
         = { { GradientKind::consistent, "consistent" }, { GradientKind::frozen, "frozen" } };
     const EnumTable<DilatationKind> dilatation_kinds = { { DilatationKind::automatic, "auto" },
@@ -54,16 +68,18 @@ namespace Exemplar
     keys.add(
         "Gradient", gradient, gradient_kinds,
         "consistent: the force is the gradient of the energy; frozen: the paper's force R T, "
-        "which holds the rotation fixed while it differentiates the energy. The linear and green "
-        "strains have no rotations and always use their gradient.");
+        "which holds the rotation fixed while it differentiates the energy. Strains other than the "
+        "corotational one always use their gradient.");
     keys.add(
         "Dilatation", dilatation, dilatation_kinds,
         "cells: each cell resists the change of its own volume; patches: patches of cells that "
         "share a node resist the mean of theirs, so that linear tetrahedra bend and squeeze as "
         "they should also near Poisson's ratio 0.5, at 1.6 times the operations of a "
         "factorisation and 1.4 to 1.6 times the time of a step (doc/space.md), for the "
-        "corotational and linear strains; auto: patches with these in statics and dynamics, cells "
-        "with Green's strain and in interpolations.");
+            + strains_with_patches()
+            + " strains; auto: patches with these in statics and dynamics, cells with other "
+              "strains and "
+              "in interpolations.");
     keys.add(
         "Element", element, elements,
         "P1: linear tetrahedra, the cells of the mesh with their nodes; P2: quadratic "
@@ -86,7 +102,8 @@ namespace Exemplar
   ModelParameters::check() const
   {
     if (has_patches() && !traits_of(law()).trace_gradient_is_R)
-      throw UserError("Model/Dilatation = patches: is for the corotational and linear strains, not "
-                      "for Model/Strain = green. Leave it at auto, or take another strain.");
+      throw UserError("Model/Dilatation = patches: is for the " + strains_with_patches()
+                      + " strains, not for Model/Strain = " + traits_of(law()).name
+                      + ". Leave it at auto, or take another strain.");
   }
 } // namespace Exemplar

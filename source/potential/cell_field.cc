@@ -23,13 +23,13 @@ namespace Exemplar
            + pressures.memory_consumption() + scales.memory_consumption();
   }
 
-  CellField::CellField(LawsOfCells        laws,
-                       const double       guard_bound,
-                       const FESpace     &fe_space,
-                       const Material    &material,
-                       const unsigned int n_threads)
+  CellField::CellField(LawsOfCells             laws,
+                       const ExampleConstants &examples,
+                       const FESpace          &fe_space,
+                       const Material         &material,
+                       const unsigned int      n_threads)
       : fe_space(fe_space), kernels(best_kernels(fe_space.element())),
-        batches(fe_space, material, std::move(laws), guard_bound), nodal_sums(fe_space, n_threads),
+        batches(fe_space, material, std::move(laws), examples), nodal_sums(fe_space, n_threads),
         node_positions(4 * fe_space.n_nodes())
   {
   }

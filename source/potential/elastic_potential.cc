@@ -75,7 +75,7 @@ namespace Exemplar
                                      PotentialTerms          new_terms,
                                      const SymmetricPattern &pattern)
       : parts(parts), pattern(pattern), cells(parts.laws,
-                                              parts.examples.guard_bound(),
+                                              parts.examples.constants(),
                                               parts.fe_space,
                                               parts.cell_material,
                                               parts.n_threads),

@@ -25,7 +25,7 @@ namespace Exemplar
     result.inverted_cells = static_cast<unsigned int>(all[4]);
     result.guarded_cells  = static_cast<unsigned int>(all[5]);
     std::copy(all.begin() + n, all.end(), result.weight_gradient.begin());
-    result.min_det_F = exchange.min(result.min_det_F);
+    result.min_det_F = min_of_all(exchange, result.min_det_F);
     exchange.assemble(result.gradient.begin(), 3);
     exchange.assemble(result.force_scale.begin(), 1);
     return result;

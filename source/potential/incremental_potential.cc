@@ -212,31 +212,25 @@ namespace Exemplar
   }
 
   void
-  IncrementalPotential::assemble_tangent(const Tangent              tangent,
-                                         const Vector              &positions,
-                                         const std::vector<double> &at_weights,
-                                         std::vector<double>       &matrix_values,
-                                         std::vector<double>       &columns)
-  {
-    std::fill(matrix_values.begin(), matrix_values.end(), 0.);
-    cells.assemble_tangent(tangent, positions, at_weights, matrix_values, columns);
-    for (const auto &term : terms)
-      term->add_tangent({ positions, at_weights }, tangent, matrix_values, columns);
-  }
-
-  void
   IncrementalPotential::assemble(const Vector              &positions,
                                  const std::vector<double> &at_weights,
                                  const double               convexity,
                                  std::vector<double>       &matrix_values,
                                  std::vector<double>       &columns)
   {
-    assemble_tangent(convexity < 1. ? Tangent::exact : Tangent::convex, positions, at_weights,
-                     matrix_values, columns);
+    const auto assemble_one
+        = [&](const Tangent kind, std::vector<double> &values, std::vector<double> &G)
+    {
+      std::fill(values.begin(), values.end(), 0.);
+      cells.assemble_tangent(kind, positions, at_weights, values, G);
+      for (const auto &term : terms)
+        term->add_tangent({ positions, at_weights }, kind, values, G);
+    };
+    assemble_one(convexity < 1. ? Tangent::exact : Tangent::convex, matrix_values, columns);
     if (convexity > 0. && convexity < 1.)
     {
       std::vector<double> convex_values(matrix_values.size()), convex_columns;
-      assemble_tangent(Tangent::convex, positions, at_weights, convex_values, convex_columns);
+      assemble_one(Tangent::convex, convex_values, convex_columns);
       mix(matrix_values, convex_values, convexity);
       mix(columns, convex_columns, convexity);
     }
@@ -267,7 +261,7 @@ namespace Exemplar
     double part = 1.;
     for (const PotentialTerm *term : all_terms)
       part = std::min(part, term->max_step(positions, displacement));
-    return free_dofs.exchange().min(part);
+    return min_of_all(free_dofs.exchange(), part);
   }
 
   void

@@ -48,18 +48,18 @@ namespace Exemplar
   void
   PatchDilatation::begin_step(const State & /*start*/)
   {
-    const StrainDamping &damping = cells->get_damping();
-    past_means.clear();
-    if (damping.factor() == 0.)
+    const StrainDamping &of_cells = cells->get_damping();
+    damping                       = {};
+    if (of_cells.factor() == 0.)
       return;
-    past_means.assign(patches.size(), 0.);
-    damping_factors.assign(patches.size(), damping.factor());
+    damping.past_means.assign(patches.size(), 0.);
+    damping.factors.assign(patches.size(), of_cells.factor());
     for (unsigned int point = 0; point < fractions.size(); ++point)
     {
       const unsigned int patch = patches.of_point(point);
-      past_means[patch] += fractions[point] * past_trace(damping.past_strain(point));
-      if (damping.factor(point) == 0.)
-        damping_factors[patch] = 0.;
+      damping.past_means[patch] += fractions[point] * past_trace(of_cells.past_strain(point));
+      if (of_cells.factor(point) == 0.)
+        damping.factors[patch] = 0.;
     }
   }
 
@@ -98,11 +98,11 @@ namespace Exemplar
       const double lambda = patches.lambda(patch), D = target(patch, weights);
       of_patch[patch] = lambda * (means[patch] - D);
       scale[patch]    = root * std::abs(lambda) * (std::abs(means[patch]) + std::abs(D));
-      if (const double s = damping_factor(patch); s > 0.)
+      if (const double s = damping.factor(patch); s > 0.)
       {
-        of_patch[patch] += s * lambda * (means[patch] - past_means[patch]);
-        scale[patch]
-            += s * root * std::abs(lambda) * (std::abs(means[patch]) + std::abs(past_means[patch]));
+        of_patch[patch] += s * lambda * (means[patch] - damping.past_means[patch]);
+        scale[patch] += s * root * std::abs(lambda)
+                        * (std::abs(means[patch]) + std::abs(damping.past_means[patch]));
       }
     }
     DilatationField &dilatation = cells->get_dilatation();
@@ -150,15 +150,15 @@ namespace Exemplar
     for (unsigned int patch = 0; patch < patches.size(); ++patch)
     {
       const double deviation = means[patch] - target(patch, weights);
-      sums->energy_elastic += 0.5 * stiffness(patch) * means[patch] * means[patch];
-      sums->energy += 0.5 * stiffness(patch) * deviation * deviation;
+      sums->energy_elastic += 0.5 * patches.stiffness(patch) * means[patch] * means[patch];
+      sums->energy += 0.5 * patches.stiffness(patch) * deviation * deviation;
       for (unsigned int weight = 0; weight < sums->weight_gradient.size(); ++weight)
         sums->weight_gradient[weight]
-            -= stiffness(patch) * deviation * examples.patch_dilatation(patch, weight);
-      if (const double s = damping_factor(patch); s > 0.)
+            -= patches.stiffness(patch) * deviation * examples.patch_dilatation(patch, weight);
+      if (const double s = damping.factor(patch); s > 0.)
       {
-        const double change = means[patch] - past_means[patch];
-        sums->energy_damping += 0.5 * s * stiffness(patch) * change * change;
+        const double change = means[patch] - damping.past_means[patch];
+        sums->energy_damping += 0.5 * s * patches.stiffness(patch) * change * change;
       }
     }
     const double of_guard = guard.energy();
@@ -183,15 +183,16 @@ namespace Exemplar
     find_means(positions);
     for (unsigned int patch = 0; patch < patches.size(); ++patch)
       for (unsigned int weight = 0; weight < c.size(); ++weight)
-        c[weight] += stiffness(patch) * means[patch] * examples.patch_dilatation(patch, weight);
+        c[weight]
+            += patches.stiffness(patch) * means[patch] * examples.patch_dilatation(patch, weight);
   }
 
   double
   PatchDilatation::tangent_factor(const unsigned int patch, const Tangent kind) const
   {
     const double s
-        = kind == Tangent::convex ? cells->get_damping().factor() : damping_factor(patch);
-    return (1. + s) * stiffness(patch);
+        = kind == Tangent::convex ? cells->get_damping().factor() : damping.factor(patch);
+    return (1. + s) * patches.stiffness(patch);
   }
 
   void
@@ -253,7 +254,7 @@ namespace Exemplar
     for (unsigned int weight = 0; weight < examples.n_weights(); ++weight)
       if (examples.is_strained(weight))
         scatter->add_column(
-            patch, stiffness(patch) * examples.patch_dilatation(patch, weight), b,
+            patch, patches.stiffness(patch) * examples.patch_dilatation(patch, weight), b,
             &columns[free_dofs->local_list().size() * examples.strained_index(weight)]);
   }
 
@@ -317,7 +318,7 @@ namespace Exemplar
       sums->gradient[3 * nodes[i / 3] + i % 3] += forces[i];
     for (unsigned int weight = 0; weight < sums->weight_gradient.size(); ++weight)
       sums->weight_gradient[weight]
-          -= stiffness(patch) * change * examples.patch_dilatation(patch, weight);
+          -= patches.stiffness(patch) * change * examples.patch_dilatation(patch, weight);
   }
 
   void
@@ -337,6 +338,6 @@ namespace Exemplar
     using dealii::MemoryConsumption::memory_consumption;
     return patches.memory_consumption() + scatter->memory_consumption()
            + memory_consumption(fractions) + memory_consumption(means)
-           + memory_consumption(past_means) + memory_consumption(damping_factors);
+           + memory_consumption(damping.past_means) + memory_consumption(damping.factors);
   }
 } // namespace Exemplar

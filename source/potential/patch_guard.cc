@@ -115,7 +115,7 @@ namespace Exemplar
     for (unsigned int patch = 0; patch < patches.size(); ++patch)
     {
       if (!(patches.lambda(patch) > 0. && mean_squares[patch] > bounds[patch])
-          || !traits_of(cells.get_batches().law(patches.points(patch).front())).has_guard)
+          || !traits_of(cells.get_batches().law(patches.points(patch).front())).has_stretch_guard)
         continue;
       const auto [beta, first, second] = transition(mean_squares[patch], bounds[patch]);
       Stretched of_patch               = { means[patch], beta, first, second };

@@ -13,7 +13,7 @@ namespace Exemplar
                    const Matrix3<double>      &R,
                    const Matrix3<double>      &F)
     {
-      CorotationalCell<double> state(elasticity, R, F, default_guard_bound);
+      CorotationalCell<double> state(elasticity, R, F, ExampleConstants());
       state.set_target(Matrix3<double>{});
       return state;
     }
@@ -54,7 +54,7 @@ namespace Exemplar
   {
     for (unsigned int point = 0; point < fe_space.n_points(); ++point)
     {
-      if (!traits_of(cells.get_batches().law(point)).has_guard)
+      if (!traits_of(cells.get_batches().law(point)).has_stretch_guard)
         continue;
       const unsigned int          cell       = fe_space.cell_of(point);
       const CellMaterial<double> &elasticity = material.elasticity(cell);

@@ -20,7 +20,7 @@ namespace Exemplar
   ThinCells::Point
   ThinCells::point_at(const Matrix3<double> &R, const Matrix3<double> &F)
   {
-    Point at{ { CellMaterial<double>{}, R, F, default_guard_bound }, 0., y_0, {}, {} };
+    Point at{ { CellMaterial<double>{}, R, F, ExampleConstants() }, 0., y_0, {}, {} };
     at.state.set_target(Matrix3<double>{});
     const Matrix3<double> &S = at.state.stretch_factor();
     const double           u = contract(S, S);
@@ -56,7 +56,7 @@ namespace Exemplar
     for (unsigned int point = 0; point < fe_space.n_points(); ++point)
     {
       if (!may_be_thin(traces[point] + 3., squares[point])
-          || !traits_of(cells.get_batches().law(point)).has_guard)
+          || !traits_of(cells.get_batches().law(point)).has_stretch_guard)
         continue;
       const Point at
           = point_at(cells.rotation(point), fe_space.deformation_gradient(point, positions));

@@ -88,7 +88,7 @@ namespace Exemplar
     StepClock::Scope scope(clock, Phase::evaluate);
     potential.set_time(trial.time, trial);
     prediction.predict(accepted, step_size, trial);
-    rebuild_metric(trial);
+    rebuild_metric();
     potential.minimize_over_weights(trial, RotationUse::update, evaluation);
   }
 
@@ -106,7 +106,7 @@ namespace Exemplar
   QuasiNewton::renew_metric(const State &trial)
   {
     make_metric(trial.positions, trial.weights);
-    history = { trial.positions, potential.mass_factor(), 0, 0, 0 };
+    history = { trial.positions, trial.weights, potential.mass_factor(), 0, 0, 0 };
     lbfgs.clear();
   }
 
@@ -132,13 +132,13 @@ namespace Exemplar
   }
 
   void
-  QuasiNewton::rebuild_metric(const State &trial)
+  QuasiNewton::rebuild_metric()
   {
     if (history.positions.size() == 0 || !metric.empty()
         || history.mass_factor != potential.mass_factor())
       return;
     potential.get_cells().update_rotations(history.positions);
-    make_metric(history.positions, trial.weights); // R K R^T and its columns know no weights
+    make_metric(history.positions, history.weights);
   }
 
   double

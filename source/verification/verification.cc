@@ -192,6 +192,6 @@ namespace Exemplar
   {
     std::ostream &out = processes.of_root(std::cout);
     for (const Verification::Case &one : Verification::all_cases(processes.n_processes))
-      out << std::left << std::setw(32) << one.name << one.description << '\n';
+      out << std::left << std::setw(31) << one.name << ' ' << one.description << '\n';
   }
 } // namespace Exemplar

@@ -265,16 +265,21 @@ namespace Exemplar::Verification
       return { { { a, 0., 0. }, { 0., b, 0. }, { 0., 0., c } } };
     }
 
+    /// Of a law; the names of the default one are without its own.
     Case
-    case_at(const std::string     &name,
+    case_at(const CellLaw          law,
+            const std::string     &name,
             const std::string     &state,
             const Matrix3<double> &F,
-            const double           amplitude,
-            const std::string     &model = "")
+            const double           amplitude)
     {
-      return { "derivatives-" + name,
-               "central differences, 4th order, " + state + "; doc/model.md, Eqs. (16) to (20)",
-               [=] { return derivatives_at(F, amplitude, model); } };
+      const std::string strain     = traits_of(law).name;
+      const bool        is_default = law == ModelParameters().strain;
+      return { "derivatives-" + (is_default ? "" : strain + "-") + name,
+               "central differences, 4th order, " + (is_default ? "" : strain + " strain, ") + state
+                   + "; doc/model.md, Eqs. (16) to (20)",
+               [=, model = section("Model", set("Strain", strain))]
+               { return derivatives_at(F, amplitude, model); } };
     }
   } // namespace
 
@@ -286,29 +291,23 @@ namespace Exemplar::Verification
     const Matrix3<double> half_turn = rotation_about({ { 3., 1., 1. } }, 179.9 * M_PI / 180.);
     const Matrix3<double> flat      = Q * diagonal(1.3, 0.8, 0.),
                           mirrored  = Q * diagonal(1.5, 1.2, -0.4);
-    const std::string green         = section("Model", set("Strain", "green"));
-    const std::string linear        = section("Model", set("Strain", "linear"));
-    return {
-      case_at("rest", "at rest", I, 0.),
-      case_at("random", "at random", I, 0.1),
-      case_at("turned", "turned by 179.9 degrees", half_turn, 0.03),
-      case_at("flat", "flattened into a plane", flat, 0.03),
-      case_at("inverted", "mirrored", mirrored, 0.02),
-      case_at("guarded", "mirrored where the guard acts", Q * diagonal(1.1, 0.7, -0.5), 0.01),
-      case_at("compressed", "compressed", Q * diagonal(0.6, 0.55, 0.5), 0.02),
-      case_at("green-rest", "green strain at rest", I, 0., green),
-      case_at("green-random", "green strain at random", I, 0.1, green),
-      case_at("green-turned", "green strain, turned by 179.9 degrees", half_turn, 0.03, green),
-      case_at("green-flat", "green strain, flattened into a plane", flat, 0.03, green),
-      case_at("green-inverted", "green strain, mirrored", mirrored, 0.02, green),
-      case_at("linear-rest", "linear strain at rest", I, 0., linear),
-      case_at("linear-turned", "linear strain, turned by 179.9 degrees", half_turn, 0.03, linear),
-      case_at("linear-flat", "linear strain, flattened into a plane", flat, 0.03, linear),
-      case_at("linear-random", "linear strain at random", I, 0.1, linear),
-      case_at("linear-inverted", "linear strain, mirrored", mirrored, 0.02, linear),
-      { "derivatives-frozen",
-        "central differences with kept rotations, at random; doc/model.md, Eqs. (6) to (9)",
-        frozen_derivatives }
-    };
+    std::vector<Case> all;
+    for (const CellLaw law : all_laws())
+      if (traits_of(law).is_strain())
+        for (const Case &of_law :
+             { case_at(law, "rest", "at rest", I, 0.), case_at(law, "random", "at random", I, 0.1),
+               case_at(law, "turned", "turned by 179.9 degrees", half_turn, 0.03),
+               case_at(law, "flat", "flattened into a plane", flat, 0.03),
+               case_at(law, "inverted", "mirrored", mirrored, 0.02) })
+          all.push_back(of_law);
+    const CellLaw law = ModelParameters().strain;
+    all.push_back(case_at(law, "guarded", "mirrored where the guard acts",
+                          Q * diagonal(1.1, 0.7, -0.5), 0.01));
+    all.push_back(case_at(law, "compressed", "compressed", Q * diagonal(0.6, 0.55, 0.5), 0.02));
+    all.push_back(
+        { "derivatives-frozen",
+          "central differences with kept rotations, at random; doc/model.md, Eqs. (6) to (9)",
+          frozen_derivatives });
+    return all;
   }
 } // namespace Exemplar::Verification

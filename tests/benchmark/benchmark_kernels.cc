@@ -28,7 +28,7 @@ namespace Exemplar
           : problem(problem_of(file)), batches(problem.body.fe_space,
                                                problem.body.material,
                                                CellLaw::corotational,
-                                               default_guard_bound),
+                                               ExampleConstants()),
             positions(problem.body.fe_space.rest_positions()),
             node_positions(4 * positions.size() / 3)
       {

@@ -43,7 +43,7 @@ class ResumeFrom(SceneTest):
     def test_unchanged_scenes(self):
         for name, scene in {"quasi newton": DYNAMIC, "newton": {**DYNAMIC, "Solver/Method": "newton"},
                             "bdf2": {**DYNAMIC, "Time/Scheme": "bdf2", "Time/Stiffness damping": "0.01"},
-                            "static": STATIC}.items():
+                            "green": {**DYNAMIC, "Model/Strain": "green"}, "static": STATIC}.items():
             with self.subTest(name):
                 self.check_unchanged(scene, "8")
 

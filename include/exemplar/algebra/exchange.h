@@ -84,13 +84,6 @@ namespace Exemplar
       return own;
     }
 
-    /// The least of the numbers; a NaN is the least of all.
-    double
-    min(const double own) const
-    {
-      return -max(-own);
-    }
-
     /// Whether it is so in any process.
     bool
     any(const bool own) const
@@ -196,6 +189,13 @@ namespace Exemplar
       return exchange;
     }
   };
+
+  /// The least of the numbers that the processes give; a NaN is the least of all.
+  inline double
+  min_of_all(const Exchange &exchange, const double own)
+  {
+    return -exchange.max(-own);
+  }
 
   /// What a process has summed over its own cells and nodes, and is not yet the body's: to become that
   /// it must be given to a function complete(exchange, sums), which makes the sum over processes.

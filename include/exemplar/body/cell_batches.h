@@ -19,11 +19,11 @@ namespace Exemplar
   class CellBatches
   {
   public:
-    /// `guard_bound` is p_0 of Eq. (16). The space must outlive the batches.
-    CellBatches(const FESpace  &fe_space,
-                const Material &material,
-                LawsOfCells     laws,
-                double          guard_bound);
+    /// The space must outlive the batches.
+    CellBatches(const FESpace          &fe_space,
+                const Material         &material,
+                LawsOfCells             laws,
+                const ExampleConstants &examples);
 
     /// What loops see that are the same for all laws.
     CellArrays
@@ -67,7 +67,7 @@ namespace Exemplar
     Cell
     cell(const unsigned int point, const Matrix3<double> &R, const Matrix3<double> &F) const
     {
-      Cell state(constants<typename Cell::Constants>(point), R, F, guard_bound);
+      Cell state(constants<typename Cell::Constants>(point), R, F, examples);
       if constexpr (constexpr std::size_t n = Cell::traits.n_history; n > 0)
         state.remember([&, &of_law = of_law_at(point)](const std::size_t k)
                        { return of_law.history[batch_index(point, n, k)]; });
@@ -148,7 +148,7 @@ namespace Exemplar
 
     const FESpace                &fe_space;
     const LawsOfCells             laws;
-    const double                  guard_bound;
+    const ExampleConstants        examples;
     const std::size_t             n_points;
     const std::size_t             n_nodes; ///< of each
     std::vector<int>              nodes;

@@ -72,7 +72,7 @@ namespace Exemplar
     double
     importance() const
     {
-      return eta;
+      return example_constants.importance;
     }
 
     /// Volume of each region over that of the body, with shares counted; they sum to one.
@@ -169,11 +169,11 @@ namespace Exemplar
       return patch_dilatations(patch, weight);
     }
 
-    /// p_0 of Eq. (16): such that the guard leaves every example as it is.
-    double
-    guard_bound() const
+    /// The importance, and a bound of the guard (16) such that it leaves every example as it is.
+    const ExampleConstants &
+    constants() const
     {
-      return p_0;
+      return example_constants;
     }
 
     /// eta^2 sum V E_i : C : E_j for all pairs of weights [J]; with patches, the volume part by Eq. (25).
@@ -210,8 +210,8 @@ namespace Exemplar
     compute_patch_dilatations(const Patches &patches);
 
     const FESpace                 &fe_space;
-    const double                   eta;
     const LawsOfCells              laws;
+    ExampleConstants               example_constants;
     const RegionShares             regions;
     const std::vector<ExamplePose> poses;
     const unsigned int             first_strained;
@@ -219,7 +219,6 @@ namespace Exemplar
     std::vector<double>            strain_norms;
     dealii::FullMatrix<double>     patch_dilatations; ///< patch, weight; empty without patches
     dealii::FullMatrix<double>     gram;
-    double                         p_0 = default_guard_bound;
     const std::vector<std::string> warnings;
   };
 } // namespace Exemplar

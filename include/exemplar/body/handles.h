@@ -3,6 +3,7 @@
 #define exemplar_handles_h
 
 #include <exemplar/body/fe_space.h>
+#include <exemplar/body/handle_nodes.h>
 #include <exemplar/body/handle_parameters.h>
 #include <exemplar/body/time_axis.h>
 #include <exemplar/mesh/mesh.h>
@@ -33,11 +34,6 @@ namespace Exemplar
   StraightTurn
   find_straight_turn(const std::vector<dealii::Point<3>>              &rest,
                      const std::vector<std::vector<dealii::Point<3>>> &places);
-
-  /// Where a program moves a handle: the displacements [m] at time t [s] of points that are at
-  /// `rest` [m] at rest, one for each. May be called several times for one t.
-  using Motion = std::function<std::vector<dealii::Tensor<1, 3>>(
-      const std::vector<dealii::Point<3>> &rest, double time)>;
 
   /// By the names of handles.
   using NamedMotions = std::map<std::string, Motion>;
@@ -185,26 +181,8 @@ namespace Exemplar
     Handle &
     find(const std::string &name);
 
-    /// A motion of the nodes of the mesh file among some (ascending), and that of the middles of
-    /// edges as the means of their ends.
-    Motion
-    at_middles_too(const Motion &motion, const std::vector<unsigned int> &nodes) const;
-
     std::vector<dealii::Point<3>>
     rest_positions(const Handle &handle) const;
-
-    /// 1 for the nodes of a handle, else 0, for the whole body.
-    std::vector<double>
-    whole_mask(const std::vector<unsigned int> &nodes) const;
-
-    /// The places of all of a handle's nodes, of which this process has those given.
-    std::vector<dealii::Point<3>>
-    whole_handle(const std::vector<unsigned int>     &nodes,
-                 const std::vector<dealii::Point<3>> &places) const;
-
-    /// The number of each of these nodes among all of the handle.
-    std::vector<unsigned int>
-    places_in_whole(const std::vector<unsigned int> &nodes) const;
 
     /// Nodes that more than one handle holds.
     std::set<unsigned int>
@@ -213,9 +191,6 @@ namespace Exemplar
     /// Of all handles at time t [s].
     Displacements
     displacements(double time) const;
-
-    std::string
-    remedy_of_overlap(const Handle &first, const Handle &second) const;
 
     void
     check_agreement(const std::set<unsigned int> &shared,
@@ -233,10 +208,6 @@ namespace Exemplar
     /// Warn of poses that are followed far beyond their place.
     void
     look_for_progress_beyond(const TimeAxis &axis);
-
-    /// The mesh file's number of a node, or those of the ends of its edge.
-    std::string
-    name_of_node(unsigned int node) const;
 
     const Mesh              &mesh;
     const FESpace           &fe_space;

@@ -38,6 +38,12 @@ namespace Exemplar
       return mesh.n_nodes() + edges.size();
     }
 
+    unsigned int
+    n_vertices() const
+    {
+      return mesh.n_nodes();
+    }
+
     /// Of a cell: its vertices and then the middles of its edges 01, 12, 20, 03, 13, 23, which is
     /// the order of deal.II and of VTK.
     dealii::ArrayView<const unsigned int>

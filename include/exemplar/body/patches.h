@@ -58,6 +58,13 @@ namespace Exemplar
       return volumes[patch];
     }
 
+    /// lambda_p V_p [J].
+    double
+    stiffness(const unsigned int patch) const
+    {
+      return lambda(patch) * volume(patch);
+    }
+
     /// The mean over its volume [Pa].
     double
     lambda(const unsigned int patch) const

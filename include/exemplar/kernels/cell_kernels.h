@@ -23,16 +23,16 @@ namespace Exemplar
   /// and cells of another law have no volume then.
   struct CellArrays
   {
-    std::size_t   n_cells;
-    const int    *nodes;     ///< 4 or 10; ascending in each cell
-    const double *gradients; ///< 9 or 27: g_a of all but the first of those nodes [1/m]
-    const double *volumes;   ///< 1 [m^3]
-    double       *rotations; ///< 9: R by rows
-    CellLaw       law;
-    const double *constants;              ///< those of the law's Constants
-    double       *history;                ///< what the law remembers
-    double        guard_bound;            ///< p_0 of Eq. (16)
-    bool          has_other_laws = false; ///< some cells are of another law
+    std::size_t      n_cells;
+    const int       *nodes;     ///< 4 or 10; ascending in each cell
+    const double    *gradients; ///< 9 or 27: g_a of all but the first of those nodes [1/m]
+    const double    *volumes;   ///< 1 [m^3]
+    double          *rotations; ///< 9: R by rows
+    CellLaw          law;
+    const double    *constants; ///< those of the law's Constants
+    double          *history;   ///< what the law remembers
+    ExampleConstants examples;
+    bool             has_other_laws = false; ///< some cells are of another law
 
     std::size_t
     n_batches() const

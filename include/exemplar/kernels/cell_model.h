@@ -82,6 +82,28 @@ namespace Exemplar
         { return decltype(model)::type::strain_of(rotation, deformation_gradient); });
   }
 
+  /// Its change with the deformation gradient.
+  inline Matrix3<double>
+  model_strain_change(const CellLaw          law,
+                      const Matrix3<double> &rotation,
+                      const Matrix3<double> &deformation_gradient,
+                      const Matrix3<double> &dF)
+  {
+    return with_cell_model<double>(
+        law, [&](auto model)
+        { return decltype(model)::type::strain_change(rotation, deformation_gradient, dF); });
+  }
+
+  /// C:E [Pa] by the constants of a law, of which number(k) is one.
+  template <typename Load>
+  Matrix3<double>
+  model_stress(const CellLaw law, const Load &number, const Matrix3<double> &E)
+  {
+    return with_cell_model<double>(
+        law, [&](auto model)
+        { return stress(decltype(model)::type::Constants::from_numbers(number), E); });
+  }
+
   /// Of its Constants.
   inline std::size_t
   n_constants(const CellLaw law)

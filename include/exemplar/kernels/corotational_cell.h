@@ -16,8 +16,6 @@
 
 namespace Exemplar
 {
-  constexpr double default_guard_bound = 0.8; ///< p_0 of guard()
-
   /// Vector a of the skew matrix W, W b = a x b.
   template <typename Number>
   Vector3<Number>
@@ -91,6 +89,7 @@ namespace Exemplar
                                             "S - I, the deformation freed of the cell's rotation",
                                             /* has_rotations */ true,
                                             /* has_guard */ true,
+                                            /* has_stretch_guard */ true,
                                             /* exact_is_rotated */ false,
                                             /* convex_is_rotated */ true,
                                             /* trace_gradient_is_R */ true,
@@ -103,13 +102,13 @@ namespace Exemplar
       return corotated_strain(rotation, deformation_gradient);
     }
 
-    /// `p_0` is the bound below which the guard acts.
     CorotationalCell(const CellMaterial<Number> &material,
                      const Matrix3<Number>      &rotation,
                      const Matrix3<Number>      &deformation_gradient,
-                     const double                p_0)
-        : CorotationalCell(
-            material, symmetric_part(transpose_times(rotation, deformation_gradient)), p_0)
+                     const ExampleConstants     &examples)
+        : CorotationalCell(material,
+                           symmetric_part(transpose_times(rotation, deformation_gradient)),
+                           examples.guard_bound)
     {
     }
 
@@ -151,6 +150,13 @@ namespace Exemplar
       if (!any(is_guarded()))
         return psi;
       return psi + guard_energy(material, Number(1.) - phi, S, D);
+    }
+
+    /// 1/2 (e - e_past) : C : (e - e_past), of which stiffness damping has s times.
+    Number
+    damping_density(const Matrix3<Number> &past) const
+    {
+      return energy(past);
     }
 
     /// Whether the guard of the stretch may act in some lane, told by the energy density of the
@@ -282,7 +288,7 @@ namespace Exemplar
                      skew_matrix(B_inverse * axial_vector(commutator(S, dT))));
     }
 
-  private:
+  protected:
     CorotationalCell(const CellMaterial<Number> &material,
                      const Matrix3<Number>      &S,
                      const double                p_0)

@@ -36,6 +36,7 @@ namespace Exemplar
             "(F^T F - I)/2, that of nonlinear example-based materials",
             /* has_rotations */ false,
             /* has_guard */ false,
+            /* has_stretch_guard */ false,
             /* exact_is_rotated */ false,
             /* convex_is_rotated */ false,
             /* trace_gradient_is_R */ false,
@@ -47,10 +48,18 @@ namespace Exemplar
       return green_strain(deformation_gradient);
     }
 
+    static Matrix3<Number>
+    strain_change(const Matrix3<Number> & /*rotation*/,
+                  const Matrix3<Number> &deformation_gradient,
+                  const Matrix3<Number> &dF)
+    {
+      return symmetric_part(transpose_times(deformation_gradient, dF));
+    }
+
     GreenCell(const CellMaterial<Number> &material,
               const Matrix3<Number> & /*rotation*/,
               const Matrix3<Number> &deformation_gradient,
-              double /*p_0*/)
+              const ExampleConstants & /*examples*/)
         : QuadraticCell<Number>(material, green_strain(deformation_gradient)),
           F(deformation_gradient)
     {

@@ -21,6 +21,7 @@ namespace Exemplar
             turns ? "" : "sym(F) - I, for comparison, wrong where cells turn",
             /* has_rotations */ turns,
             /* has_guard */ false,
+            /* has_stretch_guard */ false,
             /* exact_is_rotated */ true,
             /* convex_is_rotated */ true,
             /* trace_gradient_is_R */ true,
@@ -36,7 +37,7 @@ namespace Exemplar
     FixedRotationCell(const CellMaterial<Number> &material,
                       const Matrix3<Number>      &rotation,
                       const Matrix3<Number>      &deformation_gradient,
-                      double /*p_0*/)
+                      const ExampleConstants & /*examples*/)
         : QuadraticCell<Number>(material, strain_of(rotation, deformation_gradient))
     {
     }

@@ -157,9 +157,9 @@ namespace Exemplar::Loops
                     double                    *nodal_sums,
                     LaneSums<Number, n_nodes> &sums)
   {
-    const auto            tet = load_tetrahedron<n_nodes>(task.cells, group);
-    const Matrix3<Number> F   = deformation_gradient(task, group, tet);
-    const Matrix3<Number> R   = rotation<Cell>(task, group, F);
+    const auto            tet  = load_tetrahedron<n_nodes>(task.cells, group);
+    const Matrix3<Number> F    = deformation_gradient(task, group, tet);
+    const Matrix3<Number> R    = rotation<Cell>(task, group, F);
     const Cell            cell = make_cell<Cell>(task.cells, group, R, F);
     if (!cell.is_stretched())
       return;
@@ -217,7 +217,14 @@ namespace Exemplar::Loops
     }
     else
     {
-      sums.energy += elastic;
+      // what a law remembers costs energy that is no longer elastic, and acts like a target
+      if constexpr (Cell::traits.n_history > 0)
+      {
+        sums.energy += tet.volume * cell.energy(Matrix3<Number>{});
+        sums.guarded.add(group, is_real & cell.is_guarded());
+      }
+      else
+        sums.energy += elastic;
       if (task.damping.factors == nullptr)
         P = cell.elastic_force();
     }
@@ -226,7 +233,7 @@ namespace Exemplar::Loops
     {
       const Number          s    = load(task.damping.factors, group, 1, 0);
       const Matrix3<Number> past = load_strain(task.damping.strains, group, 1, 0);
-      sums.damping += s * tet.volume * cell.energy(past);
+      sums.damping += s * tet.volume * cell.damping_density(past);
       scale += s * (cell.elastic_scale() + cell.scale_of(past));
       D = cell.damp(has_examples ? D : Matrix3<Number>{}, s, past);
     }

@@ -125,7 +125,7 @@ namespace Exemplar::Loops
             const Matrix3<Number>   &R,
             const Matrix3<Number>   &F)
   {
-    Cell cell(load_constants<typename Cell::Constants>(cells, group), R, F, cells.guard_bound);
+    Cell cell(load_constants<typename Cell::Constants>(cells, group), R, F, cells.examples);
     if constexpr (constexpr std::size_t n = Cell::traits.n_history; n > 0)
       cell.remember([&](const std::size_t k) { return load(cells.history, group, n, k); });
     return cell;

@@ -17,6 +17,13 @@ namespace Exemplar
     double      max = std::numeric_limits<double>::max();
   };
 
+  /// What a law knows of all examples, beside the target strains that they ask of its cells.
+  struct ExampleConstants
+  {
+    double guard_bound = 0.8; ///< p_0 of Eq. (16), below which the guard acts
+    double importance  = 0.;  ///< eta; 0 without examples
+  };
+
   /// What distinguishes the models of a cell, beside their formulas. Each model has a constant
   /// `traits`.
   struct ModelTraits
@@ -33,6 +40,9 @@ namespace Exemplar
 
     /// The energy contains the guard phi of Eq. (16), which acts in badly inverted cells.
     bool has_guard;
+
+    /// The energy has the kink of stretch_guard.h by the elasticity of Material, and its guard, Eq. (24).
+    bool has_stretch_guard;
 
     /// R K R^T, Eq. (8), is the derivative of the force.
     bool exact_is_rotated;
@@ -52,6 +62,13 @@ namespace Exemplar
     /// the members remember() and new_history() as well, see make_cell() and advance_history() of
     /// the loops.
     std::size_t n_history = 0;
+
+    /// Whether it is a value of Model/Strain.
+    constexpr bool
+    is_strain() const
+    {
+      return *strain != '\0';
+    }
   };
 } // namespace Exemplar
 

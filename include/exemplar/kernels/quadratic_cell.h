@@ -20,6 +20,15 @@ namespace Exemplar
   public:
     using Constants = CellMaterial<Number>;
 
+    /// The change of e with F, as the rotation sees it.
+    static Matrix3<Number>
+    strain_change(const Matrix3<Number> &rotation,
+                  const Matrix3<Number> & /*deformation_gradient*/,
+                  const Matrix3<Number> &dF)
+    {
+      return symmetric_part(transpose_times(rotation, dF));
+    }
+
     /// Whether the guard of Eq. (16) acts, for each lane.
     auto
     is_guarded() const
@@ -46,6 +55,13 @@ namespace Exemplar
     scale_of(const Matrix3<Number> &D) const
     {
       return norm(stress(material, D));
+    }
+
+    /// 1/2 (e - e_past) : C : (e - e_past), of which stiffness damping has s times.
+    Number
+    damping_density(const Matrix3<Number> &past) const
+    {
+      return energy(past);
     }
 
     /// Let stiffness damping with the factor s and the strain e_past act from now on, and get the
@@ -132,7 +148,7 @@ namespace Exemplar
     CellMaterial<Number> material; ///< with damping
     Matrix3<Number>      e;
     Matrix3<Number>      elastic_stress; ///< C:e, without damping
-    Matrix3<Number>      T; ///< C:(e - D), once the target is set
+    Matrix3<Number>      T;              ///< C:(e - D), once the target is set
   };
 } // namespace Exemplar
 

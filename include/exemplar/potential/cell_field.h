@@ -40,13 +40,13 @@ namespace Exemplar
   class CellField
   {
   public:
-    /// `guard_bound` is p_0 of Eq. (16), `material` that of the cells' own energy. The space must
-    /// outlive the field. `n_threads` of the loops: no result depends on it.
-    CellField(LawsOfCells     laws,
-              double          guard_bound,
-              const FESpace  &fe_space,
-              const Material &material,
-              unsigned int    n_threads);
+    /// `material` is that of the cells' own energy. The space must outlive the field. `n_threads` of
+    /// the loops: no result depends on it.
+    CellField(LawsOfCells             laws,
+              const ExampleConstants &examples,
+              const FESpace          &fe_space,
+              const Material         &material,
+              unsigned int            n_threads);
 
     /// The input of a loop over these cells at these positions, by degree of freedom [m]. It refers
     /// to arrays of this object.

@@ -94,6 +94,12 @@ namespace Exemplar
       return cells;
     }
 
+    const CellField &
+    get_field() const
+    {
+      return cells;
+    }
+
     /// Energies and their derivatives. If the caller has the weight_linear_term() of these
     /// positions, the derivatives by the weights are H w - c, and the loop need not sum them.
     void

@@ -120,11 +120,11 @@ namespace Exemplar
     }
 
     /// Whether the cells' forces at the same positions differ from step to step: with prescribed
-    /// weights and with stiffness damping.
+    /// weights, with stiffness damping, and where laws remember.
     bool
     changes_between_steps() const
     {
-      return weights.are_prescribed()
+      return cells.get_field().get_batches().remembers() || weights.are_prescribed()
              || (in_dynamic_step && integrator->stiffness_damping_factor() > 0.);
     }
 
@@ -191,13 +191,6 @@ namespace Exemplar
     }
 
   private:
-    void
-    assemble_tangent(Tangent                    tangent,
-                     const Vector              &positions,
-                     const std::vector<double> &weights,
-                     std::vector<double>       &matrix_values,
-                     std::vector<double>       &columns);
-
     const PotentialTerms  terms;
     const FESpace        &fe_space;
     SymmetricPattern      pattern; ///< of cells and terms

@@ -14,6 +14,19 @@
 
 namespace Exemplar
 {
+  /// Stiffness damping of the mean dilatations of patches, Eq. (22); empty without damping.
+  struct PatchDamping
+  {
+    std::vector<double> past_means; ///< sum_m c_m theta_p(x_m)
+    std::vector<double> factors;    ///< s, or 0 of patches that are left out
+
+    double
+    factor(const unsigned int patch) const
+    {
+      return factors.empty() ? 0. : factors[patch];
+    }
+  };
+
   /// The volume part of Psi by patches, Eq. (25): sum lambda_p/2 V_p (theta_p - eta
   /// theta_p(E(w)))^2 with the mean theta_p of tr(e) over a patch, and its guard. The points' own energy is then
   /// that of a material without lambda, and the patch adds to their stress the pressure lambda_p
@@ -49,7 +62,7 @@ namespace Exemplar
     void
     leave_step() override
     {
-      past_means.clear();
+      damping = {};
     }
 
     void
@@ -131,23 +144,9 @@ namespace Exemplar
     double
     tangent_factor(unsigned int patch, Tangent kind) const;
 
-    /// lambda_p V_p.
-    double
-    stiffness(const unsigned int patch) const
-    {
-      return patches.lambda(patch) * patches.volume(patch);
-    }
-
     /// eta theta_p(E(w)); 0 without examples.
     double
     target(unsigned int patch, const std::vector<double> &weights) const;
-
-    /// s of a patch.
-    double
-    damping_factor(const unsigned int patch) const
-    {
-      return past_means.empty() ? 0. : damping_factors[patch];
-    }
 
     const Patches              &patches;
     const ExamplePoses         &examples;
@@ -157,10 +156,9 @@ namespace Exemplar
     std::optional<PatchScatter> scatter;             ///< since attach()
     ThinCells                   thin;
     PatchGuard                  guard;
-    std::vector<double>         fractions;       ///< of each point in the volume of its patch
-    std::vector<double>         means;           ///< theta_p
-    std::vector<double>         past_means;      ///< that damping remembers; empty without it
-    std::vector<double>         damping_factors; ///< s, or 0
+    std::vector<double>         fractions; ///< of each point in the volume of its patch
+    std::vector<double>         means;     ///< theta_p
+    PatchDamping                damping;
   };
 } // namespace Exemplar
 

@@ -50,17 +50,18 @@ namespace Exemplar
     /// Where the metric was made, and how it has served since.
     struct MetricHistory
     {
-      Vector       positions;            ///< [m]; empty: none was made
-      double       mass_factor     = 0.; ///< IncrementalPotential::mass_factor() then
-      unsigned int steps           = 0;  ///< since then
-      unsigned int iterations      = 0;  ///< in these steps
-      unsigned int last_iterations = 0;  ///< in the last of them
+      Vector              positions;            ///< [m]; empty: none was made
+      std::vector<double> weights;              ///< then, which some convex tangents know
+      double              mass_factor     = 0.; ///< IncrementalPotential::mass_factor() then
+      unsigned int        steps           = 0;  ///< since then
+      unsigned int        iterations      = 0;  ///< in these steps
+      unsigned int        last_iterations = 0;  ///< in the last of them
 
       template <typename Archive>
       void
       serialize(Archive &archive, unsigned int /*version*/)
       {
-        archive &positions &mass_factor &steps &iterations &last_iterations;
+        archive &positions &weights &mass_factor &steps &iterations &last_iterations;
       }
     };
 
@@ -89,7 +90,7 @@ namespace Exemplar
 
     /// After a resume: rotations are functions of the positions.
     void
-    rebuild_metric(const State &trial);
+    rebuild_metric();
 
     /// Find the step at the trial; returns the slope along it.
     double

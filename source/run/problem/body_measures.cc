@@ -47,7 +47,7 @@ namespace Exemplar
   Range
   Range::over(const Exchange &exchange) const
   {
-    return { exchange.min(least), exchange.max(greatest) };
+    return { min_of_all(exchange, least), exchange.max(greatest) };
   }
 
   double

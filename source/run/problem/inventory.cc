@@ -63,7 +63,7 @@ namespace Exemplar
       { "loads", actions.loads != nullptr && actions.loads->has_named_loads(),
         has_gravity ? 0 : loads },
       { "mean dilatation by patches", problem.body.patches != nullptr, {} },
-      { "example poses", poses.size() > 0, poses.memory_consumption() },
+      { "example poses", poses.size() > 0, poses.size() > 0 ? poses.memory_consumption() : 0 },
       { "weight block", finds_weights, problem.system.memory_of_weights() },
       { "weights per region",
         poses.size() > 0 && problem.parameters.examples.weights_per_region,

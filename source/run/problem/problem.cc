@@ -240,7 +240,8 @@ namespace Exemplar
     std::ostringstream message;
     const bool         lacks_derivative = parameters.solver.method == Method::fixed_point
                                   && examples.poses.size() > 0
-                                  && parameters.model.law() == CellLaw::corotational;
+                                  && traits_of(parameters.model.law()).has_rotations
+                                  && !traits_of(parameters.model.law()).exact_is_rotated;
     message << step
             << (report.status == SolveStatus::stalled ? " stalled"
                                                       : " stopped at its iteration limit")

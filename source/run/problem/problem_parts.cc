@@ -195,8 +195,9 @@ namespace Exemplar
     remedy_of_single_node(const Handles &handles, const unsigned int h, const Body &body)
     {
       const auto  &nodes = handles.nodes(h);
-      const double reach = body.exchange().min(nodes.empty() ? std::numeric_limits<double>::max()
-                                                             : reach_of_a_cell(body, nodes[0]));
+      const double reach
+          = min_of_all(body.exchange(), nodes.empty() ? std::numeric_limits<double>::max()
+                                                      : reach_of_a_cell(body, nodes[0]));
       return "Enlarge Handles/" + handles.name(h) + "/Select by " + short_text(1.01 * reach)
              + " m, and it holds a whole tetrahedron.";
     }

@@ -43,6 +43,18 @@ namespace Exemplar
       return field;
     }
 
+    /// What laws remember in the one point of each linear cell, in all points of the quadratic one.
+    std::vector<double>
+    on_quadratic_points(const std::vector<double> &linear, const unsigned int n_cells)
+    {
+      std::vector<double> history;
+      for (unsigned int cell = 0; cell < n_cells; ++cell)
+        for (unsigned int point = 0; point < points_per_cell(Element::P2); ++point)
+          history.insert(history.end(), linear.begin() + linear.size() / n_cells * cell,
+                         linear.begin() + linear.size() / n_cells * (cell + 1));
+      return history;
+    }
+
     /// The forces on linear shape functions, which are sums of quadratic ones [N].
     Vector
     on_linear_nodes(const FESpace &fe_space, const Vector &quadratic, const unsigned int n_dofs)
@@ -128,11 +140,9 @@ namespace Exemplar
         const unsigned int          cell = fe_space.cell_of(point);
         const CellMaterial<double> &C    = quadratic.body.material.elasticity(cell);
         const Matrix3<double>       F    = fe_space.deformation_gradient(point, positions);
-        // the change of R^T F, of Green's strain that of F^T F / 2
-        const CellLaw         law = quadratic.parameters.model.law();
-        const Matrix3<double> R   = law == CellLaw::green ? F : model_rotation(law, F);
-        const Matrix3<double> e   = symmetric_part(
-              transpose_times(R, fe_space.deformation_gradient(point, displacement)));
+        const CellLaw               law  = quadratic.parameters.model.law();
+        const Matrix3<double>       e    = model_strain_change(
+                     law, model_rotation(law, F), F, fe_space.deformation_gradient(point, displacement));
         densities[cell] += 0.5 * fe_space.volume(point) / fe_space.cell_volume(cell)
                            * contract(stress(C.without_dilatation(), e), e);
         traces[part_of(cell)] += fe_space.volume(point) / volume_of(cell) * trace(e);
@@ -166,6 +176,8 @@ namespace Exemplar
     at.step      = problem.state.step;
     at.positions = on_quadratic_nodes(fe_space, problem.state.positions);
     at.weights   = problem.state.weights;
+    at.history   = on_quadratic_points(problem.state.history, fe_space.n_cells());
+    quadratic->potential.get_cells().get_field().set_history(at.history);
     quadratic->potential.set_time(problem.state.time, at);
     Vector inertia(fe_space.n_dofs());
     if (problem.actions.mass != nullptr)

@@ -73,7 +73,7 @@ namespace Exemplar
     std::optional<std::string>
     describe_stretched(const Problem &problem)
     {
-      if (!traits_of(problem.parameters.model.law()).has_guard)
+      if (!traits_of(problem.parameters.model.law()).has_stretch_guard)
         return {};
       double     limit    = std::numeric_limits<double>::max();
       const auto elements = elements_with(
@@ -86,7 +86,7 @@ namespace Exemplar
             limit = std::min(limit, of_cell);
             return true;
           });
-      limit = problem.body.exchange().min(limit);
+      limit = min_of_all(problem.body.exchange(), limit);
       if (elements.empty())
         return {};
       return std::to_string(elements.size())
@@ -102,7 +102,8 @@ namespace Exemplar
     std::optional<std::string>
     describe_turned(const Problem &problem)
     {
-      if (problem.parameters.model.strain != CellLaw::linear)
+      const ModelTraits traits = traits_of(problem.parameters.model.law());
+      if (traits.turns_freely)
         return {};
       double         greatest = 0.;
       const FESpace &fe_space = problem.body.fe_space;
@@ -116,7 +117,8 @@ namespace Exemplar
       if (!(greatest > great_linear_turn))
         return {};
       return "Cells have turned by up to " + short_text(greatest * 180. / M_PI)
-             + " degrees, but Model/Strain = linear takes turns for strains: beyond some 10 "
+             + " degrees, but Model/Strain = " + traits.name
+             + " takes turns for strains: beyond some 10 "
                "degrees "
                "its shapes mean little. Set Model/Strain = corotational.";
     }

@@ -37,7 +37,7 @@ namespace Exemplar::Testing
         parameters.importance         = 0.7;
         parameters.weights_per_region = per_region;
         const auto   examples         = body.examples(parameters);
-        CellBatches  batches(body.fe_space, body.material, law, default_guard_bound);
+        CellBatches  batches(body.fe_space, body.material, law, ExampleConstants());
         std::mt19937 generator(5);
         auto         x = body.random_positions(generator, 0.8); // some cells invert
         if (is_pulled)
@@ -158,17 +158,10 @@ namespace Exemplar::Testing
       }
     }
 
-    INSTANTIATE_TEST_SUITE_P(
-        ,
-        CellKernelsTest,
-        testing::Values(std::make_tuple(Element::P1, CellLaw::corotational, false),
-                        std::make_tuple(Element::P1, CellLaw::corotational, true),
-                        std::make_tuple(Element::P1, CellLaw::frozen, false),
-                        std::make_tuple(Element::P1, CellLaw::linear, false),
-                        std::make_tuple(Element::P1, CellLaw::green, true),
-                        std::make_tuple(Element::P2, CellLaw::corotational, true),
-                        std::make_tuple(Element::P2, CellLaw::frozen, false),
-                        std::make_tuple(Element::P2, CellLaw::linear, false),
-                        std::make_tuple(Element::P2, CellLaw::green, false)));
+    INSTANTIATE_TEST_SUITE_P(,
+                             CellKernelsTest,
+                             testing::Combine(testing::Values(Element::P1, Element::P2),
+                                              testing::ValuesIn(all_laws()),
+                                              testing::Bool()));
   } // namespace
 } // namespace Exemplar::Testing

@@ -19,7 +19,7 @@ namespace Exemplar::Testing
     Cell
     cell_at(const Matrix3<double> &F, const CellMaterial<double> &material = rubber)
     {
-      return Cell(material, closest_rotation(F), F, default_guard_bound);
+      return Cell(material, closest_rotation(F), F, ExampleConstants());
     }
 
     Matrix3<double>

@@ -64,9 +64,12 @@ namespace Exemplar::Testing
     std::vector<CellLaw>
     strains_of(const Discretisation &discretisation)
     {
-      if (discretisation.has_patches)
-        return { CellLaw::corotational, CellLaw::linear };
-      return { CellLaw::corotational, CellLaw::linear, CellLaw::green };
+      std::vector<CellLaw> strains;
+      for (const CellLaw law : all_laws())
+        if (traits_of(law).is_strain()
+            && (traits_of(law).trace_gradient_is_R || !discretisation.has_patches))
+          strains.push_back(law);
+      return strains;
     }
 
     /// A bar of the element that is tested.
@@ -295,7 +298,7 @@ namespace Exemplar::Testing
         BodyPotential     elastic(body, some_laws, {}, free_dofs);
         ElasticEvaluation evaluation;
         elastic.evaluate(positions, {}, evaluation, RotationUse::update);
-        energy = evaluation.energy;
+        energy = evaluation.energy_elastic;
         return elastic.cell_results(positions, {});
       };
       double            energy = 0., of_one = 0., sum = 0.;
