@@ -56,14 +56,30 @@ namespace Exemplar
       of_law.volumes.resize(volumes.size(), 0.);
     for (std::size_t slot = 0; slot < volumes.size(); ++slot)
     {
-      const auto         point = static_cast<unsigned int>(std::min(slot, n_points - 1));
-      const unsigned int cell  = fe_space.cell_of(point);
-      for (std::size_t k = 0; k < n; ++k)
-        of_law.constants[batch_index(slot, n, k)] = material.number(law, cell, k);
+      const unsigned int cell = cell_of_slot(slot);
       if (has_own && laws[cell] == law)
         of_law.volumes[slot] = volumes[slot];
     }
+    fill_constants(material, of_law);
     return of_law;
+  }
+
+  void
+  CellBatches::fill_constants(const Material &material, OfLaw &of_law) const
+  {
+    const std::size_t n = n_constants(of_law.law);
+    for (std::size_t slot = 0; slot < volumes.size(); ++slot)
+      for (std::size_t k = 0; k < n; ++k)
+        of_law.constants[batch_index(slot, n, k)]
+            = material.number(of_law.law, cell_of_slot(slot), k);
+  }
+
+  void
+  CellBatches::set_constants(const Material &material, const ExampleConstants &new_examples)
+  {
+    examples = new_examples;
+    for (OfLaw &of_law : of_laws)
+      fill_constants(material, of_law);
   }
 
   CellArrays

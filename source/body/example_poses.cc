@@ -138,7 +138,7 @@ namespace Exemplar
                              const Mesh                             &mesh,
                              const FESpace                          &fe_space,
                              const Material                         &cell_material,
-                             const Patches                          *patches,
+                             const Patches                          &patches,
                              const NamedPoses                       &named_poses,
                              const std::vector<std::vector<double>> &painted)
       : fe_space(fe_space),
@@ -149,17 +149,26 @@ namespace Exemplar
         first_strained(parameters.in_use() && parameters.include_rest_pose ? 1 : 0),
         warnings(review(parameters, mesh, fe_space, poses))
   {
+    set_parameters(importance(), cell_material, patches);
+  }
+
+  void
+  ExamplePoses::set_parameters(const double    importance,
+                               const Material &cell_material,
+                               const Patches  &patches)
+  {
     if (poses.empty())
       return;
+    example_constants.importance = importance;
     compute_strains();
-    if (patches != nullptr)
-      compute_patch_dilatations(*patches);
+    compute_patch_dilatations(patches);
     compute_gram_matrix(cell_material, patches);
   }
 
   void
   ExamplePoses::compute_strains()
   {
+    strains.clear();
     strains.resize(batched_size(fe_space.n_points(), 6 * n_strained()), 0.);
     strain_norms.assign(n_weights(), 0.);
     double &p_0 = example_constants.guard_bound;
@@ -195,6 +204,8 @@ namespace Exemplar
   ExamplePoses::compute_patch_dilatations(const Patches &patches)
   {
     patch_dilatations.reinit(patches.size(), n_weights());
+    if (patches.size() == 0)
+      return;
     for (unsigned int point = 0; point < fe_space.n_points(); ++point)
     {
       const unsigned int patch    = patches.of_point(point);
@@ -206,7 +217,7 @@ namespace Exemplar
   }
 
   void
-  ExamplePoses::compute_gram_matrix(const Material &cell_material, const Patches *patches)
+  ExamplePoses::compute_gram_matrix(const Material &cell_material, const Patches &patches)
   {
     gram.reinit(n_weights(), n_weights());
     for (unsigned int point = 0; point < fe_space.n_points(); ++point)
@@ -228,8 +239,8 @@ namespace Exemplar
     for (unsigned int patch = 0; patch < patch_dilatations.m(); ++patch)
       for (unsigned int v = 0; v < n_weights(); ++v)
         for (unsigned int w = 0; w < n_weights(); ++w)
-          gram(v, w) += patches->lambda(patch) * patches->volume(patch)
-                        * patch_dilatations(patch, v) * patch_dilatations(patch, w);
+          gram(v, w) += patches.stiffness(patch) * patch_dilatations(patch, v)
+                        * patch_dilatations(patch, w);
     if (gram.m() > 0)
       fe_space.exchange().sum(&gram(0, 0), gram.m() * gram.n());
   }

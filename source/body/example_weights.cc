@@ -44,11 +44,17 @@ namespace Exemplar
       read_prescribed(parameters.prescribed_weights);
       check_prescribed(axis);
     }
-    else if (size() > 0)
-    {
-      compute_form(parameters, unit_energy);
-      check_independence(unit_energy, parameters.ridge(unit_energy) > 0.);
-    }
+    set_parameters(parameters, unit_energy);
+  }
+
+  void
+  ExampleWeights::set_parameters(const ExampleParameters &parameters, const double unit_energy)
+  {
+    if (are_prescribed() || size() == 0)
+      return;
+    warnings.clear();
+    compute_form(parameters, unit_energy);
+    check_independence(unit_energy, parameters.ridge(unit_energy) > 0.);
   }
 
   void
@@ -56,6 +62,7 @@ namespace Exemplar
   {
     const unsigned int n = poses.n_weights();
     penalty.reinit(n, n);
+    form.coupled.clear();
     form.N.reinit(poses.get_regions().n_regions(), n);
     const double sigma = parameters.ridge(unit_energy);
     // a region has its part of the ridge, so that equal weights in all regions cost what global ones do

@@ -124,29 +124,32 @@ namespace Exemplar
     }
   } // namespace
 
+  void
+  Loads::set_gravity(const std::array<double, 3> &acceleration,
+                     const FESpace               &fe_space,
+                     const Material              &material)
+  {
+    const dealii::Tensor<1, 3> gravity({ acceleration[0], acceleration[1], acceleration[2] });
+    const std::vector<double>  masses
+        = nodal_masses(fe_space, material, rule(mass_matrix == MassMatrix::consistent));
+    if (const double total = std::accumulate(masses.begin(), masses.end(), 0.);
+        fe_space.exchange().any(!std::isfinite(total * gravity.norm())))
+      throw UserError("Loads/Gravity: the weight of the body is not a finite number. Look at "
+                      "Material/Density, and at the mesh's unit.");
+    gravity_force.reinit(gravity.norm() > 0. ? fe_space.n_dofs() : 0);
+    for (unsigned int dof = 0; dof < gravity_force.size(); ++dof)
+      gravity_force[dof] = masses[dof / 3] * gravity[dof % 3];
+  }
+
   Loads::Loads(const LoadsParameters &parameters,
                const Mesh            &mesh,
                const FESpace         &fe_space,
                const Material        &material,
                const NamedNodes      &named_nodes,
                const MassMatrix       mass_matrix)
-      : ramp(parameters.ramp)
+      : ramp(parameters.ramp), mass_matrix(mass_matrix)
   {
-    const dealii::Tensor<1, 3> gravity(
-        { parameters.gravity[0], parameters.gravity[1], parameters.gravity[2] });
-    const std::vector<double> masses
-        = nodal_masses(fe_space, material, rule(mass_matrix == MassMatrix::consistent));
-    if (const double total = std::accumulate(masses.begin(), masses.end(), 0.);
-        fe_space.exchange().any(!std::isfinite(total * gravity.norm())))
-      throw UserError("Loads/Gravity: the weight of the body is not a finite number. Look at "
-                      "Material/Density, and at the mesh's unit.");
-    if (gravity.norm() > 0.)
-    {
-      gravity_force.reinit(fe_space.n_dofs());
-      for (unsigned int node = 0; node < fe_space.n_nodes(); ++node)
-        for (unsigned int c = 0; c < 3; ++c)
-          gravity_force[3 * node + c] = masses[node] * gravity[c];
-    }
+    set_gravity(parameters.gravity, fe_space, material);
     for (const LoadParameters &p : parameters.named)
     {
       const std::string         key      = "Loads/" + p.name;

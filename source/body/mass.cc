@@ -44,8 +44,16 @@ namespace Exemplar
   } // namespace
 
   Mass::Mass(const FESpace &fe_space, const Material &material, const MassMatrix kind)
-      : with_others(fe_space.exchange()), pattern(fe_space.nodal_pattern()), matrix(pattern)
+      : with_others(fe_space.exchange()), kind(kind), pattern(fe_space.nodal_pattern()),
+        matrix(pattern)
   {
+    set_material(fe_space, material);
+  }
+
+  void
+  Mass::set_material(const FESpace &fe_space, const Material &material)
+  {
+    matrix = 0.;
     std::vector<double> density(fe_space.n_cells());
     for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
       density[cell] = material.density(cell);
@@ -67,7 +75,9 @@ namespace Exemplar
   void
   Mass::copy_rows()
   {
-    row_start.push_back(0);
+    row_start.assign(1, 0);
+    columns.clear();
+    values.clear();
     for (unsigned int row = 0; row < matrix.m(); ++row)
     {
       for (auto entry = matrix.begin(row); entry != matrix.end(row); ++entry)

@@ -33,15 +33,18 @@ namespace Exemplar
     }
 
     void
-    check_painted(const ElasticConstants &values, const unsigned int cell)
+    check_constants(const ElasticConstants &values,
+                    const unsigned int      cell,
+                    const std::string      &origin)
     {
       const auto check = [&](const std::string &name, const double value, const bool is_allowed)
       {
         if (!is_allowed)
-          throw UserError("Material/" + name + " map: the " + std::to_string(cell + 1)
+          throw UserError("Material/" + name + origin + ": the " + std::to_string(cell + 1)
                           + ". cell would get " + shortest_text(value)
                           + ". Young's modulus and density must be greater than 0, Poisson's ratio "
-                            "between -1 and 0.5. Change the map, or how it is used.");
+                            "between -1 and 0.5."
+                          + (origin.empty() ? "" : " Change the map, or how it is used."));
       };
       check("Young's modulus", values.youngs_modulus, values.youngs_modulus >= 1e-300);
       check("Density", values.density, values.density >= 1e-300);
@@ -115,7 +118,7 @@ namespace Exemplar
       apply(painted.youngs_modulus, cell, values.youngs_modulus);
       apply(painted.poissons_ratio, cell, values.poissons_ratio);
       apply(painted.density, cell, values.density);
-      check_painted(values, cell);
+      check_constants(values, cell, " map");
       add(values);
       constants_of_cell[cell] = cell;
     }
@@ -128,6 +131,51 @@ namespace Exemplar
     if (constexpr std::size_t n = CellMaterial<double>::n_numbers; k >= n)
       return of_cell.own.at(own_constants(law)[k - n].name);
     return of_cell.elasticity.number(k);
+  }
+
+  namespace
+  {
+    /// Of a cell, from what is changed or as it was.
+    double
+    changed_to(const std::vector<double> &values, const unsigned int cell, const double before)
+    {
+      return values.empty() ? before : values[values.size() == 1 ? 0 : cell];
+    }
+
+    void
+    check_number(const std::vector<double> &values,
+                 const std::size_t          n_cells,
+                 const std::string         &key)
+    {
+      if (values.size() > 1 && values.size() != n_cells)
+        throw UserError(key + ": there are " + std::to_string(values.size()) + " numbers for "
+                        + std::to_string(n_cells) + " cells. Give one for all, or one a cell.");
+    }
+  } // namespace
+
+  Material
+  Material::with(const ChangedConstants &changed) const
+  {
+    check_number(changed.youngs_modulus, constants_of_cell.size(), "Material/Young's modulus");
+    check_number(changed.poissons_ratio, constants_of_cell.size(), "Material/Poisson's ratio");
+    check_number(changed.density, constants_of_cell.size(), "Material/Density");
+    Material result;
+    for (unsigned int cell = 0; cell < constants_of_cell.size(); ++cell)
+    {
+      const Constants       &before = constants[constants_of_cell[cell]];
+      const double           lambda = before.elasticity.lambda, mu = before.elasticity.mu;
+      const double           nu = lambda / (2. * (lambda + mu));
+      const ElasticConstants values
+          = { changed_to(changed.youngs_modulus, cell, before.youngs_modulus),
+              changed_to(changed.poissons_ratio, cell, nu),
+              changed_to(changed.density, cell, before.density), before.own };
+      check_constants(values, cell, "");
+      result.constants_of_cell.push_back(cell);
+      result.add(values);
+      if (changed.youngs_modulus.empty() && changed.poissons_ratio.empty())
+        result.constants.back().elasticity = before.elasticity; // to the last digit
+    }
+    return result;
   }
 
   Material

@@ -236,21 +236,31 @@ namespace Exemplar
                    const FESpace                   &fe_space,
                    const Material                  &material)
   {
+    if (of_cells.empty())
+      return;
     for (unsigned int point = 0; point < fe_space.n_points(); ++point)
       patch_of_point.push_back(of_cells[fe_space.cell_of(point)]);
     const unsigned int n = 1 + *std::max_element(patch_of_point.begin(), patch_of_point.end());
     points_of_patch.resize(n);
     volumes.assign(n, 0.);
-    lambdas.assign(n, 0.);
     for (unsigned int point = 0; point < patch_of_point.size(); ++point)
     {
       const unsigned int patch  = patch_of_point[point];
       const double       volume = fe_space.volume(point);
       points_of_patch[patch].push_back(point);
       volumes[patch] += volume;
-      lambdas[patch] += volume * material.elasticity(fe_space.cell_of(point)).lambda;
     }
-    for (unsigned int patch = 0; patch < n; ++patch)
+    set_material(fe_space, material);
+  }
+
+  void
+  Patches::set_material(const FESpace &fe_space, const Material &material)
+  {
+    lambdas.assign(size(), 0.);
+    for (unsigned int point = 0; point < patch_of_point.size(); ++point)
+      lambdas[patch_of_point[point]]
+          += fe_space.volume(point) * material.elasticity(fe_space.cell_of(point)).lambda;
+    for (unsigned int patch = 0; patch < size(); ++patch)
       lambdas[patch] /= volumes[patch];
   }
 

@@ -94,6 +94,13 @@ namespace Exemplar
       term->attach(pattern, parts.free_dofs, cells);
   }
 
+  void
+  ElasticPotential::follow_parameters()
+  {
+    cells.set_constants(parts.cell_material, parts.examples.constants());
+    rounding = estimate_rounding(parts);
+  }
+
   double
   ElasticPotential::rounding_weight_gradient() const
   {

@@ -103,6 +103,14 @@ namespace Exemplar
   }
 
   void
+  IncrementalPotential::follow_parameters()
+  {
+    cells.follow_parameters();
+    for (PotentialTerm *term : all_terms)
+      term->follow_parameters();
+  }
+
+  void
   IncrementalPotential::begin_step(const State &start, const double step_size)
   {
     cells.get_field().set_history(start.history);

@@ -25,8 +25,8 @@ namespace Exemplar
     difference -= integrator.predicted_positions();
     const OwnSums<Vector> M_times = mass.own_times(difference);
     const Vector         &product = *M_times;
-    const double factor  = integrator.mass_factor();
-    double       energy  = 0.;
+    const double          factor  = integrator.mass_factor();
+    double                energy  = 0.;
     for (unsigned int node = 0; node < sums->force_scale.size(); ++node)
     {
       double square = 0.;
@@ -43,18 +43,26 @@ namespace Exemplar
   }
 
   void
-  InertiaTerm::attach(const SymmetricPattern &pattern,
-                      const FreeDofs         &free_dofs,
+  InertiaTerm::attach(const SymmetricPattern &new_pattern,
+                      const FreeDofs         &new_free_dofs,
                       CellField & /*cells*/)
   {
-    mass_values.assign(pattern.n_values(), 0.);
+    pattern   = &new_pattern;
+    free_dofs = &new_free_dofs;
+    follow_parameters();
+  }
+
+  void
+  InertiaTerm::follow_parameters()
+  {
+    mass_values.assign(pattern->n_values(), 0.);
     const dealii::SparseMatrix<double> &nodal = mass.nodal();
-    for (const unsigned int dof : free_dofs.local_list())
+    for (const unsigned int dof : free_dofs->local_list())
       for (auto entry = nodal.begin(dof / 3); entry != nodal.end(dof / 3); ++entry)
       {
         const unsigned int other = 3 * entry->column() + dof % 3;
-        if (other >= dof && free_dofs.free_index(other) != FreeDofs::held)
-          mass_values[pattern.position(free_dofs.free_index(other), free_dofs.free_index(dof))]
+        if (other >= dof && free_dofs->free_index(other) != FreeDofs::held)
+          mass_values[pattern->position(free_dofs->free_index(other), free_dofs->free_index(dof))]
               = entry->value();
       }
   }

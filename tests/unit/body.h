@@ -92,8 +92,7 @@ namespace Exemplar::Testing
     void
     make_patches()
     {
-      patches = std::make_unique<const Patches>(Patches::choose(mesh, material, fe_space.element()),
-                                                fe_space, material);
+      patches = Patches(Patches::choose(mesh, material, fe_space.element()), fe_space, material);
       cell_material = material.without_dilatation();
     }
 
@@ -103,7 +102,7 @@ namespace Exemplar::Testing
     {
       Examples result;
       result.poses = std::make_unique<ExamplePoses>(parameters, laws, mesh, fe_space, cell_material,
-                                                    patches.get());
+                                                    patches);
       result.weights = std::make_unique<ExampleWeights>(parameters, *result.poses,
                                                         unit_energy(fe_space, material),
                                                         TimeAxis::of_increments(TimeParameters()));
@@ -142,11 +141,11 @@ namespace Exemplar::Testing
       return positions;
     }
 
-    const Mesh                     mesh;
-    const Material                 material;
-    const FESpace                  fe_space;
-    Material                       cell_material;
-    std::unique_ptr<const Patches> patches; ///< null: cells know their own dilatation
+    const Mesh     mesh;
+    const Material material;
+    const FESpace  fe_space;
+    Material       cell_material;
+    Patches        patches; ///< none: cells know their own dilatation
   };
 
   /// What a potential refers to, made before it.
@@ -161,9 +160,9 @@ namespace Exemplar::Testing
   elastic_terms(const Body &body, const ExamplePoses &poses)
   {
     PotentialTerms terms;
-    if (body.patches != nullptr)
+    if (body.patches.size() > 0)
       terms.push_back(
-          std::make_unique<PatchDilatation>(*body.patches, poses, body.fe_space, body.material));
+          std::make_unique<PatchDilatation>(body.patches, poses, body.fe_space, body.material));
     return terms;
   }
 
@@ -177,9 +176,9 @@ namespace Exemplar::Testing
   inline NodePairs
   couplings_of(const Body &body)
   {
-    if (body.patches == nullptr)
+    if (body.patches.size() == 0)
       return {};
-    return PatchScatter::couplings(*body.patches, body.fe_space);
+    return PatchScatter::couplings(body.patches, body.fe_space);
   }
 
   /// The elastic potential of a body.

@@ -25,6 +25,10 @@ namespace Exemplar
                 LawsOfCells             laws,
                 const ExampleConstants &examples);
 
+    /// The laws have other constants from now on; what they remember stays.
+    void
+    set_constants(const Material &material, const ExampleConstants &examples);
+
     /// What loops see that are the same for all laws.
     CellArrays
     arrays();
@@ -146,9 +150,19 @@ namespace Exemplar
     OfLaw
     make(CellLaw law, const Material &material) const;
 
+    void
+    fill_constants(const Material &material, OfLaw &of_law) const;
+
+    /// Slots behind the last point repeat it.
+    unsigned int
+    cell_of_slot(const std::size_t slot) const
+    {
+      return fe_space.cell_of(static_cast<unsigned int>(std::min(slot, n_points - 1)));
+    }
+
     const FESpace                &fe_space;
     const LawsOfCells             laws;
-    const ExampleConstants        examples;
+    ExampleConstants              examples;
     const std::size_t             n_points;
     const std::size_t             n_nodes; ///< of each
     std::vector<int>              nodes;

@@ -45,7 +45,7 @@ namespace Exemplar
                  const Mesh                             &mesh,
                  const FESpace                          &fe_space,
                  const Material                         &cell_material,
-                 const Patches                          *patches,
+                 const Patches                          &patches,
                  const NamedPoses                       &named_poses = {},
                  const std::vector<std::vector<double>> &painted     = {});
 
@@ -74,6 +74,10 @@ namespace Exemplar
     {
       return example_constants.importance;
     }
+
+    /// From now on this importance, greater than 0, in a body of this material; see the constructor.
+    void
+    set_parameters(double importance, const Material &cell_material, const Patches &patches);
 
     /// Volume of each region over that of the body, with shares counted; they sum to one.
     std::vector<double>
@@ -204,7 +208,7 @@ namespace Exemplar
     compute_strains();
 
     void
-    compute_gram_matrix(const Material &cell_material, const Patches *patches);
+    compute_gram_matrix(const Material &cell_material, const Patches &patches);
 
     void
     compute_patch_dilatations(const Patches &patches);

@@ -46,6 +46,10 @@ namespace Exemplar
       return poses.get_regions().n_regions();
     }
 
+    /// Of the examples as they are now, in a body of this unit energy [J]; see the constructor.
+    void
+    set_parameters(const ExampleParameters &parameters, double unit_energy);
+
     /// As many as there are examples.
     unsigned int
     n_per_region() const

@@ -27,6 +27,13 @@ namespace Exemplar
           const NamedNodes      &nodes       = {},
           MassMatrix             mass_matrix = MassMatrix::consistent);
 
+    /// From now on gravity is this acceleration [m/s^2], in a body of this material. Throws UserError
+    /// for a weight that is not finite.
+    void
+    set_gravity(const std::array<double, 3> &acceleration,
+                const FESpace               &fe_space,
+                const Material              &material);
+
     bool
     has_gravity() const
     {
@@ -88,6 +95,7 @@ namespace Exemplar
     };
 
     const LoadRamp         ramp;
+    const MassMatrix       mass_matrix; ///< on whose masses gravity acts
     dealii::Vector<double> gravity_force;
     std::vector<Load>      loads;
   };

@@ -28,6 +28,10 @@ namespace Exemplar
   public:
     Mass(const FESpace &fe_space, const Material &material, MassMatrix kind);
 
+    /// The cells have other densities.
+    void
+    set_material(const FESpace &fe_space, const Material &material);
+
     /// Of the cells of this process.
     const dealii::SparseMatrix<double> &
     nodal() const
@@ -63,6 +67,7 @@ namespace Exemplar
     copy_rows();
 
     const Exchange              &with_others;
+    const MassMatrix             kind;
     dealii::SparsityPattern      pattern;
     dealii::SparseMatrix<double> matrix;
     std::vector<std::size_t>     row_start; ///< the matrix once more: its entries are visited in

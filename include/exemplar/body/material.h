@@ -23,6 +23,14 @@ namespace Exemplar
     PaintedConstant youngs_modulus, poissons_ratio, density;
   };
 
+  /// New constants, one for all cells or one a cell; empty: as they are.
+  struct ChangedConstants
+  {
+    std::vector<double> youngs_modulus; ///< [Pa]
+    std::vector<double> poissons_ratio; ///< [-]
+    std::vector<double> density;        ///< [kg/m^3]
+  };
+
   /// The elastic constants and the density of each cell.
   class Material
   {
@@ -47,6 +55,11 @@ namespace Exemplar
     /// Number k of the Constants of a law.
     double
     number(CellLaw law, unsigned int cell, std::size_t k) const;
+
+    /// With other constants. Throws UserError for numbers that are not one for all or one a cell, or that
+    /// are out of range.
+    Material
+    with(const ChangedConstants &changed) const;
 
     /// What is left of it in cells of which the volume part of the energy is that of patches.
     Material

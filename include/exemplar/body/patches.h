@@ -26,11 +26,25 @@ namespace Exemplar
     static std::vector<unsigned int>
     choose(const Mesh &mesh, const Material &material, Element element);
 
+    /// None: cells know their own dilatation.
+    Patches() = default;
+
     /// Those that choose() has found: the one of each cell of this process, numbered from 0 on without
-    /// gaps.
+    /// gaps; none if there are no numbers.
     Patches(const std::vector<unsigned int> &of_cells,
             const FESpace                   &fe_space,
             const Material                  &material);
+
+    /// What of a material is the cells' own, beside the dilatation of patches.
+    Material
+    rest_of(const Material &material) const
+    {
+      return size() > 0 ? material.without_dilatation() : material;
+    }
+
+    /// The cells have other constants. Which cells make a patch stays.
+    void
+    set_material(const FESpace &fe_space, const Material &material);
 
     unsigned int
     size() const

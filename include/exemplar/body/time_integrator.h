@@ -24,6 +24,14 @@ namespace Exemplar
   public:
     explicit TimeIntegrator(const TimeParameters &parameters);
 
+    /// From the next step on mass damping a [1/s] and stiffness damping b [s].
+    void
+    set_damping(const double a, const double b)
+    {
+      mass_damping      = a;
+      stiffness_damping = b;
+    }
+
     /// Start a step of length h [s] from `state`.
     void
     begin_step(const State &state, double step_size);
@@ -74,8 +82,8 @@ namespace Exemplar
 
   private:
     const TimeScheme scheme;
-    const double     mass_damping;      ///< a [1/s]
-    const double     stiffness_damping; ///< b [s]
+    double           mass_damping;      ///< a [1/s]
+    double           stiffness_damping; ///< b [s]
     double           step_size  = 0.;
     double           gamma      = 0.; ///< [1/s]
     double           c_last     = 1.; ///< x_star = c_last x_n + c_previous x_(n-1)

@@ -130,6 +130,13 @@ namespace Exemplar
       return nodal_sums;
     }
 
+    /// As CellBatches::set_constants().
+    void
+    set_constants(const Material &material, const ExampleConstants &examples)
+    {
+      batches.set_constants(material, examples);
+    }
+
     /// What the laws remember from now on, see State::history.
     void
     set_history(const std::vector<double> &history)

@@ -100,6 +100,10 @@ namespace Exemplar
       return cells;
     }
 
+    /// The material, the importance of the examples or the weights' form are others from now on.
+    void
+    follow_parameters();
+
     /// Energies and their derivatives. If the caller has the weight_linear_term() of these
     /// positions, the derivatives by the weights are H w - c, and the loop need not sum them.
     void
@@ -207,7 +211,7 @@ namespace Exemplar
     CellField               cells;
     CellScatter             scatter;
     const PotentialTerms    terms;
-    const CellRounding      rounding;
+    CellRounding            rounding;
   };
 } // namespace Exemplar
 

@@ -64,6 +64,10 @@ namespace Exemplar
     void
     renew_pattern();
 
+    /// Material, masses or the importance of the examples are others from now on.
+    void
+    follow_parameters();
+
     /// A step of length h [s] (of dynamics; not used otherwise) begins at `start`.
     void
     begin_step(const State &start, double step_size);

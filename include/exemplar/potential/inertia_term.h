@@ -42,6 +42,9 @@ namespace Exemplar
     attach(const SymmetricPattern &pattern, const FreeDofs &free_dofs, CellField &cells) override;
 
     void
+    follow_parameters() override;
+
+    void
     add_tangent(const TermPoint     &at,
                 Tangent              kind,
                 std::vector<double> &values,
@@ -62,11 +65,13 @@ namespace Exemplar
     memory_consumption() const override;
 
   private:
-    const Mass           &mass;
-    const TimeIntegrator &integrator;
-    const bool            is_reported;
-    std::vector<double>   mass_values; ///< M on the pattern [kg]
-    bool                  in_step = false;
+    const Mass             &mass;
+    const TimeIntegrator   &integrator;
+    const bool              is_reported;
+    const SymmetricPattern *pattern   = nullptr; ///< since attach()
+    const FreeDofs         *free_dofs = nullptr; ///< since attach()
+    std::vector<double>     mass_values;         ///< M on the pattern [kg]
+    bool                    in_step = false;
   };
 } // namespace Exemplar
 

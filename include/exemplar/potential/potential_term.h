@@ -73,6 +73,12 @@ namespace Exemplar
     {
     }
 
+    /// What it is made of has other values from now on: material, masses, loads.
+    virtual void
+    follow_parameters()
+    {
+    }
+
     /// A step begins at `start`, with the cells' damping as CellField has it; the term belongs to it
     /// until end_step() or leave_step().
     virtual void

@@ -62,7 +62,7 @@ namespace Exemplar
       { "gravity", has_gravity, has_gravity ? loads : 0 }, // one vector holds both
       { "loads", actions.loads != nullptr && actions.loads->has_named_loads(),
         has_gravity ? 0 : loads },
-      { "mean dilatation by patches", problem.body.patches != nullptr, {} },
+      { "mean dilatation by patches", problem.body.patches.size() > 0, {} },
       { "example poses", poses.size() > 0, poses.size() > 0 ? poses.memory_consumption() : 0 },
       { "weight block", finds_weights, problem.system.memory_of_weights() },
       { "weights per region",

@@ -191,16 +191,6 @@ namespace Exemplar
   }
 
   void
-  Problem::change_handles(const std::function<void(Handles &)> &change)
-  {
-    if (constraints.support)
-      throw UserError(parameters.name + ": an interpolation has no handles to change.");
-    constraints.change_handles(change, parameters, body);
-    potential.renew_pattern();
-    solver->forget(); // what it remembers is of other unknowns
-  }
-
-  void
   Problem::resume_from(const State &earlier, const std::string &solver_memory)
   {
     state = earlier;

@@ -144,28 +144,20 @@ namespace Exemplar
                                   : TimeAxis::of_increments(parameters.time);
   }
 
-  namespace
-  {
-    std::unique_ptr<const Patches>
-    make_patches(const SceneParameters           &parameters,
-                 const std::vector<unsigned int> &of_cells,
-                 const FESpace                   &fe_space,
-                 const Material                  &material)
-    {
-      if (!parameters.model.has_patches())
-        return nullptr;
-      return std::make_unique<const Patches>(of_cells, fe_space, material);
-    }
-  } // namespace
-
   Body::Body(const SceneParameters &parameters, BodyInputs &inputs)
       : mesh(std::move(inputs.mesh)), material(std::move(inputs.fields.material)),
         fe_space(mesh, parameters.model.element),
-        patches(make_patches(parameters, inputs.fields.patches, fe_space, material)),
-        cell_material(patches != nullptr ? material.without_dilatation() : material),
-        made(inputs.undivided.made), geo_walls(inputs.undivided.geo_walls),
-        warnings(inputs.undivided.warnings)
+        patches(inputs.fields.patches, fe_space, material),
+        cell_material(patches.rest_of(material)), made(inputs.undivided.made),
+        geo_walls(inputs.undivided.geo_walls), warnings(inputs.undivided.warnings)
   {
+  }
+
+  void
+  Body::follow_material()
+  {
+    patches.set_material(fe_space, material);
+    cell_material = patches.rest_of(material);
   }
 
   Constraints::Constraints(const SceneParameters &parameters,
@@ -287,7 +279,7 @@ namespace Exemplar
               body.mesh,
               body.fe_space,
               body.cell_material,
-              body.patches.get(),
+              body.patches,
               inputs.fields.poses,
               inputs.fields.shares),
         weights(parameters.examples, poses, unit_energy(body.fe_space, body.material), axis)
@@ -310,9 +302,9 @@ namespace Exemplar
   make_elastic_terms(const Body &body, const Examples &examples)
   {
     PotentialTerms terms;
-    if (body.patches != nullptr)
-      terms.push_back(std::make_unique<PatchDilatation>(*body.patches, examples.poses,
-                                                        body.fe_space, body.material));
+    if (body.patches.size() > 0)
+      terms.push_back(std::make_unique<PatchDilatation>(body.patches, examples.poses, body.fe_space,
+                                                        body.material));
     return terms;
   }
 

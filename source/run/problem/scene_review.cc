@@ -42,7 +42,7 @@ namespace Exemplar
                + " is beyond 0.4999, up to which the program is verified: steps take many more "
                  "iterations, and hardly differ. Take 0.4999 at most.";
       const bool may_lock
-          = traits_of(problem.parameters.model.element).locks && problem.body.patches == nullptr;
+          = traits_of(problem.parameters.model.element).locks && problem.body.patches.size() == 0;
       if (may_lock && greatest > locking_ratio)
         return "With a Poisson's ratio of " + shortest_text(greatest)
                + " linear tetrahedra without patches lock: the body is far too stiff. Set "

@@ -125,16 +125,14 @@ namespace Exemplar
     {
       const FESpace &fe_space = quadratic.body.fe_space;
       // dilatations that patches leave free within them are no error
-      const Patches      *patches = linear.body.patches.get();
+      const Patches      &patches   = linear.body.patches;
+      const bool          are_there = patches.size() > 0;
       std::vector<double> densities(fe_space.n_cells(), 0.);
-      std::vector<double> traces(patches == nullptr ? fe_space.n_cells() : patches->size(), 0.);
-      const auto          part_of = [&](const unsigned int cell)
-      { return patches == nullptr ? cell : patches->of_point(cell); };
+      std::vector<double> traces(are_there ? patches.size() : fe_space.n_cells(), 0.);
+      const auto          part_of
+          = [&](const unsigned int cell) { return are_there ? patches.of_point(cell) : cell; };
       const auto volume_of = [&](const unsigned int cell)
-      {
-        return patches == nullptr ? fe_space.cell_volume(cell)
-                                  : patches->volume(patches->of_point(cell));
-      };
+      { return are_there ? patches.volume(patches.of_point(cell)) : fe_space.cell_volume(cell); };
       for (unsigned int point = 0; point < fe_space.n_points(); ++point)
       {
         const unsigned int          cell = fe_space.cell_of(point);

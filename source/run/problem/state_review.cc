@@ -174,7 +174,7 @@ namespace Exemplar
              + problem.examples.poses.name(*example) + "), by up to " + short_text(100. * miss)
              + " % of the body's size: another state has its strains, or less energy, as where an "
                "example has inverted cells. Look at the frames, or take smaller steps"
-             + (problem.body.patches != nullptr ? ", or Model/Dilatation = cells." : ".");
+             + (problem.body.patches.size() > 0 ? ", or Model/Dilatation = cells." : ".");
     }
 
     /// Whether nothing acts on the body that the rest pose could not bear without strain.

@@ -41,12 +41,12 @@ namespace Exemplar::Testing
                      const std::vector<bool> &is_left_out) const
       {
         double energy = 0.;
-        for (unsigned int patch = 0; patch < body.patches->size(); ++patch)
+        for (unsigned int patch = 0; patch < body.patches.size(); ++patch)
         {
-          const double volume          = body.patches->volume(patch);
+          const double volume          = body.patches.volume(patch);
           double       change          = 0.;
           bool         is_any_left_out = false;
-          for (const unsigned int point : body.patches->points(patch))
+          for (const unsigned int point : body.patches.points(patch))
           {
             const double fraction = body.fe_space.volume(point) / volume;
             change += fraction * (strain_trace(point, x) - strain_trace(point, past));
@@ -58,7 +58,7 @@ namespace Exemplar::Testing
             energy += 0.5 * s * body.fe_space.volume(point) * contract(stress(C, de), de);
           }
           if (!is_any_left_out)
-            energy += 0.5 * s * body.patches->lambda(patch) * volume * change * change;
+            energy += 0.5 * s * body.patches.lambda(patch) * volume * change * change;
         }
         return energy;
       }

@@ -163,6 +163,81 @@ namespace Exemplar::Testing
       expect_same_bytes(scene.problem.state, same.problem.state);
     }
 
+    /// A bar with an example, gravity and both dampings.
+    std::string
+    changeable_bar(const std::string &material,
+                   const std::string &importance,
+                   const std::string &gravity,
+                   const std::string &damping)
+    {
+      return "set Scene = dynamic\n" + bar + drag + "subsection Material\n" + material + "end\n"
+             + examples("set Pose functions = x; y+0.1*x*z; z-0.1*x*y\nset Importance = "
+                        + importance + "\n")
+             + "subsection Loads\n set Gravity = 0, 0, " + gravity + "\nend\n"
+             + "subsection Time\n set Step = 0.02\n set End = 1\n set Stiffness damping = "
+             + damping + "\nend\nsubsection Solver\n set Tolerance = 1e-11\nend\n";
+    }
+
+    TEST(Problem, WhatIsChangedBetweenStepsActsAsIfItHadBeenSoAtFirst)
+    {
+      const std::string soft
+          = "set Young's modulus = 1e5\n",
+          stiff = "set Young's modulus = 4e5\nset Poisson's ratio = 0.3\nset Density = 700\n";
+      for (const std::string method : { "newton", "quasi newton" })
+        for (const std::string dilatation : { "cells", "patches" })
+        {
+          const std::vector<std::string> keys
+              = { "Solver/Method=" + method, "Model/Dilatation=" + dilatation };
+          Scene changed(changeable_bar(soft, "0.8", "-1", "0"), keys),
+              other(changeable_bar(stiff, "0.4", "-9", "0.01"), keys);
+          advance(changed.problem, 3);
+          changed.problem.set_material({ { 4e5 }, { 0.3 }, { 700. } });
+          changed.problem.set_importance(0.4);
+          changed.problem.set_gravity({ { 0., 0., -9. } });
+          changed.problem.set_damping(0., 0.01);
+          other.problem.resume_from(changed.problem.state);
+          const Evaluation &now = changed.problem.evaluation, &then = other.problem.evaluation;
+          EXPECT_NEAR(now.potential, then.potential, 1e-10 * std::abs(then.potential));
+          EXPECT_LT(max_difference(now.gradient, then.gradient),
+                    1e-10 * then.gradient.linfty_norm());
+          advance(changed.problem, 3);
+          advance(other.problem, 3);
+          EXPECT_LT(max_difference(changed.problem.state.positions, other.problem.state.positions),
+                    1e-8)
+              << method << ", " << dilatation;
+          EXPECT_NEAR(changed.problem.state.weights[1], other.problem.state.weights[1], 1e-7);
+        }
+    }
+
+    TEST(Problem, ConstantsMayBeGivenByCell)
+    {
+      Scene                     scene(static_bar), same(static_bar);
+      const std::vector<double> by_cell(scene.problem.body.mesh.n_cells(), 3e5);
+      scene.problem.set_material({ by_cell, {}, {} });
+      same.problem.set_material({ { 3e5 }, {}, {} });
+      EXPECT_EQ(scene.problem.evaluation.gradient, same.problem.evaluation.gradient);
+      advance(scene.problem, 2);
+      advance(same.problem, 2);
+      expect_same_bytes(scene.problem.state, same.problem.state);
+    }
+
+    TEST(Problem, ChangesOutOfRangeAreRefused)
+    {
+      Scene      scene(static_bar), same(static_bar);
+      Problem   &problem = scene.problem;
+      const auto refuse  = [](const std::function<void()> &change, const std::string &part)
+      { expect_contains(message_of(change), part); };
+      refuse([&] { problem.set_material({ { -1. }, {}, {} }); }, "Young's modulus");
+      refuse([&] { problem.set_material({ {}, { 0.5 }, {} }); }, "Poisson's ratio");
+      refuse([&] { problem.set_material({ {}, {}, { 1., 2. } }); }, "2 numbers for");
+      refuse([&] { problem.set_importance(0.5); }, "with examples");
+      refuse([&] { problem.set_gravity({ { 0., 0., -1. } }); }, "there are no loads");
+      refuse([&] { problem.set_damping(1., 0.); }, "Scene = dynamic");
+      advance(problem, 2);
+      advance(same.problem, 2);
+      expect_same_bytes(problem.state, same.problem.state);
+    }
+
     TEST(Problem, MotionsThatAreNoneAreRefused)
     {
       Scene      scene(static_bar);

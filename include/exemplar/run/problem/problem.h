@@ -41,6 +41,27 @@ namespace Exemplar
     void
     change_handles(const std::function<void(Handles &)> &change);
 
+    /// Between steps, give the cells other constants. Patches stay those of the first ones. Throws
+    /// UserError, with nothing changed, for numbers that Material::with() refuses. All processes must
+    /// call this and the three functions below.
+    void
+    set_material(const ChangedConstants &changed);
+
+    /// Between steps, give the examples another importance. Throws UserError for a scene without
+    /// examples, an interpolation, or a number that is not above 0 and at most 1.
+    void
+    set_importance(double importance);
+
+    /// Between steps, let gravity be another [m/s^2]. Throws UserError for a scene without loads, whose
+    /// potential has no such term.
+    void
+    set_gravity(const std::array<double, 3> &acceleration);
+
+    /// Between steps, damp otherwise: mass damping [1/s] and stiffness damping [s]. Throws UserError
+    /// for a scene that is not dynamic, and for negative numbers.
+    void
+    set_damping(double mass_damping, double stiffness_damping);
+
     /// Go on from a state of an earlier run.
     void
     resume_from(const State &earlier, const std::string &solver_memory = "");
@@ -62,14 +83,14 @@ namespace Exemplar
     std::vector<std::string>
     warnings() const;
 
-    const SceneParameters                    parameters; ///< completed
+    SceneParameters                          parameters; ///< completed
     StepClock                                clock;
     const std::shared_ptr<const Inputs>      inputs; ///< null unless Output/Space error needs them
     const TimeAxis                           time_axis;
-    const Body                               body;
+    Body                                     body;
     const std::shared_ptr<const SurfaceMesh> surface; ///< of the body; null unless it is needed
     Constraints                              constraints;
-    const Examples                           examples;
+    Examples                                 examples;
     const Actions                            actions;
     IncrementalPotential                     potential;
     StepSystem                               system;
@@ -97,6 +118,10 @@ namespace Exemplar
     /// Make a failure of a report on a step to `next` if that, evaluated, is not finite.
     void
     refuse_what_is_not_finite(const State &next, SolveReport &report);
+
+    /// What is made of material and importance is made anew, each from what it depends on.
+    void
+    follow_parameters();
 
     /// Evaluate at a state that no step has led to.
     void

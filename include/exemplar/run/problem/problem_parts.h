@@ -38,11 +38,15 @@ namespace Exemplar
       return mesh.exchange();
     }
 
-    const Mesh                           mesh;
-    const Material                       material;
-    const FESpace                        fe_space;
-    const std::unique_ptr<const Patches> patches;       ///< of one mean dilatation each
-    const Material                       cell_material; ///< of the cells' own energy
+    /// After a change of the material.
+    void
+    follow_material();
+
+    const Mesh    mesh;
+    Material      material;
+    const FESpace fe_space;
+    Patches       patches;       ///< of one mean dilatation each; none: cells know their own
+    Material      cell_material; ///< of the cells' own energy
     /// How the mesh and its poses became of surfaces; null if none did.
     const std::shared_ptr<const MadeOfSurfaces> made;
     /// What stood around gmsh, see MshFile::geo_walls.
@@ -99,8 +103,8 @@ namespace Exemplar
              const TimeAxis        &axis,
              const BodyInputs      &inputs);
 
-    const ExamplePoses   poses;
-    const ExampleWeights weights;
+    ExamplePoses   poses;
+    ExampleWeights weights;
   };
 
   /// The terms of Psi, Eq. (5), beside the cells' own energies.

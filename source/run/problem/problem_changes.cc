@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
+#include <exemplar/base/number_text.h>
+#include <exemplar/run/problem/problem.h>
+
+// What of a problem may change between its steps, and what follows from that.
+
+namespace Exemplar
+{
+  void
+  Problem::change_handles(const std::function<void(Handles &)> &change)
+  {
+    if (constraints.support)
+      throw UserError(parameters.name + ": an interpolation has no handles to change.");
+    constraints.change_handles(change, parameters, body);
+    potential.renew_pattern();
+    solver->forget(); // what it remembers is of other unknowns
+  }
+
+  void
+  Problem::set_material(const ChangedConstants &changed)
+  {
+    body.material = body.material.with(changed);
+    if (actions.mass != nullptr)
+      actions.mass->set_material(body.fe_space, body.material);
+    if (actions.loads != nullptr)
+      actions.loads->set_gravity(parameters.loads.gravity, body.fe_space, body.material);
+    follow_parameters();
+  }
+
+  void
+  Problem::set_importance(const double importance)
+  {
+    if (examples.poses.size() == 0 || parameters.scene == SceneKind::interpolation)
+      throw UserError(
+          parameters.name
+          + ": only a static or dynamic scene with examples has an importance to change. "
+            "Give Examples/Poses and an Importance above 0.");
+    if (!(importance > 0. && importance <= 1.))
+      throw UserError("Examples/Importance: it is " + shortest_text(importance)
+                      + ", but must be above 0 and at most 1.");
+    parameters.examples.importance = importance;
+    follow_parameters();
+  }
+
+  void
+  Problem::set_gravity(const std::array<double, 3> &acceleration)
+  {
+    if (actions.loads == nullptr)
+      throw UserError(
+          parameters.name
+          + ": there are no loads, so gravity cannot change. Give Loads/Gravity, even a "
+            "small one.");
+    actions.loads->set_gravity(acceleration, body.fe_space, body.material);
+    parameters.loads.gravity = acceleration;
+    start(state);
+  }
+
+  void
+  Problem::set_damping(const double mass_damping, const double stiffness_damping)
+  {
+    if (actions.integrator == nullptr)
+      throw UserError(parameters.name + ": only a dynamic scene is damped. Set Scene = dynamic.");
+    if (!(mass_damping >= 0. && stiffness_damping >= 0.))
+      throw UserError("Time/Mass damping and Time/Stiffness damping must not be negative.");
+    actions.integrator->set_damping(mass_damping, stiffness_damping);
+    solver->forget(); // what it remembers has been damped otherwise
+    parameters.time.mass_damping      = mass_damping;
+    parameters.time.stiffness_damping = stiffness_damping;
+  }
+
+  void
+  Problem::follow_parameters()
+  {
+    body.follow_material();
+    examples.poses.set_parameters(parameters.examples.importance, body.cell_material, body.patches);
+    examples.weights.set_parameters(parameters.examples, unit_energy(body.fe_space, body.material));
+    potential.follow_parameters();
+    solver->forget(); // its factors are of other values
+    start(state);
+  }
+} // namespace Exemplar
