@@ -38,7 +38,7 @@ namespace Exemplar
     }
 
     std::unique_ptr<Problem>
-    make_problem_and_warn(SceneParameters    parameters,
+    make_problem_and_warn(CompleteScene      parameters,
                           const RunOptions  &options,
                           RunLog            &log,
                           const unsigned int n_threads = 1)
@@ -51,7 +51,7 @@ namespace Exemplar
                 ? make_problem(parameters, announce)
                 : make_problem(
                     parameters,
-                    ReadBody([&](const SceneParameters &scene)
+                    ReadBody([&](const CompleteScene &scene)
                              { return read_shared_body(scene, MPI_COMM_WORLD, announce); }));
       log.warn(problem->warnings());
       log.warn(unit_warnings(*problem));

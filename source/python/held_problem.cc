@@ -27,8 +27,8 @@ namespace Exemplar::Python
       const UnlockedWork unlocked;
       try
       {
-        Inputs inputs = read_inputs(given.scene, std::move(given.inputs));
-        return std::make_unique<Problem>(std::move(given.scene), std::move(inputs));
+        const CompleteScene scene(std::move(given.scene));
+        return std::make_unique<Problem>(scene, read_inputs(scene, std::move(given.inputs)));
       }
       catch (const SolverFailure &failure)
       {

@@ -15,7 +15,7 @@ namespace Exemplar::Verification
   {
   }
 
-  Scene::Scene(const SceneParameters &parameters, Inputs inputs)
+  Scene::Scene(const CompleteScene &parameters, Inputs inputs)
       : problem(parameters, read_inputs(parameters, std::move(inputs)))
   {
   }

@@ -33,7 +33,7 @@ namespace Exemplar::Verification
     Problem problem;
 
   private:
-    Scene(const SceneParameters &parameters, Inputs inputs);
+    Scene(const CompleteScene &parameters, Inputs inputs);
   };
 
   /// The generated box with its nodes moved.

@@ -51,10 +51,8 @@ namespace Exemplar
   } // namespace
 
   BodyInputs
-  make_body_inputs(SceneParameters scene, Inputs inputs)
+  make_body_inputs(const CompleteScene &scene, Inputs inputs)
   {
-    scene.complete();
-    scene.check();
     const bool            needs_inputs = scene.output.space_error != SpaceErrorUse::never;
     auto                  kept = needs_inputs ? std::make_shared<const Inputs>(inputs) : nullptr;
     Mesh                  mesh(std::move(inputs.mesh), scene.mesh.name(), scene.mesh.scale);
@@ -67,7 +65,7 @@ namespace Exemplar
   }
 
   BodyInputs
-  read_body(const SceneParameters &scene, const Announce &announce)
+  read_body(const CompleteScene &scene, const Announce &announce)
   {
     return make_body_inputs(scene, read_inputs(scene, {}, announce));
   }

@@ -158,9 +158,8 @@ namespace Exemplar
   } // namespace
 
   Inputs
-  read_inputs(SceneParameters scene, Inputs given, const Announce &announce)
+  read_inputs(const CompleteScene &scene, Inputs given, const Announce &announce)
   {
-    scene.complete();
     InputReader(scene, given, announce).read();
     return given;
   }

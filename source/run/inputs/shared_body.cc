@@ -41,10 +41,10 @@ namespace Exemplar
 
     /// What the root does: read, send all others their parts, and keep its own and what is not divided.
     Parcel
-    distribute(const SceneParameters &scene,
-               const MPI_Comm         communicator,
-               const Announce        &announce,
-               UndividedInputs       &undivided)
+    distribute(const CompleteScene &scene,
+               const MPI_Comm       communicator,
+               const Announce      &announce,
+               UndividedInputs     &undivided)
     {
       Parcel own;
       try
@@ -112,12 +112,10 @@ namespace Exemplar
   }
 
   BodyInputs
-  read_shared_body(const SceneParameters &given,
-                   const MPI_Comm         communicator,
-                   const Announce        &announce)
+  read_shared_body(const CompleteScene &scene,
+                   const MPI_Comm       communicator,
+                   const Announce      &announce)
   {
-    SceneParameters scene = given;
-    scene.complete();
     check_shareable(scene);
     UndividedInputs undivided;
     Parcel          parcel = dealii::Utilities::MPI::this_mpi_process(communicator) == 0

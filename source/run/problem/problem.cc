@@ -19,26 +19,17 @@ namespace Exemplar
     /// is turned back, because the matrix becomes singular at 90 degrees. With frozen forces the
     /// body is always turned back, because what they find depends on that cell's rotation.
     constexpr double max_turn = 0.7;
-
-    SceneParameters
-    completed(SceneParameters parameters)
-    {
-      parameters.complete();
-      parameters.check();
-      return parameters;
-    }
   } // namespace
 
-  Problem::Problem(SceneParameters scene, Inputs inputs, StepClock running_clock)
+  Problem::Problem(const CompleteScene &scene, Inputs inputs, StepClock running_clock)
       : Problem(scene, make_body_inputs(scene, std::move(inputs)), std::move(running_clock))
   {
   }
 
-  Problem::Problem(SceneParameters scene, BodyInputs given, StepClock running_clock)
-      : parameters(completed(std::move(scene))), clock(std::move(running_clock)),
-        inputs(given.undivided.inputs), time_axis(make_time_axis(parameters)),
-        body(parameters, given), surface(given.undivided.surface),
-        constraints(parameters, body, time_axis, given),
+  Problem::Problem(const CompleteScene &scene, BodyInputs given, StepClock running_clock)
+      : parameters(scene), clock(std::move(running_clock)), inputs(given.undivided.inputs),
+        time_axis(make_time_axis(parameters)), body(parameters, given),
+        surface(given.undivided.surface), constraints(parameters, body, time_axis, given),
         examples(parameters, body, time_axis, given), actions(parameters, body, given),
         potential({ parameters.model.law(), body.fe_space, body.material, body.cell_material,
                     examples.poses, examples.weights, constraints.free_dofs,
@@ -298,7 +289,7 @@ namespace Exemplar
   }
 
   std::unique_ptr<Problem>
-  make_problem(const SceneParameters &parameters, const ReadBody &read)
+  make_problem(const CompleteScene &parameters, const ReadBody &read)
   {
     try
     {
@@ -312,9 +303,9 @@ namespace Exemplar
   }
 
   std::unique_ptr<Problem>
-  make_problem(const SceneParameters &parameters, const Announce &announce)
+  make_problem(const CompleteScene &parameters, const Announce &announce)
   {
-    return make_problem(parameters, ReadBody([&announce](const SceneParameters &scene)
+    return make_problem(parameters, ReadBody([&announce](const CompleteScene &scene)
                                              { return read_body(scene, announce); }));
   }
 } // namespace Exemplar

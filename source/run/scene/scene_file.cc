@@ -188,20 +188,18 @@ namespace Exemplar
                         "interpolation).");
 
     make_selections_absolute();
-    const ExampleParameters given = parameters.examples;
-    parameters.complete(); // in the text auto stays, so that it says what the scene said
-    if (parameters.scene == SceneKind::interpolation)
-      set_interpolation(assignments, given);
     if (parameters.output.directory.empty())
       keys.set("Output/Directory",
                "output/" + std::filesystem::path(parameters.name).stem().string());
-    parameters.check();
+    complete.emplace(parameters);
+    if (parameters.scene == SceneKind::interpolation)
+      set_interpolation(assignments);
     const auto is_overridden = [&](const std::string &key)
     { return !text.empty() && find_assignment(overrides, key) != nullptr; };
     if (!is_overridden("Scene") && !is_overridden("Mesh/Generator")) // else the rest may stay
-      parameters.warnings = warn_of_ignored_keys(parameters, keys, assignments);
+      complete->warnings = warn_of_ignored_keys(*complete, keys, assignments);
     const std::vector<std::string> doubles = warnings_of_doubles(overrides);
-    parameters.warnings.insert(parameters.warnings.end(), doubles.begin(), doubles.end());
+    complete->warnings.insert(complete->warnings.end(), doubles.begin(), doubles.end());
   }
 
   void
@@ -290,8 +288,7 @@ namespace Exemplar
   }
 
   void
-  SceneFile::set_interpolation(const std::vector<Assignment> &assignments,
-                               const ExampleParameters       &given)
+  SceneFile::set_interpolation(const std::vector<Assignment> &assignments)
   {
     const auto require = [&](const std::string &key, const std::string &value, const bool agrees)
     {
@@ -302,10 +299,11 @@ namespace Exemplar
                         + ". Remove the line, or choose Scene = static.");
       keys.set("Examples/" + key, value);
     };
-    require("Importance", "1", given.importance == parameters.examples.importance);
-    require("Weights", "prescribed", given.weights == parameters.examples.weights);
+    const ExampleParameters given = parameters.examples; // what is set changes them
+    require("Importance", "1", given.importance == complete->examples.importance);
+    require("Weights", "prescribed", given.weights == complete->examples.weights);
     if (given.prescribed_weights.empty())
-      keys.set("Examples/Prescribed weights", parameters.examples.prescribed_weights);
+      keys.set("Examples/Prescribed weights", complete->examples.prescribed_weights);
   }
 
   std::vector<DeclaredKey>

@@ -4,8 +4,14 @@
 
 namespace Exemplar
 {
+  CompleteScene::CompleteScene(SceneParameters scene) : SceneParameters(std::move(scene))
+  {
+    complete();
+    check();
+  }
+
   void
-  SceneParameters::complete()
+  CompleteScene::complete()
   {
     if (scene == SceneKind::interpolation)
     {
@@ -27,7 +33,7 @@ namespace Exemplar
   }
 
   void
-  SceneParameters::check() const
+  CompleteScene::check() const
   {
     if (scene == SceneKind::interpolation)
       check_interpolation();

@@ -49,9 +49,7 @@ namespace Exemplar::Testing
       SceneParameters scene;
       EXPECT_TRUE(scene.handles.empty());
       EXPECT_FALSE(scene.loads.has_gravity());
-      scene.complete();
-      EXPECT_NO_THROW(scene.check());
-      EXPECT_EQ(scene.solver.method, Method::quasi_newton);
+      EXPECT_EQ(CompleteScene(scene).solver.method, Method::quasi_newton);
     }
 
     TEST(SceneParameters, AutoIsTheMethodOfTheKindOfScene)
@@ -61,8 +59,7 @@ namespace Exemplar::Testing
         SceneParameters scene;
         scene.scene          = kind;
         scene.model.gradient = gradient;
-        scene.complete();
-        return scene.solver.method;
+        return CompleteScene(scene).solver.method;
       };
       EXPECT_EQ(method(SceneKind::statics, GradientKind::consistent), Method::newton);
       EXPECT_EQ(method(SceneKind::dynamic, GradientKind::frozen), Method::fixed_point);
@@ -75,8 +72,7 @@ namespace Exemplar::Testing
         SceneParameters scene;
         scene.model.strain     = strain;
         scene.model.dilatation = dilatation;
-        scene.complete();
-        return scene.model.has_patches();
+        return CompleteScene(scene).model.has_patches();
       };
       EXPECT_EQ(SceneParameters().model.dilatation, DilatationKind::automatic);
       EXPECT_TRUE(has_patches(CellLaw::corotational, DilatationKind::automatic));
@@ -84,9 +80,9 @@ namespace Exemplar::Testing
       EXPECT_FALSE(has_patches(CellLaw::green, DilatationKind::automatic));
       EXPECT_FALSE(has_patches(CellLaw::linear, DilatationKind::cells));
       SceneParameters interpolation;
-      interpolation.scene = SceneKind::interpolation;
-      interpolation.complete();
-      EXPECT_FALSE(interpolation.model.has_patches());
+      interpolation.scene                   = SceneKind::interpolation;
+      interpolation.examples.pose_functions = "x; y; 2*z";
+      EXPECT_FALSE(CompleteScene(interpolation).model.has_patches());
     }
 
     TEST(SceneFile, FillsParametersThatOutliveIt)

@@ -62,11 +62,11 @@ namespace Exemplar
   /// The whole body of a scene, of its inputs. Throws UserError for whatever these and the scene do
   /// not fit.
   BodyInputs
-  make_body_inputs(SceneParameters scene, Inputs inputs);
+  make_body_inputs(const CompleteScene &scene, Inputs inputs);
 
   /// The same of what read_inputs() reads.
   BodyInputs
-  read_body(const SceneParameters &scene, const Announce &announce = {});
+  read_body(const CompleteScene &scene, const Announce &announce = {});
 } // namespace Exemplar
 
 #endif

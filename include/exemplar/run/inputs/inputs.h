@@ -12,7 +12,7 @@
 
 namespace Exemplar
 {
-  struct SceneParameters;
+  class CompleteScene;
 
   /// What the files hold that a scene names, or arrays that stand in for them; make_msh() makes
   /// a mesh of arrays. All lengths are in the mesh's unit: Mesh/Scale makes metres of them.
@@ -37,7 +37,7 @@ namespace Exemplar
   /// mesh, naming what is wrong. Surfaces are checked before anything is made of them, which may take
   /// long unless it is kept; `announce` is told of it.
   Inputs
-  read_inputs(SceneParameters scene, Inputs given = {}, const Announce &announce = {});
+  read_inputs(const CompleteScene &scene, Inputs given = {}, const Announce &announce = {});
 
   /// load_mesh(), also of a surface.
   MshFile

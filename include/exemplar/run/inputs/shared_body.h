@@ -16,9 +16,9 @@ namespace Exemplar
   /// Cells are partitioned by METIS, patches of cells stay whole. All processes must call it. Throws
   /// UserError, the same on all, as read_body() and for more processes than the mesh has cells for.
   BodyInputs
-  read_shared_body(const SceneParameters &scene,
-                   MPI_Comm               communicator,
-                   const Announce        &announce = {});
+  read_shared_body(const CompleteScene &scene,
+                   MPI_Comm             communicator,
+                   const Announce      &announce = {});
 } // namespace Exemplar
 
 #endif

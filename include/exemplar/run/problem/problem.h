@@ -21,10 +21,10 @@ namespace Exemplar
     /// `inputs` are what read_inputs() gives, or arrays that a program hands in: then the scene
     /// needs no file. `clock` may run since the inputs are read. Throws UserError for whatever
     /// is no valid scene; writes nothing.
-    Problem(SceneParameters scene, Inputs inputs, StepClock clock = StepClock(Phase::read));
+    Problem(const CompleteScene &scene, Inputs inputs, StepClock clock = StepClock(Phase::read));
 
     /// Of what the inputs have become, or of the part that this process has of them.
-    Problem(SceneParameters scene, BodyInputs given, StepClock clock = StepClock(Phase::read));
+    Problem(const CompleteScene &scene, BodyInputs given, StepClock clock = StepClock(Phase::read));
 
     /// Solve the next step from `state`, which is replaced if the solve succeeds.
     SolveReport
@@ -83,7 +83,7 @@ namespace Exemplar
     std::vector<std::string>
     warnings() const;
 
-    SceneParameters                          parameters; ///< completed
+    CompleteScene                            parameters;
     StepClock                                clock;
     const std::shared_ptr<const Inputs>      inputs; ///< null unless Output/Space error needs them
     const TimeAxis                           time_axis;
@@ -129,16 +129,16 @@ namespace Exemplar
   };
 
   /// Gives the body of a problem.
-  using ReadBody = std::function<BodyInputs(const SceneParameters &)>;
+  using ReadBody = std::function<BodyInputs(const CompleteScene &)>;
 
   /// The problem of a scene and of what `read` gives for it. Throws UserError whatever fails, as
   /// the scene is to blame before the first step is solved.
   std::unique_ptr<Problem>
-  make_problem(const SceneParameters &parameters, const ReadBody &read);
+  make_problem(const CompleteScene &parameters, const ReadBody &read);
 
   /// The same with the files that the scene names. See read_inputs() for `announce`.
   std::unique_ptr<Problem>
-  make_problem(const SceneParameters &parameters, const Announce &announce = {});
+  make_problem(const CompleteScene &parameters, const Announce &announce = {});
 } // namespace Exemplar
 
 #endif

@@ -6,6 +6,7 @@
 #include <exemplar/run/scene/scene_parameters.h>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -49,10 +50,10 @@ namespace Exemplar
       return text;
     }
 
-    const SceneParameters &
+    const CompleteScene &
     get_parameters() const
     {
-      return parameters;
+      return *complete;
     }
 
     /// All keys with the values in force; input files are absolute.
@@ -94,14 +95,15 @@ namespace Exemplar
     /// Take over as text what an interpolation has decided. Throws UserError where
     /// `assignments` have set another value, which is in `given`.
     void
-    set_interpolation(const std::vector<Assignment> &assignments, const ExampleParameters &given);
+    set_interpolation(const std::vector<Assignment> &assignments);
 
-    const std::filesystem::path file;
-    const std::string           text;
-    SceneParameters             parameters;
-    KeyTable                    keys; ///< bound to `parameters` and the names
-    std::vector<std::string>    handle_names;
-    std::vector<std::string>    load_names;
+    const std::filesystem::path  file;
+    const std::string            text;
+    SceneParameters              parameters; ///< as the text says, where `auto` stays
+    std::optional<CompleteScene> complete;
+    KeyTable                     keys; ///< bound to `parameters` and the names
+    std::vector<std::string>     handle_names;
+    std::vector<std::string>     load_names;
   };
 } // namespace Exemplar
 

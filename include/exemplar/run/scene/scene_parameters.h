@@ -45,17 +45,6 @@ namespace Exemplar
     OutputParameters              output;
     std::vector<std::string>      warnings; ///< of what the text of the scene says in vain
 
-    /// Set what the kind of scene decides: importance 1 and prescribed weights of an
-    /// interpolation, and the method and the dilatation that `automatic` stands for. To do so
-    /// twice changes nothing.
-    void
-    complete();
-
-    /// Throws UserError for values that contradict each other, which concern several sections,
-    /// or that no pattern can tell. To be called after complete().
-    void
-    check() const;
-
     /// Whether a part of the scene needs the surface of the body.
     bool
     needs_surface() const;
@@ -77,6 +66,25 @@ namespace Exemplar
 
     void
     check_surface() const;
+
+    friend class CompleteScene;
+  };
+
+  /// A scene with what its kind decides: importance 1 and prescribed weights of an interpolation, and
+  /// the method and the dilatation that `automatic` stands for. All that is made of a scene takes one.
+  class CompleteScene : public SceneParameters
+  {
+  public:
+    /// Throws UserError for values that contradict each other, which concern several sections, or that
+    /// no pattern can tell.
+    CompleteScene(SceneParameters scene);
+
+  private:
+    void
+    complete();
+
+    void
+    check() const;
   };
 } // namespace Exemplar
 
