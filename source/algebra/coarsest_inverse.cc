@@ -8,7 +8,7 @@ namespace Exemplar
 {
   namespace
   {
-    constexpr double least_pivot_ratio
+    constexpr double min_pivot_ratio
         = 1e-6; ///< less in single precision: a row depends on others
 
     std::size_t
@@ -52,7 +52,7 @@ namespace Exemplar
       for (std::size_t j = 0; j < n; ++j)
         L(i, j) = all[i * n + j];
     factorize_by_cholesky(L, [](unsigned int, const double pivot, const double entry)
-                          { return pivot > least_pivot_ratio * entry ? pivot : 0.; });
+                          { return pivot > min_pivot_ratio * entry ? pivot : 0.; });
     inverse.resize(n_own * n);
     std::vector<double> unit(n);
     for (std::size_t i = 0; i < n_own; ++i) // columns are rows

@@ -15,12 +15,12 @@ namespace Exemplar
     Place
     place_of_greatest(const dealii::FullMatrix<double> &matrix, const unsigned int first)
     {
-      Place greatest(first, 0);
+      Place maximum(first, 0);
       for (unsigned int i = first; i < matrix.m(); ++i)
         for (unsigned int j = 0; j < matrix.n(); ++j)
-          if (std::abs(matrix(i, j)) > std::abs(matrix(greatest.first, greatest.second)))
-            greatest = { i, j };
-      return greatest;
+          if (std::abs(matrix(i, j)) > std::abs(matrix(maximum.first, maximum.second)))
+            maximum = { i, j };
+      return maximum;
     }
   } // namespace
 
@@ -54,20 +54,20 @@ namespace Exemplar
     return is_definite;
   }
 
-  LeastPivot
-  least_pivot(dealii::FullMatrix<double> matrix, const double rounding)
+  MinPivot
+  min_pivot(dealii::FullMatrix<double> matrix, const double rounding)
   {
-    LeastPivot least;
+    MinPivot minimum;
     factorize_by_cholesky(matrix,
                           [&](const unsigned int row, const double pivot, const double diagonal)
                           {
                             const double ratio    = pivot > rounding ? pivot / diagonal : 0.;
                             const bool   is_small = ratio < 1e-14;
-                            if (is_small || ratio < least.ratio)
-                              least = { row, is_small ? 0. : ratio };
+                            if (is_small || ratio < minimum.ratio)
+                              minimum = { row, is_small ? 0. : ratio };
                             return is_small ? -1. : pivot;
                           });
-    return least;
+    return minimum;
   }
 
   unsigned int

@@ -8,7 +8,7 @@ namespace Exemplar
   double
   extent(const Vector &positions, const Exchange &exchange)
   {
-    double greatest = 0.;
+    double maximum = 0.;
     for (unsigned int c = 0; c < 3; ++c)
     {
       double min = positions[c], max = positions[c];
@@ -17,8 +17,8 @@ namespace Exemplar
         min = std::min(min, positions[dof]);
         max = std::max(max, positions[dof]);
       }
-      greatest = std::max(greatest, exchange.max(max) - min_of_all(exchange, min));
+      maximum = std::max(maximum, exchange.max(max) - min_of_all(exchange, min));
     }
-    return greatest;
+    return maximum;
   }
 } // namespace Exemplar

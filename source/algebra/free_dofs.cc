@@ -31,10 +31,10 @@ namespace Exemplar
   double
   FreeDofs::max_magnitude(const Vector &field) const
   {
-    MaxMagnitude greatest;
+    MaxMagnitude maximum;
     for (const unsigned int dof : own_dofs)
-      greatest.add(field[dof]);
-    return with_others.max(greatest.value());
+      maximum.add(field[dof]);
+    return with_others.max(maximum.value());
   }
 
   void

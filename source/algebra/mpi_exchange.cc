@@ -92,10 +92,10 @@ namespace Exemplar
   {
     std::vector<double> all(n_processes()); // MPI_MAX would lose a NaN
     MPI_Allgather(&own, 1, MPI_DOUBLE, all.data(), 1, MPI_DOUBLE, mpi_communicator);
-    double greatest = all[0];
+    double maximum = all[0];
     for (const double number : all)
-      greatest = max_or_nan(greatest, number);
-    return greatest;
+      maximum = max_or_nan(maximum, number);
+    return maximum;
   }
 
   std::string

@@ -85,8 +85,7 @@ namespace Exemplar
         multiply_by_blocks(level.inverse_diagonal, residual, 1.F, level.solution);
         return level.solution;
       };
-      level.greatest
-          = find_eigenvalues(level.matrix, by_diagonal, n_lanczos_steps, exchange).second;
+      level.maximum = find_eigenvalues(level.matrix, by_diagonal, n_lanczos_steps, exchange).second;
     }
     const auto by_cycle = [this](const BlockVector &residual) -> const BlockVector &
     {
@@ -118,8 +117,8 @@ namespace Exemplar
   void
   MultigridInverse::smooth(Level &level, const bool from_zero) const
   {
-    const double     greatest = greatest_is_above * level.greatest;
-    ChebyshevFactors factors(greatest / smoother_range, greatest);
+    const double     maximum = greatest_is_above * level.maximum;
+    ChebyshevFactors factors(maximum / smoother_range, maximum);
     for (unsigned int k = 0; k < smoother_degree; ++k)
     {
       const auto keep = static_cast<float>(factors.keep), take = static_cast<float>(factors.take);

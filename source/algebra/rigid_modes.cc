@@ -9,8 +9,8 @@ namespace Exemplar
   void
   center_and_scale(std::vector<double> &places, const Exchange &exchange)
   {
-    const double n_nodes  = exchange.sum(static_cast<double>(places.size() / 3));
-    double       greatest = 0.;
+    const double n_nodes = exchange.sum(static_cast<double>(places.size() / 3));
+    double       maximum = 0.;
     for (unsigned int c = 0; c < 3; ++c)
     {
       double sum = 0.;
@@ -20,13 +20,13 @@ namespace Exemplar
       for (std::size_t row = c; row < places.size(); row += 3)
       {
         places[row] -= sum / n_nodes;
-        greatest = std::max(greatest, std::abs(places[row]));
+        maximum = std::max(maximum, std::abs(places[row]));
       }
     }
-    greatest = exchange.max(greatest);
-    if (greatest > 0.)
+    maximum = exchange.max(maximum);
+    if (maximum > 0.)
       for (double &x : places)
-        x /= greatest;
+        x /= maximum;
   }
 
   std::vector<double>

@@ -37,10 +37,10 @@ namespace Exemplar
   SinglePrecisionFactor::SinglePrecisionFactor(FactorPanels new_panels)
       : panels(std::move(new_panels)), permuted(panels.permutation.size())
   {
-    std::size_t greatest = 0;
+    std::size_t maximum = 0;
     for (std::size_t s = 0; s + 1 < panels.first_row.size(); ++s)
-      greatest = std::max(greatest, panels.first_row[s + 1] - panels.first_row[s]);
-    block.resize(greatest + FactorPanels::max_lanes);
+      maximum = std::max(maximum, panels.first_row[s + 1] - panels.first_row[s]);
+    block.resize(maximum + FactorPanels::max_lanes);
     panels.values.resize(panels.values.size() + FactorPanels::max_lanes, 0.f);
   }
 

@@ -149,7 +149,7 @@ namespace Exemplar
         first_strained(parameters.in_use() && parameters.include_rest_pose ? 1 : 0),
         warnings(review(parameters, mesh, fe_space, poses))
   {
-    set_parameters(importance(), cell_material, patches);
+    set_parameters(example_constants.importance, cell_material, patches);
   }
 
   void
@@ -179,7 +179,8 @@ namespace Exemplar
       {
         const Matrix3<double> F = fe_space.deformation_gradient(point, poses[i].positions);
         const Matrix3<double> E = model_strain(law, model_rotation(law, F), F);
-        add_to_stored(strains.data(), point, n_strained(), i - first_strained, importance(), E);
+        add_to_stored(strains.data(), point, n_strained(), i - first_strained,
+                      example_constants.importance, E);
         if (traits_of(law).has_guard)
           p_0 = min_or_nan(p_0, 0.5 * guard_product(E));
       }

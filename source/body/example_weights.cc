@@ -69,7 +69,7 @@ namespace Exemplar
     const std::vector<double> fraction = poses.volume_fractions();
     for (unsigned int weight = 0; weight < n; ++weight)
       penalty(weight, weight) = sigma * fraction[weight / poses.size()];
-    const double eta = poses.importance();
+    const double eta = poses.constants().importance;
     if (parameters.energy != ExampleEnergy::scaled)
       penalty.add(blended_part(parameters.energy) * (1. - eta) / eta, poses.gram_matrix());
     form.H = penalty;

@@ -15,9 +15,9 @@ namespace Exemplar
   {
     /// In words that follow "which".
     std::string
-    condition_of(const dealii::FullMatrix<double> &gram, const double least_pivot)
+    condition_of(const dealii::FullMatrix<double> &gram, const double min_pivot)
     {
-      if (!(least_pivot > 0.))
+      if (!(min_pivot > 0.))
         return "is singular";
       std::ostringstream text;
       text << "has the condition number " << condition_number(gram);
@@ -32,8 +32,8 @@ namespace Exemplar
     const dealii::FullMatrix<double> differences = form_of_differences(poses.gram_matrix(), k);
     const auto second = [k](const unsigned int d) { return d + d / (k - 1) + 1; };
     // strains of 1e-10 are the rounding of a rest pose
-    const double     of_rounding = std::pow(1e-10 * poses.importance(), 2) * unit_energy;
-    const LeastPivot least       = least_pivot(differences, of_rounding);
+    const double     of_rounding = std::pow(1e-10 * poses.constants().importance, 2) * unit_energy;
+    const MinPivot least       = min_pivot(differences, of_rounding);
     if (differences.m() == 0 || least.ratio > 1e-8)
       return;
     const unsigned int example = second(least.row) % k;

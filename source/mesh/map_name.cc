@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/base/message_text.h>
+#include <exemplar/base/words.h>
 #include <exemplar/mesh/map_name.h>
-#include <exemplar/prm/assignments.h>
 
 #include <regex>
 

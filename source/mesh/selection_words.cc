@@ -141,7 +141,8 @@ namespace Exemplar
               "numbers of the mesh file. The others select nodes of the boundary by Mesh/Surface: "
               "nearest to its vertices N, from 1 in its file's order, or no farther from them than "
               "D [m] along the surface; on its group NAME; where a painted map, FILE.ply:ATTRIBUTE "
-              "or FILE.csv, is above X, or below X; without either above 0.5.");
+              "or FILE.csv, is above X, or below X; without either above 0.5.",
+        " ");
   }
 
   std::string

@@ -104,10 +104,10 @@ namespace Exemplar
   double
   ElasticPotential::rounding_weight_gradient() const
   {
-    double greatest = 0.;
+    double maximum = 0.;
     for (unsigned int weight = 0; weight < parts.examples.n_weights(); ++weight)
-      greatest = max_or_nan(greatest, rounding.stress_norm * parts.examples.strain_norm(weight));
-    return greatest;
+      maximum = max_or_nan(maximum, rounding.stress_norm * parts.examples.strain_norm(weight));
+    return maximum;
   }
 
   CellTask

@@ -271,18 +271,4 @@ namespace Exemplar
       part = std::min(part, term->max_step(positions, displacement));
     return min_of_all(free_dofs.exchange(), part);
   }
-
-  void
-  IncrementalPotential::save(boost::archive::binary_oarchive &archive) const
-  {
-    for (const PotentialTerm *term : all_terms)
-      term->save(archive);
-  }
-
-  void
-  IncrementalPotential::load(boost::archive::binary_iarchive &archive)
-  {
-    for (PotentialTerm *term : all_terms)
-      term->load(archive);
-  }
 } // namespace Exemplar

@@ -250,35 +250,12 @@ namespace Exemplar
   } // namespace
 
   std::string
-  trim(const std::string &text)
-  {
-    const auto first = text.find_first_not_of(" \t\r\n");
-    if (first == std::string::npos)
-      return "";
-    return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
-  }
-
-  std::string
   Assignment::path() const
   {
     std::string path;
     for (const std::string &subsection : subsections)
       path += subsection + "/";
     return path + key;
-  }
-
-  std::vector<std::string>
-  split_trimmed(const std::string &text, const char separator)
-  {
-    std::vector<std::string> parts;
-    if (trim(text).empty())
-      return parts;
-    std::istringstream in(text);
-    for (std::string part; std::getline(in, part, separator);)
-      parts.push_back(trim(part));
-    if (text.back() == separator)
-      parts.emplace_back();
-    return parts;
   }
 
   std::string
@@ -328,5 +305,16 @@ namespace Exemplar
     const auto last = std::find_if(assignments.rbegin(), assignments.rend(),
                                    [&](const auto &a) { return a.path() == path; });
     return last == assignments.rend() ? nullptr : &*last;
+  }
+
+  bool
+  is_study(const std::filesystem::path &file)
+  try
+  {
+    return find_assignment(read_assignments(read_prm(file), file.string()), "Vary") != nullptr;
+  }
+  catch (const UserError &)
+  {
+    return false; // who reads it as a scene knows the sections, and says more
   }
 } // namespace Exemplar

@@ -80,7 +80,7 @@ namespace Exemplar
     nearest_keys(const Path &written, const std::vector<DeclaredKey> &keys)
     {
       std::vector<std::string> nearest;
-      std::size_t              least = far;
+      std::size_t              minimum = far;
       for (const DeclaredKey &key : keys)
       {
         const std::size_t distance = name_distance(written.key, key);
@@ -93,10 +93,10 @@ namespace Exemplar
         const std::size_t cost // names of sections have less than 100 letters
             = 100 * distance
               + (written.section.empty() ? 0 : edit_distance(written.section, section));
-        if (cost < least)
+        if (cost < minimum)
           nearest.clear();
-        least = std::min(least, cost);
-        if (cost == least)
+        minimum = std::min(minimum, cost);
+        if (cost == minimum)
           nearest.push_back(key.path());
       }
       return nearest;

@@ -53,7 +53,7 @@ namespace Exemplar
     std::string
     range_text(const Range &range)
     {
-      const std::string minimum = plain(range.least), maximum = plain(range.greatest);
+      const std::string minimum = plain(range.minimum), maximum = plain(range.maximum);
       return minimum == maximum ? minimum : minimum + " to " + maximum;
     }
 
@@ -83,7 +83,7 @@ namespace Exemplar
       std::ostringstream text;
       text << "Examples  ";
       if (poses.size() > 0)
-        text << poses.size() << ", importance " << poses.importance() << '\n';
+        text << poses.size() << ", importance " << poses.constants().importance << '\n';
       else
         text << "none\n";
       return text.str();

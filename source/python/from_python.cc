@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
+#include <exemplar/prm/assignments.h>
 #include <exemplar/python/arrays_from_python.h>
 #include <exemplar/python/from_python.h>
 #include <exemplar/run/scene/scene_file.h>
-#include <exemplar/study/study_file.h>
 
 #include <cmath>
 #include <functional>

@@ -89,7 +89,7 @@ namespace Exemplar
     try
     {
       const bool has_factor = tangent == Tangent::exact && find_factor(start.linearization);
-      potential.get_cells().update_rotations(from.positions);
+      potential.get_cells().get_field().update_rotations(from.positions);
       potential.get_cells().evaluate(from.positions, from.weights, evaluation.elastic);
       potential.get_cells().add_response(tangent, displacement, from.positions, from.weights,
                                          evaluation.elastic);
@@ -113,7 +113,7 @@ namespace Exemplar
     if (linearization.factor != system.n_factorizations())
     {
       // after a resume
-      potential.get_cells().update_rotations(linearization.positions);
+      potential.get_cells().get_field().update_rotations(linearization.positions);
       system.factorize(linearization.positions, linearization.weights, 0.);
       system.prepare();
       linearization.factor = system.n_factorizations();

@@ -16,8 +16,8 @@ namespace Exemplar
     constexpr unsigned int max_halvings_of_increment = 6;
 
     /// As many times the maximum of iterations may be used by a step that cannot be halved.
-    constexpr unsigned int patience    = 8;
-    constexpr double       least_stage = 1e-12;
+    constexpr unsigned int patience  = 8;
+    constexpr double       min_stage = 1e-12;
 
     bool
     has_stalled(const SolveReport &report)
@@ -96,7 +96,7 @@ namespace Exemplar
   bool
   Newton::raise_forces(Trial &start, Evaluation &evaluation, const double time, SolveReport &report)
   {
-    const unsigned int most   = patience * parameters.maximum_iterations;
+    const unsigned int maximum = patience * parameters.maximum_iterations;
     double             raised = 0., stage = 0.;
     try_to(
         [&]
@@ -107,7 +107,7 @@ namespace Exemplar
         },
         report);
     const HoldBack held(potential, evaluation.gradient, start.state.positions);
-    while (raised < 1. && stage > least_stage && report.iterations < most)
+    while (raised < 1. && stage > min_stage && report.iterations < maximum)
     {
       const double to    = std::min(1., raised + stage);
       Trial        trial = start;
@@ -116,7 +116,7 @@ namespace Exemplar
           [&]
           {
             evaluate(trial.state, evaluation);
-            iterate(std::min(parameters.maximum_iterations, most - report.iterations), trial,
+            iterate(std::min(parameters.maximum_iterations, maximum - report.iterations), trial,
                     evaluation, report);
           },
           report);
@@ -132,7 +132,8 @@ namespace Exemplar
     }
     if (raised == 1.)
       return true;
-    report.status = report.iterations < most ? SolveStatus::stalled : SolveStatus::iteration_limit;
+    report.status
+        = report.iterations < maximum ? SolveStatus::stalled : SolveStatus::iteration_limit;
     return false;
   }
 
@@ -144,8 +145,8 @@ namespace Exemplar
       return 0.125;
     const Exchange &exchange = potential.get_free_dofs().exchange();
     const Vector    moved    = system.displacement(start, step);
-    const double    most     = exchange.max(max_entry(moved.begin(), moved.end()));
-    return std::min(1., 0.25 * extent(start.positions, exchange) / most);
+    const double    maximum  = exchange.max(max_entry(moved.begin(), moved.end()));
+    return std::min(1., 0.25 * extent(start.positions, exchange) / maximum);
   }
 
   bool

@@ -23,10 +23,10 @@ namespace Exemplar
     double
     max_displacement(const Exchange &exchange, const State &from, const State &to)
     {
-      MaxMagnitude greatest;
+      MaxMagnitude maximum;
       for (unsigned int dof = 0; dof < from.positions.size(); ++dof)
-        greatest.add(to.positions[dof] - from.positions[dof]);
-      return exchange.max(greatest.value());
+        maximum.add(to.positions[dof] - from.positions[dof]);
+      return exchange.max(maximum.value());
     }
   } // namespace
 
@@ -97,7 +97,7 @@ namespace Exemplar
   {
     system.factorize(positions, weights, 1.);
     StepClock::Scope scope(clock, Phase::factorize);
-    potential.get_cells().node_rotations(node_rotations);
+    potential.get_cells().get_field().node_rotations(node_rotations);
     metric.reinit(system.bordered(), node_rotations);
     metric.rotate(node_rotations);
   }
@@ -126,7 +126,7 @@ namespace Exemplar
     else
     {
       StepClock::Scope scope(clock, Phase::solve);
-      potential.get_cells().node_rotations(node_rotations);
+      potential.get_cells().get_field().node_rotations(node_rotations);
       metric.rotate(node_rotations);
     }
   }
@@ -137,7 +137,7 @@ namespace Exemplar
     if (history.positions.size() == 0 || !metric.empty()
         || history.mass_factor != potential.mass_factor())
       return;
-    potential.get_cells().update_rotations(history.positions);
+    potential.get_cells().get_field().update_rotations(history.positions);
     make_metric(history.positions, history.weights);
   }
 

@@ -70,11 +70,11 @@ namespace Exemplar
         return v;
       v *= shift;
       v += system.displacement(at, system.solve(at, Kv, none)); // -A^-1 K v
-      const double greatest
+      const double maximum
           = potential.get_free_dofs().exchange().max(max_entry(v.begin(), v.end()));
-      if (!(greatest > 0.))
+      if (!(maximum > 0.))
         break;
-      v /= greatest;
+      v /= maximum;
     }
     return {};
   }

@@ -2,6 +2,8 @@
 #include <exemplar/body/supports.h>
 #include <exemplar/solvers/step_system.h>
 
+#include <deal.II/base/memory_consumption.h>
+
 namespace Exemplar
 {
   StepSystem::StepSystem(IncrementalPotential &potential,
@@ -98,6 +100,8 @@ namespace Exemplar
   StepSystem::memory_of_weights() const
   {
     const WeightForm &form = system->weight_form();
-    return sizeof(double) * (system->columns().size() + form.H.n_elements() + form.N.n_elements());
+    return form.H.empty() ? 0
+                          : dealii::MemoryConsumption::memory_consumption(system->columns())
+                                + form.H.memory_consumption() + form.N.memory_consumption();
   }
 } // namespace Exemplar

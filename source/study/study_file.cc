@@ -209,15 +209,4 @@ namespace Exemplar
     entries.declare(keys);
     return keys.keys();
   }
-
-  bool
-  is_study(const std::filesystem::path &file)
-  try
-  {
-    return find_assignment(read_assignments(read_prm(file), file.string()), "Vary") != nullptr;
-  }
-  catch (const UserError &)
-  {
-    return false; // who reads it as a scene knows the sections, and says more
-  }
 } // namespace Exemplar

@@ -59,9 +59,9 @@ namespace Exemplar::Verification
             w(problem.examples.poses.size() > 0 ? weights : std::vector<double>()),
             rotations(rotations)
       {
-        problem.potential.get_cells().update_rotations(x);
+        problem.potential.get_cells().get_field().update_rotations(x);
         at = evaluate(x, w);
-        problem.potential.get_cells().update_rotations(x);
+        problem.potential.get_cells().get_field().update_rotations(x);
         matrix.resize(problem.potential.matrix_pattern().n_values());
         problem.potential.get_cells().assemble_tangent(
             rotations == Rotations::followed ? Tangent::exact : Tangent::convex, x, w, matrix,
@@ -192,7 +192,7 @@ namespace Exemplar::Verification
       evaluate(const dealii::Vector<double> &positions, const std::vector<double> &at_weights) const
       {
         if (rotations == Rotations::followed)
-          problem.potential.get_cells().update_rotations(positions);
+          problem.potential.get_cells().get_field().update_rotations(positions);
         ElasticEvaluation evaluation;
         problem.potential.get_cells().evaluate(positions, at_weights, evaluation);
         return evaluation;

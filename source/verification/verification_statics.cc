@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/algebra/long_vectors.h>
 #include <exemplar/base/errors.h>
-#include <exemplar/kernels/polar_decomposition.h>
 #include <exemplar/verification/verification.h>
 #include <exemplar/verification/verification_scene.h>
 

@@ -35,7 +35,7 @@ namespace Exemplar
         // strains and turns of some tenths, different in every cell
         for (unsigned int dof = 0; dof < positions.size(); ++dof)
           positions[dof] += 0.02 * std::sin(40. * positions[dof - dof % 3 + (dof + 1) % 3]);
-        problem.potential.get_cells().update_rotations(positions);
+        problem.potential.get_cells().get_field().update_rotations(positions);
         task.cells = batches.arrays();
         for (unsigned int dof = 0; dof < positions.size(); ++dof)
           node_positions[dof / 3 * 4 + dof % 3] = positions[dof];
@@ -109,7 +109,7 @@ namespace Exemplar
     {
       std::vector<float> rotations;
       for (auto _ : state)
-        scene->problem.potential.get_cells().node_rotations(rotations);
+        scene->problem.potential.get_cells().get_field().node_rotations(rotations);
       report_cells(state);
     }
 

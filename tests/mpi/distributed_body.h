@@ -310,13 +310,13 @@ namespace Exemplar::Testing
     double
     difference(const Columns &a, const Columns &b) const
     {
-      double greatest = 0., difference = a.size() == b.size() ? 0. : 1.;
+      double maximum = 0., difference = a.size() == b.size() ? 0. : 1.;
       for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
       {
         difference = std::max(difference, std::abs(a[i] - b[i]));
-        greatest   = std::max(greatest, std::abs(b[i]));
+        maximum    = std::max(maximum, std::abs(b[i]));
       }
-      return exchange->max(difference) / exchange->max(greatest);
+      return exchange->max(difference) / exchange->max(maximum);
     }
 
     static MeshParameters

@@ -206,6 +206,18 @@ namespace Exemplar::Testing
     {
     }
 
+    void
+    update_rotations(const Vector &positions)
+    {
+      get_field().update_rotations(positions);
+    }
+
+    void
+    node_rotations(std::vector<float> &rotations)
+    {
+      get_field().node_rotations(rotations);
+    }
+
     /// A step with this stiffness damping.
     void
     begin_step(const double s, const std::vector<WeightedPositions> &history)

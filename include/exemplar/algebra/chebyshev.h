@@ -9,9 +9,9 @@ namespace Exemplar
   class ChebyshevFactors
   {
   public:
-    ChebyshevFactors(const double least, const double greatest)
-        : center(0.5 * (greatest + least)), radius(0.5 * (greatest - least)), rho(radius / center),
-          take(1. / center)
+    ChebyshevFactors(const double minimum, const double maximum)
+        : center(0.5 * (maximum + minimum)), radius(0.5 * (maximum - minimum)),
+          rho(radius / center), take(1. / center)
     {
     }
 

@@ -50,15 +50,15 @@ namespace Exemplar
 
   /// The row at which Cholesky's factorisation finds the least pivot relative to its
   /// diagonal entry: that depends most on the rows before it.
-  struct LeastPivot
+  struct MinPivot
   {
     unsigned int row   = 0;
     double       ratio = 1.; ///< 0 if the matrix is singular
   };
 
   /// Of a positive semidefinite matrix; pivots of at most `rounding` count as zero.
-  LeastPivot
-  least_pivot(dealii::FullMatrix<double> matrix, double rounding);
+  MinPivot
+  min_pivot(dealii::FullMatrix<double> matrix, double rounding);
 
   /// Number of independent rows (and columns), by Gauss elimination with complete pivoting
   /// that ends at a pivot below `tolerance`.

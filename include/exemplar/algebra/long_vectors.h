@@ -44,7 +44,7 @@ namespace Exemplar
       // numbers, infinity, NaNs. Integers are compared in a cycle, and no NaN needs a branch.
       std::uint64_t bits;
       std::memcpy(&bits, &number, sizeof bits);
-      greatest = std::max(greatest, bits & ~sign_bit);
+      maximum = std::max(maximum, bits & ~sign_bit);
     }
 
     /// 0 if there were no numbers.
@@ -52,13 +52,13 @@ namespace Exemplar
     value() const
     {
       double magnitude;
-      std::memcpy(&magnitude, &greatest, sizeof magnitude);
+      std::memcpy(&magnitude, &maximum, sizeof magnitude);
       return magnitude;
     }
 
   private:
     static constexpr std::uint64_t sign_bit = std::uint64_t(1) << 63;
-    std::uint64_t                  greatest = 0;
+    std::uint64_t                  maximum  = 0;
   };
 
   /// max |a_i|, or NaN if one of them is.
@@ -66,10 +66,10 @@ namespace Exemplar
   double
   max_entry(Iterator entry, const Iterator end)
   {
-    MaxMagnitude greatest;
+    MaxMagnitude maximum;
     for (; entry != end; ++entry)
-      greatest.add(*entry);
-    return greatest.value();
+      maximum.add(*entry);
+    return maximum.value();
   }
 
   inline double

@@ -43,7 +43,7 @@ namespace Exemplar
       explicit Level(MultigridLevel level);
 
       std::vector<float> inverse_diagonal; ///< 9 numbers a block, by columns
-      double             greatest = 0.;    ///< eigenvalue of the matrix over its diagonal
+      double             maximum = 0.;     ///< eigenvalue of the matrix over its diagonal
       BlockVector        solution, right_side, correction, residual;
       BlockVector        coarser; ///< by columns of the prolongation
     };

@@ -69,12 +69,6 @@ namespace Exemplar
       return regions.n_regions() * size();
     }
 
-    double
-    importance() const
-    {
-      return example_constants.importance;
-    }
-
     /// From now on this importance, greater than 0, in a body of this material; see the constructor.
     void
     set_parameters(double importance, const Material &cell_material, const Patches &patches);

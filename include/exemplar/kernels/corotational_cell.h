@@ -68,10 +68,10 @@ namespace Exemplar
   /// eigenvalues s_i + s_j held above `least`.
   template <typename Number>
   Matrix3<Number>
-  bounded_inverse(const Matrix3<Number> &B, const Number &least)
+  bounded_inverse(const Matrix3<Number> &B, const Number &minimum)
   {
-    return spectral_function(B, [&least](const Number &eigenvalue)
-                             { return Number(1.) / max(eigenvalue, least); });
+    return spectral_function(B, [&minimum](const Number &eigenvalue)
+                             { return Number(1.) / max(eigenvalue, minimum); });
   }
 
   /// A deformed cell. The energy of QuadraticCell is joined by the guard of Eq. (16).
@@ -164,7 +164,7 @@ namespace Exemplar
     bool
     may_be_stretched(const Number &elastic_density) const
     {
-      return any(elastic_density > least_density_at_kink(elasticity));
+      return any(elastic_density > min_density_at_kink(elasticity));
     }
 
     /// Whether it acts in some lane.
@@ -313,7 +313,7 @@ namespace Exemplar
 
     /// B^-1; where the guard acts, with the eigenvalues of B held above `least`.
     void
-    bound_inverse(const Number &least)
+    bound_inverse(const Number &minimum)
     {
       B_inverse           = cofactors(B); // symmetric, so cofactors need no transpose
       const Number factor = Number(1.) / determinant(B);
@@ -321,7 +321,7 @@ namespace Exemplar
         for (int j = 0; j < 3; ++j)
           B_inverse[i][j] *= factor;
       if (any(is_guarded()))
-        B_inverse = select_matrix(is_guarded(), bounded_inverse(B, least), B_inverse);
+        B_inverse = select_matrix(is_guarded(), bounded_inverse(B, minimum), B_inverse);
     }
 
     CellMaterial<Number> elasticity; ///< of the guard of the stretch

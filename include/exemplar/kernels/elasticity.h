@@ -151,7 +151,7 @@ namespace Exemplar
   /// energy may be less than mu |S - I|^2, the guard never acts.
   template <typename Number>
   Number
-  least_density_at_kink(const Isotropic<Number> &material)
+  min_density_at_kink(const Isotropic<Number> &material)
   {
     return Number(0.75) * material.mu;
   }

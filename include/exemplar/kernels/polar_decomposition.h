@@ -93,12 +93,12 @@ namespace Exemplar
             for (int k = 0; k < 4; ++k)
               rotate(V[k][p], V[k][q], c, s);
           }
-      Number             greatest = K.value[0][0];
-      Quaternion<Number> q        = { { V[0][0], V[1][0], V[2][0], V[3][0] } };
+      Number             maximum = K.value[0][0];
+      Quaternion<Number> q       = { { V[0][0], V[1][0], V[2][0], V[3][0] } };
       for (int i = 1; i < 4; ++i)
       {
-        const auto is_greater = K.value[i][i] > greatest;
-        greatest              = select(is_greater, K.value[i][i], greatest);
+        const auto is_greater = K.value[i][i] > maximum;
+        maximum               = select(is_greater, K.value[i][i], maximum);
         for (int k = 0; k < 4; ++k)
           q.value[k] = select(is_greater, V[k][i], q.value[k]);
       }
@@ -110,15 +110,15 @@ namespace Exemplar
     Matrix3<Number>
     scaled(Matrix3<Number> F)
     {
-      Number greatest = Number(0.);
+      Number maximum = Number(0.);
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
-          greatest = max(greatest, abs(F[i][j]));
-      const auto is_zero = greatest == Number(0.);
-      greatest           = select(is_zero, Number(1.), greatest);
+          maximum = max(maximum, abs(F[i][j]));
+      const auto is_zero = maximum == Number(0.);
+      maximum            = select(is_zero, Number(1.), maximum);
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
-          F[i][j] = select(is_zero, Number(i == j ? 1. : 0.), F[i][j] / greatest);
+          F[i][j] = select(is_zero, Number(i == j ? 1. : 0.), F[i][j] / maximum);
       return F;
     }
 
@@ -171,10 +171,10 @@ namespace Exemplar
     const Matrix3<Number> cof = cofactors(G);
     const Number          det = G[0][0] * cof[0][0] + G[0][1] * cof[0][1] + G[0][2] * cof[0][2];
     const Number          constant  = n * n - Number(4.) * contract(cof, cof);
-    const Number          greatest  = sqrt(Number(3.) * n);
-    const Number          accuracy  = Number(1e-8) * greatest;
+    const Number          maximum   = sqrt(Number(3.) * n);
+    const Number          accuracy  = Number(1e-8) * maximum;
     const Number          eight_det = Number(8.) * det;
-    Number                lambda    = greatest;
+    Number                lambda    = maximum;
     Number                slope     = Number(0.);
     for (int iteration = 0; iteration < 30; ++iteration)
     {
@@ -199,7 +199,7 @@ namespace Exemplar
       for (int j = 0; j < 3; ++j)
         R[i][j] = scale * (lambda * cof[i][j] + factor_G * G[i][j] - GC[i][j]);
     // far from rest errors grow as 1 / slope^2
-    const Number size = greatest * n;
+    const Number size = maximum * n;
     if (any(slope < size)) // of 7.1 size at rest
       R = select_matrix(slope < size, Polar::polished(R, G), R);
     const auto is_ambiguous = !(slope > Number(0.006) * size);

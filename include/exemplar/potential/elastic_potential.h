@@ -60,21 +60,6 @@ namespace Exemplar
     void
     follow_pattern();
 
-    /// R at every point from the polar decomposition at these positions. Models other
-    /// than the corotational have none: theirs stay I.
-    void
-    update_rotations(const Vector &positions)
-    {
-      cells.update_rotations(positions);
-    }
-
-    /// About the rotation of each node, the mean of its cells': nine numbers a node, by rows.
-    void
-    node_rotations(std::vector<float> &rotations)
-    {
-      cells.node_rotations(rotations);
-    }
-
     /// As StrainDamping::set().
     void
     set_damping(const double s, const std::vector<WeightedPositions> &history)

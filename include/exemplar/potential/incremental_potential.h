@@ -144,13 +144,6 @@ namespace Exemplar
     double
     max_step(const Vector &positions, const Vector &displacement) const;
 
-    /// What the terms remember beside the state, for checkpoints.
-    void
-    save(boost::archive::binary_oarchive &archive) const;
-
-    void
-    load(boost::archive::binary_iarchive &archive);
-
     const ExampleWeights &
     get_weights() const
     {
@@ -179,6 +172,13 @@ namespace Exemplar
     get_terms() const
     {
       return terms;
+    }
+
+    /// Those of Psi, too, and first.
+    const std::vector<PotentialTerm *> &
+    get_all_terms() const
+    {
+      return all_terms;
     }
 
     HeldBackForces &

@@ -2,6 +2,8 @@
 #ifndef exemplar_assignments_h
 #define exemplar_assignments_h
 
+#include <exemplar/base/words.h>
+
 #include <filesystem>
 #include <set>
 #include <string>
@@ -9,14 +11,6 @@
 
 namespace Exemplar
 {
-  /// The text without blanks at its ends.
-  std::string
-  trim(const std::string &text);
-
-  /// Values separated by a sign, such as expressions by ';', without the blanks around them.
-  std::vector<std::string>
-  split_trimmed(const std::string &text, char separator);
-
   /// "set KEY = VALUE" at its place in a file, or a --set of the command line.
   struct Assignment
   {
@@ -53,6 +47,10 @@ namespace Exemplar
   /// The value that `path` ("Section/Key") gets last, or nullptr.
   const Assignment *
   find_assignment(const std::vector<Assignment> &assignments, const std::string &path);
+
+  /// Whether a .prm is a study: it sets Vary. Throws UserError if it cannot be read.
+  bool
+  is_study(const std::filesystem::path &file);
 } // namespace Exemplar
 
 #endif

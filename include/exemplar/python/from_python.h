@@ -2,8 +2,8 @@
 #ifndef exemplar_from_python_h
 #define exemplar_from_python_h
 
-#include <exemplar/body/handles.h>
 #include <exemplar/run/inputs/inputs.h>
+#include <exemplar/run/problem/problem.h>
 #include <exemplar/run/scene/scene_parameters.h>
 
 #include <pybind11/pybind11.h>

@@ -53,10 +53,6 @@ namespace Exemplar
   /// All keys of a study file, for the reference.
   std::vector<DeclaredKey>
   study_keys();
-
-  /// Whether a .prm is a study: it sets Vary. Throws UserError if it cannot be read.
-  bool
-  is_study(const std::filesystem::path &file);
 } // namespace Exemplar
 
 #endif

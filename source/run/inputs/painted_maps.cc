@@ -72,12 +72,12 @@ namespace Exemplar
 
     /// What makes shares of per cent, of bytes, and of other values.
     double
-    divisor_of(const double greatest)
+    divisor_of(const double maximum)
     {
       for (const double unit : { 100., 255. })
-        if (greatest > 0.8 * unit && greatest <= unit)
+        if (maximum > 0.8 * unit && maximum <= unit)
           return unit;
-      return greatest;
+      return maximum;
     }
 
     /// Warn of values that a range goes beyond its ends for.
@@ -88,21 +88,21 @@ namespace Exemplar
                 const MapUse              &use)
     {
       constexpr double rounding = 1e-3; // of a painting program
-      double           least = 0., greatest = 1.;
+      double           minimum = 0., maximum = 1.;
       for (const double value : values)
       {
-        least    = std::min(least, value); // not if it is no number
-        greatest = std::max(greatest, value);
+        minimum = std::min(minimum, value); // not if it is no number
+        maximum = std::max(maximum, value);
       }
-      if (least >= -rounding && greatest <= 1. + rounding)
+      if (minimum >= -rounding && maximum <= 1. + rounding)
         return;
-      const double farthest = greatest > 1. + rounding ? greatest : least;
+      const double farthest = maximum > 1. + rounding ? maximum : minimum;
       warnings.push_back(
           map + ": 'from A to B' says what the values 0 and 1 stand for, but the map has "
           + short_text(farthest) + ", of which "
           + short_text(use.at_0 + farthest * (use.at_1 - use.at_0)) + " is made. "
-          + (greatest > 1. + rounding
-                 ? "Divide its values by " + short_text(divisor_of(greatest)) + "."
+          + (maximum > 1. + rounding
+                 ? "Divide its values by " + short_text(divisor_of(maximum)) + "."
                  : std::string("Paint values from 0 to 1.")));
     }
 
@@ -114,13 +114,13 @@ namespace Exemplar
           const std::vector<double> &values,
           const bool                 are_factors)
     {
-      const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
-      const std::string range      = short_text(*least) + " to " + short_text(*greatest);
-      if (are_factors && *least >= 100.)
+      const auto [minimum, maximum] = std::minmax_element(values.begin(), values.end());
+      const std::string range       = short_text(*minimum) + " to " + short_text(*maximum);
+      if (are_factors && *minimum >= 100.)
         warnings.push_back(map + ": its values " + range
                            + " are factors of the constant that Material gives. If they "
                              "are in Pa or kg/m^3, write 'absolute' behind the map.");
-      if (!are_factors && *greatest < 100. && map.find("Young") != std::string::npos)
+      if (!are_factors && *maximum < 100. && map.find("Young") != std::string::npos)
         warnings.push_back(map + ": E is " + range
                            + " Pa, less than that of jelly, which has some 1000 Pa. If "
                              "these are factors of Material/Young's modulus, leave "
@@ -175,10 +175,10 @@ namespace Exemplar
       if (!map.rest.empty())
         throw UserError(key + ": " + in_quotes(text)
                         + " is not understood. Give FILE.ply:ATTRIBUTE or FILE.csv[:COLUMN].");
-      std::vector<double> values   = find_map(map, from.inputs, key);
-      double              greatest = 0.;
+      std::vector<double> values  = find_map(map, from.inputs, key);
+      double              maximum = 0.;
       for (const double value : values)
-        greatest = std::max(greatest, value); // not if it is no number
+        maximum = std::max(maximum, value); // not if it is no number
       for (std::size_t v = 0; v < values.size(); ++v)
       {
         values[v] = std::isnan(values[v]) ? 0. : values[v]; // not in the table
@@ -187,8 +187,8 @@ namespace Exemplar
               key + ": in " + map.name() + " vertex " + std::to_string(v + 1) + " has the value "
               + short_text(values[v]) + ", but shares lie between 0 and 1. "
               + (values[v] > 1.
-                     ? "The greatest value is " + short_text(greatest) + ": divide all by "
-                           + short_text(divisor_of(greatest)) + ", or paint it anew."
+                     ? "The greatest value is " + short_text(maximum) + ": divide all by "
+                           + short_text(divisor_of(maximum)) + ", or paint it anew."
                      : std::string("Paint it anew.")));
       }
       return from.selector.at_cells(values);

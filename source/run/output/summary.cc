@@ -160,7 +160,7 @@ namespace Exemplar
       json["mesh"]             = printable(body.mesh.get_name());
       json["mesh_sha256"]      = mesh_sha256;
       json["cells"]            = body.mesh.whole().n_cells;
-      json["element"]          = body.fe_space.element() == Element::P1 ? "P1" : "P2";
+      json["element"]          = traits_of(body.fe_space.element()).name;
       json["nodes"]            = numbers.n_nodes;
       json["dofs"]             = 3 * numbers.n_nodes;
       json["constrained_dofs"] = 3 * numbers.n_nodes - numbers.n_free;

@@ -31,7 +31,7 @@ namespace Exemplar
         for (const dealii::Point<3> &node : mesh.get_nodes())
           range.add(node[c]);
         range   = range.over(mesh.exchange());
-        size[c] = range.greatest - range.least;
+        size[c] = range.maximum - range.minimum;
       }
       return size;
     }
@@ -40,14 +40,14 @@ namespace Exemplar
   void
   Range::add(const double value)
   {
-    least    = std::min(least, value);
-    greatest = std::max(greatest, value);
+    minimum = std::min(minimum, value);
+    maximum = std::max(maximum, value);
   }
 
   Range
   Range::over(const Exchange &exchange) const
   {
-    return { min_of_all(exchange, least), exchange.max(greatest) };
+    return { min_of_all(exchange, minimum), exchange.max(maximum) };
   }
 
   double

@@ -29,10 +29,10 @@ namespace Exemplar
     double
     greatest_difference(const Vector &a, const Vector &b)
     {
-      MaxMagnitude greatest;
+      MaxMagnitude maximum;
       for (unsigned int dof = 0; dof < a.size(); ++dof)
-        greatest.add(a[dof] - b[dof]);
-      return greatest.value();
+        maximum.add(a[dof] - b[dof]);
+      return maximum.value();
     }
 
     /// The greatest ways of held nodes, by component [m].
@@ -96,19 +96,19 @@ namespace Exemplar
     look_at_beginning(const Problem &problem, const unsigned int handle, const Vector &moved)
     {
       const Vector               &rest = problem.body.fe_space.rest_positions();
-      std::array<MaxMagnitude, 3> greatest;
+      std::array<MaxMagnitude, 3> maximum;
       for (const unsigned int node : problem.constraints.handles.nodes(handle))
         for (unsigned int dof = 3 * node; dof < 3 * node + 3; ++dof)
         {
           if (moved[dof] == rest[dof])
             continue; // not held, or not moved
-          greatest[0].add(rest[dof]);
-          greatest[1].add(moved[dof] - 2. * rest[dof]);
-          greatest[2].add(moved[dof] - problem.state.positions[dof]);
+          maximum[0].add(rest[dof]);
+          maximum[1].add(moved[dof] - 2. * rest[dof]);
+          maximum[2].add(moved[dof] - problem.state.positions[dof]);
         }
       const Exchange &exchange = problem.body.exchange();
-      return { exchange.max(greatest[0].value()), exchange.max(greatest[1].value()),
-               exchange.max(greatest[2].value()) };
+      return { exchange.max(maximum[0].value()), exchange.max(maximum[1].value()),
+               exchange.max(maximum[2].value()) };
     }
 
     Warning

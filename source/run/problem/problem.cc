@@ -106,9 +106,9 @@ namespace Exemplar
     // the path begins at the pose that it begins with, unless another is asked for
     if (parameters.initial.pose.empty() && parameters.initial.pose_function.empty())
     {
-      const auto greatest = std::max_element(state.weights.begin(), state.weights.end());
+      const auto maximum = std::max_element(state.weights.begin(), state.weights.end());
       state.positions
-          = examples.poses.pose((greatest - state.weights.begin()) % examples.poses.size());
+          = examples.poses.pose((maximum - state.weights.begin()) % examples.poses.size());
     }
   }
 
@@ -160,11 +160,10 @@ namespace Exemplar
     std::string what
         = std::isfinite(report.residual) ? what_is_not_finite(next, evaluation) : "residuals";
     // cubes of such ratios of lengths may be none, where the energies, their squares, are numbers
-    const auto greatest
+    const auto maximum
         = [&](const Vector &x) { return body.exchange().max(max_entry(x.begin(), x.end())); };
     what = agreed(what);
-    if (what.empty()
-        && !(greatest(next.positions) < 1e60 * greatest(body.fe_space.rest_positions())))
+    if (what.empty() && !(maximum(next.positions) < 1e60 * maximum(body.fe_space.rest_positions())))
       what = agreed(
           what_is_not_finite(potential.get_cells().cell_results(next.positions, next.weights)));
     if (what.empty())
@@ -191,7 +190,8 @@ namespace Exemplar
       std::istringstream              bytes(solver_memory);
       boost::archive::binary_iarchive archive(bytes);
       solver->load(archive);
-      potential.load(archive);
+      for (PotentialTerm *term : potential.get_all_terms())
+        term->load(archive);
       if (bytes.peek() != std::char_traits<char>::eof())
         throw boost::archive::archive_exception(
             boost::archive::archive_exception::input_stream_error);
@@ -206,7 +206,8 @@ namespace Exemplar
     {
       boost::archive::binary_oarchive archive(bytes);
       solver->save(archive);
-      potential.save(archive);
+      for (const PotentialTerm *term : potential.get_all_terms())
+        term->save(archive);
     }
     return bytes.str();
   }

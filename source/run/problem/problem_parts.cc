@@ -43,7 +43,7 @@ namespace Exemplar
     double
     reach_of_a_cell(const Body &body, const unsigned int node)
     {
-      double least = std::numeric_limits<double>::max();
+      double minimum = std::numeric_limits<double>::max();
       for (const auto &cell : body.mesh.get_cells())
         if (std::find(cell.begin(), cell.end(), node) != cell.end())
         {
@@ -51,9 +51,9 @@ namespace Exemplar
           for (const unsigned int corner : cell)
             reach = std::max(reach,
                              body.mesh.get_nodes()[corner].distance(body.mesh.get_nodes()[node]));
-          least = std::min(least, reach);
+          minimum = std::min(minimum, reach);
         }
-      return least;
+      return minimum;
     }
 
     std::vector<unsigned int>

@@ -16,7 +16,7 @@ namespace Exemplar
 
     // Up to the first, elements are verified (doc/stability.md); beyond the second, linear elements
     // lock that have no patches.
-    constexpr double greatest_verified_ratio = 0.4999, locking_ratio = 0.49;
+    constexpr double max_verified_ratio = 0.4999, locking_ratio = 0.49;
 
     // Forces out of balance by more than this are no equilibrium, and steps beside their limit by
     // more than that no steps.
@@ -32,19 +32,19 @@ namespace Exemplar
     review_poissons_ratio(const Problem &problem)
     {
       const MaterialParameters &material = problem.parameters.material;
-      double                    greatest = material.everywhere.poissons_ratio;
+      double                    maximum  = material.everywhere.poissons_ratio;
       for (const auto &[id, constants] : material.regions)
-        greatest = std::max(greatest, constants.poissons_ratio);
+        maximum = std::max(maximum, constants.poissons_ratio);
       for (const auto &[name, constants] : material.named_regions)
-        greatest = std::max(greatest, constants.poissons_ratio);
-      if (greatest > greatest_verified_ratio * (1. + 1e-9))
-        return "A Poisson's ratio of " + shortest_text(greatest)
+        maximum = std::max(maximum, constants.poissons_ratio);
+      if (maximum > max_verified_ratio * (1. + 1e-9))
+        return "A Poisson's ratio of " + shortest_text(maximum)
                + " is beyond 0.4999, up to which the program is verified: steps take many more "
                  "iterations, and hardly differ. Take 0.4999 at most.";
       const bool may_lock
           = traits_of(problem.parameters.model.element).locks && problem.body.patches.size() == 0;
-      if (may_lock && greatest > locking_ratio)
-        return "With a Poisson's ratio of " + shortest_text(greatest)
+      if (may_lock && maximum > locking_ratio)
+        return "With a Poisson's ratio of " + shortest_text(maximum)
                + " linear tetrahedra without patches lock: the body is far too stiff. Set "
                  "Model/Dilatation = auto, or Model/Element = P2.";
       return {};
@@ -86,20 +86,20 @@ namespace Exemplar
       const ExampleWeights &weights = problem.examples.weights;
       if (!weights.are_prescribed())
         return {};
-      double             least = 0., greatest = 1.;
+      double             minimum = 0., maximum = 1.;
       const unsigned int n_looks = std::min(problem.time_axis.n_steps(), 100u);
       for (unsigned int look = 0; look <= n_looks; ++look)
       {
         const auto step
             = static_cast<unsigned int>(std::size_t(look) * problem.time_axis.n_steps() / n_looks);
         const auto values = weights.at(problem.time_axis.time(step));
-        least             = std::min(least, *std::min_element(values.begin(), values.end()));
-        greatest          = std::max(greatest, *std::max_element(values.begin(), values.end()));
+        minimum           = std::min(minimum, *std::min_element(values.begin(), values.end()));
+        maximum           = std::max(maximum, *std::max_element(values.begin(), values.end()));
       }
-      if (least > -0.01 && greatest < 1.01)
+      if (minimum > -0.01 && maximum < 1.01)
         return {};
-      return "Examples/Prescribed weights go from " + short_text(least) + " to "
-             + short_text(greatest)
+      return "Examples/Prescribed weights go from " + short_text(minimum) + " to "
+             + short_text(maximum)
              + ": beyond 0 and 1 the examples are extrapolated. If t is to go further, bound them, "
                "as by min(t, 1).";
     }

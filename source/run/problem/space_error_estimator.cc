@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
+#include <exemplar/body/laws_of_cells.h>
 #include <exemplar/body/supports.h>
-#include <exemplar/kernels/cell_model.h>
 #include <exemplar/run/problem/space_error_estimator.h>
 
 #include <algorithm>
@@ -295,8 +295,8 @@ namespace Exemplar
       const double length
           = 1e-10 * problem.body.mesh.diameter() * std::sqrt(fe_space.total_volume());
       const double energy = 1e-20 * unit_energy(fe_space, problem.body.material);
-      const auto   over   = [](const double part, const double whole, const double least)
-      { return part > least ? part / std::max(whole, part) : 0.; };
+      const auto   over   = [](const double part, const double whole, const double minimum)
+      { return part > minimum ? part / std::max(whole, part) : 0.; };
       error.displacement = over(norm(fe_space, correction.moves), norm(fe_space, u), length);
       error.energy = over(std::abs(corrected.energy - linear.elastic.energy - correction.work),
                           std::max(corrected.energy_elastic, corrected.energy), energy);

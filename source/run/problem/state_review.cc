@@ -41,7 +41,7 @@ namespace Exemplar
     }
 
     double
-    greatest_stretch(const Matrix3<double> &F)
+    max_stretch(const Matrix3<double> &F)
     {
       const auto squares = symmetric_eigensystem(transpose_times(F, F)).values;
       return std::sqrt(std::max({ squares[0], squares[1], squares[2] }));
@@ -75,17 +75,18 @@ namespace Exemplar
     {
       if (!traits_of(problem.parameters.model.law()).has_stretch_guard)
         return {};
-      double     limit    = std::numeric_limits<double>::max();
-      const auto elements = elements_with(
-          problem,
-          [&](const unsigned int cell, const Matrix3<double> &F)
-          {
-            const double of_cell = stretch_limit(problem.body.material.elasticity(cell));
-            if (!(contract(F, F) > of_cell * of_cell && greatest_stretch(F) > of_cell))
-              return false;
-            limit = std::min(limit, of_cell);
-            return true;
-          });
+      double     limit = std::numeric_limits<double>::max();
+      const auto elements
+          = elements_with(problem,
+                          [&](const unsigned int cell, const Matrix3<double> &F)
+                          {
+                            const double of_cell
+                                = stretch_limit(problem.body.material.elasticity(cell));
+                            if (!(contract(F, F) > of_cell * of_cell && max_stretch(F) > of_cell))
+                              return false;
+                            limit = std::min(limit, of_cell);
+                            return true;
+                          });
       limit = min_of_all(problem.body.exchange(), limit);
       if (elements.empty())
         return {};
@@ -105,18 +106,18 @@ namespace Exemplar
       const ModelTraits traits = traits_of(problem.parameters.model.law());
       if (traits.turns_freely)
         return {};
-      double         greatest = 0.;
+      double         maximum  = 0.;
       const FESpace &fe_space = problem.body.fe_space;
       for (unsigned int point = 0; point < fe_space.n_points(); ++point)
       {
         const Matrix3<double> R
             = closest_rotation(fe_space.deformation_gradient(point, problem.state.positions));
-        greatest = std::max(greatest, std::acos(std::clamp(0.5 * (trace(R) - 1.), -1., 1.)));
+        maximum = std::max(maximum, std::acos(std::clamp(0.5 * (trace(R) - 1.), -1., 1.)));
       }
-      greatest = problem.body.exchange().max(greatest);
-      if (!(greatest > great_linear_turn))
+      maximum = problem.body.exchange().max(maximum);
+      if (!(maximum > great_linear_turn))
         return {};
-      return "Cells have turned by up to " + short_text(greatest * 180. / M_PI)
+      return "Cells have turned by up to " + short_text(maximum * 180. / M_PI)
              + " degrees, but Model/Strain = " + traits.name
              + " takes turns for strains: beyond some 10 "
                "degrees "
@@ -128,7 +129,7 @@ namespace Exemplar
     only_example(const Problem &problem)
     {
       const ExamplePoses &poses = problem.examples.poses;
-      if (poses.importance() != 1.)
+      if (poses.constants().importance != 1.)
         return {};
       std::optional<unsigned int> only;
       for (unsigned int weight = 0; weight < problem.state.weights.size(); ++weight)

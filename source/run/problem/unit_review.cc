@@ -58,7 +58,7 @@ namespace Exemplar
       const double          length               = measures.length();
       const MeshParameters &mesh                 = problem.parameters.mesh;
       const bool            is_soft_and_unscaled = masses_matter(problem)
-                                        && measures.young.greatest < soft_as_rubber
+                                        && measures.young.maximum < soft_as_rubber
                                         && !mesh.file.empty() && mesh.scale == 1.;
       if (length >= great_length || (length >= great_soft_length && is_soft_and_unscaled))
         return "The body is " + short_text(length)
@@ -72,14 +72,14 @@ namespace Exemplar
     Warning
     review_density(const BodyMeasures &measures)
     {
-      if (measures.density.least < light)
-        return "A density of " + short_text(measures.density.least)
+      if (measures.density.minimum < light)
+        return "A density of " + short_text(measures.density.minimum)
                + " kg/m^3 is less than that of light foam; water has 1000. Material/Density is in "
                  "kg/m^3, of "
                  "which "
                  "1000 are one g/cm^3.";
-      if (measures.density.greatest > heavy)
-        return "A density of " + short_text(measures.density.greatest)
+      if (measures.density.maximum > heavy)
+        return "A density of " + short_text(measures.density.maximum)
                + " kg/m^3 is beyond that of all metals; water has 1000. Material/Density is in "
                  "kg/m^3.";
       return {};
@@ -88,14 +88,14 @@ namespace Exemplar
     Warning
     review_stiffness(const BodyMeasures &measures)
     {
-      if (measures.young.greatest > stiff)
-        return "Young's modulus of " + short_text(measures.young.greatest)
+      if (measures.young.maximum > stiff)
+        return "Young's modulus of " + short_text(measures.young.maximum)
                + " Pa is beyond that of all materials; diamond has 1.2e12. Material/Young's "
                  "modulus "
                  "is in Pa: 210 GPa are 2.1e11.";
-      if (measures.young.least >= soft)
+      if (measures.young.minimum >= soft)
         return {};
-      return "Young's modulus of " + short_text(measures.young.least)
+      return "Young's modulus of " + short_text(measures.young.minimum)
              + " Pa is less than that of jelly, which has some 1000 Pa. Material/Young's modulus "
                "is in Pa: 1 MPa are 1e6, 210 GPa 2.1e11.";
     }
@@ -129,7 +129,7 @@ namespace Exemplar
     {
       dealii::Tensor<1, 3> way;
       for (unsigned int c = 0; c < 3; ++c)
-        way[c] = point[c] - std::min(std::max(point[c], box[c].least), box[c].greatest);
+        way[c] = point[c] - std::min(std::max(point[c], box[c].minimum), box[c].maximum);
       return way;
     }
 
@@ -242,7 +242,7 @@ namespace Exemplar
                    const Problem      &problem,
                    const BodyMeasures &measures)
     {
-      double greatest = 0.;
+      double maximum = 0.;
       try
       {
         const Expression angle("angle", argument, "xyzt", 1);
@@ -252,15 +252,15 @@ namespace Exemplar
           dealii::Point<3> point;
           for (unsigned int c = 0; c < 3; ++c)
             point[c] = (corner >> c & 1u) != 0 ? measures.size[c] : 0.;
-          greatest = std::max(
-              greatest, std::abs(angle.values(point, (corner & 8u) != 0 ? end : 0.5 * end)[0]));
+          maximum = std::max(
+              maximum, std::abs(angle.values(point, (corner & 8u) != 0 ? end : 0.5 * end)[0]));
         }
       }
       catch (const std::exception &)
       {
         // it is none by itself: it says nothing
       }
-      return greatest;
+      return maximum;
     }
 
     /// The first formula with an angle that looks like degrees.
@@ -274,9 +274,9 @@ namespace Exemplar
           if (angle.lacks_pi)
             return call + " divides by 180 without pi, but angles are in radians. Write "
                    + angle.number + "*pi/180.";
-          if (const double greatest = greatest_angle(angle.argument, problem, measures);
-              greatest >= great_angle)
-            return call + " goes up to " + short_text(greatest / (2. * M_PI))
+          if (const double maximum = greatest_angle(angle.argument, problem, measures);
+              maximum >= great_angle)
+            return call + " goes up to " + short_text(maximum / (2. * M_PI))
                    + " turns, as angles are in radians. If " + angle.number
                    + " means degrees, write " + angle.number + "*pi/180.";
         }

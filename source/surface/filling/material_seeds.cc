@@ -3,7 +3,7 @@
 #include <exemplar/base/message_text.h>
 #include <exemplar/base/number_text.h>
 #include <exemplar/base/text_file.h>
-#include <exemplar/prm/assignments.h>
+#include <exemplar/base/words.h>
 #include <exemplar/surface/filling/cell_angles.h>
 #include <exemplar/surface/filling/material_seeds.h>
 #include <exemplar/surface/shape/surface_geometry.h>

@@ -69,7 +69,7 @@ namespace Exemplar::Testing
       // who wants all rows is told
       L = A;
       EXPECT_FALSE(solve_by_cholesky(L, b));
-      EXPECT_EQ(least_pivot(A, 1e-10).row, dependent);
+      EXPECT_EQ(min_pivot(A, 1e-10).row, dependent);
     }
   } // namespace
 } // namespace Exemplar::Testing

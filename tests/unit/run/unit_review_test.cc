@@ -32,8 +32,8 @@ namespace Exemplar::Testing
       EXPECT_NEAR(measures.volume, 4., 1e-12);
       EXPECT_NEAR(measures.area, 18., 1e-12);
       EXPECT_NEAR(measures.mass, 4000., 1e-9);
-      EXPECT_NEAR(measures.poisson.least, 0.3, 1e-12);
-      EXPECT_DOUBLE_EQ(measures.young.greatest, 1e9);
+      EXPECT_NEAR(measures.poisson.minimum, 0.3, 1e-12);
+      EXPECT_DOUBLE_EQ(measures.young.maximum, 1e9);
       EXPECT_NEAR(measures.weight_over_stiffness(10.) * measures.length(), 4e-5, 1e-15);
     }
 

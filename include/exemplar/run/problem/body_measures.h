@@ -13,8 +13,8 @@ namespace Exemplar
   /// From the least to the greatest of some values.
   struct Range
   {
-    double least    = std::numeric_limits<double>::infinity();
-    double greatest = -std::numeric_limits<double>::infinity();
+    double minimum = std::numeric_limits<double>::infinity();
+    double maximum = -std::numeric_limits<double>::infinity();
 
     void
     add(double value);

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_words_h
+#define exemplar_words_h
+
+#include <string>
+#include <vector>
+
+namespace Exemplar
+{
+  /// The text without blanks at its ends.
+  std::string
+  trim(const std::string &text);
+
+  /// Values separated by a sign, such as expressions by ';', without the blanks around them.
+  std::vector<std::string>
+  split_trimmed(const std::string &text, char separator);
+} // namespace Exemplar
+
+#endif
