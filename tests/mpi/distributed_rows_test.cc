@@ -50,7 +50,8 @@ namespace Exemplar::Testing
         vector.resize(vector.size() / 2);
         const Columns own = own_rows(vector);
         Vector        x(of.n_rows()), image(of.n_rows());
-        x = 7.;
+        for (double &entry : x) // a process may have no rows
+          entry = 7.;
         for (std::size_t i = 0; i < own.size(); ++i)
           x[of.row_of()[i]] = own[i];
         rows->multiply(x, image);
