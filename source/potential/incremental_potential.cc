@@ -198,6 +198,8 @@ namespace Exemplar
   {
     const Exchange &exchange = free_dofs.exchange();
     ElasticSums     own;
+    own->gradient.swap(evaluation.gradient); // for their memory
+    own->force_scale.swap(evaluation.force_scale);
     own->gradient.reinit(positions.size());
     own->force_scale.reinit(positions.size() / 3);
     evaluation.term_energies.clear();
@@ -208,12 +210,12 @@ namespace Exemplar
       evaluation.term_energies.push_back(own->energy - before);
     }
     exchange.sum(evaluation.term_energies);
-    const ElasticEvaluation sums = complete(exchange, std::move(own));
-    evaluation.gradient          = evaluation.elastic.gradient;
-    evaluation.force_scale       = evaluation.elastic.force_scale;
-    evaluation.potential         = evaluation.elastic.energy + evaluation.elastic.energy_damping;
-    evaluation.gradient += sums.gradient;
-    evaluation.force_scale += sums.force_scale;
+    ElasticEvaluation sums = complete(exchange, std::move(own));
+    evaluation.gradient.swap(sums.gradient);
+    evaluation.force_scale.swap(sums.force_scale);
+    evaluation.gradient += evaluation.elastic.gradient;
+    evaluation.force_scale += evaluation.elastic.force_scale;
+    evaluation.potential = evaluation.elastic.energy + evaluation.elastic.energy_damping;
     for (const double energy : evaluation.term_energies)
       evaluation.potential += energy;
     held_back.add(exchange, positions, evaluation);

@@ -92,7 +92,7 @@ namespace Exemplar::Loops
 
   /// Add the forces of the cells' nodes and their scales to the sums of the nodes.
   template <typename Number, int n_nodes>
-  inline void
+  [[gnu::always_inline]] inline void
   add_forces(const CellTask                     &task,
              const LaneGroup<Number>            &group,
              const Tetrahedron<Number, n_nodes> &tet,

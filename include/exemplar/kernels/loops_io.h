@@ -268,7 +268,7 @@ namespace Exemplar::Loops
   }
 
   template <typename Number, int n_nodes>
-  inline Matrix3<Number>
+  [[gnu::always_inline]] inline Matrix3<Number>
   deformation_gradient(const CellTask                     &task,
                        const LaneGroup<Number>            &group,
                        const Tetrahedron<Number, n_nodes> &tet)

@@ -56,7 +56,7 @@ namespace Exemplar
   }
 
   template <typename Number>
-  Vector3<Number>
+  [[gnu::always_inline]] inline Vector3<Number>
   operator*(const Matrix3<Number> &A, const Vector3<Number> &b)
   {
     Vector3<Number> c;
@@ -66,7 +66,7 @@ namespace Exemplar
   }
 
   template <typename Number>
-  Matrix3<Number>
+  [[gnu::always_inline]] inline Matrix3<Number>
   operator*(const Matrix3<Number> &A, const Matrix3<Number> &B)
   {
     Matrix3<Number> C;
@@ -78,7 +78,7 @@ namespace Exemplar
 
   /// a A + b B.
   template <typename Number>
-  Matrix3<Number>
+  [[gnu::always_inline]] inline Matrix3<Number>
   combine(const Number &a, const Matrix3<Number> &A, const Number &b, const Matrix3<Number> &B)
   {
     Matrix3<Number> C;
@@ -102,7 +102,7 @@ namespace Exemplar
 
   /// A^T B.
   template <typename Number>
-  Matrix3<Number>
+  [[gnu::always_inline]] inline Matrix3<Number>
   transpose_times(const Matrix3<Number> &A, const Matrix3<Number> &B)
   {
     Matrix3<Number> C;
@@ -113,7 +113,7 @@ namespace Exemplar
   }
 
   template <typename Number>
-  Matrix3<Number>
+  [[gnu::always_inline]] inline Matrix3<Number>
   symmetric_part(const Matrix3<Number> &A)
   {
     Matrix3<Number> S;
@@ -135,7 +135,7 @@ namespace Exemplar
   }
 
   template <typename Number>
-  Number
+  [[gnu::always_inline]] inline Number
   trace(const Matrix3<Number> &A)
   {
     return A[0][0] + A[1][1] + A[2][2];
@@ -154,7 +154,7 @@ namespace Exemplar
 
   /// A : B.
   template <typename Number>
-  Number
+  [[gnu::always_inline]] inline Number
   contract(const Matrix3<Number> &A, const Matrix3<Number> &B)
   {
     Number sum = A[0][0] * B[0][0];
@@ -166,14 +166,14 @@ namespace Exemplar
 
   /// (A:A)^(1/2).
   template <typename Number>
-  Number
+  [[gnu::always_inline]] inline Number
   norm(const Matrix3<Number> &A)
   {
     return sqrt(contract(A, A));
   }
 
   template <typename Number>
-  Number
+  [[gnu::always_inline]] inline Number
   determinant(const Matrix3<Number> &A)
   {
     return A[0][0] * (A[1][1] * A[2][2] - A[1][2] * A[2][1])
