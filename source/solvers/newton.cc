@@ -38,8 +38,7 @@ namespace Exemplar
   void
   Newton::take_over(State &state, Evaluation &evaluation, const double time, SolveReport &report)
   {
-    may_be_interrupted = false; // the other method's memory would be that of half a step
-    Trial trial        = { state, {} };
+    Trial trial = { state, {} };
     if (advance(trial, evaluation, time, 0, report))
       state = std::move(trial.state);
   }
@@ -148,7 +147,7 @@ namespace Exemplar
       const bool is_met  = has_met(parameters.tolerance, report);
       if (is_met && (iteration == max_iterations || is_placed(trial.state, evaluation)))
         report.status = SolveStatus::converged;
-      else if (!goes_on && may_be_interrupted)
+      else if (!goes_on)
         throw Interrupted("Interrupted.");
       else if (iteration == max_iterations)
         report.status = SolveStatus::iteration_limit;

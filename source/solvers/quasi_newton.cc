@@ -74,7 +74,12 @@ namespace Exemplar
     }
     history.positions.reinit(0);
     metric.clear();
-    newton.observe = observe;
+    newton.observe = [this](const SolveReport &so_far)
+    {
+      if (observe)
+        observe(so_far);
+      return true; // nobody may stop it: this method's memory is that of half a step
+    };
     newton.take_over(state, evaluation, time, report);
     return report;
   }

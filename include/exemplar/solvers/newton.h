@@ -27,7 +27,7 @@ namespace Exemplar
     SolveReport
     solve(State &state, Evaluation &evaluation, double time, double step_size) override;
 
-    /// The same in a step that another method has begun, whose report goes on; never interrupted.
+    /// The same in a step that another method has begun, whose report goes on.
     void
     take_over(State &state, Evaluation &evaluation, double time, SolveReport &report);
 
@@ -159,7 +159,6 @@ namespace Exemplar
     const Handles         &handles;
     StepClock             &clock;
     Linearization          accepted;
-    bool                   may_be_interrupted = true;
   };
 } // namespace Exemplar
 

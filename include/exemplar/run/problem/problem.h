@@ -36,8 +36,8 @@ namespace Exemplar
     set_motion(const std::string &handle, Motion motion);
 
     /// Between steps, let `change` change which nodes handles hold: hold(), let_go(), grab(). A
-    /// degree of freedom that is let go keeps its velocity. Throws UserError, with nothing changed, for interpolations, and for what Constraints::change_handles() refuses.
-    /// All processes must call this.
+    /// degree of freedom that is let go keeps its velocity. Throws UserError, with nothing changed, for
+    /// interpolations, and for what Constraints::change_handles() refuses. All processes must call this.
     void
     change_handles(const std::function<void(Handles &)> &change);
 
