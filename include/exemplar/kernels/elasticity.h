@@ -69,7 +69,7 @@ namespace Exemplar
 
   /// C:E [Pa].
   template <typename Number>
-  Matrix3<Number>
+  [[gnu::always_inline]] inline Matrix3<Number>
   stress(const Isotropic<Number> &material, const Matrix3<Number> &strain)
   {
     const Number    pressure = material.lambda * trace(strain);

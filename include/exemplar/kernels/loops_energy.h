@@ -137,7 +137,7 @@ namespace Exemplar::Loops
 
   /// What a cell with patches tells its patch.
   template <typename Number>
-  inline void
+  [[gnu::always_inline]] inline void
   store_dilatation(const CellTask          &task,
                    const LaneGroup<Number> &group,
                    const Matrix3<Number>   &strain,

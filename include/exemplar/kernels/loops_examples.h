@@ -29,7 +29,7 @@ namespace Exemplar::Loops
 
   /// eta E(w), of the cells of a group.
   template <typename Number>
-  inline Matrix3<Number>
+  [[gnu::always_inline]] inline Matrix3<Number>
   target(const CellTask &task, const LaneGroup<Number> &group)
   {
     const ExampleArrays     &examples = task.examples;
@@ -70,7 +70,7 @@ namespace Exemplar::Loops
   /// Add factor T : eta E_i to the sums of the weights, for every example i. Each pair of off-diagonal
   /// entries of T is added up once, because E_i is symmetric.
   template <typename Number>
-  inline void
+  [[gnu::always_inline]] inline void
   add_weight_sums(const CellTask          &task,
                   const LaneGroup<Number> &group,
                   const Number            &factor, ///< V or -V

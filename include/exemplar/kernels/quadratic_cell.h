@@ -51,7 +51,7 @@ namespace Exemplar
     }
 
     /// The same of a target strain.
-    Number
+    [[gnu::always_inline]] Number
     scale_of(const Matrix3<Number> &D) const
     {
       return norm(stress(material, D));
@@ -118,7 +118,7 @@ namespace Exemplar
     }
 
     /// Computed from e - D, because near an example the expanded square would lose its digits.
-    Number
+    [[gnu::always_inline]] Number
     energy(const Matrix3<Number> &D) const
     {
       const Matrix3<Number> deviation = combine(Number(1.), e, Number(-1.), D);
