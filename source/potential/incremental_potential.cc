@@ -4,6 +4,7 @@
 #include <exemplar/potential/incremental_potential.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace Exemplar
 {
@@ -268,7 +269,7 @@ namespace Exemplar
   double
   IncrementalPotential::max_step(const Vector &positions, const Vector &displacement) const
   {
-    double part = 1.;
+    double part = std::numeric_limits<double>::infinity();
     for (const PotentialTerm *term : all_terms)
       part = std::min(part, term->max_step(positions, displacement));
     return min_of_all(free_dofs.exchange(), part);

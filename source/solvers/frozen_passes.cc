@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/solvers/frozen_passes.h>
+#include <exemplar/solvers/line_search.h>
 
 #include <boost/serialization/deque.hpp>
 #include <boost/serialization/vector.hpp>
@@ -52,6 +53,7 @@ namespace Exemplar
     StepClock::Scope scope(clock, Phase::evaluate);
     potential.set_time(time, trial);
     prediction.predict(accepted, step_size, trial);
+    keep_within_max_step(potential, accepted.positions, trial.positions);
     potential.evaluate(trial, RotationUse::update, evaluation);
   }
 
@@ -62,7 +64,9 @@ namespace Exemplar
                         SolveReport  &report)
   {
     system.factorize(linearized_at, trial.weights, 1.);
+    const Vector from = trial.positions;
     system.add(system.solve(trial, evaluation), trial);
+    keep_within_max_step(potential, from, trial.positions);
     ++report.iterations;
     {
       StepClock::Scope scope(clock, Phase::evaluate);

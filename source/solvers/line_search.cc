@@ -39,4 +39,16 @@ namespace Exemplar
     return is_below_rounding(before, length * slope_before) && has_not_risen(now, before)
            && 0.5 * (slope_before + slope_now) <= 1e-4 * slope_before;
   }
+
+  void
+  keep_within_max_step(const IncrementalPotential &potential, const Vector &from, Vector &to)
+  {
+    Vector displacement = to;
+    displacement -= from;
+    const double part = potential.max_step(from, displacement);
+    if (part >= 1.)
+      return;
+    for (const unsigned int dof : potential.get_free_dofs().local_list())
+      to[dof] = from[dof] + part * displacement[dof];
+  }
 } // namespace Exemplar

@@ -62,6 +62,7 @@ namespace Exemplar
     for (const unsigned int dof : potential.get_free_dofs().local_list())
       trial.state.positions[dof] = (*inertial)[dof];
     handles.move(time, trial.state.positions);
+    keep_within_max_step(potential, start.state.positions, trial.state.positions);
   }
 
   void
@@ -96,6 +97,7 @@ namespace Exemplar
       if (!has_factor)
         system.factorize(from.positions, from.weights, tangent == Tangent::convex ? 1. : 0.);
       system.add(system.solve(from, evaluation), trial.state);
+      keep_within_max_step(potential, from.positions, trial.state.positions);
       return true;
     }
     catch (const SolverFailure &)

@@ -4,6 +4,7 @@
 #include <exemplar/solvers/newton.h>
 #include <exemplar/solvers/saddle.h>
 
+#include <algorithm>
 #include <cmath>
 
 // A step of Newton's method: its direction, its length, and the way off a saddle point.
@@ -54,9 +55,10 @@ namespace Exemplar
     const Vector displacement = system.displacement(state, step);
     const double slope        = system.slope(evaluation, step);
     const Merit  before(potential, evaluation);
-    const double longest    = potential.max_step(state.positions, displacement);
-    double      &length     = report.step_length;
-    const auto   try_length = [&](const double new_length)
+    const double longest           = potential.max_step(state.positions, displacement);
+    const double longest_of_convex = std::min(max_step_length, longest);
+    double      &length            = report.step_length;
+    const auto   try_length        = [&](const double new_length)
     {
       length = new_length;
       state  = start;
@@ -65,14 +67,14 @@ namespace Exemplar
     };
     for (unsigned int halving = 0; halving < max_halvings_of_step; ++halving)
     {
-      try_length(std::pow(0.5, halving) * longest);
+      try_length(std::pow(0.5, halving) * std::min(1., longest));
       const Merit now(potential, evaluation);
       if (!is_better(now, before, length * slope)
           && !is_better_by_slopes(now, before, slope, system.slope(evaluation, step), length))
         continue;
       // the convex tangent is too stiff near a saddle: go on as long as it goes down
       double reached = evaluation.potential;
-      while (report.convexity > 0. && length >= 1. && length < max_step_length)
+      while (report.convexity > 0. && length >= 1. && 2. * length <= longest_of_convex)
       {
         try_length(2. * length);
         const bool still_falls = is_below_rounding(before, slope)
@@ -108,6 +110,7 @@ namespace Exemplar
         break;
       state = start;
       state.positions.add(length, down);
+      keep_within_max_step(potential, start.positions, state.positions);
       evaluate(state, evaluation);
       if (evaluation.potential < before.potential - 1e-12 * std::abs(before.potential))
         return true;
@@ -133,6 +136,7 @@ namespace Exemplar
     }
     const double slope = system.slope(evaluation, step);
     state.positions += system.displacement(state, step);
+    keep_within_max_step(potential, start.positions, state.positions);
     evaluate(state, evaluation);
     const Merit now(potential, evaluation);
     if (slope < 0. && now.max_free_gradient < 0.5 * before.max_free_gradient

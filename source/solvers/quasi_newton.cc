@@ -93,6 +93,7 @@ namespace Exemplar
     StepClock::Scope scope(clock, Phase::evaluate);
     potential.set_time(trial.time, trial);
     prediction.predict(accepted, step_size, trial);
+    keep_within_max_step(potential, accepted.positions, trial.positions);
     rebuild_metric();
     potential.minimize_over_weights(trial, RotationUse::update, evaluation);
   }
@@ -178,7 +179,7 @@ namespace Exemplar
     double         &length = report.step_length;
     Vector          displacement(trial.positions.size());
     free_dofs.add(1., iteration.direct, displacement);
-    length = potential.max_step(trial.positions, displacement);
+    length = std::min(1., potential.max_step(trial.positions, displacement));
     free_dofs.add(length, iteration.direct, trial.positions);
     for (unsigned int halving = 0;; ++halving)
     {

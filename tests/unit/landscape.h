@@ -7,6 +7,7 @@
 #include "body.h"
 
 #include <array>
+#include <cmath>
 #include <functional>
 #include <limits>
 
@@ -22,7 +23,9 @@ namespace Exemplar::Testing
     std::function<Pair(double a, double b)>   gradient;
     std::function<Pair(double a, double b)>   curvature; ///< of the exact tangent
     std::function<Pair(double a, double b)>   convex;    ///< of the convex one
-    double                                    max_step = std::numeric_limits<double>::infinity();
+
+    /// Of steps from (a, b) by (da, db); empty where none is bounded.
+    std::function<double(double a, double b, double da, double db)> max_step = {};
   };
 
   /// f(a) + b^2 / 2, with this convex curvature along a.
@@ -43,6 +46,24 @@ namespace Exemplar::Testing
              [=](double, double) {
                return Pair{ { convex, 1. } };
              } };
+  }
+
+  /// The same with walls at a = -wall and a = wall, of which a step goes nine tenths of the way.
+  /// `was_beyond` becomes true when the energy there is asked for.
+  inline Landscape
+  between_walls(Landscape landscape, const double wall, bool &was_beyond)
+  {
+    landscape.energy = [=, inner = landscape.energy, &was_beyond](const double a, const double b)
+    {
+      was_beyond |= std::abs(a) > (1. + 1e-12) * wall; // steps add up to the whole way
+      return inner(a, b);
+    };
+    landscape.max_step = [=](const double a, double, const double da, double)
+    {
+      return da == 0. ? std::numeric_limits<double>::infinity()
+                      : 0.9 * ((da > 0. ? wall : -wall) - a) / da;
+    };
+    return landscape;
   }
 
   /// The landscape over two degrees of freedom. The scale of its forces is 1 N.
@@ -97,9 +118,13 @@ namespace Exemplar::Testing
     }
 
     double
-    max_step(const Vector &, const Vector &) const override
+    max_step(const Vector &positions, const Vector &displacement) const override
     {
-      return landscape.max_step;
+      if (!landscape.max_step)
+        return std::numeric_limits<double>::infinity();
+      return landscape.max_step(positions[dofs[0]] - rest[dofs[0]],
+                                positions[dofs[1]] - rest[dofs[1]], displacement[dofs[0]],
+                                displacement[dofs[1]]);
     }
 
     std::size_t

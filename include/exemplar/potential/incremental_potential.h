@@ -139,8 +139,8 @@ namespace Exemplar
       return integrator == nullptr ? 0. : integrator->mass_factor();
     }
 
-    /// The part of a displacement [m] from these positions that a step may go, at most 1: the least
-    /// that a term allows.
+    /// The part of a displacement [m] from these positions that a step may go: the least that a term
+    /// allows, infinite where none asks.
     double
     max_step(const Vector &positions, const Vector &displacement) const;
 

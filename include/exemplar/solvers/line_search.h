@@ -37,6 +37,11 @@ namespace Exemplar
   bool
   is_better_by_slopes(
       const Merit &now, const Merit &before, double slope_before, double slope_now, double length);
+
+  /// Draw the free degrees of freedom of `to` [m] back towards `from`, to as much of the way as
+  /// IncrementalPotential::max_step() allows. Held ones stay where their handles have put them.
+  void
+  keep_within_max_step(const IncrementalPotential &potential, const Vector &from, Vector &to);
 } // namespace Exemplar
 
 #endif

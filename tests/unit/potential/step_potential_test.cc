@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 // What the incremental potential does about a step, beside its energy and derivatives.
 
@@ -97,7 +98,7 @@ namespace Exemplar::Testing
       {
         const auto zero = [](double) { return 0.; };
         Landscape  flat = valley(zero, zero, zero, 0.);
-        flat.max_step   = max_step;
+        flat.max_step   = [=](double, double, double, double) { return max_step; };
         return flat;
       };
       const auto max_step = [&](const std::vector<double> &walls)
@@ -108,8 +109,8 @@ namespace Exemplar::Testing
         TwoUnknowns unknowns(landscapes, 0., 0.);
         return unknowns.potential.max_step(unknowns.state.positions, unknowns.state.positions);
       };
-      EXPECT_EQ(max_step({}), 1.);
-      EXPECT_EQ(max_step({ 3. }), 1.);
+      EXPECT_EQ(max_step({}), std::numeric_limits<double>::infinity());
+      EXPECT_EQ(max_step({ 3. }), 3.);
       EXPECT_EQ(max_step({ 0.7, 0.3, 0.5 }), 0.3);
     }
 

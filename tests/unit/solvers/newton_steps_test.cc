@@ -106,7 +106,7 @@ namespace Exemplar::Testing
         Landscape bowl = valley([](const double a) { return std::cosh(a); },
                                 [](const double a) { return std::sinh(a); },
                                 [](const double a) { return std::cosh(a); }, 1.);
-        bowl.max_step  = 0.3;
+        bowl.max_step  = [](double, double, double, double) { return 0.3; };
         TwoUnknowns       unknowns(bowl, 1.5, 0.5);
         double            longest = 0.;
         const SolveReport report  = unknowns.solve(by_method(method),
@@ -120,6 +120,61 @@ namespace Exemplar::Testing
         EXPECT_EQ(longest, 0.3);
         EXPECT_NEAR(unknowns.a(), 0., 1e-8);
       }
+    }
+
+    /// A pull towards a wall at 1 that is felt only near to it, in balance at 0.95.
+    Landscape
+    barrier(bool &was_beyond)
+    {
+      return between_walls(valley([](const double a) { return -a - 0.05 * std::log(1. - a); },
+                                  [](const double a) { return -1. + 0.05 / (1. - a); },
+                                  [](const double a) { return 0.05 / std::pow(1. - a, 2); }, 0.05),
+                           1., was_beyond);
+    }
+
+    TEST(StepSolver, NoPredictionOrStepPassesAWall)
+    {
+      for (const Method method : { Method::newton, Method::quasi_newton })
+        for (const double velocity : { 0., 5. })
+        {
+          bool        was_beyond = false;
+          TwoUnknowns unknowns(barrier(was_beyond), 0., 0.);
+          unknowns.state.velocities[unknowns.dofs[0]] = velocity;
+          EXPECT_EQ(unknowns.solve(by_method(method)).status, SolveStatus::converged);
+          EXPECT_NEAR(unknowns.a(), 0.95, 1e-8);
+          EXPECT_FALSE(was_beyond);
+        }
+    }
+
+    TEST(StepSolver, APassStopsBeforeAWall)
+    {
+      bool        was_beyond = false;
+      TwoUnknowns unknowns(barrier(was_beyond), 0., 0.);
+      EXPECT_EQ(unknowns.solve(by_method(Method::one_pass)).status, SolveStatus::one_pass);
+      EXPECT_NEAR(unknowns.a(), 0.9, 1e-12); // of a step of 19
+      EXPECT_FALSE(was_beyond);
+    }
+
+    TEST(NewtonStep, OfTheConvexTangentGoesOnNoFurtherThanAWall)
+    {
+      bool        was_beyond = false;
+      TwoUnknowns unknowns(between_walls(stiff_hill(), 0.03, was_beyond), 0.01, 0.);
+      unknowns.solve(by_method(Method::newton));
+      EXPECT_GT(unknowns.a(), 0.);
+      EXPECT_FALSE(was_beyond);
+    }
+
+    TEST(NewtonStep, IsNotCorrectedBeyondAWall)
+    {
+      // a step from 0 to 0.1, where the force is 50 times greater, but the factor is that at 0
+      bool            was_beyond = false;
+      const Landscape cliff
+          = valley([](const double a) { return a * a / 2. - 0.1 * a - 1250. * std::pow(a, 4); },
+                   [](const double a) { return a - 0.1 - 5000. * std::pow(a, 3); },
+                   [](const double a) { return 1. - 15000. * a * a; }, 50.);
+      TwoUnknowns unknowns(between_walls(cliff, 0.3, was_beyond), 0., 0.);
+      unknowns.solve(by_method(Method::newton));
+      EXPECT_FALSE(was_beyond);
     }
 
     TEST(Newton, MustFindThePlaceInStaticsAndNotOnlyTheBalance)

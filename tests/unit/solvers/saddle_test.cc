@@ -72,6 +72,14 @@ namespace Exemplar::Testing
       EXPECT_NEAR(unknowns.b(), 0., 1e-9);
     }
 
+    TEST(Saddle, IsLeftNoFurtherThanAWall)
+    {
+      bool        was_beyond = false;
+      TwoUnknowns unknowns(between_walls(two_valleys_with_noise(), 1e-4, was_beyond), 0., 0.);
+      unknowns.solve(by_method(Method::newton));
+      EXPECT_FALSE(was_beyond);
+    }
+
     TEST(Saddle, WhereNothingLeadsDownhillNewtonStalls)
     {
       Landscape landscape = two_valleys_with_noise();
