@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/algebra/mpi_session.h>
 #include <exemplar/algebra/multigrid_inverse.h>
 #include <exemplar/algebra/multigrid_operator.h>
 #include <exemplar/algebra/rigid_modes.h>
 #include <exemplar/algebra/trilinos_lock.h>
+#include <exemplar/base/mpi_session.h>
 
 #include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/vector_memory.templates.h> // for vectors that are not deal.II's

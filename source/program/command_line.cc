@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/algebra/spd_operator.h>
 #include <exemplar/base/environment.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/base/message_text.h>
@@ -249,9 +248,8 @@ Exit status:
     arguments.run.n_threads = JointRun::group().n_processes > 1 ? 1 : n_available_cores();
     arguments.study.stop    = is_interrupted;
     CLI::App app("Elastic solids that deform the way their examples say", "exemplar");
-    app.set_version_flag("--version",
-                         std::string("exemplar " EXEMPLAR_VERSION " (" EXEMPLAR_GIT_REVISION ")")
-                             + (has_iterative_operator() ? "" : " without Trilinos"));
+    app.set_version_flag("--version", "exemplar " EXEMPLAR_VERSION " (" EXEMPLAR_GIT_REVISION
+                                      ")" EXEMPLAR_LEFT_OUT);
     app.footer(footer("exemplar bar.prm --set Examples/Importance=0 --output plain"));
     app.require_subcommand(0, 1);
     declare_scene(app, arguments);

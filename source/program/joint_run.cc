@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/algebra/mpi_session.h>
 #include <exemplar/base/digest.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/base/launcher.h>
+#include <exemplar/base/mpi_session.h>
 #include <exemplar/base/version.h>
 #include <exemplar/program/interrupt.h>
 #include <exemplar/program/joint_run.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/algebra/mpi_session.h>
 #include <exemplar/base/environment.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/base/message_text.h>
+#include <exemplar/base/mpi_session.h>
 #include <exemplar/base/standard_streams.h>
 #include <exemplar/program/command_line.h>
 #include <exemplar/program/interrupt.h>

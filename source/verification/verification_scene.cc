@@ -2,7 +2,6 @@
 #include <exemplar/algebra/long_vectors.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
-#include <exemplar/mesh/mesh_generation.h>
 #include <exemplar/run/scene/scene_file.h>
 #include <exemplar/verification/verification_scene.h>
 
@@ -45,7 +44,9 @@ namespace Exemplar::Verification
             const std::array<unsigned int, 3>                               &n_cells,
             const std::function<dealii::Point<3>(const dealii::Point<3> &)> &map)
   {
-    Inputs inputs{ generate_box(size, n_cells), {}, {} };
+    const SceneFile scene("", set("Scene", "static") + box(size, n_cells),
+                          std::vector<std::string>());
+    Inputs          inputs{ load_or_make_mesh(scene.get_parameters().mesh), {}, {} };
     for (dealii::Point<3> &node : inputs.mesh.nodes)
       node = map(node);
     return inputs;

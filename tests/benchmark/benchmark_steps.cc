@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/algebra/mpi_session.h>
 #include <exemplar/base/environment.h>
 #include <exemplar/base/errors.h>
+#include <exemplar/base/mpi_session.h>
 #include <exemplar/run/output/diagnostics.h>
 #include <exemplar/run/scene/scene_file.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/algebra/mpi_session.h>
+#include <exemplar/base/mpi_session.h>
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/algebra/mpi_session.h>
 #include <exemplar/base/errors.h>
+#include <exemplar/base/mpi_session.h>
 
 #include <cstdlib>
 #include <mpi.h>
