@@ -101,7 +101,7 @@ namespace Exemplar
   void
   QuasiNewton::make_metric(const Vector &positions, const std::vector<double> &weights)
   {
-    system.factorize(positions, weights, 1.);
+    system.factorize_metric(positions, weights);
     StepClock::Scope scope(clock, Phase::factorize);
     potential.get_cells().get_field().node_rotations(node_rotations);
     metric.reinit(system.bordered(), node_rotations);
