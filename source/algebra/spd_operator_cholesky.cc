@@ -93,7 +93,8 @@ namespace Exemplar
       factorize_roughly(const Vector &positions) override
       {
         factor.reset();
-        rough_factor = std::make_shared<MultifrontalFactor<float>>(structure, n_threads);
+        if (rough_factor.use_count() != 1) // the last one is kept
+          rough_factor = std::make_shared<MultifrontalFactor<float>>(structure, n_threads);
         if (!rough_factor->factorize(matrix_values)) // in single precision, at least
           factorize(positions);
       }

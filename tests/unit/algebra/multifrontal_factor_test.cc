@@ -13,18 +13,18 @@ namespace Exemplar::Testing
 {
   namespace
   {
-    struct Matrix
+    struct SparseMatrix
     {
       SymmetricPattern    pattern;
       std::vector<double> values;
     };
 
     /// Six on the diagonal and `shift`, -1 between neighbours in a grid of n x n x n points.
-    Matrix
+    SparseMatrix
     laplacian(const int n, const double shift)
     {
-      Matrix     matrix;
-      const auto add = [&](const int row, const double value)
+      SparseMatrix matrix;
+      const auto   add = [&](const int row, const double value)
       {
         matrix.pattern.row.push_back(row);
         matrix.values.push_back(value);
@@ -60,7 +60,7 @@ namespace Exemplar::Testing
     }
 
     std::unique_ptr<SpdOperator>
-    with(std::unique_ptr<SpdOperator> matrix, const Matrix &values)
+    with(std::unique_ptr<SpdOperator> matrix, const SparseMatrix &values)
     {
       matrix->reinit(values.pattern);
       matrix->values() = values.values;
@@ -68,7 +68,9 @@ namespace Exemplar::Testing
     }
 
     std::vector<double>
-    solution(std::unique_ptr<SpdOperator> matrix, const Matrix &values, std::vector<double> columns)
+    solution(std::unique_ptr<SpdOperator> matrix,
+             const SparseMatrix          &values,
+             std::vector<double>          columns)
     {
       const auto made = with(std::move(matrix), values);
       made->factorize({});
@@ -104,7 +106,7 @@ namespace Exemplar::Testing
       for (const int n : { 1, 2, 5, 20 })
         for (const std::size_t n_columns : { 1, 2, 7 })
         {
-          const Matrix              matrix  = laplacian(n, 0.01);
+          const SparseMatrix        matrix  = laplacian(n, 0.01);
           const std::vector<double> columns = random_columns(n_columns * n * n * n);
           EXPECT_LT(difference(solution(make_cholesky_operator(), matrix, columns),
                                solution(make_cholmod_operator(), matrix, columns)),
@@ -115,8 +117,8 @@ namespace Exemplar::Testing
 
     TEST(MultifrontalFactorTest, IsTheSameToTheByteForAnyNumberOfThreads)
     {
-      const Matrix matrix    = laplacian(20, 0.01);
-      const auto   structure = structure_of(matrix.pattern);
+      const SparseMatrix matrix    = laplacian(20, 0.01);
+      const auto         structure = structure_of(matrix.pattern);
       ASSERT_GT(structure->subtrees.size(), 3u);
       ASSERT_GT(structure->top.size(), 1u);
       ASSERT_GE(structure->n_columns(structure->n_supernodes() - 1), 256);
@@ -136,7 +138,7 @@ namespace Exemplar::Testing
 
     TEST(MultifrontalFactorTest, InSinglePrecisionHasItsDigits)
     {
-      const Matrix              matrix = laplacian(12, 1.);
+      const SparseMatrix        matrix = laplacian(12, 1.);
       const std::vector<double> b      = random_columns(2 * matrix.pattern.n());
       const std::vector<double> exact  = solution(make_cholmod_operator(), matrix, b);
       const auto                rough  = with(make_cholesky_operator(), matrix);
@@ -154,8 +156,8 @@ namespace Exemplar::Testing
 
     TEST(MultifrontalFactorTest, SmallForcesKeepTheirDigitsInSinglePrecision)
     {
-      const Matrix matrix = laplacian(4, 1.);
-      const auto   rough  = with(make_cholesky_operator(), matrix);
+      const SparseMatrix matrix = laplacian(4, 1.);
+      const auto         rough  = with(make_cholesky_operator(), matrix);
       rough->factorize_roughly({});
       std::vector<double> large = random_columns(matrix.pattern.n()), small = large;
       for (double &entry : small)
@@ -181,7 +183,7 @@ namespace Exemplar::Testing
     TEST(MultifrontalFactorTest, WhatIsDefiniteInDoublePrecisionAloneIsFactorisedInThat)
     {
       // in single precision 1 + 1e-9 is 1, and the matrix singular
-      Matrix matrix;
+      SparseMatrix matrix;
       matrix.pattern.column_start = { 0, 2, 3 };
       matrix.pattern.row          = { 0, 1, 1 };
       matrix.values               = { 1., 1., 1. + 1e-9 };
@@ -196,9 +198,9 @@ namespace Exemplar::Testing
 
     TEST(MultifrontalFactorTest, CountsOperationsAndPivotsAsCholmodDoes)
     {
-      const Matrix matrix = laplacian(8, 0.1);
-      const auto   own    = with(make_cholesky_operator(), matrix),
-                 its      = with(make_cholmod_operator(), matrix);
+      const SparseMatrix matrix = laplacian(8, 0.1);
+      const auto         own    = with(make_cholesky_operator(), matrix),
+                 its            = with(make_cholmod_operator(), matrix);
       own->factorize({});
       its->factorize({});
       EXPECT_EQ(own->traits().n_operations, its->traits().n_operations);
