@@ -63,6 +63,7 @@ extern "C"
 
 namespace Exemplar::Blas
 {
+  /// Of the first entry, by columns.
   template <typename Number>
   struct Matrix
   {
