@@ -44,8 +44,8 @@ namespace Exemplar
   } // namespace
 
   Mass::Mass(const FESpace &fe_space, const Material &material, const MassMatrix kind)
-      : with_others(fe_space.exchange()), kind(kind), pattern(fe_space.nodal_pattern()),
-        matrix(pattern)
+      : with_others(fe_space.exchange()), kernels(best_kernels(fe_space.element())), kind(kind),
+        pattern(fe_space.nodal_pattern()), matrix(pattern)
   {
     set_material(fe_space, material);
   }
@@ -93,21 +93,12 @@ namespace Exemplar
   OwnSums<Vector>
   Mass::own_times(const Vector &field) const
   {
-    OwnSums<Vector> sums(Vector(field.size()));
-    Vector         &product = *sums;
-    for (unsigned int row = 0; row + 1 < row_start.size(); ++row)
-    {
-      double sum[3] = { 0., 0., 0. };
-      for (std::size_t entry = row_start[row]; entry < row_start[row + 1]; ++entry)
-      {
-        const double *node = field.begin() + 3 * columns[entry];
-        for (unsigned int c = 0; c < 3; ++c)
-          sum[c] += values[entry] * node[c];
-      }
-      for (unsigned int c = 0; c < 3; ++c)
-        product[3 * row + c] = sum[c];
-    }
-    return sums;
+    std::vector<double> x(field.begin(), field.end());
+    x.push_back(0.); // the loop reads it
+    OwnSums<Vector> product(Vector(field.size()));
+    kernels.multiply_nodes({ row_start.data(), columns.data(), values.data() },
+                           row_start.size() - 1, x.data(), product->begin());
+    return product;
   }
 
   Vector

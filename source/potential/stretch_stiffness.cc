@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/kernels/stretch_modes.h>
 #include <exemplar/potential/stretch_stiffness.h>
 
 #include <algorithm>
@@ -8,16 +7,6 @@ namespace Exemplar
 {
   namespace
   {
-    CorotationalCell<double>
-    without_target(const CellMaterial<double> &elasticity,
-                   const Matrix3<double>      &R,
-                   const Matrix3<double>      &F)
-    {
-      CorotationalCell<double> state(elasticity, R, F, ExampleConstants());
-      state.set_target(Matrix3<double>{});
-      return state;
-    }
-
     /// Sum over the modes of stiffness V (D : R^T dF)^2 / 2, by the blocks of CellScatter, where
     /// `g` are the gradients of the nodes in the order of the loops.
     void
@@ -44,25 +33,50 @@ namespace Exemplar
     }
   } // namespace
 
+  std::optional<StretchModes>
+  find_stretch_modes(const CellField       &cells,
+                     const unsigned int     point,
+                     const Matrix3<double> &R,
+                     const Matrix3<double> &F)
+  {
+    const StretchField &patch       = cells.get_dilatation().stretch;
+    const bool          is_of_patch = patch.acts && patch.transitions[point] > 0.;
+    const auto          own         = cells.get_batches().constants<CellMaterial<double>>(point);
+    const auto          elasticity  = is_of_patch
+                                          ? CellMaterial<double>{ patch.elasticity[batch_index(point, 2, 0)],
+                                                                  patch.elasticity[batch_index(point, 2, 1)] }
+                                          : own;
+    if (!is_strongly_stretched(kink_slope(elasticity, sqrt(contract(F, F)))))
+      return {};
+    CorotationalCell<double> state(own, R, F, ExampleConstants());
+    state.set_target(Matrix3<double>{});
+    state.set_guard_elasticity(elasticity);
+    if (is_of_patch)
+      state.add_pressure(patch.pressures[point]);
+    return stretch_modes(state, R, F);
+  }
+
   void
   add_stretch_stiffness(const FESpace       &fe_space,
-                        const Material      &material,
                         const CellField     &cells,
                         const CellScatter   &scatter,
                         const Vector        &positions,
                         std::vector<double> &values)
   {
+    const StretchField &patch = cells.get_dilatation().stretch;
+    if (cells.has_dilatations() && !patch.acts)
+      return;
     for (unsigned int point = 0; point < fe_space.n_points(); ++point)
     {
-      if (!traits_of(cells.get_batches().law(point)).has_stretch_guard)
+      if ((patch.acts && patch.transitions[point] == 0.)
+          || !traits_of(cells.get_batches().law(point)).has_stretch_guard)
         continue;
-      const unsigned int          cell       = fe_space.cell_of(point);
-      const CellMaterial<double> &elasticity = material.elasticity(cell);
-      const Matrix3<double>       F          = fe_space.deformation_gradient(point, positions);
-      const KinkSlope<double>     kink       = kink_slope(elasticity, sqrt(contract(F, F)));
-      if (!is_strongly_stretched(kink))
+      const unsigned int    cell  = fe_space.cell_of(point);
+      const Matrix3<double> F     = fe_space.deformation_gradient(point, positions);
+      const Matrix3<double> R     = closest_rotation(F);
+      const auto            modes = find_stretch_modes(cells, point, R, F);
+      if (!modes)
         continue;
-      const Matrix3<double>        R     = closest_rotation(F);
       const auto                   nodes = fe_space.nodes(cell);
       std::vector<Vector3<double>> g;
       for (unsigned int a = 0; a < nodes.size(); ++a)
@@ -71,8 +85,7 @@ namespace Exemplar
         g.push_back(fe_space.gradients(point)[node - nodes.begin()]);
       }
       std::vector<double> blocks(3 * n_block_columns(nodes.size()), 0.);
-      add_modes(stretch_modes(without_target(elasticity, R, F), R, F), R, fe_space.volume(point), g,
-                blocks);
+      add_modes(*modes, R, fe_space.volume(point), g, blocks);
       scatter.add_blocks(cell, blocks.data(), values);
     }
   }

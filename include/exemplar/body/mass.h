@@ -6,6 +6,7 @@
 #include <exemplar/body/fe_space.h>
 #include <exemplar/body/material.h>
 #include <exemplar/body/state.h>
+#include <exemplar/kernels/cell_kernels.h>
 
 #include <deal.II/base/tensor.h>
 #include <deal.II/lac/sparse_matrix.h>
@@ -67,6 +68,7 @@ namespace Exemplar
     copy_rows();
 
     const Exchange              &with_others;
+    const CellKernels           &kernels;
     const MassMatrix             kind;
     dealii::SparsityPattern      pattern;
     dealii::SparseMatrix<double> matrix;

@@ -236,6 +236,13 @@ namespace Exemplar::Loops
       return Number(four[0]);
   }
 
+  /// Where the sums of the cells' nodes are.
+  [[gnu::always_inline]] static inline const int *
+  nodal_places(const CellTask &task)
+  {
+    return task.places != nullptr ? task.places : task.cells.nodes;
+  }
+
   /// The positions of one node of each cell; `positions` holds four numbers a node.
   template <typename Number>
   inline void
