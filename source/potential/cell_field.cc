@@ -38,7 +38,7 @@ namespace Exemplar
   {
     for (dealii::AlignedVector<double> *values : { &traces, &squares, &pressures, &scales })
       values->resize(batched_size(n_points, 1));
-    thin.resize(batched_size(n_points, 1) / batch_size);
+    flags.resize(batched_size(n_points, 1) / batch_size);
   }
 
   DilatationArrays
@@ -46,7 +46,7 @@ namespace Exemplar
   {
     if (traces.empty())
       return {};
-    return { traces.data(),    squares.data(), thin.data(),
+    return { traces.data(),    squares.data(), flags.data(),
              pressures.data(), scales.data(),  stretch.arrays() };
   }
 
@@ -54,7 +54,7 @@ namespace Exemplar
   DilatationField::memory_consumption() const
   {
     return traces.memory_consumption() + squares.memory_consumption()
-           + pressures.memory_consumption() + scales.memory_consumption() + thin.capacity()
+           + pressures.memory_consumption() + scales.memory_consumption() + flags.capacity()
            + stretch.memory_consumption();
   }
 
@@ -105,7 +105,7 @@ namespace Exemplar
   void
   CellField::update_dilatations(const Vector &positions, const RotationUse rotations)
   {
-    forget_thin_cells();
+    clear_cell_flags();
     for_each_law_in_stripes(task(positions, rotations), kernels.dilatations);
   }
 

@@ -235,7 +235,7 @@ namespace Exemplar
   {
     const CellTask cell_task = task(positions, {}, rotations);
     WeightSums     weight_sums(cells.get_nodal_sums().n_stripes(), parts.examples.n_weights());
-    cells.forget_thin_cells();
+    cells.clear_cell_flags();
     cells.get_nodal_sums().for_each_stripe(
         [&](const std::size_t stripe, const std::size_t begin, const std::size_t end, double *)
         {

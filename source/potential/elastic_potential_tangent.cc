@@ -164,7 +164,7 @@ namespace Exemplar
     (rotated ? cells.loops().add_rotated_stiffness : cells.loops().add_tangent)(task, tangent,
                                                                                 begin, end);
     if (task.dilatation.traces != nullptr
-        && (cells.get_dilatation().stretch.acts || cells.get_dilatation().has_thin_cells()))
+        && (cells.get_dilatation().stretch.acts || cells.get_dilatation().has(thin_cells)))
       cells.loops().add_patch_tangent(task, tangent, begin, end);
   }
 

@@ -63,17 +63,22 @@ namespace Exemplar
   PatchDilatation::hear_cells(const Vector &positions)
   {
     const DilatationField &dilatation = cells->get_dilatation();
-    std::vector<double>    mean_squares(patches.size());
+    find_means(dilatation.traces.data(), means);
+    std::vector<double> mean_squares(patches.size(), 0.);
+    if (dilatation.has(long_cells))
+      find_means(dilatation.squares.data(), mean_squares);
+    guard.find(*cells, positions, means, mean_squares);
+  }
+
+  void
+  PatchDilatation::find_means(const double *of_points, std::vector<double> &of_patches) const
+  {
     for_each_part(cells->n_threads(), patches.size(), cells->n_threads(),
                   [&](std::size_t /*part*/, const std::size_t begin, const std::size_t end)
                   {
                     for (std::size_t patch = begin; patch < end; ++patch)
-                    {
-                      means[patch]        = scatter->mean(patch, dilatation.traces.data());
-                      mean_squares[patch] = scatter->mean(patch, dilatation.squares.data());
-                    }
+                      of_patches[patch] = scatter->mean(patch, of_points);
                   });
-    guard.find(*cells, positions, means, mean_squares);
   }
 
   double
@@ -88,31 +93,35 @@ namespace Exemplar
   void
   PatchDilatation::tell_cells(const TermPoint &at)
   {
-    DilatationField &dilatation = cells->get_dilatation();
-    const double     root       = std::sqrt(3.); // |p I| = sqrt(3) |p|
-    const auto       tell       = [&](const unsigned int patch)
+    struct Told
     {
-      const double lambda = patches.lambda(patch), mean = means[patch],
-                   D  = target(patch, at.weights);
-      double pressure = lambda * (mean - D);
-      double scale    = root * std::abs(lambda) * (std::abs(mean) + std::abs(D));
+      double pressure, scale;
+    };
+    std::vector<Told> of_patches(patches.size());
+    const double      root = std::sqrt(3.); // |p I| = sqrt(3) |p|
+    for (unsigned int patch = 0; patch < patches.size(); ++patch)
+    {
+      const double lambda = patches.lambda(patch), mean = means[patch];
+      const double D  = target(patch, at.weights);
+      Told        &to = of_patches[patch];
+      to = { lambda * (mean - D), root * std::abs(lambda) * (std::abs(mean) + std::abs(D)) };
       if (const double s = damping.factor(patch); s > 0.)
       {
         const double past = damping.past_means[patch];
-        pressure += s * lambda * (mean - past);
-        scale += s * root * std::abs(lambda) * (std::abs(mean) + std::abs(past));
+        to.pressure += s * lambda * (mean - past);
+        to.scale += s * root * std::abs(lambda) * (std::abs(mean) + std::abs(past));
       }
-      for (const unsigned int point : patches.points(patch))
-      {
-        dilatation.pressures[point] = pressure;
-        dilatation.scales[point]    = scale;
-      }
-    };
-    for_each_part(cells->n_threads(), patches.size(), cells->n_threads(),
+    }
+    DilatationField &dilatation = cells->get_dilatation();
+    for_each_part(cells->n_threads(), fe_space.n_points(), cells->n_threads(),
                   [&](std::size_t /*part*/, const std::size_t begin, const std::size_t end)
                   {
-                    for (std::size_t patch = begin; patch < end; ++patch)
-                      tell(patch);
+                    for (std::size_t point = begin; point < end; ++point)
+                    {
+                      const Told &told            = of_patches[patches.of_point(point)];
+                      dilatation.pressures[point] = told.pressure;
+                      dilatation.scales[point]    = told.scale;
+                    }
                   });
     guard.add_pressures(dilatation);
   }
@@ -166,7 +175,7 @@ namespace Exemplar
   PatchDilatation::is_special(const unsigned int point) const
   {
     const DilatationField &dilatation = cells->get_dilatation();
-    return (dilatation.thin[point / batch_size] != 0
+    return ((dilatation.flags[point / batch_size] & thin_cells) != 0
             || (dilatation.stretch.acts && dilatation.stretch.transitions[point] > 0.))
            && traits_of(cells->get_batches().law(point)).has_stretch_guard;
   }
@@ -175,7 +184,7 @@ namespace Exemplar
   PatchDilatation::find_gradients(const Vector &positions, PatchVectors &b) const
   {
     scatter->find_gradients(*cells, b);
-    if (!cells->get_dilatation().has_thin_cells())
+    if (!cells->get_dilatation().has(thin_cells))
       return;
     std::vector<double> forces;
     for (unsigned int point = 0; point < fe_space.n_points(); ++point)
@@ -276,11 +285,13 @@ namespace Exemplar
           = transpose_times(R, fe_space.deformation_gradient(point, displacement));
       Matrix3<double> dP = patch_cell(*cells, point, F)
                                .response(M, cells->pressure(point), kind == Tangent::convex);
-      if (kind == Tangent::convex)
-        if (const auto modes = find_stretch_modes(*cells, point, R, F))
-          for (std::size_t m = 0; m < modes->stiffness.size(); ++m)
-            dP = combine(1., dP, modes->stiffness[m] * contract(modes->direction[m], M),
-                         modes->direction[m]);
+      if (kind == Tangent::convex && is_strongly_stretched(*cells, point, F))
+      {
+        const StretchModes modes = stretch_modes(*cells, point, R, F);
+        for (std::size_t m = 0; m < modes.stiffness.size(); ++m)
+          dP = combine(1., dP, modes.stiffness[m] * contract(modes.direction[m], M),
+                       modes.direction[m]);
+      }
       fe_space.nodal_forces(point, R * dP, forces);
       const auto nodes = fe_space.nodes(fe_space.cell_of(point));
       for (std::size_t i = 0; i < forces.size(); ++i)

@@ -8,9 +8,7 @@ namespace Exemplar
 {
   namespace
   {
-    // |F|^2 = 3 at rest; for every Poisson's ratio the guard of a cell begins beyond 6.76, which is
-    // where beta reaches 1 for the least bound
-    constexpr double min_bound = 5., relative_range = 0.3;
+    constexpr double relative_range = 0.3;
 
     /// beta(m) = z^3 (10 - 15 z + 6 z^2) and its first two derivatives.
     std::array<double, 3>
@@ -42,7 +40,8 @@ namespace Exemplar
                          const FESpace      &fe_space,
                          const Material     &material,
                          const ExamplePoses &examples)
-      : patches(patches), fe_space(fe_space), material(material), bounds(patches.size(), min_bound)
+      : patches(patches), fe_space(fe_space), material(material),
+        bounds(patches.size(), min_stretched_square)
   {
     for (unsigned int pose = 0; pose < examples.size(); ++pose)
     {

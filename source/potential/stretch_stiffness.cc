@@ -7,6 +7,22 @@ namespace Exemplar
 {
   namespace
   {
+    bool
+    is_in_stretched_patch(const CellField &cells, const unsigned int point)
+    {
+      const StretchField &patch = cells.get_dilatation().stretch;
+      return patch.acts && patch.transitions[point] > 0.;
+    }
+
+    CellMaterial<double>
+    elasticity_of_guard(const CellField &cells, const unsigned int point)
+    {
+      if (!is_in_stretched_patch(cells, point))
+        return cells.get_batches().constants<CellMaterial<double>>(point);
+      const dealii::AlignedVector<double> &numbers = cells.get_dilatation().stretch.elasticity;
+      return { numbers[batch_index(point, 2, 0)], numbers[batch_index(point, 2, 1)] };
+    }
+
     /// Sum over the modes of stiffness V (D : R^T dF)^2 / 2, by the blocks of CellScatter, where
     /// `g` are the gradients of the nodes in the order of the loops.
     void
@@ -33,26 +49,25 @@ namespace Exemplar
     }
   } // namespace
 
-  std::optional<StretchModes>
-  find_stretch_modes(const CellField       &cells,
-                     const unsigned int     point,
-                     const Matrix3<double> &R,
-                     const Matrix3<double> &F)
+  bool
+  is_strongly_stretched(const CellField &cells, const unsigned int point, const Matrix3<double> &F)
   {
-    const StretchField &patch       = cells.get_dilatation().stretch;
-    const bool          is_of_patch = patch.acts && patch.transitions[point] > 0.;
-    const auto          own         = cells.get_batches().constants<CellMaterial<double>>(point);
-    const auto          elasticity  = is_of_patch
-                                          ? CellMaterial<double>{ patch.elasticity[batch_index(point, 2, 0)],
-                                                                  patch.elasticity[batch_index(point, 2, 1)] }
-                                          : own;
-    if (!is_strongly_stretched(kink_slope(elasticity, sqrt(contract(F, F)))))
-      return {};
-    CorotationalCell<double> state(own, R, F, ExampleConstants());
+    return is_strongly_stretched(
+        kink_slope(elasticity_of_guard(cells, point), sqrt(contract(F, F))));
+  }
+
+  StretchModes
+  stretch_modes(const CellField       &cells,
+                const unsigned int     point,
+                const Matrix3<double> &R,
+                const Matrix3<double> &F)
+  {
+    CorotationalCell<double> state(cells.get_batches().constants<CellMaterial<double>>(point), R, F,
+                                   ExampleConstants());
     state.set_target(Matrix3<double>{});
-    state.set_guard_elasticity(elasticity);
-    if (is_of_patch)
-      state.add_pressure(patch.pressures[point]);
+    state.set_guard_elasticity(elasticity_of_guard(cells, point));
+    if (is_in_stretched_patch(cells, point))
+      state.add_pressure(cells.get_dilatation().stretch.pressures[point]);
     return stretch_modes(state, R, F);
   }
 
@@ -71,12 +86,11 @@ namespace Exemplar
       if ((patch.acts && patch.transitions[point] == 0.)
           || !traits_of(cells.get_batches().law(point)).has_stretch_guard)
         continue;
-      const unsigned int    cell  = fe_space.cell_of(point);
-      const Matrix3<double> F     = fe_space.deformation_gradient(point, positions);
-      const Matrix3<double> R     = closest_rotation(F);
-      const auto            modes = find_stretch_modes(cells, point, R, F);
-      if (!modes)
+      const unsigned int    cell = fe_space.cell_of(point);
+      const Matrix3<double> F    = fe_space.deformation_gradient(point, positions);
+      if (!is_strongly_stretched(cells, point, F))
         continue;
+      const Matrix3<double>        R     = closest_rotation(F);
       const auto                   nodes = fe_space.nodes(cell);
       std::vector<Vector3<double>> g;
       for (unsigned int a = 0; a < nodes.size(); ++a)
@@ -85,7 +99,7 @@ namespace Exemplar
         g.push_back(fe_space.gradients(point)[node - nodes.begin()]);
       }
       std::vector<double> blocks(3 * n_block_columns(nodes.size()), 0.);
-      add_modes(*modes, R, fe_space.volume(point), g, blocks);
+      add_modes(stretch_modes(cells, point, R, F), R, fe_space.volume(point), g, blocks);
       scatter.add_blocks(cell, blocks.data(), values);
     }
   }

@@ -58,6 +58,8 @@ namespace Exemplar
     const double      *strains     = nullptr; ///< 6 n: xx, yy, zz, yz, xz, xy of each eta E_i
     const std::size_t *share_start = nullptr; ///< of a cell's shares; null: weights are global
     const RegionShare *shares      = nullptr;
+    const float       *in_single
+        = nullptr; ///< the strains once more, if single precision has them exactly
   };
 
   /// Stiffness damping: s(e - e_past) is added to the strain's stress.
@@ -77,17 +79,23 @@ namespace Exemplar
     double       *energies    = nullptr; ///< 1: G, where beta > 0, written [Pa]
   };
 
+  /// What of a batch patches ask for beside the numbers of its cells: hardly any cell is such.
+  enum CellFlags : unsigned char
+  {
+    thin_cells = 1, ///< a trace was continued, see ThinTrace
+    long_cells = 2  ///< |F|^2 is beyond min_stretched_square
+  };
+
   /// Mean dilatation by patches, Eq. (25): what the cells tell of their volume and what they are
   /// told.
   struct DilatationArrays
   {
-    double        *traces  = nullptr; ///< 1: tr(e), continued in thin cells; null: nobody asks
-    double        *squares = nullptr; ///< 1: |F|^2
-    unsigned char *thin
-        = nullptr; ///< of each batch, whether it has thin cells: set by the same loops
-    const double *pressures = nullptr; ///< 1: of the cell's patch [Pa]
-    const double *scales    = nullptr; ///< 1: |C:e| + eta |C:E(w)| of the volume part alone [Pa]
-    StretchArrays stretch;
+    double        *traces    = nullptr; ///< 1: tr(e), continued in thin cells; null: nobody asks
+    double        *squares   = nullptr; ///< 1: |F|^2
+    unsigned char *flags     = nullptr; ///< CellFlags of each batch, set by the same loops
+    const double  *pressures = nullptr; ///< 1: of the cell's patch [Pa]
+    const double  *scales    = nullptr; ///< 1: |C:e| + eta |C:E(w)| of the volume part alone [Pa]
+    StretchArrays  stretch;
   };
 
   /// Where the derivatives b = dtheta_p/dx of the mean dilatations of patches, Eq. (25), are: patch by

@@ -18,7 +18,7 @@ namespace Exemplar::Loops
   {
     const auto thin = ThinTrace<Number>::of_strain(strain);
     if (thin.acts())
-      task.dilatation.thin[group.batch] = 1;
+      task.dilatation.flags[group.batch] |= thin_cells;
     return thin.supplement();
   }
 
@@ -33,8 +33,12 @@ namespace Exemplar::Loops
     const Number square    = contract(F, F);
     store(task.cells, group, square, task.dilatation.squares);
     if constexpr (Cell::traits.has_stretch_guard)
+    {
+      if (any(square > Number(min_stretched_square)))
+        task.dilatation.flags[group.batch] |= long_cells;
       if (any(may_be_thin(of_strain + Number(3.), square)))
         of_strain += supplement_of_thin(task, group, strain);
+    }
     store(task.cells, group, of_strain, task.dilatation.traces);
   }
 
@@ -73,7 +77,8 @@ namespace Exemplar::Loops
   inline bool
   is_special(const DilatationArrays &dilatation, const LaneGroup<Number> &group)
   {
-    return dilatation.thin[group.batch] != 0 || is_stretched(dilatation.stretch, group);
+    return (dilatation.flags[group.batch] & thin_cells) != 0
+           || is_stretched(dilatation.stretch, group);
   }
 
   template <typename Cell, typename Number>

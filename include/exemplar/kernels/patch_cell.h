@@ -9,6 +9,11 @@
 
 namespace Exemplar
 {
+  /// A patch is strongly stretched, beta > 0 in Eq. (26), where its mean |F|^2 is beyond a bound that is at
+  /// least this. |F|^2 = 3 at rest; for every Poisson's ratio the guard of a cell begins beyond 6.76, which is
+  /// where beta reaches 1 for the least bound.
+  constexpr double min_stretched_square = 5.;
+
   /// Where y may be less than y_0, from tr S and |F|^2 alone: with I_2 = (tr^2 S - |F|^2) / 2 the product
   /// p = tr S I_2 - det F is at least 8/9 tr S I_2 if that is positive, as the inequality of the means
   /// bounds det F.

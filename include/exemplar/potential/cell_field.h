@@ -41,7 +41,7 @@ namespace Exemplar
   struct DilatationField
   {
     dealii::AlignedVector<double> traces, squares, pressures, scales;
-    std::vector<unsigned char>    thin; ///< of each batch
+    std::vector<unsigned char>    flags; ///< CellFlags of each batch
     StretchField                  stretch;
 
     /// From now on loops fill it.
@@ -51,10 +51,12 @@ namespace Exemplar
     DilatationArrays
     arrays();
 
+    /// Whether some batch has that flag.
     bool
-    has_thin_cells() const
+    has(const CellFlags flag) const
     {
-      return std::find(thin.begin(), thin.end(), 1) != thin.end();
+      return std::any_of(flags.begin(), flags.end(),
+                         [flag](const unsigned char of_batch) { return (of_batch & flag) != 0; });
     }
 
     /// In bytes.
@@ -90,9 +92,9 @@ namespace Exemplar
 
     /// Before a loop that finds dilatations.
     void
-    forget_thin_cells()
+    clear_cell_flags()
     {
-      std::fill(dilatation.thin.begin(), dilatation.thin.end(), 0);
+      std::fill(dilatation.flags.begin(), dilatation.flags.end(), 0);
     }
 
     /// tr(e) and |F|^2 of the points at these positions into the dilatation field.

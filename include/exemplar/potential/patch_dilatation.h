@@ -99,6 +99,9 @@ namespace Exemplar
 
   private:
     void
+    find_means(const double *of_points, std::vector<double> &of_patches) const;
+
+    void
     add_energies(const std::vector<double> &weights, ElasticSums &sums) const;
 
     /// b = dtheta_p/dx of Eq. (25) [1/m].

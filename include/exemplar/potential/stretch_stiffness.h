@@ -6,18 +6,21 @@
 #include <exemplar/kernels/stretch_modes.h>
 #include <exemplar/potential/cell_scatter.h>
 
-#include <optional>
 #include <vector>
 
 namespace Exemplar
 {
-  /// What the convex tangent R K R^T lacks at a point, if it is strongly stretched, where F and its rotation R
-  /// are such; see stretch_modes.h.
-  std::optional<StretchModes>
-  find_stretch_modes(const CellField       &cells,
-                     unsigned int           point,
-                     const Matrix3<double> &R,
-                     const Matrix3<double> &F);
+  /// Whether a point is so far stretched that the convex tangent R K R^T lacks something, see
+  /// stretch_modes.h.
+  bool
+  is_strongly_stretched(const CellField &cells, unsigned int point, const Matrix3<double> &F);
+
+  /// What it lacks there, with the rotation R of F.
+  StretchModes
+  stretch_modes(const CellField       &cells,
+                unsigned int           point,
+                const Matrix3<double> &R,
+                const Matrix3<double> &F);
 
   /// Add to the values of the convex tangent R K R^T what it lacks in strongly stretched cells, see
   /// stretch_modes.h. `positions` are by degree of freedom [m].

@@ -48,7 +48,7 @@ namespace Exemplar::Testing
         task.rotation_use           = RotationUse::update;
         const std::size_t n_batches = task.cells.n_batches();
         kernels.dilatations(task, 0, n_batches);
-        EXPECT_TRUE(field.has_thin_cells());
+        EXPECT_TRUE(field.has(thin_cells));
         kernels.stretch_energies(task, 0, n_batches);
         nodal_sums.resize(4 * n_nodes);
         CellSums sums;
