@@ -2,6 +2,7 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/body/mass.h>
 
+#include <deal.II/base/aligned_vector.h>
 #include <deal.II/base/memory_consumption.h>
 
 #include <cmath>
@@ -80,8 +81,10 @@ namespace Exemplar
     values.clear();
     for (unsigned int row = 0; row < matrix.m(); ++row)
     {
+      columns.push_back(row);
+      values.push_back(matrix.diag_element(row));
       for (auto entry = matrix.begin(row); entry != matrix.end(row); ++entry)
-        if (entry->value() != 0.)
+        if (entry->column() > row && entry->value() != 0.)
         {
           columns.push_back(entry->column());
           values.push_back(entry->value());
@@ -93,12 +96,18 @@ namespace Exemplar
   OwnSums<Vector>
   Mass::own_times(const Vector &field) const
   {
-    std::vector<double> x(field.begin(), field.end());
-    x.push_back(0.); // the loop reads it
-    OwnSums<Vector> product(Vector(field.size()));
-    kernels.multiply_nodes({ row_start.data(), columns.data(), values.data() },
-                           row_start.size() - 1, x.data(), product->begin());
-    return product;
+    const std::size_t             n = field.size() / 3;
+    dealii::AlignedVector<double> x(4 * n), product(4 * n);
+    for (std::size_t node = 0; node < n; ++node)
+      for (unsigned int c = 0; c < 3; ++c)
+        x[4 * node + c] = field[3 * node + c];
+    kernels.multiply_nodes({ row_start.data(), columns.data(), values.data() }, n, x.data(),
+                           product.data());
+    OwnSums<Vector> sums(Vector(field.size()));
+    for (std::size_t node = 0; node < n; ++node)
+      for (unsigned int c = 0; c < 3; ++c)
+        (*sums)[3 * node + c] = product[4 * node + c];
+    return sums;
   }
 
   Vector

@@ -72,7 +72,7 @@ namespace Exemplar
     const MassMatrix             kind;
     dealii::SparsityPattern      pattern;
     dealii::SparseMatrix<double> matrix;
-    std::vector<std::size_t>     row_start; ///< the matrix once more: its entries are visited in
+    std::vector<std::size_t>     row_start; ///< a half of it once more: its entries are visited in
     std::vector<unsigned int>    columns;   ///< every iteration, and deal.II's iterators are slow
     std::vector<double>          values;
     double                       max_row_sum = 0.; ///< of the consistent matrix [kg]

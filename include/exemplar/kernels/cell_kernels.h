@@ -214,7 +214,8 @@ namespace Exemplar
     }
   };
 
-  /// A sparse matrix on the nodes, by rows.
+  /// A sparse symmetric matrix on the nodes, by rows: the diagonal, which is there first, and what is
+  /// right of it.
   struct NodalMatrix
   {
     const std::size_t  *row_starts;
@@ -289,7 +290,7 @@ namespace Exemplar
                                std::size_t end,
                                double     *values);
 
-    /// The product of a matrix of n rows with three numbers a node. What is behind the last of `x` is read.
+    /// Add the product of a symmetric matrix of n rows with four numbers a node.
     void (*multiply_nodes)(const NodalMatrix &, std::size_t n, const double *x, double *product);
 
     /// By how much a unit of each example's weight reduces the nodal forces of the cells of one

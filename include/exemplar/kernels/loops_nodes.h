@@ -14,25 +14,20 @@ namespace Exemplar::Loops
   {
     for (std::size_t row = 0; row < n; ++row)
     {
-      Four       sum[2] = {}; // additions to one would wait for each other
-      const auto add    = [&](const std::size_t k, Four &to)
-      {
-        Four of_node; // and the first number of the next one
-        load_four(x + 3 * matrix.columns[k], of_node);
-        to += matrix.values[k] * of_node;
-      };
       std::size_t       k   = matrix.row_starts[row];
       const std::size_t end = matrix.row_starts[row + 1];
-      for (; k + 2 <= end; k += 2)
+      Four              of_row, sum;
+      load_four(x + 4 * row, of_row);
+      sum = matrix.values[k] * of_row;
+      while (++k < end)
       {
-        add(k, sum[0]);
-        add(k + 1, sum[1]);
+        const std::size_t other = 4 * std::size_t(matrix.columns[k]);
+        Four              of_other;
+        load_four(x + other, of_other);
+        sum += matrix.values[k] * of_other;
+        add_four(matrix.values[k] * of_row, product + other);
       }
-      if (k < end)
-        add(k, sum[0]);
-      sum[0] += sum[1];
-      for (int c = 0; c < 3; ++c)
-        product[3 * row + c] = sum[0][c];
+      add_four(sum, product + 4 * row);
     }
   }
 } // namespace Exemplar::Loops

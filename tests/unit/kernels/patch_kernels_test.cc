@@ -106,17 +106,17 @@ namespace Exemplar::Testing
     TEST(PatchKernels, AProductWithNodesIsThatOfTheMatrix)
     {
       // 2 1 0; 1 3 1; 0 1 4
-      const std::vector<std::size_t>  starts  = { 0, 2, 5, 7 };
-      const std::vector<unsigned int> columns = { 0, 1, 1, 0, 2, 2, 1 };
-      const std::vector<double>       values  = { 2., 1., 3., 1., 1., 4., 1. };
-      const std::vector<double>       x       = { 1., 2., 3., 10., 20., 30., 100., 200., 300., 7. };
+      const std::vector<std::size_t>  starts  = { 0, 2, 4, 5 };
+      const std::vector<unsigned int> columns = { 0, 1, 1, 2, 2 };
+      const std::vector<double>       values  = { 2., 1., 3., 1., 4. };
+      const std::vector<double> x = { 1., 2., 3., 0., 10., 20., 30., 0., 100., 200., 300., 0. };
       for (const CellKernels *kernels : all_kernels(Element::P1))
       {
-        std::vector<double> product(9);
+        std::vector<double> product(12, 0.);
         kernels->multiply_nodes({ starts.data(), columns.data(), values.data() }, 3, x.data(),
                                 product.data());
-        EXPECT_EQ(product,
-                  (std::vector<double>{ 12., 24., 36., 131., 262., 393., 410., 820., 1230. }));
+        EXPECT_EQ(product, (std::vector<double>{ 12., 24., 36., 0., 131., 262., 393., 0., 410.,
+                                                 820., 1230., 0. }));
       }
     }
   } // namespace
