@@ -49,7 +49,7 @@ namespace Exemplar::Loops
 
   /// Add V (lambda g_a g_b^T + mu (g_b g_a^T + (g_a.g_b) I)) of some points of one cell, from that
   /// in `lane` on, with g their rotated gradients, of which the fourth entry is 0.
-  template <bool is_whole, typename Number, int n, std::size_t n_points>
+  template <typename Number, int n, std::size_t n_points>
   [[gnu::always_inline]] inline void
   add_stiffness(const RotatedStiffness<Number, n> &K,
                 const std::size_t                  lane,
@@ -65,9 +65,9 @@ namespace Exemplar::Loops
       for (int b = 0; b <= a; ++b)
       {
         const int *column = position + 3 * (a * (a + 1) / 2 + b);
-        if (is_whole ? column[0] < 0 : !to.has(column[0])) // then all three are left out
+        if (!to.has(column[0])) // then all three are left out
           continue;
-        const bool is_last = !is_whole && column[2] + 4 > to.end;
+        const bool is_last = column[2] + 4 > to.end;
 #pragma GCC unroll 3
         for (int j = 0; j < 3; ++j)
         {
@@ -143,8 +143,7 @@ namespace Exemplar::Loops
         });
   }
 
-  /// `is_whole`: all columns are asked for.
-  template <bool is_whole, typename Constants, typename Number, int n>
+  template <typename Constants, typename Number, int n>
   inline void
   add_isotropic_stiffness_of(const CellTask    &task,
                              const TangentTask &tangent,
@@ -175,8 +174,8 @@ namespace Exemplar::Loops
               for (int a = 0; a < n; ++a)
                 for (std::size_t p = 0; p < n_points; ++p)
                   g_of_cell[a][p] = g[a][l + p];
-              add_stiffness<is_whole>(K, first + l, g_of_cell,
-                                      matrix_positions<n>(tangent, begin, cell), tangent);
+              add_stiffness(K, first + l, g_of_cell, matrix_positions<n>(tangent, begin, cell),
+                            tangent);
             }
           }
         });
@@ -195,12 +194,7 @@ namespace Exemplar::Loops
         {
           using Constants = typename decltype(model)::type::Constants;
           if constexpr (Constants::is_isotropic)
-          {
-            if (tangent.begin == 0 && tangent.end == std::numeric_limits<int>::max())
-              add_isotropic_stiffness_of<true, Constants, Number, n>(task, tangent, begin, end);
-            else
-              add_isotropic_stiffness_of<false, Constants, Number, n>(task, tangent, begin, end);
-          }
+            add_isotropic_stiffness_of<Constants, Number, n>(task, tangent, begin, end);
           else
             add_anisotropic_stiffness_of<Constants, Number, n>(task, tangent, begin, end);
         });
