@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/blas.h>
 #include <exemplar/algebra/bordered_system.h>
 #include <exemplar/algebra/weight_qp.h>
 #include <exemplar/base/errors.h>
@@ -17,15 +18,15 @@ namespace Exemplar
   {
     dealii::FullMatrix<double> schur = form.H;
     const auto                &index = form.coupled;
-    std::vector<double>        products;
-    for (std::size_t i = 0; i < index.size(); ++i)
-      for (std::size_t j = 0; j < index.size(); ++j)
-        products.push_back(
-            std::inner_product(G.begin() + i * n, G.begin() + (i + 1) * n, Z + j * n, 0.));
+    const int                  m = static_cast<int>(index.size()), n_rows = static_cast<int>(n);
+    std::vector<double>        products(index.size() * index.size(), 0.); // -G^T Z by columns
+    if (m > 0 && n_rows > 0)
+      Blas::subtract_product<double>("T", "N", m, m, n_rows, { G.data(), n_rows }, { Z, n_rows },
+                                     0., { products.data(), m });
     exchange.sum(products);
-    for (std::size_t i = 0; i < index.size(); ++i)
-      for (std::size_t j = 0; j < index.size(); ++j)
-        schur(index[i], index[j]) -= products[i * index.size() + j];
+    for (std::size_t j = 0; j < index.size(); ++j)
+      for (std::size_t i = 0; i < index.size(); ++i)
+        schur(index[i], index[j]) += products[j * index.size() + i];
     return schur;
   }
 

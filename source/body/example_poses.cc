@@ -147,6 +147,7 @@ namespace Exemplar
         regions(make_regions(parameters, mesh, fe_space, painted)),
         poses(make_poses(parameters, mesh, fe_space, named_poses)),
         first_strained(parameters.in_use() && parameters.include_rest_pose ? 1 : 0),
+        is_single(parameters.in_single_precision),
         warnings(review(parameters, mesh, fe_space, poses))
   {
     set_parameters(example_constants.importance, cell_material, patches);
@@ -184,6 +185,10 @@ namespace Exemplar
         if (traits_of(law).has_guard)
           p_0 = min_or_nan(p_0, 0.5 * guard_product(E));
       }
+    }
+    if (is_single)
+      round_strains();
+    for (unsigned int point = 0; point < fe_space.n_points(); ++point)
       for_each_weight(point,
                       [&](const unsigned int weight, const unsigned int i, const double share)
                       {
@@ -191,7 +196,6 @@ namespace Exemplar
                         strain_norms[weight]
                             += fe_space.volume(point) * share * share * contract(E, E);
                       });
-    }
     fe_space.exchange().sum(strain_norms);
     p_0 = min_of_all(fe_space.exchange(), p_0);
     for (double &norm : strain_norms)
@@ -199,6 +203,14 @@ namespace Exemplar
     if (!std::isfinite(max_entry(strain_norms)) || !std::isfinite(p_0))
       throw UserError("Examples: the strains of the poses are not finite numbers, or too large to "
                       "compute with. Are all poses in the unit of the mesh?");
+  }
+
+  void
+  ExamplePoses::round_strains()
+  {
+    in_single.resize_fast(strains.size());
+    for (std::size_t i = 0; i < strains.size(); ++i)
+      strains[i] = in_single[i] = static_cast<float>(strains[i]);
   }
 
   void
@@ -267,7 +279,8 @@ namespace Exemplar
     std::size_t of_poses = 0;
     for (const ExamplePose &pose : poses)
       of_poses += pose.positions.memory_consumption();
-    return of_poses + strains.memory_consumption() + memory_consumption(strain_norms)
-           + patch_dilatations.memory_consumption() + gram.memory_consumption();
+    return of_poses + strains.memory_consumption() + in_single.memory_consumption()
+           + memory_consumption(strain_norms) + patch_dilatations.memory_consumption()
+           + gram.memory_consumption();
   }
 } // namespace Exemplar

@@ -2,6 +2,7 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/body/mass.h>
 
+#include <deal.II/base/aligned_vector.h>
 #include <deal.II/base/memory_consumption.h>
 
 #include <cmath>
@@ -44,8 +45,8 @@ namespace Exemplar
   } // namespace
 
   Mass::Mass(const FESpace &fe_space, const Material &material, const MassMatrix kind)
-      : with_others(fe_space.exchange()), kind(kind), pattern(fe_space.nodal_pattern()),
-        matrix(pattern)
+      : with_others(fe_space.exchange()), kernels(best_kernels(fe_space.element())), kind(kind),
+        pattern(fe_space.nodal_pattern()), matrix(pattern)
   {
     set_material(fe_space, material);
   }
@@ -80,8 +81,10 @@ namespace Exemplar
     values.clear();
     for (unsigned int row = 0; row < matrix.m(); ++row)
     {
+      columns.push_back(row);
+      values.push_back(matrix.diag_element(row));
       for (auto entry = matrix.begin(row); entry != matrix.end(row); ++entry)
-        if (entry->value() != 0.)
+        if (entry->column() > row && entry->value() != 0.)
         {
           columns.push_back(entry->column());
           values.push_back(entry->value());
@@ -93,20 +96,17 @@ namespace Exemplar
   OwnSums<Vector>
   Mass::own_times(const Vector &field) const
   {
-    OwnSums<Vector> sums(Vector(field.size()));
-    Vector         &product = *sums;
-    for (unsigned int row = 0; row + 1 < row_start.size(); ++row)
-    {
-      double sum[3] = { 0., 0., 0. };
-      for (std::size_t entry = row_start[row]; entry < row_start[row + 1]; ++entry)
-      {
-        const double *node = field.begin() + 3 * columns[entry];
-        for (unsigned int c = 0; c < 3; ++c)
-          sum[c] += values[entry] * node[c];
-      }
+    const std::size_t             n = field.size() / 3;
+    dealii::AlignedVector<double> x(4 * n), product(4 * n);
+    for (std::size_t node = 0; node < n; ++node)
       for (unsigned int c = 0; c < 3; ++c)
-        product[3 * row + c] = sum[c];
-    }
+        x[4 * node + c] = field[3 * node + c];
+    kernels.multiply_nodes({ row_start.data(), columns.data(), values.data() }, n, x.data(),
+                           product.data());
+    OwnSums<Vector> sums(Vector(field.size()));
+    for (std::size_t node = 0; node < n; ++node)
+      for (unsigned int c = 0; c < 3; ++c)
+        (*sums)[3 * node + c] = product[4 * node + c];
     return sums;
   }
 

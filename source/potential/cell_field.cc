@@ -4,23 +4,58 @@
 namespace Exemplar
 {
   void
+  StretchField::reinit(const unsigned int n_points)
+  {
+    for (dealii::AlignedVector<double> *values :
+         { &transitions, &by_F, &stiffnesses, &energies, &pressures })
+    {
+      values->resize_fast(batched_size(n_points, 1));
+      values->fill(0.);
+    }
+    elasticity.resize_fast(batched_size(n_points, 2));
+    elasticity.fill(0.);
+  }
+
+  StretchArrays
+  StretchField::arrays()
+  {
+    if (!acts)
+      return {};
+    return { transitions.data(), by_F.data(), stiffnesses.data(), elasticity.data(),
+             energies.data() };
+  }
+
+  std::size_t
+  StretchField::memory_consumption() const
+  {
+    return transitions.memory_consumption() + by_F.memory_consumption()
+           + stiffnesses.memory_consumption() + elasticity.memory_consumption()
+           + energies.memory_consumption() + pressures.memory_consumption();
+  }
+
+  void
   DilatationField::resize(const unsigned int n_points)
   {
     for (dealii::AlignedVector<double> *values : { &traces, &squares, &pressures, &scales })
       values->resize(batched_size(n_points, 1));
+    flags.resize(batched_size(n_points, 1) / batch_size);
   }
 
   DilatationArrays
   DilatationField::arrays()
   {
-    return { traces.data(), squares.data(), pressures.data(), scales.data() };
+    if (traces.empty())
+      return {};
+    return { traces.data(),    squares.data(), flags.data(),
+             pressures.data(), scales.data(),  stretch.arrays() };
   }
 
   std::size_t
   DilatationField::memory_consumption() const
   {
     return traces.memory_consumption() + squares.memory_consumption()
-           + pressures.memory_consumption() + scales.memory_consumption();
+           + pressures.memory_consumption() + scales.memory_consumption() + flags.capacity()
+           + stretch.memory_consumption();
   }
 
   CellField::CellField(LawsOfCells             laws,
@@ -29,7 +64,9 @@ namespace Exemplar
                        const Material         &material,
                        const unsigned int      n_threads)
       : fe_space(fe_space), kernels(best_kernels(fe_space.element())),
-        batches(fe_space, material, std::move(laws), examples), nodal_sums(fe_space, n_threads),
+        batches(fe_space, material, std::move(laws), examples),
+        nodal_sums(
+            batches.arrays(), nodes_per_cell(fe_space.element()), fe_space.n_nodes(), n_threads),
         node_positions(4 * fe_space.n_nodes())
   {
   }
@@ -49,6 +86,7 @@ namespace Exemplar
     CellTask task;
     task.cells        = batches.arrays();
     task.positions    = node_positions.data();
+    task.places       = nodal_sums.get_places();
     task.rotation_use = rotations;
     task.damping      = damping.arrays();
     task.dilatation   = dilatation.arrays();
@@ -56,17 +94,31 @@ namespace Exemplar
   }
 
   void
-  CellField::update_dilatations(const Vector &positions)
+  CellField::for_each_law_in_stripes(const CellTask &task,
+                                     void (*loop)(const CellTask &, std::size_t, std::size_t))
   {
-    for_each_law(task(positions, RotationUse::keep), [&](const CellTask &of_law)
-                 { kernels.dilatations(of_law, 0, of_law.cells.n_batches()); });
+    nodal_sums.for_each_stripe(
+        [&](std::size_t /*stripe*/, const std::size_t begin, const std::size_t end, double *)
+        { for_each_law(task, [&](const CellTask &of_law) { loop(of_law, begin, end); }); });
+  }
+
+  void
+  CellField::update_dilatations(const Vector &positions, const RotationUse rotations)
+  {
+    clear_cell_flags();
+    for_each_law_in_stripes(task(positions, rotations), kernels.dilatations);
+  }
+
+  void
+  CellField::update_stretch_energies(const Vector &positions)
+  {
+    for_each_law_in_stripes(task(positions, RotationUse::keep), kernels.stretch_energies);
   }
 
   void
   CellField::update_rotations(const Vector &positions)
   {
-    for_each_law(task(positions, RotationUse::update), [&](const CellTask &of_law)
-                 { kernels.update_rotations(of_law, 0, of_law.cells.n_batches()); });
+    for_each_law_in_stripes(task(positions, RotationUse::update), kernels.update_rotations);
   }
 
   void
@@ -77,8 +129,7 @@ namespace Exemplar
     CellTask last;
     last.cells     = batches.arrays();
     last.positions = node_positions.data();
-    for_each_law(last, [&](const CellTask &of_law)
-                 { kernels.update_rotations(of_law, 0, of_law.cells.n_batches()); });
+    for_each_law_in_stripes(last, kernels.update_rotations);
     rotations_are_forgotten = false;
   }
 
@@ -87,13 +138,25 @@ namespace Exemplar
   {
     refresh_rotations();
     CellTask task;
-    task.cells = batches.arrays();
-    rotation_sums.resize(12 * n_nodes());
+    task.cells  = batches.arrays();
+    task.places = nodal_sums.get_places();
+    rotation_sums.resize_fast(12 * nodal_sums.n_places());
     rotation_sums.fill(0.);
     rotations.resize(9 * n_nodes());
-    kernels.add_rotations(task, 0, task.cells.n_batches(), rotation_sums.data());
+    nodal_sums.for_each_stripe(
+        [&](std::size_t /*stripe*/, const std::size_t begin, const std::size_t end, double *)
+        { kernels.add_rotations(task, begin, end, rotation_sums.data()); });
+    nodal_sums.join(rotation_sums.data(), 12);
     fe_space.exchange().assemble(rotation_sums.data(), 12);
-    kernels.closest_rotations(n_nodes(), rotation_sums.data(), rotations.data());
+    // whole groups of nodes, so that no number depends on the parts
+    for_each_part(n_threads(), (n_nodes() + batch_size - 1) / batch_size, n_threads(),
+                  [&](std::size_t /*part*/, const std::size_t begin, const std::size_t end)
+                  {
+                    const std::size_t first = batch_size * begin;
+                    const std::size_t last  = std::min<std::size_t>(batch_size * end, n_nodes());
+                    kernels.closest_rotations(last - first, &rotation_sums[12 * first],
+                                              &rotations[9 * first]);
+                  });
   }
 
   std::vector<double>

@@ -12,11 +12,33 @@ namespace Exemplar
 {
   namespace
   {
-    /// What the cells of a stripe sum up.
-    struct StripeSums
+    /// What the cells of each stripe sum up for each weight, lane by lane.
+    class WeightSums
     {
-      CellSums                      cells;
-      dealii::AlignedVector<double> weights; ///< lanes of each weight
+    public:
+      WeightSums(const std::size_t n_stripes, const std::size_t n_weights)
+          : n_weights(n_weights), lanes(n_stripes * n_weights * batch_size)
+      {
+      }
+
+      double *
+      of_stripe(const std::size_t stripe)
+      {
+        return lanes.data() + stripe * n_weights * batch_size;
+      }
+
+      std::vector<double>
+      total() const
+      {
+        std::vector<double> sums(n_weights, 0.);
+        for (std::size_t i = 0; i < lanes.size(); ++i)
+          sums[i / batch_size % n_weights] += lanes[i];
+        return sums;
+      }
+
+    private:
+      const std::size_t             n_weights;
+      dealii::AlignedVector<double> lanes;
     };
 
     void
@@ -29,15 +51,6 @@ namespace Exemplar
       result.inverted_cells = sums.inverted_cells;
       result.guarded_cells  = sums.guarded_cells;
       result.stress_square  = sums.stress_square;
-    }
-
-    std::vector<double>
-    sum_of_lanes(const dealii::AlignedVector<double> &lanes)
-    {
-      std::vector<double> sums(lanes.size() / batch_size, 0.);
-      for (std::size_t i = 0; i < lanes.size(); ++i)
-        sums[i / batch_size] += lanes[i];
-      return sums;
     }
 
     CellRounding
@@ -122,6 +135,17 @@ namespace Exemplar
     return task;
   }
 
+  RotationUse
+  ElasticPotential::find_dilatations(const Vector &positions, const RotationUse rotations)
+  {
+    if (!cells.has_dilatations())
+      return rotations;
+    cells.update_dilatations(positions, rotations);
+    for (const auto &term : terms)
+      term->hear_cells(positions);
+    return RotationUse::keep;
+  }
+
   void
   ElasticPotential::tell_cells(const TermPoint &at)
   {
@@ -165,38 +189,35 @@ namespace Exemplar
   ElasticPotential::evaluate(const Vector              &positions,
                              const std::vector<double> &weights,
                              ElasticEvaluation         &result,
-                             const RotationUse          rotations,
+                             RotationUse                rotations,
                              const std::vector<double> *linear_term)
   {
+    if (linear_term == nullptr) // else its loop has found them
+      rotations = find_dilatations(positions, rotations);
+    tell_cells({ positions, weights });
     CellTask cell_task = task(positions, weights, rotations);
     cell_task.with_weight_sums &= linear_term == nullptr;
-    const std::size_t       n_lanes    = batch_size * parts.weights.n_unknown();
-    NodalSums              &nodal_sums = cells.get_nodal_sums();
-    std::vector<StripeSums> stripes(nodal_sums.n_stripes());
+    NodalSums            &nodal_sums = cells.get_nodal_sums();
+    std::vector<CellSums> stripes(nodal_sums.n_stripes());
+    WeightSums            weight_sums(stripes.size(), parts.weights.n_unknown());
     nodal_sums.clear();
     nodal_sums.for_each_stripe(
         [&](const std::size_t stripe, const std::size_t begin, const std::size_t end, double *sums)
         {
-          stripes[stripe].weights.resize(n_lanes);
           cells.for_each_law(cell_task,
                              [&](const CellTask &of_law)
                              {
                                cells.loops().evaluate(of_law, begin, end, sums,
-                                                      stripes[stripe].weights.data(),
-                                                      stripes[stripe].cells);
+                                                      weight_sums.of_stripe(stripe),
+                                                      stripes[stripe]);
                              });
         });
-    CellSums                      sums;
-    dealii::AlignedVector<double> weight_sums(n_lanes);
-    for (const StripeSums &stripe : stripes)
-    {
-      sums += stripe.cells;
-      for (std::size_t i = 0; i < weight_sums.size(); ++i)
-        weight_sums[i] += stripe.weights[i];
-    }
+    CellSums sums;
+    for (const CellSums &stripe : stripes)
+      sums += stripe;
     ElasticSums own(std::move(result)); // for its memory
     copy_sums(sums, *own);
-    own->weight_gradient = sum_of_lanes(weight_sums);
+    own->weight_gradient = weight_sums.total();
     own->weight_scale    = 0.;
     own->gradient.reinit(parts.fe_space.n_dofs());
     own->force_scale.reinit(parts.fe_space.n_nodes());
@@ -212,14 +233,21 @@ namespace Exemplar
   std::vector<double>
   ElasticPotential::weight_linear_term(const Vector &positions, const RotationUse rotations)
   {
-    const CellTask                cell_task = task(positions, {}, rotations);
-    dealii::AlignedVector<double> weight_sums(batch_size * parts.examples.n_weights());
-    cells.for_each_law(cell_task,
-                       [&](const CellTask &of_law) {
-                         cells.loops().weight_linear_term(of_law, 0, of_law.cells.n_batches(),
-                                                          weight_sums.data());
-                       });
-    std::vector<double> linear_term = sum_of_lanes(weight_sums);
+    const CellTask cell_task = task(positions, {}, rotations);
+    WeightSums     weight_sums(cells.get_nodal_sums().n_stripes(), parts.examples.n_weights());
+    cells.clear_cell_flags();
+    cells.get_nodal_sums().for_each_stripe(
+        [&](const std::size_t stripe, const std::size_t begin, const std::size_t end, double *)
+        {
+          cells.for_each_law(cell_task,
+                             [&](const CellTask &of_law) {
+                               cells.loops().weight_linear_term(of_law, begin, end,
+                                                                weight_sums.of_stripe(stripe));
+                             });
+        });
+    std::vector<double> linear_term = weight_sums.total();
+    for (const auto &term : terms)
+      term->hear_cells(positions);
     for (const auto &term : terms)
       term->add_weight_linear_term(positions, linear_term);
     parts.fe_space.exchange().sum(linear_term);
@@ -229,6 +257,7 @@ namespace Exemplar
   CellResults
   ElasticPotential::cell_results(const Vector &positions, const std::vector<double> &weights)
   {
+    find_dilatations(positions, RotationUse::keep);
     cells.refresh_rotations();
     tell_cells({ positions, weights });
     const unsigned int  n        = parts.fe_space.n_cells();

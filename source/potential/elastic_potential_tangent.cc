@@ -3,6 +3,7 @@
 #include <exemplar/potential/stretch_stiffness.h>
 
 #include <algorithm>
+#include <limits>
 
 // The matrix A and the columns G of a step: R K R^T, for which four vectors are turned and
 // no matrix is multiplied, and the tangents of the models.
@@ -17,6 +18,26 @@ namespace Exemplar
     {
       const ModelTraits traits = traits_of(law);
       return tangent == Tangent::exact ? traits.exact_is_rotated : traits.convex_is_rotated;
+    }
+
+    /// Where parts of about as many values begin, with whole nodes, and the last ends.
+    std::vector<int>
+    bounds_of_parts(const SymmetricPattern &pattern, const FreeDofs &free_dofs, const int n_parts)
+    {
+      const std::vector<unsigned int> &dofs = free_dofs.local_list();
+      std::vector<int>                 bounds(1, 0);
+      std::size_t                      column = 0;
+      for (int part = 1; part < n_parts; ++part)
+      {
+        const auto values = static_cast<long>(pattern.row.size()) * part / n_parts;
+        while (column < dofs.size()
+               && (pattern.column_start[column] < values
+                   || (column > 0 && dofs[column] / 3 == dofs[column - 1] / 3)))
+          ++column;
+        bounds.push_back(pattern.column_start[column]);
+      }
+      bounds.push_back(std::numeric_limits<int>::max());
+      return bounds;
     }
 
     /// What a displacement changes at single quadrature points, by the tangent of a kind at some positions
@@ -142,6 +163,28 @@ namespace Exemplar
     const bool    rotated = is_rotated_stiffness(task.cells.law, kind);
     (rotated ? cells.loops().add_rotated_stiffness : cells.loops().add_tangent)(task, tangent,
                                                                                 begin, end);
+    if (task.dilatation.traces != nullptr
+        && (cells.get_dilatation().stretch.acts || cells.get_dilatation().has(thin_cells)))
+      cells.loops().add_patch_tangent(task, tangent, begin, end);
+  }
+
+  void
+  ElasticPotential::add_in_parts(const CellTask &task, const TangentTask &tangent)
+  {
+    // each part has its own columns and goes over all cells, in their order: no sum depends on the
+    // number of parts
+    const int              n      = cells.n_threads();
+    const std::vector<int> bounds = bounds_of_parts(pattern, parts.free_dofs, n);
+    for_each_part(n, n, n,
+                  [&](const std::size_t part, std::size_t, std::size_t)
+                  {
+                    TangentTask of_part = tangent;
+                    of_part.begin       = bounds[part];
+                    of_part.end         = bounds[part + 1];
+                    cells.for_each_law(
+                        task, [&](const CellTask &of_law)
+                        { add_tangent_of_law(of_law, of_part, 0, of_law.cells.n_batches()); });
+                  });
   }
 
   void
@@ -214,18 +257,17 @@ namespace Exemplar
                                      std::vector<double>       &matrix_values,
                                      std::vector<double>       &columns)
   {
+    find_dilatations(positions, RotationUse::keep);
     tell_cells({ positions, weights });
     CellTask cell_task = task(positions, weights, RotationUse::keep);
     if (tangent == Tangent::convex)
       cell_task.damping = cells.get_damping().arrays_of_all_cells();
     const TangentTask to
         = { tangent == Tangent::convex, scatter.positions(), matrix_values.data() };
-    cells.for_each_law(cell_task, [&](const CellTask &of_law)
-                       { add_tangent_of_law(of_law, to, 0, of_law.cells.n_batches()); });
+    add_in_parts(cell_task, to);
     add_mixed_cells(cell_task, to, matrix_values);
     if (tangent == Tangent::convex)
-      add_stretch_stiffness(parts.fe_space, parts.cell_material, cells, scatter, positions,
-                            matrix_values);
+      add_stretch_stiffness(parts.fe_space, cells, scatter, positions, matrix_values);
     columns.clear();
     if (parts.weights.n_unknown() > 0)
       with_element(parts.fe_space.element(),
@@ -259,6 +301,7 @@ namespace Exemplar
                                      const TermPoint &at,
                                      ElasticSums     &sums)
   {
+    find_dilatations(at.positions, RotationUse::keep);
     cells.refresh_rotations();
     tell_cells(at);
     for (const auto &term : terms)

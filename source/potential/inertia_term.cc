@@ -17,6 +17,14 @@ namespace Exemplar
   }
 
   void
+  InertiaTerm::begin_step(const State & /*start*/)
+  {
+    in_step        = true;
+    predicted_size = max_entry(integrator.predicted_positions().begin(),
+                               integrator.predicted_positions().end());
+  }
+
+  void
   InertiaTerm::add(const TermPoint &at, ElasticSums &sums)
   {
     if (!in_step)
@@ -81,9 +89,7 @@ namespace Exemplar
   double
   InertiaTerm::rounding_force() const
   {
-    return in_step ? 4. * std::numeric_limits<double>::epsilon()
-                         * max_entry(integrator.predicted_positions().begin(),
-                                     integrator.predicted_positions().end())
+    return in_step ? 4. * std::numeric_limits<double>::epsilon() * predicted_size
                          * mass.max_nodal_mass() * integrator.mass_factor()
                    : 0.;
   }

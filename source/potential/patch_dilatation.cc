@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/algebra/long_vectors.h>
 #include <exemplar/potential/patch_dilatation.h>
+#include <exemplar/potential/stretch_stiffness.h>
 
 #include <deal.II/base/memory_consumption.h>
 
@@ -15,10 +15,8 @@ namespace Exemplar
     double
     past_trace(const Matrix3<double> &strain)
     {
-      Matrix3<double> S = strain;
-      for (int i = 0; i < 3; ++i)
-        S[i][i] += 1.;
-      return trace(strain) + ThinCells::trace_supplement(S);
+      const auto thin = ThinTrace<double>::of_strain(strain);
+      return trace(strain) + (thin.acts() ? thin.supplement() : 0.);
     }
   } // namespace
 
@@ -26,12 +24,9 @@ namespace Exemplar
                                    const ExamplePoses &examples,
                                    const FESpace      &fe_space,
                                    const Material     &material)
-      : patches(patches), examples(examples), fe_space(fe_space), thin(fe_space),
-        guard(patches, fe_space, material, examples), fractions(fe_space.n_points()),
-        means(patches.size(), 0.)
+      : patches(patches), examples(examples), fe_space(fe_space),
+        guard(patches, fe_space, material, examples), means(patches.size(), 0.)
   {
-    for (unsigned int point = 0; point < fractions.size(); ++point)
-      fractions[point] = fe_space.volume(point) / patches.volume(patches.of_point(point));
   }
 
   void
@@ -41,7 +36,7 @@ namespace Exemplar
   {
     cells     = &field;
     free_dofs = &all_free_dofs;
-    scatter.emplace(patches, fe_space, pattern, all_free_dofs);
+    scatter.emplace(patches, fe_space, pattern, all_free_dofs, field);
     field.get_dilatation().resize(fe_space.n_points());
   }
 
@@ -54,29 +49,36 @@ namespace Exemplar
       return;
     damping.past_means.assign(patches.size(), 0.);
     damping.factors.assign(patches.size(), of_cells.factor());
-    for (unsigned int point = 0; point < fractions.size(); ++point)
+    for (unsigned int point = 0; point < fe_space.n_points(); ++point)
     {
       const unsigned int patch = patches.of_point(point);
-      damping.past_means[patch] += fractions[point] * past_trace(of_cells.past_strain(point));
+      damping.past_means[patch] += fe_space.volume(point) / patches.volume(patch)
+                                   * past_trace(of_cells.past_strain(point));
       if (of_cells.factor(point) == 0.)
         damping.factors[patch] = 0.;
     }
   }
 
   void
-  PatchDilatation::find_means(const Vector &positions)
+  PatchDilatation::hear_cells(const Vector &positions)
   {
-    DilatationField &dilatation = cells->get_dilatation();
-    thin.find(*cells, positions, dilatation.traces.data(), dilatation.squares.data());
+    const DilatationField &dilatation = cells->get_dilatation();
+    find_means(dilatation.traces.data(), means);
     std::vector<double> mean_squares(patches.size(), 0.);
-    std::fill(means.begin(), means.end(), 0.);
-    for (unsigned int point = 0; point < fractions.size(); ++point)
-    {
-      const unsigned int patch = patches.of_point(point);
-      means[patch] += fractions[point] * dilatation.traces[point];
-      mean_squares[patch] += fractions[point] * dilatation.squares[point];
-    }
-    guard.find(*cells, positions, dilatation.traces.data(), means, mean_squares);
+    if (dilatation.has(long_cells))
+      find_means(dilatation.squares.data(), mean_squares);
+    guard.find(*cells, positions, means, mean_squares);
+  }
+
+  void
+  PatchDilatation::find_means(const double *of_points, std::vector<double> &of_patches) const
+  {
+    for_each_part(cells->n_threads(), patches.size(), cells->n_threads(),
+                  [&](std::size_t /*part*/, const std::size_t begin, const std::size_t end)
+                  {
+                    for (std::size_t patch = begin; patch < end; ++patch)
+                      of_patches[patch] = scatter->mean(patch, of_points);
+                  });
   }
 
   double
@@ -89,59 +91,45 @@ namespace Exemplar
   }
 
   void
-  PatchDilatation::find_pressures(const std::vector<double> &weights)
+  PatchDilatation::tell_cells(const TermPoint &at)
   {
-    std::vector<double> of_patch(patches.size()), scale(patches.size());
-    const double        root = std::sqrt(3.); // |p I| = sqrt(3) |p|
+    struct Told
+    {
+      double pressure, scale;
+    };
+    std::vector<Told> of_patches(patches.size());
+    const double      root = std::sqrt(3.); // |p I| = sqrt(3) |p|
     for (unsigned int patch = 0; patch < patches.size(); ++patch)
     {
-      const double lambda = patches.lambda(patch), D = target(patch, weights);
-      of_patch[patch] = lambda * (means[patch] - D);
-      scale[patch]    = root * std::abs(lambda) * (std::abs(means[patch]) + std::abs(D));
+      const double lambda = patches.lambda(patch), mean = means[patch];
+      const double D  = target(patch, at.weights);
+      Told        &to = of_patches[patch];
+      to = { lambda * (mean - D), root * std::abs(lambda) * (std::abs(mean) + std::abs(D)) };
       if (const double s = damping.factor(patch); s > 0.)
       {
-        of_patch[patch] += s * lambda * (means[patch] - damping.past_means[patch]);
-        scale[patch] += s * root * std::abs(lambda)
-                        * (std::abs(means[patch]) + std::abs(damping.past_means[patch]));
+        const double past = damping.past_means[patch];
+        to.pressure += s * lambda * (mean - past);
+        to.scale += s * root * std::abs(lambda) * (std::abs(mean) + std::abs(past));
       }
     }
     DilatationField &dilatation = cells->get_dilatation();
-    for (unsigned int point = 0; point < fractions.size(); ++point)
-    {
-      const unsigned int patch    = patches.of_point(point);
-      dilatation.pressures[point] = of_patch[patch];
-      dilatation.scales[point]    = scale[patch];
-    }
-    guard.add_pressures(dilatation.pressures.data());
-  }
-
-  void
-  PatchDilatation::tell_cells(const TermPoint &at)
-  {
-    cells->update_dilatations(at.positions);
-    find_means(at.positions);
-    find_pressures(at.weights);
+    for_each_part(cells->n_threads(), fe_space.n_points(), cells->n_threads(),
+                  [&](std::size_t /*part*/, const std::size_t begin, const std::size_t end)
+                  {
+                    for (std::size_t point = begin; point < end; ++point)
+                    {
+                      const Told &told            = of_patches[patches.of_point(point)];
+                      dilatation.pressures[point] = told.pressure;
+                      dilatation.scales[point]    = told.scale;
+                    }
+                  });
+    guard.add_pressures(dilatation);
   }
 
   void
   PatchDilatation::add(const TermPoint &at, ElasticSums &sums)
   {
-    find_means(at.positions);
-    find_pressures(at.weights);
-    const CellTask task = cells->task(at.positions, RotationUse::keep);
-    cells->get_nodal_sums().for_each_stripe(
-        [&](std::size_t, const std::size_t begin, const std::size_t end, double *nodal_sums)
-        { cells->loops().add_pressure_forces(task, begin, end, nodal_sums); });
     add_energies(at.weights, sums);
-    add_forces_of_few_cells(sums->gradient);
-    sums->stress_square += stress_square();
-  }
-
-  void
-  PatchDilatation::add_forces_of_few_cells(Vector &gradient) const
-  {
-    guard.add_forces(*cells, gradient);
-    thin.add_forces(*cells, cells->get_dilatation().pressures.data(), gradient);
   }
 
   void
@@ -166,21 +154,9 @@ namespace Exemplar
     sums->energy += of_guard;
   }
 
-  double
-  PatchDilatation::stress_square() const
-  {
-    const dealii::AlignedVector<double> &scales = cells->get_dilatation().scales;
-    double                               sum    = 0.;
-    for (unsigned int point = 0; point < fractions.size(); ++point)
-      sum += fractions[point] * patches.volume(patches.of_point(point)) * scales[point]
-             * scales[point];
-    return sum;
-  }
-
   void
-  PatchDilatation::add_weight_linear_term(const Vector &positions, std::vector<double> &c)
+  PatchDilatation::add_weight_linear_term(const Vector & /*positions*/, std::vector<double> &c)
   {
-    find_means(positions);
     for (unsigned int patch = 0; patch < patches.size(); ++patch)
       for (unsigned int weight = 0; weight < c.size(); ++weight)
         c[weight]
@@ -195,130 +171,132 @@ namespace Exemplar
     return (1. + s) * patches.stiffness(patch);
   }
 
-  void
-  PatchDilatation::find_gradient(const unsigned int patch, std::vector<double> &b) const
-  {
-    scatter->gradient(patch, *cells, b);
-    if (thin.empty())
-      return;
-    const unsigned int *places = scatter->places(patch);
-    for (const unsigned int point : patches.points(patch))
-    {
-      const auto gradients = fe_space.gradients(point);
-      if (thin.has(point))
-      {
-        const Matrix3<double> by_F = cells->rotation(point) * thin.trace_gradient(point);
-        for (unsigned int a = 0; a < gradients.size(); ++a)
-        {
-          const Vector3<double> of_node = by_F * gradients[a];
-          for (unsigned int c = 0; c < 3; ++c)
-            b[3 * places[a] + c] += fractions[point] * of_node[c];
-        }
-      }
-      places += gradients.size();
-    }
-  }
-
   bool
-  PatchDilatation::is_special(const unsigned int patch) const
+  PatchDilatation::is_special(const unsigned int point) const
   {
-    const std::vector<unsigned int> &points = patches.points(patch);
-    return guard.acts_in(patch)
-           || (!thin.empty()
-               && std::any_of(points.begin(), points.end(),
-                              [&](const unsigned int point) { return thin.has(point); }));
+    const DilatationField &dilatation = cells->get_dilatation();
+    return ((dilatation.flags[point / batch_size] & thin_cells) != 0
+            || (dilatation.stretch.acts && dilatation.stretch.transitions[point] > 0.))
+           && traits_of(cells->get_batches().law(point)).has_stretch_guard;
   }
 
   void
-  PatchDilatation::add_special_tangent(const unsigned int          patch,
-                                       const Tangent               kind,
-                                       const std::vector<double>  &b,
-                                       dealii::FullMatrix<double> &matrix) const
+  PatchDilatation::find_gradients(const Vector &positions, PatchVectors &b) const
   {
-    if (guard.acts_in(patch))
-      guard.add_tangent(patch, *cells, *scatter, thin, kind, b, matrix);
-    const unsigned int *places = scatter->places(patch);
-    for (const unsigned int point : patches.points(patch))
+    scatter->find_gradients(*cells, b);
+    if (!cells->get_dilatation().has(thin_cells))
+      return;
+    std::vector<double> forces;
+    for (unsigned int point = 0; point < fe_space.n_points(); ++point)
     {
-      if (kind == Tangent::exact && thin.has(point))
-        thin.add_tangent(point, cells->rotation(point), cells->pressure(point), places, matrix);
-      places += fe_space.gradients(point).size();
+      if (!is_special(point))
+        continue;
+      const PatchCell<double> cell
+          = patch_cell(*cells, point, fe_space.deformation_gradient(point, positions));
+      const unsigned int patch = patches.of_point(point);
+      fe_space.nodal_forces(point, cells->rotation(point) * cell.get_thin().gradient(), forces);
+      scatter->add_at_cell(patch, point, 1. / patches.volume(patch), forces, b);
     }
   }
 
+  PatchProducts
+  PatchDilatation::find_products(const Vector &positions, const Tangent kind) const
+  {
+    PatchProducts products;
+    for (unsigned int patch = 0; patch < patches.size(); ++patch)
+      products.factors.push_back(tangent_factor(patch, kind));
+    find_gradients(positions, products.vectors);
+    guard.find_products(*cells, positions, kind, *scatter, products);
+    return products;
+  }
+
   void
-  PatchDilatation::add_columns(const unsigned int         patch,
-                               const std::vector<double> &b,
-                               std::vector<double>       &columns) const
+  PatchDilatation::add_columns(const PatchVectors &b, std::vector<double> &columns) const
   {
     for (unsigned int weight = 0; weight < examples.n_weights(); ++weight)
-      if (examples.is_strained(weight))
+      for (unsigned int patch = 0; examples.is_strained(weight) && patch < patches.size(); ++patch)
         scatter->add_column(
             patch, patches.stiffness(patch) * examples.patch_dilatation(patch, weight), b,
             &columns[free_dofs->local_list().size() * examples.strained_index(weight)]);
   }
 
   void
-  PatchDilatation::add_tangent(const TermPoint & /*at*/,
+  PatchDilatation::add_tangent(const TermPoint     &at,
                                const Tangent        kind,
                                std::vector<double> &values,
                                std::vector<double> &columns)
   {
-    std::vector<double> b;
-    for (unsigned int patch = 0; patch < patches.size(); ++patch)
-    {
-      find_gradient(patch, b);
-      scatter->add_square(patch, tangent_factor(patch, kind), b, values);
-      if (!columns.empty())
-        add_columns(patch, b, columns);
-      if (!is_special(patch))
-        continue;
-      dealii::FullMatrix<double> matrix(b.size());
-      add_special_tangent(patch, kind, b, matrix);
-      scatter->add_matrix(patch, matrix, values);
-    }
+    PatchProducts products = find_products(at.positions, kind);
+    if (!columns.empty())
+      add_columns(products.vectors, columns);
+    scatter->add_products(*cells, products, values);
   }
 
   void
-  PatchDilatation::add_response(const TermPoint & /*at*/,
-                                const Tangent kind,
-                                const Vector &displacement,
-                                ElasticSums  &sums)
+  PatchDilatation::add_response(const TermPoint &at,
+                                const Tangent    kind,
+                                const Vector    &displacement,
+                                ElasticSums     &sums)
   {
+    const PatchProducts products = find_products(at.positions, kind);
     for (unsigned int patch = 0; patch < patches.size(); ++patch)
       if (scatter->is_beside_held(patch))
-        add_response_of(patch, kind, displacement, sums);
+      {
+        add_response_of(patch, products, displacement, sums);
+        add_response_of_points(patch, kind, at, displacement, sums);
+      }
   }
 
   void
-  PatchDilatation::add_response_of(const unsigned int patch,
-                                   const Tangent      kind,
-                                   const Vector      &displacement,
-                                   ElasticSums       &sums) const
+  PatchDilatation::add_response_of(const unsigned int   patch,
+                                   const PatchProducts &products,
+                                   const Vector        &displacement,
+                                   ElasticSums         &sums) const
   {
-    const std::vector<unsigned int> &nodes = scatter->nodes(patch);
-    std::vector<double>              u, b; // of the patch
-    for (const unsigned int node : nodes)
-      for (unsigned int c = 0; c < 3; ++c)
-        u.push_back(displacement[3 * node + c]);
-    find_gradient(patch, b);
-    const double        change = dot(b, u.data());
-    std::vector<double> forces = b;
-    for (double &force : forces)
-      force *= tangent_factor(patch, kind) * change;
-    if (is_special(patch))
-    {
-      dealii::FullMatrix<double> matrix(b.size());
-      add_special_tangent(patch, kind, b, matrix);
-      for (std::size_t i = 0; i < b.size(); ++i)
-        for (std::size_t j = 0; j < b.size(); ++j)
-          forces[i] += matrix(i, j) * u[j];
-    }
-    for (std::size_t i = 0; i < forces.size(); ++i)
-      sums->gradient[3 * nodes[i / 3] + i % 3] += forces[i];
+    const double change = scatter->product(patch, products.vectors, displacement);
+    scatter->add(patch, products.factors[patch] * change, products.vectors, sums->gradient);
     for (unsigned int weight = 0; weight < sums->weight_gradient.size(); ++weight)
       sums->weight_gradient[weight]
           -= patches.stiffness(patch) * change * examples.patch_dilatation(patch, weight);
+    if (products.squares.empty())
+      return;
+    const double of_square = scatter->product(patch, products.squares, displacement);
+    const double of_sum    = scatter->product(patch, products.sums, displacement);
+    const double a = products.of_squares[patch], b = products.of_products[patch];
+    scatter->add(patch, a * of_square + b * of_sum, products.squares, sums->gradient);
+    scatter->add(patch, b * of_square, products.sums, sums->gradient);
+  }
+
+  void
+  PatchDilatation::add_response_of_points(const unsigned int patch,
+                                          const Tangent      kind,
+                                          const TermPoint   &at,
+                                          const Vector      &displacement,
+                                          ElasticSums       &sums) const
+  {
+    std::vector<double> forces;
+    for (const unsigned int point : patches.points(patch))
+    {
+      if (!is_special(point))
+        continue;
+      const Matrix3<double> F = fe_space.deformation_gradient(point, at.positions);
+      const Matrix3<double> R = cells->rotation(point);
+      const Matrix3<double> M
+          = transpose_times(R, fe_space.deformation_gradient(point, displacement));
+      Matrix3<double> dP = patch_cell(*cells, point, F)
+                               .response(M, cells->pressure(point), kind == Tangent::convex);
+      if (kind == Tangent::convex && is_strongly_stretched(*cells, point, F))
+      {
+        const StretchModes modes = stretch_modes(*cells, point, R, F);
+        for (std::size_t m = 0; m < modes.stiffness.size(); ++m)
+          dP = combine(1., dP, modes.stiffness[m] * contract(modes.direction[m], M),
+                       modes.direction[m]);
+      }
+      fe_space.nodal_forces(point, R * dP, forces);
+      const auto nodes = fe_space.nodes(fe_space.cell_of(point));
+      for (std::size_t i = 0; i < forces.size(); ++i)
+        sums->gradient[3 * nodes[i / 3] + i % 3] += forces[i];
+    }
   }
 
   void
@@ -327,17 +305,16 @@ namespace Exemplar
     for (unsigned int point = 0; point < of_points.size(); ++point)
     {
       const unsigned int patch = patches.of_point(point);
-      of_points[point]
-          += 0.5 * patches.lambda(patch) * means[patch] * means[patch] + guard.density(point);
+      of_points[point] += 0.5 * patches.lambda(patch) * means[patch] * means[patch];
     }
+    guard.add_densities(*cells, of_points);
   }
 
   std::size_t
   PatchDilatation::memory_consumption() const
   {
     using dealii::MemoryConsumption::memory_consumption;
-    return patches.memory_consumption() + scatter->memory_consumption()
-           + memory_consumption(fractions) + memory_consumption(means)
+    return patches.memory_consumption() + scatter->memory_consumption() + memory_consumption(means)
            + memory_consumption(damping.past_means) + memory_consumption(damping.factors);
   }
 } // namespace Exemplar

@@ -4,6 +4,7 @@
 #include <deal.II/base/memory_consumption.h>
 
 #include <algorithm>
+#include <array>
 
 namespace Exemplar
 {
@@ -25,41 +26,18 @@ namespace Exemplar
   PatchScatter::PatchScatter(const Patches          &patches,
                              const FESpace          &fe_space,
                              const SymmetricPattern &pattern,
-                             const FreeDofs         &free_dofs)
-      : patches(patches), fe_space(fe_space), free_dofs(free_dofs), layouts(patches.size())
+                             const FreeDofs         &free_dofs,
+                             const CellField        &cells)
+      : fe_space(fe_space), free_dofs(free_dofs), node_starts(1, 0)
   {
     for (unsigned int patch = 0; patch < patches.size(); ++patch)
     {
-      Layout &layout = layouts[patch];
-      layout.nodes   = nodes_of(patches, fe_space, patch);
-      for (const unsigned int point : patches.points(patch))
-        for (const unsigned int node : fe_space.nodes(fe_space.cell_of(point)))
-          layout.places.push_back(std::lower_bound(layout.nodes.begin(), layout.nodes.end(), node)
-                                  - layout.nodes.begin());
-      for (unsigned int place = 0; place < layout.nodes.size(); ++place)
-      {
-        for (unsigned int c = 0; c < 3; ++c)
-          if (free_dofs.free_index(3 * layout.nodes[place] + c) != FreeDofs::held)
-            layout.free_dofs.push_back(3 * place + c);
-        layout.node_ends.push_back(layout.free_dofs.size());
-      }
-      find_entries(pattern, layout);
+      const std::vector<unsigned int> nodes = nodes_of(patches, fe_space, patch);
+      all_nodes.insert(all_nodes.end(), nodes.begin(), nodes.end());
+      node_starts.push_back(all_nodes.size());
     }
-  }
-
-  void
-  PatchScatter::find_entries(const SymmetricPattern &pattern, Layout &layout) const
-  {
-    const auto index = [&](const unsigned int i)
-    {
-      const unsigned int dof = layout.free_dofs[i];
-      return free_dofs.free_index(3 * layout.nodes[dof / 3] + dof % 3);
-    };
-    for (unsigned int j = 0; j < layout.free_dofs.size(); ++j)
-      for (unsigned int place = layout.free_dofs[j] / 3, i = j; place < layout.nodes.size();
-           i = layout.node_ends[place++])
-        if (i < layout.node_ends[place]) // not all of the node is held
-          layout.entries.push_back(pattern.position(index(i), index(j)));
+    find_points(patches, cells);
+    find_columns(pattern);
   }
 
   std::vector<std::pair<unsigned int, unsigned int>>
@@ -76,111 +54,228 @@ namespace Exemplar
     return pairs;
   }
 
-  void
-  PatchScatter::gradient(const unsigned int   patch,
-                         const CellField     &cells,
-                         std::vector<double> &b) const
+  std::size_t
+  PatchScatter::place(const unsigned int patch, const unsigned int node) const
   {
-    const Layout &layout = layouts[patch];
-    b.assign(3 * layout.nodes.size(), 0.);
-    auto place = layout.places.begin();
-    for (const unsigned int point : patches.points(patch))
+    const auto nodes = all_nodes.begin();
+    return std::lower_bound(nodes + node_starts[patch], nodes + node_starts[patch + 1], node)
+           - nodes;
+  }
+
+  void
+  PatchScatter::find_points(const Patches &patches, const CellField &cells)
+  {
+    of_points.starts.push_back(0);
+    for (unsigned int patch = 0; patch < patches.size(); ++patch)
     {
-      const Matrix3<double> R        = cells.rotation(point);
-      const double          fraction = fe_space.volume(point) / patches.volume(patch);
-      for (const Vector3<double> &g : fe_space.gradients(point))
+      for (const unsigned int point : patches.points(patch))
       {
-        const Vector3<double> Rg = R * g;
-        for (unsigned int c = 0; c < 3; ++c)
-          b[3 * *place + c] += fraction * Rg[c];
-        ++place;
+        of_points.points.push_back(point);
+        of_points.fractions.push_back(fe_space.volume(point) / patches.volume(patch));
+        for (unsigned int a = 0; a < fe_space.gradients(point).size(); ++a)
+          of_points.places.push_back(static_cast<int>(place(patch, cells.node(point, a))));
       }
+      of_points.starts.push_back(of_points.points.size());
     }
   }
 
-  template <typename Function>
-  void
-  PatchScatter::for_each_value(const Layout        &layout,
-                               std::vector<double> &values,
-                               const Function      &add) const
+  int
+  PatchScatter::first_free(const unsigned int node) const
   {
-    auto entry = layout.entries.begin();
-    for (unsigned int j = 0; j < layout.free_dofs.size(); ++j)
-      for (unsigned int place = layout.free_dofs[j] / 3, i = j; place < layout.nodes.size();
-           ++place)
+    for (unsigned int c = 0; c < 3; ++c)
+      if (const int index = free_dofs.free_index(3 * node + c); index != FreeDofs::held)
+        return index;
+    return FreeDofs::held;
+  }
+
+  void
+  PatchScatter::find_columns(const SymmetricPattern &pattern)
+  {
+    std::vector<std::vector<PatchAtNode>> at_nodes(fe_space.n_nodes());
+    const unsigned int                    n_patches = node_starts.size() - 1;
+    for (unsigned int patch = 0; patch < n_patches; ++patch)
+    {
+      beside_held.push_back(false);
+      for (auto place = node_starts[patch]; place < node_starts[patch + 1]; ++place)
       {
-        const unsigned int end = layout.node_ends[place];
-        if (i == end)
-          continue;
-        double *value = &values[*entry++];
-        if (end == i + 3) // nearly always; this is the inner loop of the assembly
-        {
-          add(i, j, value[0]);
-          add(i + 1, j, value[1]);
-          add(i + 2, j, value[2]);
-          i = end;
-        }
-        else
-          for (; i < end; ++i)
-            add(i, j, *value++);
+        unsigned int n_held = 0;
+        for (unsigned int c = 0; c < 3; ++c)
+          n_held += free_dofs.free_index(3 * all_nodes[place] + c) == FreeDofs::held ? 1 : 0;
+        if (n_held == 1 || n_held == 2)
+          mixed.push_back(place);
+        if (n_held > 0)
+          beside_held.back() = true;
+        if (n_held < 3)
+          at_nodes[all_nodes[place]].push_back({ patch, static_cast<unsigned int>(place), 0 });
       }
-  }
-
-  std::vector<double>
-  PatchScatter::free_part(const Layout &layout, const std::vector<double> &u) const
-  {
-    std::vector<double> result(layout.free_dofs.size());
-    for (std::size_t i = 0; i < result.size(); ++i)
-      result[i] = u[layout.free_dofs[i]];
-    return result;
-  }
-
-  void
-  PatchScatter::add_square(const unsigned int         patch,
-                           const double               factor,
-                           const std::vector<double> &u,
-                           std::vector<double>       &values) const
-  {
-    const std::vector<double> free_u = free_part(layouts[patch], u);
-    std::vector<double>       v      = free_u;
-    for (double &entry : v)
-      entry *= factor;
-    for_each_value(layouts[patch], values,
-                   [u = free_u.data(), v = v.data()](const unsigned int i, const unsigned int j,
-                                                     double &value) { value += v[j] * u[i]; });
+    }
+    of_columns.starts.push_back(0);
+    for (unsigned int node = 0; node < at_nodes.size(); ++node)
+    {
+      if (at_nodes[node].empty())
+        continue;
+      std::array<int, 3> columns = { { -1, -1, -1 } };
+      unsigned int       n       = 0;
+      for (unsigned int c = 0; c < 3; ++c)
+        if (const int index = free_dofs.free_index(3 * node + c); index != FreeDofs::held)
+          columns[n++] = pattern.column_start[index];
+      of_columns.columns.insert(of_columns.columns.end(), columns.begin(), columns.end());
+      for (PatchAtNode &at : at_nodes[node])
+      {
+        at.offsets = of_columns.offsets.size();
+        append_offsets(pattern, at.place, node_starts[at.patch + 1]);
+        of_columns.patches.push_back(at);
+      }
+      of_columns.starts.push_back(of_columns.patches.size());
+    }
   }
 
   void
-  PatchScatter::add_matrix(const unsigned int                patch,
-                           const dealii::FullMatrix<double> &matrix,
-                           std::vector<double>              &values) const
+  PatchScatter::append_offsets(const SymmetricPattern &pattern,
+                               const std::size_t       place,
+                               const std::size_t       end)
   {
-    const std::vector<unsigned int> &free = layouts[patch].free_dofs;
-    for_each_value(layouts[patch], values,
-                   [&](const unsigned int i, const unsigned int j, double &value)
-                   { value += matrix(free[i], free[j]); });
+    const int column = first_free(all_nodes[place]);
+    for (std::size_t other = place; other < end; ++other)
+    {
+      const int row = first_free(all_nodes[other]);
+      of_columns.offsets.push_back(row == FreeDofs::held ? -1
+                                                         : pattern.position(row, column)
+                                                               - pattern.column_start[column]);
+    }
   }
 
   void
-  PatchScatter::add_column(const unsigned int         patch,
-                           const double               factor,
-                           const std::vector<double> &b,
-                           double                    *column) const
+  PatchScatter::find_gradients(CellField &cells, PatchVectors &b) const
   {
-    const Layout &layout = layouts[patch];
-    for (const unsigned int dof : layout.free_dofs)
-      column[free_dofs.free_index(3 * layout.nodes[dof / 3] + dof % 3)] += factor * b[dof];
+    b.resize(4 * n_nodes());
+    const PatchArrays arrays
+        = { node_starts.data(),         of_points.starts.data(), of_points.points.data(),
+            of_points.fractions.data(), of_points.places.data(), b.data() };
+    const CellArrays points = cells.arrays();
+    const int        n      = cells.n_threads();
+    for_each_part(n, node_starts.size() - 1, n,
+                  [&](std::size_t /*part*/, const std::size_t begin, const std::size_t end)
+                  { cells.loops().patch_gradients(points, arrays, begin, end); });
+  }
+
+  double
+  PatchScatter::mean(const unsigned int patch, const double *numbers) const
+  {
+    double sum = 0.;
+    for (std::size_t k = of_points.starts[patch]; k < of_points.starts[patch + 1]; ++k)
+      sum += of_points.fractions[k] * numbers[of_points.points[k]];
+    return sum;
+  }
+
+  double
+  PatchScatter::product(const unsigned int  patch,
+                        const PatchVectors &vectors,
+                        const Vector       &field) const
+  {
+    double sum = 0.;
+    for (std::size_t place = node_starts[patch]; place < node_starts[patch + 1]; ++place)
+      for (unsigned int c = 0; c < 3; ++c)
+        sum += vectors[4 * place + c] * field[3 * all_nodes[place] + c];
+    return sum;
+  }
+
+  void
+  PatchScatter::add(const unsigned int  patch,
+                    const double        factor,
+                    const PatchVectors &vectors,
+                    Vector             &field) const
+  {
+    for (std::size_t place = node_starts[patch]; place < node_starts[patch + 1]; ++place)
+      for (unsigned int c = 0; c < 3; ++c)
+        field[3 * all_nodes[place] + c] += factor * vectors[4 * place + c];
+  }
+
+  void
+  PatchScatter::add_at_cell(const unsigned int         patch,
+                            const unsigned int         point,
+                            const double               factor,
+                            const std::vector<double> &of_cell,
+                            PatchVectors              &vectors) const
+  {
+    const double *from = of_cell.data();
+    for (const unsigned int node : fe_space.nodes(fe_space.cell_of(point)))
+    {
+      double *to = &vectors[4 * place(patch, node)];
+      for (unsigned int c = 0; c < 3; ++c)
+        to[c] += factor * *from++;
+    }
+  }
+
+  void
+  PatchScatter::pack(PatchVectors &vectors) const
+  {
+    if (vectors.empty())
+      return;
+    for (const std::size_t place : mixed)
+    {
+      unsigned int n = 0;
+      double      *v = &vectors[4 * place];
+      for (unsigned int c = 0; c < 3; ++c)
+        if (free_dofs.free_index(3 * all_nodes[place] + c) != FreeDofs::held)
+          v[n++] = v[c];
+      std::fill(v + n, v + 3, 0.);
+    }
+  }
+
+  void
+  PatchScatter::add_products(const CellField     &cells,
+                             PatchProducts       &products,
+                             std::vector<double> &values) const
+  {
+    for (PatchVectors *vectors : { &products.vectors, &products.squares, &products.sums })
+      pack(*vectors);
+    const PatchColumns to = {
+      node_starts.data(),         of_columns.starts.data(),
+      of_columns.patches.data(),  of_columns.columns.data(),
+      of_columns.offsets.data(),  products.factors.data(),
+      products.vectors.data(),    products.squares.empty() ? nullptr : products.squares.data(),
+      products.sums.data(),       products.of_squares.data(),
+      products.of_products.data()
+    };
+    const auto add = [&](const std::size_t begin, const std::size_t end)
+    { cells.loops().add_patch_products(to, begin, end, values.data()); };
+    // up to three values behind those of a part may be of the next one: its last nodes wait
+    const std::size_t n_columns = of_columns.starts.size() - 1;
+    const int         n         = cells.n_threads();
+    const auto        last_of   = [](const std::size_t begin, const std::size_t end)
+    { return end - std::min<std::size_t>(3, end - begin); };
+    for_each_part(n, n_columns, n,
+                  [&](std::size_t /*part*/, const std::size_t begin, const std::size_t end)
+                  { add(begin, last_of(begin, end)); });
+    for_each_part(n, n_columns, 1,
+                  [&](std::size_t /*part*/, const std::size_t begin, const std::size_t end)
+                  { add(last_of(begin, end), end); });
+  }
+
+  void
+  PatchScatter::add_column(const unsigned int  patch,
+                           const double        factor,
+                           const PatchVectors &b,
+                           double             *column) const
+  {
+    for (std::size_t place = node_starts[patch]; place < node_starts[patch + 1]; ++place)
+      for (unsigned int c = 0; c < 3; ++c)
+        if (const int index = free_dofs.free_index(3 * all_nodes[place] + c);
+            index != FreeDofs::held)
+          column[index] += factor * b[4 * place + c];
   }
 
   std::size_t
   PatchScatter::memory_consumption() const
   {
     using dealii::MemoryConsumption::memory_consumption;
-    std::size_t bytes = layouts.size() * sizeof(Layout);
-    for (const Layout &layout : layouts)
-      bytes += memory_consumption(layout.nodes) + memory_consumption(layout.places)
-               + memory_consumption(layout.free_dofs) + memory_consumption(layout.node_ends)
-               + memory_consumption(layout.entries);
-    return bytes;
+    return memory_consumption(node_starts) + memory_consumption(all_nodes)
+           + memory_consumption(of_points.starts) + memory_consumption(of_points.points)
+           + memory_consumption(of_points.fractions) + memory_consumption(of_points.places)
+           + memory_consumption(of_columns.starts)
+           + of_columns.patches.capacity() * sizeof(PatchAtNode)
+           + memory_consumption(of_columns.columns) + memory_consumption(of_columns.offsets)
+           + memory_consumption(mixed);
   }
 } // namespace Exemplar

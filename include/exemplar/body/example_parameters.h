@@ -40,6 +40,7 @@ namespace Exemplar
     bool                     weights_per_region  = false;
     double                   region_blend_length = 0.; ///< [m]
     std::vector<std::string> weight_maps;              ///< FILE:ATTRIBUTE, one a region
+    bool in_single_precision = false; ///< strains, where steps need no more; no key of scene files
 
     /// Whether painted maps say where weights act.
     bool

@@ -104,8 +104,10 @@ namespace Exemplar
     ExampleArrays
     arrays() const
     {
-      return { n_strained(),   first_strained,   size(),        n_weights(),
-               strains.data(), regions.starts(), regions.list() };
+      return { n_strained(),   first_strained,
+               size(),         n_weights(),
+               strains.data(), regions.starts(),
+               regions.list(), in_single.empty() ? nullptr : in_single.data() };
     }
 
     /// Call function(weight, example, share) for the weights that matter at a point. The
@@ -202,6 +204,9 @@ namespace Exemplar
     compute_strains();
 
     void
+    round_strains();
+
+    void
     compute_gram_matrix(const Material &cell_material, const Patches &patches);
 
     void
@@ -213,7 +218,9 @@ namespace Exemplar
     const RegionShares             regions;
     const std::vector<ExamplePose> poses;
     const unsigned int             first_strained;
-    dealii::AlignedVector<double>  strains; ///< eta E_i, as ExampleArrays has them
+    dealii::AlignedVector<double>  strains;   ///< eta E_i, as ExampleArrays has them
+    const bool                     is_single; ///< round them to single precision
+    dealii::AlignedVector<float>   in_single; ///< then, once more
     std::vector<double>            strain_norms;
     dealii::FullMatrix<double>     patch_dilatations; ///< patch, weight; empty without patches
     dealii::FullMatrix<double>     gram;

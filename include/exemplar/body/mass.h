@@ -6,6 +6,7 @@
 #include <exemplar/body/fe_space.h>
 #include <exemplar/body/material.h>
 #include <exemplar/body/state.h>
+#include <exemplar/kernels/cell_kernels.h>
 
 #include <deal.II/base/tensor.h>
 #include <deal.II/lac/sparse_matrix.h>
@@ -67,10 +68,11 @@ namespace Exemplar
     copy_rows();
 
     const Exchange              &with_others;
+    const CellKernels           &kernels;
     const MassMatrix             kind;
     dealii::SparsityPattern      pattern;
     dealii::SparseMatrix<double> matrix;
-    std::vector<std::size_t>     row_start; ///< the matrix once more: its entries are visited in
+    std::vector<std::size_t>     row_start; ///< a half of it once more: its entries are visited in
     std::vector<unsigned int>    columns;   ///< every iteration, and deal.II's iterators are slow
     std::vector<double>          values;
     double                       max_row_sum = 0.; ///< of the consistent matrix [kg]

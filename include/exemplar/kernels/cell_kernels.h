@@ -58,6 +58,8 @@ namespace Exemplar
     const double      *strains     = nullptr; ///< 6 n: xx, yy, zz, yz, xz, xy of each eta E_i
     const std::size_t *share_start = nullptr; ///< of a cell's shares; null: weights are global
     const RegionShare *shares      = nullptr;
+    const float       *in_single
+        = nullptr; ///< the strains once more, if single precision has them exactly
   };
 
   /// Stiffness damping: s(e - e_past) is added to the strain's stress.
@@ -67,14 +69,72 @@ namespace Exemplar
     const double *strains = nullptr; ///< 6: e_past
   };
 
+  /// What strongly stretched patches do to their cells, Eq. (26), see StretchedPatch.
+  struct StretchArrays
+  {
+    const double *transitions = nullptr; ///< 1: beta; null: 0 everywhere
+    const double *by_F        = nullptr; ///< 1 [Pa]
+    const double *stiffnesses = nullptr; ///< 1 [Pa]
+    const double *elasticity  = nullptr; ///< 2: Lamé's constants of the guard [Pa]
+    double       *energies    = nullptr; ///< 1: G, where beta > 0, written [Pa]
+  };
+
+  /// What of a batch patches ask for beside the numbers of its cells: hardly any cell is such.
+  enum CellFlags : unsigned char
+  {
+    thin_cells = 1, ///< a trace was continued, see ThinTrace
+    long_cells = 2  ///< |F|^2 is beyond min_stretched_square
+  };
+
   /// Mean dilatation by patches, Eq. (25): what the cells tell of their volume and what they are
   /// told.
   struct DilatationArrays
   {
-    double       *traces = nullptr; ///< 1: tr(e), written by loops that evaluate; null: nobody asks
-    double       *squares   = nullptr; ///< 1: |F|^2, written with them
-    const double *pressures = nullptr; ///< 1: of the cell's patch [Pa]
-    const double *scales    = nullptr; ///< 1: |C:e| + eta |C:E(w)| of the volume part alone [Pa]
+    double        *traces    = nullptr; ///< 1: tr(e), continued in thin cells; null: nobody asks
+    double        *squares   = nullptr; ///< 1: |F|^2
+    unsigned char *flags     = nullptr; ///< CellFlags of each batch, set by the same loops
+    const double  *pressures = nullptr; ///< 1: of the cell's patch [Pa]
+    const double  *scales    = nullptr; ///< 1: |C:e| + eta |C:E(w)| of the volume part alone [Pa]
+    StretchArrays  stretch;
+  };
+
+  /// Where the derivatives b = dtheta_p/dx of the mean dilatations of patches, Eq. (25), are: patch by
+  /// patch four numbers for each of its nodes, the fourth 0.
+  struct PatchArrays
+  {
+    const std::size_t  *node_starts;  ///< of a patch's nodes among all
+    const std::size_t  *point_starts; ///< of its points
+    const unsigned int *points;
+    const double       *fractions; ///< of each of these in the volume of its patch
+    const int
+           *places; ///< of its cell's nodes, in the order of the loops, among those of all patches
+    double *gradients; ///< b
+  };
+
+  /// A patch at a node: the product of its numbers at the node with those at all nodes from there on goes
+  /// to the columns of the node.
+  struct PatchAtNode
+  {
+    unsigned int patch;
+    unsigned int place;   ///< of the node among those of all patches
+    std::size_t  offsets; ///< of the first of these products
+  };
+
+  /// Where the products of the patches go in the matrix: column by column, so that each value is summed
+  /// by one thread, patch by patch.
+  struct PatchColumns
+  {
+    const std::size_t *node_starts; ///< as PatchArrays
+    const std::size_t *starts;      ///< of a node's patches
+    const PatchAtNode *patches;
+    const int         *columns; ///< 3 a node: where its columns begin in the values; -1 for none
+    const int         *offsets; ///< of rows in the first of them, a node; -1: held
+    const double      *factors; ///< of b b^T, a patch [J]
+    const double *vectors; ///< b, at nodes of which some components are held the free ones first
+    const double *squares     = nullptr; ///< dm_p/dx alike; null: no patch is stretched
+    const double *sums        = nullptr; ///< the derivative of sum V W [N]
+    const double *of_squares  = nullptr; ///< factors of the square of the one, a patch [J]
+    const double *of_products = nullptr; ///< and of both products of one with the other
   };
 
   /// What a loop over the cells does with their rotations: it takes those that are stored, or it
@@ -94,7 +154,8 @@ namespace Exemplar
     ExampleArrays    examples; ///< n_weights = 0: none
     DampingArrays    damping;
     DilatationArrays dilatation;
-    const double    *positions        = nullptr; ///< four numbers a node, the fourth unused [m]
+    const double    *positions = nullptr; ///< four numbers a node, the fourth unused [m]
+    const int       *places = nullptr; ///< of a cell's nodes in the nodal sums; null: their numbers
     const double    *weights          = nullptr;
     RotationUse      rotation_use     = RotationUse::keep;
     bool             with_weight_sums = false; ///< for the derivatives by weights
@@ -141,6 +202,25 @@ namespace Exemplar
     const int *positions = nullptr; ///< n_block_columns() a cell (all its points) from the first
                                     ///< batch on; -1: left out
     double *values = nullptr;
+    /// Columns that begin elsewhere are left out. All of a node begin in one such part, and behind it
+    /// nothing is written.
+    int begin = 0;
+    int end   = std::numeric_limits<int>::max();
+
+    bool
+    has(const int position) const
+    {
+      return position >= begin && position < end;
+    }
+  };
+
+  /// A sparse symmetric matrix on the nodes, by rows: the diagonal, which is there first, and what is
+  /// right of it.
+  struct NodalMatrix
+  {
+    const std::size_t  *row_starts;
+    const unsigned int *columns;
+    const double       *values;
   };
 
   /// The loops, over batches begin to end - 1.
@@ -172,17 +252,14 @@ namespace Exemplar
                                std::size_t end,
                                double     *weight_sums);
 
-    /// tr(e) by the rotations as they are.
+    /// tr(e) and |F|^2, for patches.
     void (*dilatations)(const CellTask &, std::size_t begin, std::size_t end);
+
+    /// G in strongly stretched patches.
+    void (*stretch_energies)(const CellTask &, std::size_t begin, std::size_t end);
 
     /// Let the law remember a step that ends at these positions, of which the rotations are.
     void (*advance_history)(const CellTask &, std::size_t begin, std::size_t end);
-
-    /// The forces of the pressures and their scales, added to `nodal_sums` as by evaluate().
-    void (*add_pressure_forces)(const CellTask &,
-                                std::size_t begin,
-                                std::size_t end,
-                                double     *nodal_sums);
 
     /// Add R K R^T.
     void (*add_rotated_stiffness)(const CellTask &,
@@ -192,6 +269,29 @@ namespace Exemplar
 
     /// Add the exact tangent, or a convex one.
     void (*add_tangent)(const CellTask &, const TangentTask &, std::size_t begin, std::size_t end);
+
+    /// Add what patches add in thin cells and where they are strongly stretched, as far as it couples the nodes
+    /// of one cell.
+    void (*add_patch_tangent)(const CellTask &,
+                              const TangentTask &,
+                              std::size_t begin,
+                              std::size_t end);
+
+    /// b of the patches begin to end - 1.
+    void (*patch_gradients)(const CellArrays &,
+                            const PatchArrays &,
+                            std::size_t begin,
+                            std::size_t end);
+
+    /// Add the products of the patches to the columns of the nodes begin to end - 1. A zero may be added to
+    /// the value behind them.
+    void (*add_patch_products)(const PatchColumns &,
+                               std::size_t begin,
+                               std::size_t end,
+                               double     *values);
+
+    /// Add the product of a symmetric matrix of n rows with four numbers a node.
+    void (*multiply_nodes)(const NodalMatrix &, std::size_t n, const double *x, double *product);
 
     /// By how much a unit of each example's weight reduces the nodal forces of the cells of one
     /// batch: three entries a node and example, each for all cells of the batch. `rotated`: with

@@ -5,6 +5,8 @@
 #include <exemplar/kernels/loops_coupling.h>
 #include <exemplar/kernels/loops_dilatation.h>
 #include <exemplar/kernels/loops_energy.h>
+#include <exemplar/kernels/loops_nodes.h>
+#include <exemplar/kernels/loops_patches.h>
 #include <exemplar/kernels/loops_rotations.h>
 #include <exemplar/kernels/loops_stiffness.h>
 #include <exemplar/kernels/loops_tangent.h>
@@ -26,10 +28,14 @@ namespace Exemplar::Loops
              evaluate<Number, n_nodes>,
              weight_linear_term<Number, n_nodes>,
              dilatations<Number, n_nodes>,
+             stretch_energies<Number, n_nodes>,
              advance_history<Number, n_nodes>,
-             add_pressure_forces<Number, n_nodes>,
              add_rotated_stiffness<Number, n_nodes>,
              add_tangent<Number, n_nodes>,
+             add_patch_tangent<Number, n_nodes>,
+             patch_gradients<Number, n_nodes>,
+             add_patch_products<Number>,
+             multiply_nodes<Number>,
              coupling<Number, n_nodes> };
   }
 } // namespace Exemplar::Loops

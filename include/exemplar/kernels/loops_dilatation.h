@@ -2,13 +2,46 @@
 #ifndef exemplar_loops_dilatation_h
 #define exemplar_loops_dilatation_h
 
-#include <exemplar/kernels/loops_energy.h>
+#include <exemplar/kernels/loops_rotations.h>
+#include <exemplar/kernels/patch_cell.h>
 
-// The loops of mean dilatation by patches, Eq. (25): what cells tell their patch, and the forces of
-// its pressure.
+// What cells tell their patches, Eqs. (25) and (26), before these tell them their pressures.
 
 namespace Exemplar::Loops
 {
+  /// r of the cells of a group. Kept apart for what hardly any cell needs.
+  template <typename Number>
+  [[gnu::noinline, gnu::cold]] Number
+  supplement_of_thin(const CellTask          &task,
+                     const LaneGroup<Number> &group,
+                     const Matrix3<Number>   &strain)
+  {
+    const auto thin = ThinTrace<Number>::of_strain(strain);
+    if (thin.acts())
+      task.dilatation.flags[group.batch] |= thin_cells;
+    return thin.supplement();
+  }
+
+  template <typename Cell, typename Number>
+  [[gnu::always_inline]] inline void
+  store_dilatation(const CellTask          &task,
+                   const LaneGroup<Number> &group,
+                   const Matrix3<Number>   &strain,
+                   const Matrix3<Number>   &F)
+  {
+    Number       of_strain = trace(strain);
+    const Number square    = contract(F, F);
+    store(task.cells, group, square, task.dilatation.squares);
+    if constexpr (Cell::traits.has_stretch_guard)
+    {
+      if (any(square > Number(min_stretched_square)))
+        task.dilatation.flags[group.batch] |= long_cells;
+      if (any(may_be_thin(of_strain + Number(3.), square)))
+        of_strain += supplement_of_thin(task, group, strain);
+    }
+    store(task.cells, group, of_strain, task.dilatation.traces);
+  }
+
   template <typename Number, int n_nodes>
   inline void
   dilatations(const CellTask &task, const std::size_t begin, const std::size_t end)
@@ -25,33 +58,70 @@ namespace Exemplar::Loops
                 {
                   const Matrix3<Number> F = deformation_gradient(
                       task, group, load_tetrahedron<n_nodes>(task.cells, group));
-                  store_dilatation(task, group,
-                                   Cell::strain_of(load_rotation(task.cells, group), F), F);
+                  store_dilatation<Cell>(task, group,
+                                         Cell::strain_of(rotation<Cell>(task, group, F), F), F);
                 });
         });
   }
 
-  /// The derivative of tr(e) by F is R for every strain that has patches, so that a pressure p
-  /// makes the forces V p R g_a.
+  template <typename Number>
+  inline bool
+  is_stretched(const StretchArrays &stretch, const LaneGroup<Number> &group)
+  {
+    return stretch.transitions != nullptr
+           && any(load(stretch.transitions, group, 1, 0) > Number(0.));
+  }
+
+  /// Whether a patch does more to some cell of a group than to press.
+  template <typename Number>
+  inline bool
+  is_special(const DilatationArrays &dilatation, const LaneGroup<Number> &group)
+  {
+    return (dilatation.flags[group.batch] & thin_cells) != 0
+           || is_stretched(dilatation.stretch, group);
+  }
+
+  template <typename Cell, typename Number>
+  inline PatchCell<Number>
+  patch_cell(const CellTask          &task,
+             const LaneGroup<Number> &group,
+             const Matrix3<Number>   &R,
+             const Matrix3<Number>   &F)
+  {
+    const StretchArrays   &stretch = task.dilatation.stretch;
+    StretchedPatch<Number> patch{ Number(0.), Number(0.), Number(0.), { Number(0.), Number(0.) } };
+    if (stretch.transitions != nullptr)
+      patch = { load(stretch.transitions, group, 1, 0),
+                load(stretch.by_F, group, 1, 0),
+                load(stretch.stiffnesses, group, 1, 0),
+                { load(stretch.elasticity, group, 2, 0), load(stretch.elasticity, group, 2, 1) } };
+    Cell cell = make_cell<Cell>(task.cells, group, R, F);
+    cell.set_target(Matrix3<Number>{});
+    return PatchCell<Number>(cell, patch);
+  }
+
   template <typename Number, int n_nodes>
   inline void
-  add_pressure_forces(const CellTask   &task,
-                      const std::size_t begin,
-                      const std::size_t end,
-                      double           *nodal_sums)
+  stretch_energies(const CellTask &task, const std::size_t begin, const std::size_t end)
   {
-    for_each_group<Number>(
-        begin, end,
-        [&](const LaneGroup<Number> &group)
+    with_cell_model<Number>(
+        task.cells.law,
+        [&](auto model)
         {
-          const auto      tet = load_tetrahedron<n_nodes>(task.cells, group);
-          const Number    Vp  = tet.volume * load(task.dilatation.pressures, group, 1, 0);
-          Matrix3<Number> R   = load_rotation(task.cells, group);
-          for (int i = 0; i < 3; ++i)
-            for (int j = 0; j < 3; ++j)
-              R[i][j] *= Vp;
-          add_forces(task, group, tet, R, tet.volume * load(task.dilatation.scales, group, 1, 0),
-                     nodal_sums);
+          using Cell = typename decltype(model)::type;
+          if constexpr (Cell::traits.has_stretch_guard)
+            for_each_group_of_law<Number>(
+                task.cells, begin, end,
+                [&](const LaneGroup<Number> &group)
+                {
+                  if (!is_stretched(task.dilatation.stretch, group))
+                    return;
+                  const Matrix3<Number> F = deformation_gradient(
+                      task, group, load_tetrahedron<n_nodes>(task.cells, group));
+                  const auto cell
+                      = patch_cell<Cell>(task, group, load_rotation(task.cells, group), F);
+                  store(task.cells, group, cell.guard_energy(), task.dilatation.stretch.energies);
+                });
         });
   }
 } // namespace Exemplar::Loops

@@ -2,8 +2,8 @@
 #ifndef exemplar_loops_energy_h
 #define exemplar_loops_energy_h
 
+#include <exemplar/kernels/loops_dilatation.h>
 #include <exemplar/kernels/loops_examples.h>
-#include <exemplar/kernels/loops_rotations.h>
 
 // The loop that evaluates energies, forces and their scales, and the one for the linear term of the
 // weights.
@@ -115,7 +115,7 @@ namespace Exemplar::Loops
     }
     for (int a = 0; a < n_nodes; ++a)
     {
-      const int *nodes = task.cells.nodes + group.at(n_nodes, a);
+      const int *nodes = nodal_places(task) + group.at(n_nodes, a);
       if constexpr (LaneGroup<Number>::width >= 4)
         for (std::size_t lane = 0; lane < LaneGroup<Number>::width; lane += 4)
         {
@@ -133,18 +133,6 @@ namespace Exemplar::Loops
           for (int k = 0; k < 4; ++k)
             nodal_sums[4 * nodes[lane] + k] += lanes[a][k][lane];
     }
-  }
-
-  /// What a cell with patches tells its patch.
-  template <typename Number>
-  [[gnu::always_inline]] inline void
-  store_dilatation(const CellTask          &task,
-                   const LaneGroup<Number> &group,
-                   const Matrix3<Number>   &strain,
-                   const Matrix3<Number>   &F)
-  {
-    store(task.cells, group, trace(strain), task.dilatation.traces);
-    store(task.cells, group, contract(F, F), task.dilatation.squares);
   }
 
   /// Adds the guard of the stretch, where it acts. It begins anew from the positions and is kept
@@ -174,6 +162,33 @@ namespace Exemplar::Loops
     add_forces(task, group, tet, RP, Number(0.), nodal_sums);
   }
 
+  /// Adds the forces of patches beside their pressures, where there are some, apart like the guard.
+  template <typename Cell, int n_nodes, typename Number>
+  [[gnu::noinline, gnu::cold]] void
+  add_stress_of_special(const CellTask &task, const LaneGroup<Number> &group, double *nodal_sums)
+  {
+    const auto            tet = load_tetrahedron<n_nodes>(task.cells, group);
+    const Matrix3<Number> F   = deformation_gradient(task, group, tet);
+    const Matrix3<Number> R   = load_rotation(task.cells, group);
+    Matrix3<Number>       RP
+        = R
+          * patch_cell<Cell>(task, group, R, F)
+                .force(transpose_times(R, F), load(task.dilatation.pressures, group, 1, 0));
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        RP[i][j] *= tet.volume;
+    add_forces(task, group, tet, RP, Number(0.), nodal_sums);
+  }
+
+  template <typename Cell, int n_nodes, typename Number>
+  inline void
+  add_patch_stress(const CellTask &task, const LaneGroup<Number> &group, double *nodal_sums)
+  {
+    if constexpr (Cell::traits.has_stretch_guard)
+      if (is_special(task.dilatation, group))
+        add_stress_of_special<Cell, n_nodes>(task, group, nodal_sums);
+  }
+
   template <typename Cell, int n_nodes, typename Number>
   inline void
   evaluate_group(const CellTask            &task,
@@ -182,11 +197,13 @@ namespace Exemplar::Loops
                  double                    *weight_sums,
                  LaneSums<Number, n_nodes> &sums)
   {
-    const bool            has_examples = task.examples.n_weights > 0;
-    const auto            tet          = load_tetrahedron<n_nodes>(task.cells, group);
-    const Matrix3<Number> F            = deformation_gradient(task, group, tet);
-    const Matrix3<Number> R            = rotation<Cell>(task, group, F);
-    const auto            is_real      = tet.volume > Number(0.);
+    const bool has_examples = task.examples.n_weights > 0;
+    const bool has_patches
+        = Cell::traits.trace_gradient_is_R && task.dilatation.pressures != nullptr;
+    const auto            tet     = load_tetrahedron<n_nodes>(task.cells, group);
+    const Matrix3<Number> F       = deformation_gradient(task, group, tet);
+    const Matrix3<Number> R       = rotation<Cell>(task, group, F);
+    const auto            is_real = tet.volume > Number(0.);
 
     const Number det
         = task.cells.has_other_laws
@@ -199,10 +216,8 @@ namespace Exemplar::Loops
     sums.min_det         = select(det >= sums.min_det, sums.min_det, det);
     sums.inverted.add(group, is_real & (det <= Number(0.)));
     sums.elastic += elastic;
-    if constexpr (Cell::traits.trace_gradient_is_R)
-      if (task.dilatation.traces != nullptr)
-        store_dilatation(task, group, cell.strain(), F);
 
+    const Number patch_scale = has_patches ? load(task.dilatation.scales, group, 1, 0) : Number(0.);
     Matrix3<Number> P; // R^T P
     Matrix3<Number> D;
     if (has_examples)
@@ -210,6 +225,8 @@ namespace Exemplar::Loops
       D = target(task, group); // eta E(w)
       scale += cell.scale_of(D);
       sums.stress_square += tet.volume * scale * scale;
+      if (has_patches)
+        sums.stress_square += tet.volume * patch_scale * patch_scale;
       sums.energy += tet.volume * cell.energy(D);
       sums.guarded.add(group, is_real & cell.is_guarded());
       if (task.with_weight_sums)
@@ -242,12 +259,18 @@ namespace Exemplar::Loops
       cell.set_target(D);
       P = cell.force();
     }
+    if (has_patches)
+      for (int i = 0; i < 3; ++i)
+        P[i][i] += load(task.dilatation.pressures, group, 1, 0);
     Matrix3<Number> RP = R * P;
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
         RP[i][j] *= tet.volume;
-    add_forces(task, group, tet, RP, tet.volume * cell.force_factor() * scale, nodal_sums);
-    if (cell.may_be_stretched(density))
+    add_forces(task, group, tet, RP, tet.volume * (cell.force_factor() * scale + patch_scale),
+               nodal_sums);
+    if (has_patches) // the guard is the patch's, then
+      add_patch_stress<Cell, n_nodes>(task, group, nodal_sums);
+    else if (cell.may_be_stretched(density))
       add_stretch_guard<Cell, n_nodes>(task, group, nodal_sums, sums);
   }
 
@@ -296,7 +319,7 @@ namespace Exemplar::Loops
                     = make_cell<Cell>(task.cells, group, rotation<Cell>(task, group, F), F);
                 if constexpr (Cell::traits.trace_gradient_is_R)
                   if (task.dilatation.traces != nullptr)
-                    store_dilatation(task, group, cell.strain(), F);
+                    store_dilatation<Cell>(task, group, cell.strain(), F);
                 add_weight_sums(task, group, tet.volume, cell.weight_stress(Matrix3<Number>{}),
                                 weight_sums);
               });

@@ -27,23 +27,36 @@ namespace Exemplar::Loops
     return Lanes<Number>::load(sum);
   }
 
-  /// eta E(w), of the cells of a group.
-  template <typename Number>
-  [[gnu::always_inline]] inline Matrix3<Number>
-  target(const CellTask &task, const LaneGroup<Number> &group)
+  template <typename Number, typename Stored>
+  [[gnu::always_inline]] inline void
+  add_targets(const CellTask           &task,
+              const LaneGroup<Number>  &group,
+              const Stored             *strains,
+              SymmetricEntries<Number> &sum)
   {
-    const ExampleArrays     &examples = task.examples;
-    SymmetricEntries<Number> sum;
-    for (Number &entry : sum.value)
-      entry = Number(0.);
+    const ExampleArrays &examples = task.examples;
     for (unsigned int i = 0; i < examples.n; ++i)
     {
       if (examples.share_start == nullptr && task.weights[examples.first + i] == 0.)
         continue; // of many examples with bounded weights most have weight 0
       const Number w = weight(task, group, i);
       for (std::size_t k = 0; k < n_symmetric; ++k)
-        sum[k] += w * load(examples.strains, group, n_symmetric * examples.n, n_symmetric * i + k);
+        sum[k] += w * load(strains, group, n_symmetric * examples.n, n_symmetric * i + k);
     }
+  }
+
+  /// eta E(w), of the cells of a group.
+  template <typename Number>
+  [[gnu::always_inline]] inline Matrix3<Number>
+  target(const CellTask &task, const LaneGroup<Number> &group)
+  {
+    SymmetricEntries<Number> sum;
+    for (Number &entry : sum.value)
+      entry = Number(0.);
+    if (task.examples.in_single != nullptr)
+      add_targets(task, group, task.examples.in_single, sum);
+    else
+      add_targets(task, group, task.examples.strains, sum);
     return unpack(sum);
   }
 
@@ -67,6 +80,30 @@ namespace Exemplar::Loops
               += examples.shares[s].value * of_cell[lane];
   }
 
+  template <typename Number, typename Stored>
+  [[gnu::always_inline]] inline void
+  add_contractions(const CellTask          &task,
+                   const LaneGroup<Number> &group,
+                   const Number (&T)[n_symmetric],
+                   const Stored *strains,
+                   double       *weight_sums)
+  {
+    const ExampleArrays &examples = task.examples;
+    for (unsigned int i = 0; i < examples.n; ++i)
+    {
+      Number sum = Number(0.);
+      for (std::size_t k = 0; k < n_symmetric; ++k)
+        sum += T[k] * load(strains, group, n_symmetric * examples.n, n_symmetric * i + k);
+      if (examples.share_start == nullptr)
+      {
+        double *to = weight_sums + batch_size * (examples.first + i) + group.lane;
+        Lanes<Number>::store(Lanes<Number>::load(to) + sum, to);
+      }
+      else
+        share_out(task, group, i, sum, weight_sums);
+    }
+  }
+
   /// Add factor T : eta E_i to the sums of the weights, for every example i. Each pair of off-diagonal
   /// entries of T is added up once, because E_i is symmetric.
   template <typename Number>
@@ -77,27 +114,16 @@ namespace Exemplar::Loops
                   const Matrix3<Number>   &T,
                   double                  *weight_sums)
   {
-    const ExampleArrays &examples          = task.examples;
-    const Number         once[n_symmetric] = { factor * T[0][0],
-                                               factor * T[1][1],
-                                               factor * T[2][2],
-                                               factor * (T[1][2] + T[2][1]),
-                                               factor * (T[0][2] + T[2][0]),
-                                               factor * (T[0][1] + T[1][0]) };
-    for (unsigned int i = 0; i < examples.n; ++i)
-    {
-      Number sum = Number(0.);
-      for (std::size_t k = 0; k < n_symmetric; ++k)
-        sum += once[k]
-               * load(examples.strains, group, n_symmetric * examples.n, n_symmetric * i + k);
-      if (examples.share_start == nullptr)
-      {
-        double *to = weight_sums + batch_size * (examples.first + i) + group.lane;
-        Lanes<Number>::store(Lanes<Number>::load(to) + sum, to);
-      }
-      else
-        share_out(task, group, i, sum, weight_sums);
-    }
+    const Number once[n_symmetric] = { factor * T[0][0],
+                                       factor * T[1][1],
+                                       factor * T[2][2],
+                                       factor * (T[1][2] + T[2][1]),
+                                       factor * (T[0][2] + T[2][0]),
+                                       factor * (T[0][1] + T[1][0]) };
+    if (task.examples.in_single != nullptr)
+      add_contractions(task, group, once, task.examples.in_single, weight_sums);
+    else
+      add_contractions(task, group, once, task.examples.strains, weight_sums);
   }
 } // namespace Exemplar::Loops
 

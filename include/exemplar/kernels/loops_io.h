@@ -67,6 +67,48 @@ namespace Exemplar::Loops
     return Lanes<Number>::load(from + group.at(n, e));
   }
 
+  /// What the compiler calls so many numbers at once.
+  template <std::size_t n>
+  struct Registers;
+
+  template <>
+  struct Registers<2>
+  {
+    using Floats  = float __attribute__((vector_size(8), aligned(4), may_alias));
+    using Doubles = double __attribute__((vector_size(16)));
+  };
+
+  template <>
+  struct Registers<4>
+  {
+    using Floats  = float __attribute__((vector_size(16), aligned(4), may_alias));
+    using Doubles = double __attribute__((vector_size(32)));
+  };
+
+  template <>
+  struct Registers<8>
+  {
+    using Floats  = float __attribute__((vector_size(32), aligned(4), may_alias));
+    using Doubles = double __attribute__((vector_size(64)));
+  };
+
+  /// The same of numbers in single precision.
+  template <typename Number>
+  [[gnu::always_inline]] inline Number
+  load(const float *from, const LaneGroup<Number> &group, const std::size_t n, const std::size_t e)
+  {
+    constexpr std::size_t width = LaneGroup<Number>::width;
+    const float          *at    = from + group.at(n, e);
+    if constexpr (width == 1)
+      return *at;
+    else
+    {
+      using Floats  = typename Registers<width>::Floats;
+      using Doubles = typename Registers<width>::Doubles;
+      return Number(__builtin_convertvector(*reinterpret_cast<const Floats *>(at), Doubles));
+    }
+  }
+
   /// The constants of a law.
   template <typename Constants, typename Number>
   inline Constants
@@ -234,6 +276,13 @@ namespace Exemplar::Loops
       return Number(__builtin_shufflevector(four[0], four[1], 0, 1, 2, 3, 4, 5, 6, 7));
     else
       return Number(four[0]);
+  }
+
+  /// Where the sums of the cells' nodes are.
+  [[gnu::always_inline]] static inline const int *
+  nodal_places(const CellTask &task)
+  {
+    return task.places != nullptr ? task.places : task.cells.nodes;
   }
 
   /// The positions of one node of each cell; `positions` holds four numbers a node.

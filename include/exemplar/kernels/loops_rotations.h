@@ -82,7 +82,7 @@ namespace Exemplar::Loops
         begin, end,
         [&](const LaneGroup<Number> &group)
         {
-          const int *nodes = task.cells.nodes + group.at(n_nodes, 0);
+          const int *nodes = nodal_places(task) + group.at(n_nodes, 0);
           if constexpr (LaneGroup<Number>::width >= 4)
             for (std::size_t lane = 0; lane < LaneGroup<Number>::width; lane += 4)
             {

@@ -12,15 +12,37 @@
 
 #include <deal.II/base/aligned_vector.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace Exemplar
 {
+  /// What strongly stretched patches tell the loops, in batches, see StretchArrays.
+  struct StretchField
+  {
+    bool                          acts = false; ///< in some patch; else nothing here is asked for
+    dealii::AlignedVector<double> transitions, by_F, stiffnesses, elasticity, energies;
+    dealii::AlignedVector<double> pressures; ///< of the elasticity alone in these patches [Pa]
+
+    /// All 0.
+    void
+    reinit(unsigned int n_points);
+
+    StretchArrays
+    arrays();
+
+    /// In bytes.
+    std::size_t
+    memory_consumption() const;
+  };
+
   /// What loops over the cells and terms tell each other of the dilatation, in batches; see
   /// DilatationArrays. Empty unless a term asks for it.
   struct DilatationField
   {
     dealii::AlignedVector<double> traces, squares, pressures, scales;
+    std::vector<unsigned char>    flags; ///< CellFlags of each batch
+    StretchField                  stretch;
 
     /// From now on loops fill it.
     void
@@ -28,6 +50,14 @@ namespace Exemplar
 
     DilatationArrays
     arrays();
+
+    /// Whether some batch has that flag.
+    bool
+    has(const CellFlags flag) const
+    {
+      return std::any_of(flags.begin(), flags.end(),
+                         [flag](const unsigned char of_batch) { return (of_batch & flag) != 0; });
+    }
 
     /// In bytes.
     std::size_t
@@ -53,10 +83,27 @@ namespace Exemplar
     CellTask
     task(const Vector &positions, RotationUse rotations);
 
-    /// tr(e) and |F|^2 of the points at these positions, by the rotations as they are, into the
-    /// dilatation field.
+    /// Whether a term asks for them.
+    bool
+    has_dilatations() const
+    {
+      return !dilatation.traces.empty();
+    }
+
+    /// Before a loop that finds dilatations.
     void
-    update_dilatations(const Vector &positions);
+    clear_cell_flags()
+    {
+      std::fill(dilatation.flags.begin(), dilatation.flags.end(), 0);
+    }
+
+    /// tr(e) and |F|^2 of the points at these positions into the dilatation field.
+    void
+    update_dilatations(const Vector &positions, RotationUse rotations);
+
+    /// The energies of the guards where patches are strongly stretched, by the rotations as they are.
+    void
+    update_stretch_energies(const Vector &positions);
 
     /// As StrainDamping::set().
     void
@@ -105,6 +152,13 @@ namespace Exemplar
       return node_positions.size() / 4;
     }
 
+    /// Of loops over cells and patches.
+    int
+    n_threads() const
+    {
+      return nodal_sums.n_threads();
+    }
+
     StrainDamping &
     get_damping()
     {
@@ -123,7 +177,20 @@ namespace Exemplar
       return dilatation;
     }
 
-    /// What the loops of an evaluation add up, those of terms, too.
+    const DilatationField &
+    get_dilatation() const
+    {
+      return dilatation;
+    }
+
+    /// Of what stands beside the cells: for the loops over patches.
+    CellArrays
+    arrays()
+    {
+      return batches.arrays();
+    }
+
+    /// What the loops of an evaluation add up.
     NodalSums &
     get_nodal_sums()
     {
@@ -179,6 +246,11 @@ namespace Exemplar
     memory_consumption() const;
 
   private:
+    /// Run a loop of the kernels that leaves no sums.
+    void
+    for_each_law_in_stripes(const CellTask &task,
+                            void (*loop)(const CellTask &, std::size_t, std::size_t));
+
     const FESpace                &fe_space;
     const CellKernels            &kernels;
     CellBatches                   batches;

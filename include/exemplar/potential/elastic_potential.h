@@ -144,7 +144,12 @@ namespace Exemplar
     CellTask
     task(const Vector &positions, const std::vector<double> &weights, RotationUse rotations);
 
-    /// Terms write what cells must know for their tangent.
+    /// Let the terms know the dilatations, if they ask for them, and get how loops that follow at these
+    /// positions find the rotations.
+    RotationUse
+    find_dilatations(const Vector &positions, RotationUse rotations);
+
+    /// Terms write what cells must know.
     void
     tell_cells(const TermPoint &at);
 
@@ -174,6 +179,10 @@ namespace Exemplar
                        const TangentTask &tangent,
                        std::size_t        begin,
                        std::size_t        end) const;
+
+    /// The tangents of all cells that are not mixed.
+    void
+    add_in_parts(const CellTask &task, const TangentTask &tangent);
 
     void
     add_mixed_cells(const CellTask &task, TangentTask tangent, std::vector<double> &values);

@@ -24,10 +24,7 @@ namespace Exemplar
     }
 
     void
-    begin_step(const State & /*start*/) override
-    {
-      in_step = true;
-    }
+    begin_step(const State &start) override;
 
     void
     leave_step() override
@@ -71,7 +68,8 @@ namespace Exemplar
     const SymmetricPattern *pattern   = nullptr; ///< since attach()
     const FreeDofs         *free_dofs = nullptr; ///< since attach()
     std::vector<double>     mass_values;         ///< M on the pattern [kg]
-    bool                    in_step = false;
+    bool                    in_step        = false;
+    double                  predicted_size = 0.; ///< greatest coordinate of the prediction [m]
   };
 } // namespace Exemplar
 

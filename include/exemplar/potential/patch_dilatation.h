@@ -7,7 +7,6 @@
 #include <exemplar/potential/patch_guard.h>
 #include <exemplar/potential/patch_scatter.h>
 #include <exemplar/potential/potential_term.h>
-#include <exemplar/potential/thin_cells.h>
 
 #include <optional>
 #include <vector>
@@ -72,6 +71,9 @@ namespace Exemplar
     add_weight_linear_term(const Vector &positions, std::vector<double> &c) override;
 
     void
+    hear_cells(const Vector &positions) override;
+
+    void
     tell_cells(const TermPoint &at) override;
 
     /// lambda_p V_p b b^T for b = dtheta_p/dx, times 1 + s, and what the guard adds. In a convex
@@ -96,49 +98,40 @@ namespace Exemplar
     memory_consumption() const override;
 
   private:
-    /// From the tr(e) that cells have found at these positions: means, and what is thin and stretched.
     void
-    find_means(const Vector &positions);
-
-    void
-    find_pressures(const std::vector<double> &weights);
+    find_means(const double *of_points, std::vector<double> &of_patches) const;
 
     void
     add_energies(const std::vector<double> &weights, ElasticSums &sums) const;
 
-    /// Forces that no loop over all cells adds.
+    /// b = dtheta_p/dx of Eq. (25) [1/m].
     void
-    add_forces_of_few_cells(Vector &gradient) const;
+    find_gradients(const Vector &positions, PatchVectors &b) const;
 
-    /// sum V (|C:e| + eta |C:E(w)|)^2 of the volume part.
-    double
-    stress_square() const;
+    PatchProducts
+    find_products(const Vector &positions, Tangent kind) const;
 
-    /// b = dtheta_p/dx of Eq. (25), three numbers for each node of a patch [1/m].
     void
-    find_gradient(unsigned int patch, std::vector<double> &b) const;
+    add_columns(const PatchVectors &b, std::vector<double> &columns) const;
 
-    /// Whether a patch has a tangent beside that of Eq. (25), with thin or strongly stretched cells.
+    /// Of a patch beside held nodes.
+    void
+    add_response_of(unsigned int         patch,
+                    const PatchProducts &products,
+                    const Vector        &displacement,
+                    ElasticSums         &sums) const;
+
+    /// What of that couples the nodes of one cell.
+    void
+    add_response_of_points(unsigned int     patch,
+                           Tangent          kind,
+                           const TermPoint &at,
+                           const Vector    &displacement,
+                           ElasticSums     &sums) const;
+
+    /// Whether a patch does more at a point than to press.
     bool
-    is_special(unsigned int patch) const;
-
-    /// Add it to `matrix` over the nodes of the patch.
-    void
-    add_special_tangent(unsigned int                patch,
-                        Tangent                     kind,
-                        const std::vector<double>  &b,
-                        dealii::FullMatrix<double> &matrix) const;
-
-    void
-    add_columns(unsigned int               patch,
-                const std::vector<double> &b,
-                std::vector<double>       &columns) const;
-
-    void
-    add_response_of(unsigned int  patch,
-                    Tangent       kind,
-                    const Vector &displacement,
-                    ElasticSums  &sums) const;
+    is_special(unsigned int point) const;
 
     /// lambda_p V_p (1 + s), the factor of b b^T in A.
     double
@@ -154,10 +147,8 @@ namespace Exemplar
     CellField                  *cells     = nullptr; ///< since attach()
     const FreeDofs             *free_dofs = nullptr; ///< since attach()
     std::optional<PatchScatter> scatter;             ///< since attach()
-    ThinCells                   thin;
     PatchGuard                  guard;
-    std::vector<double>         fractions; ///< of each point in the volume of its patch
-    std::vector<double>         means;     ///< theta_p
+    std::vector<double>         means; ///< theta_p
     PatchDamping                damping;
   };
 } // namespace Exemplar

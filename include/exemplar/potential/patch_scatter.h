@@ -7,13 +7,26 @@
 #include <exemplar/body/patches.h>
 #include <exemplar/potential/cell_field.h>
 
-#include <deal.II/lac/full_matrix.h>
-
 #include <utility>
 #include <vector>
 
 namespace Exemplar
 {
+  /// Four numbers, the last of them 0, for each node of each patch, patch by patch.
+  using PatchVectors = std::vector<double>;
+
+  /// What of the tangent of patches couples all their nodes: sums of products of vectors b, squares and
+  /// sums, see PatchColumns.
+  struct PatchProducts
+  {
+    std::vector<double> factors; ///< of b b^T, a patch
+    PatchVectors        vectors; ///< b
+    PatchVectors        squares; ///< empty if no patch is strongly stretched
+    PatchVectors        sums;
+    std::vector<double> of_squares;
+    std::vector<double> of_products;
+  };
+
   /// The nodes of each patch, and where the products of their degrees of freedom are in the matrix
   /// of the body.
   class PatchScatter
@@ -23,91 +36,114 @@ namespace Exemplar
     PatchScatter(const Patches          &patches,
                  const FESpace          &fe_space,
                  const SymmetricPattern &pattern,
-                 const FreeDofs         &free_dofs);
+                 const FreeDofs         &free_dofs,
+                 const CellField        &cells);
 
     /// All pairs of nodes that share a patch, for make_pattern().
     static std::vector<std::pair<unsigned int, unsigned int>>
     couplings(const Patches &patches, const FESpace &fe_space);
 
-    /// dtheta_p/dx of Eq. (25) with the rotations of `cells`: three numbers for each of nodes()
-    /// [1/m].
+    /// dtheta_p/dx of Eq. (25) by the rotations of `cells` [1/m].
     void
-    gradient(unsigned int patch, const CellField &cells, std::vector<double> &b) const;
+    find_gradients(CellField &cells, PatchVectors &b) const;
 
-    /// Of a patch, ascending.
-    const std::vector<unsigned int> &
-    nodes(const unsigned int patch) const
+    /// Of all patches together.
+    std::size_t
+    n_nodes() const
     {
-      return layouts[patch].nodes;
+      return all_nodes.size();
     }
 
-    /// The places among nodes() of the nodes of each point's cell, point by point.
-    const unsigned int *
-    places(const unsigned int patch) const
-    {
-      return layouts[patch].places.data();
-    }
+    /// The mean over a patch of numbers by point.
+    double
+    mean(unsigned int patch, const double *numbers) const;
+
+    /// Of the vector of a patch with a field by degree of freedom.
+    double
+    product(unsigned int patch, const PatchVectors &vectors, const Vector &field) const;
+
+    /// Add a factor times the vector of a patch to a field.
+    void
+    add(unsigned int patch, double factor, const PatchVectors &vectors, Vector &field) const;
+
+    /// Add a factor times three numbers for each node of a point's cell, in FESpace's order, to those of a
+    /// patch.
+    void
+    add_at_cell(unsigned int               patch,
+                unsigned int               point,
+                double                     factor,
+                const std::vector<double> &of_cell,
+                PatchVectors              &vectors) const;
 
     /// Whether some of their degrees of freedom are held.
     bool
     is_beside_held(const unsigned int patch) const
     {
-      return layouts[patch].free_dofs.size() < 3 * layouts[patch].nodes.size();
+      return beside_held[patch];
     }
 
-    /// Add factor u u^T to the values on the pattern.
+    /// Add to the values on the pattern; the vectors are changed.
     void
-    add_square(unsigned int               patch,
-               double                     factor,
-               const std::vector<double> &u,
-               std::vector<double>       &values) const;
-
-    /// Add a symmetric matrix over nodes(), three rows each, to the values on the pattern.
-    void
-    add_matrix(unsigned int                      patch,
-               const dealii::FullMatrix<double> &matrix,
-               std::vector<double>              &values) const;
+    add_products(const CellField     &cells,
+                 PatchProducts       &products,
+                 std::vector<double> &values) const;
 
     /// Add factor b to a column by free degree of freedom.
     void
-    add_column(unsigned int               patch,
-               double                     factor,
-               const std::vector<double> &b,
-               double                    *column) const;
+    add_column(unsigned int patch, double factor, const PatchVectors &b, double *column) const;
 
     /// In bytes.
     std::size_t
     memory_consumption() const;
 
   private:
-    /// Where the numbers of a patch go in the matrix.
-    struct Layout
+    /// Of PatchArrays.
+    struct Points
     {
-      std::vector<unsigned int> nodes;
-      std::vector<unsigned int> places;    ///< of the nodes of each cell among these
-      std::vector<unsigned int> free_dofs; ///< the free ones of 3 place + component
-      std::vector<unsigned int> node_ends; ///< after the free ones of each node
-      /// The entry where the rows of a node begin in the column of a free one, for each column and
-      /// each node from the column's on; of its own node, with the diagonal.
-      std::vector<int> entries;
+      std::vector<std::size_t>  starts;
+      std::vector<unsigned int> points;
+      std::vector<double>       fractions;
+      std::vector<int>          places;
     };
 
+    /// Of PatchColumns, for the nodes that are not wholly held.
+    struct Columns
+    {
+      std::vector<std::size_t> starts;
+      std::vector<PatchAtNode> patches;
+      std::vector<int>         columns, offsets;
+    };
+
+    /// Of a node of a patch among those of all patches.
+    std::size_t
+    place(unsigned int patch, unsigned int node) const;
+
     void
-    find_entries(const SymmetricPattern &pattern, Layout &layout) const;
+    find_points(const Patches &patches, const CellField &cells);
 
-    std::vector<double>
-    free_part(const Layout &layout, const std::vector<double> &u) const;
-
-    /// Call add(i, j, value) for each value of a patch that is stored, with the indices i >= j of
-    /// its free degrees of freedom.
-    template <typename Function>
     void
-    for_each_value(const Layout &layout, std::vector<double> &values, const Function &add) const;
+    find_columns(const SymmetricPattern &pattern);
 
-    const Patches      &patches;
-    const FESpace      &fe_space;
-    const FreeDofs     &free_dofs;
-    std::vector<Layout> layouts;
+    /// Where the rows of the nodes from `place` on are in the first column of the node there.
+    void
+    append_offsets(const SymmetricPattern &pattern, std::size_t place, std::size_t end);
+
+    /// The first free degree of freedom of a node by number among the free ones, or FreeDofs::held.
+    int
+    first_free(unsigned int node) const;
+
+    /// At nodes of which some components are held the free ones first.
+    void
+    pack(PatchVectors &vectors) const;
+
+    const FESpace            &fe_space;
+    const FreeDofs           &free_dofs;
+    std::vector<std::size_t>  node_starts;
+    std::vector<unsigned int> all_nodes;
+    Points                    of_points;
+    Columns                   of_columns;
+    std::vector<std::size_t>  mixed; ///< places of nodes of which some components are held
+    std::vector<bool>         beside_held;
   };
 } // namespace Exemplar
 

@@ -112,8 +112,8 @@ namespace Exemplar
     }
 
     /// Add energies, the derivatives by the positions and, unless they are empty, by the weights, and
-    /// the size of the forces at each node. The cells have been evaluated at this point; loops over
-    /// them may add to CellField::get_nodal_sums(), which come to the sums afterwards.
+    /// the size of the forces at each node, beside what cells do that have been told. The cells have been
+    /// evaluated at this point.
     virtual void
     add(const TermPoint &at, ElasticSums &sums)
         = 0;
@@ -124,8 +124,15 @@ namespace Exemplar
     {
     }
 
-    /// Before the cells make their tangent at this point: write the pressures that act in them, if
-    /// any, to CellField::get_dilatation(). The three functions below are called after this one, at
+    /// The cells have found their dilatations at these positions, CellField::get_dilatation(). Called
+    /// before the functions that follow and those above that take positions.
+    virtual void
+    hear_cells(const Vector & /*positions*/)
+    {
+    }
+
+    /// Before the cells are evaluated or make their tangent at this point: write the pressures that act
+    /// in them, if any, to CellField::get_dilatation(). The three functions below are called after this one, at
     /// the same point.
     virtual void
     tell_cells(const TermPoint & /*at*/)

@@ -74,6 +74,20 @@ namespace Exemplar
       return held;
     }
 
+    /// Strains of many examples are what an iteration reads most of, so steps that are not solved further
+    /// than the rounding of single precision take them rounded.
+    ExampleParameters
+    example_parameters(const SceneParameters &parameters)
+    {
+      constexpr std::size_t many     = 8;
+      constexpr double      rounding = 1e-5; // a hundred times that of single precision
+      ExampleParameters     examples = parameters.examples;
+      examples.in_single_precision   = parameters.solver.method == Method::quasi_newton
+                                     && parameters.solver.step_tolerance >= rounding
+                                     && examples.in_use() && examples.n_examples() >= many;
+      return examples;
+    }
+
     std::unique_ptr<Loads>
     make_loads(const SceneParameters &parameters, const Body &body, const BodyInputs &inputs)
     {
@@ -276,7 +290,7 @@ namespace Exemplar
                      const Body            &body,
                      const TimeAxis        &axis,
                      const BodyInputs      &inputs)
-      : poses(parameters.examples,
+      : poses(example_parameters(parameters),
               parameters.model.law(),
               body.mesh,
               body.fe_space,

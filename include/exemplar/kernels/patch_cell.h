@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_patch_cell_h
+#define exemplar_patch_cell_h
+
+#include <exemplar/kernels/corotational_cell.h>
+
+// What patches, Eq. (25), do in thin cells and in strongly stretched patches, which hardly any step has.
+// No deal.II header here: see matrix3.h.
+
+namespace Exemplar
+{
+  /// A patch is strongly stretched, beta > 0 in Eq. (26), where its mean |F|^2 is beyond a bound that is at
+  /// least this. |F|^2 = 3 at rest; for every Poisson's ratio the guard of a cell begins beyond 6.76, which is
+  /// where beta reaches 1 for the least bound.
+  constexpr double min_stretched_square = 5.;
+
+  /// Where y may be less than y_0, from tr S and |F|^2 alone: with I_2 = (tr^2 S - |F|^2) / 2 the product
+  /// p = tr S I_2 - det F is at least 8/9 tr S I_2 if that is positive, as the inequality of the means
+  /// bounds det F.
+  template <typename Number>
+  auto
+  may_be_thin(const Number &trace_of_S, const Number &square)
+  {
+    return Number(4. / 9.) * trace_of_S * (trace_of_S * trace_of_S - square)
+           < Number(NearKink<Number>::y_0) * square;
+  }
+
+  /// Where the two least stretches nearly cancel, y < y_0 of Eq. (24), tr S has a kink like |s_2 + s_3|,
+  /// and a patch that pulls with more than 2 mu would make it a minimum at which no gradient vanishes. So
+  /// the dilatation of a patch takes tr S + r(y), Eq. (25), whose kink r cancels.
+  template <typename Number>
+  class ThinTrace
+  {
+  public:
+    /// `p` is the product of the sums of two eigenvalues of S.
+    ThinTrace(const Matrix3<Number> &S, const Number &p) : S(S)
+    {
+      const Number square  = contract(S, S);
+      const auto   is_thin = p < Number(y_0) * square;
+      any_thin             = any(is_thin);
+      const Number u       = select(is_thin, square, Number(1.));
+      norm                 = sqrt(u);
+      y                    = select(is_thin, p / u, Number(y_0)); // with which r and r' are 0
+      r                    = NearKink<Number>(y);
+      y_derivative         = y_derivative_of(S, y, u);
+    }
+
+    /// Of the S with that strain S - I.
+    static ThinTrace
+    of_strain(const Matrix3<Number> &strain)
+    {
+      Matrix3<Number> S = strain;
+      for (int i = 0; i < 3; ++i)
+        S[i][i] += Number(1.);
+      Matrix3<Number> B = combine(Number(-1.), S, Number(0.), S);
+      for (int i = 0; i < 3; ++i)
+        B[i][i] += trace(S);
+      return ThinTrace(S, determinant(B));
+    }
+
+    /// Whether y < y_0 in some lane.
+    bool
+    acts() const
+    {
+      return any_thin;
+    }
+
+    /// r.
+    const Number &
+    supplement() const
+    {
+      return r.value;
+    }
+
+    /// R^T dr/dF.
+    Matrix3<Number>
+    gradient() const
+    {
+      return combine(r.first, y_derivative, Number(0.), y_derivative);
+    }
+
+    /// The change of gradient() with S, and with R by Omega = R^T dR.
+    Matrix3<Number>
+    response(const Matrix3<Number> &dS, const Matrix3<Number> &Omega) const
+    {
+      const Number          dy     = contract(y_derivative, dS);
+      const Matrix3<Number> change = combine(
+          r.first, y_second_derivative(S, y, norm, y_derivative, dS), r.second * dy, y_derivative);
+      return combine(Number(1.), change, r.first, Omega * y_derivative);
+    }
+
+  private:
+    static constexpr double y_0 = NearKink<Number>::y_0;
+
+    Matrix3<Number>  S;
+    bool             any_thin;
+    Number           norm; ///< |F|
+    Number           y;
+    NearKink<Number> r;
+    Matrix3<Number>  y_derivative;
+  };
+
+  /// What a strongly stretched patch does to a cell of it, Eq. (26): the energy of the patch has
+  /// beta(m_p) sum V W.
+  template <typename Number>
+  struct StretchedPatch
+  {
+    Number               beta;
+    Number               by_F;       ///< the factor of F in the stress that beta makes [Pa]
+    Number               stiffness;  ///< beta lambda_p [Pa]
+    CellMaterial<Number> elasticity; ///< of the guard G
+  };
+
+  /// What patches add to the stress of a cell, beside their pressure, and to its tangent. The cell has
+  /// no target.
+  template <typename Number>
+  class PatchCell
+  {
+  public:
+    PatchCell(const CorotationalCell<Number> &cell, const StretchedPatch<Number> &patch)
+        : cell(cell), thin(cell.stretch_factor(), cell.product_of_sums()),
+          guard(patch.elasticity, cell.stretch_factor(), cell.product_of_sums()), patch(patch)
+    {
+    }
+
+    const ThinTrace<Number> &
+    get_thin() const
+    {
+      return thin;
+    }
+
+    /// G [Pa].
+    Number
+    guard_energy() const
+    {
+      return guard.acts() ? guard.energy() : Number(0.);
+    }
+
+    /// R^T dG/dF [Pa].
+    Matrix3<Number>
+    guard_force() const
+    {
+      return guard.acts() ? guard.force() : Matrix3<Number>{};
+    }
+
+    /// R^T P for R^T F = M, where this is the pressure of the cell.
+    Matrix3<Number>
+    force(const Matrix3<Number> &M, const Number &pressure) const
+    {
+      return combine(Number(1.), combine(pressure, thin.gradient(), patch.beta, guard_force()),
+                     patch.by_F, M);
+    }
+
+    /// R^T dP for R^T dF = M, beside what turning R does with the pressure and what couples all nodes of the
+    /// patch; a convex one lacks what may make it indefinite.
+    Matrix3<Number>
+    response(const Matrix3<Number> &M, const Number &pressure, const bool convex) const
+    {
+      Matrix3<Number> of_trace = thin.gradient();
+      for (int i = 0; i < 3; ++i)
+        of_trace[i][i] += Number(1.);
+      Matrix3<Number> dP
+          = combine(patch.by_F, M, patch.stiffness * contract(of_trace, M), of_trace);
+      if (convex)
+        return dP;
+      const Matrix3<Number> Omega = cell.turn(M);
+      const Matrix3<Number> dS
+          = symmetric_part(combine(Number(1.), M, Number(-1.), Omega * cell.stretch_factor()));
+      if (thin.acts())
+        dP = combine(Number(1.), dP, pressure, thin.response(dS, Omega));
+      if (guard.acts())
+        dP = combine(Number(1.), dP, patch.beta,
+                     combine(Number(1.), Omega * guard.force(), Number(1.), guard.response(dS)));
+      return dP;
+    }
+
+  private:
+    CorotationalCell<Number> cell;
+    ThinTrace<Number>        thin;
+    StretchGuard<Number>     guard;
+    StretchedPatch<Number>   patch;
+  };
+} // namespace Exemplar
+
+#endif
