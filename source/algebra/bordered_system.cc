@@ -61,6 +61,13 @@ namespace Exemplar
       }
 
       void
+      factorize_roughly(const Vector &positions) override
+      {
+        inverse_columns.clear();
+        A->factorize_roughly(positions);
+      }
+
+      void
       solve(BorderedVector &vector, const std::vector<double> &lower) override
       {
         const std::size_t n = vector.positions.size();

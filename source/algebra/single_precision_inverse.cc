@@ -4,55 +4,33 @@
 
 namespace Exemplar
 {
-  namespace
-  {
-    // Nanoseconds on the machine of doc/speed.md; only their ratio matters.
-
-    double
-    factorization_cost(const FactorPanels &panels)
-    {
-      double operations = 0.;
-      for (std::size_t s = 0; s + 1 < panels.first_column.size(); ++s)
-      {
-        const auto n_rows = static_cast<double>(panels.first_row[s + 1] - panels.first_row[s]);
-        for (int k = 0; k < panels.first_column[s + 1] - panels.first_column[s]; ++k)
-          operations += (n_rows - k) * (n_rows - k);
-      }
-      return 0.022 * operations + 7. * static_cast<double>(panels.values.size());
-    }
-
-    double
-    iteration_cost(const FactorPanels &panels)
-    {
-      return 60. * static_cast<double>(panels.permutation.size())
-             + 0.25 * static_cast<double>(panels.values.size());
-    }
-  } // namespace
-
-  SinglePrecisionInverse::SinglePrecisionInverse(FactorPanels panels)
-      : relative_cost(factorization_cost(panels) / iteration_cost(panels)),
-        factor(std::move(panels))
-  {
-  }
-
   void
-  SinglePrecisionInverse::apply(std::vector<double> &vector)
+  apply_in_single_precision(MultifrontalFactor<float> &factor, std::vector<double> &columns)
   {
-    // of forces that shrink by ten orders of magnitude single precision would lose the last
-    const double scale = max_entry(vector);
-    if (scale == 0.)
-      return;
-    right_side.resize(vector.size());
-    for (std::size_t i = 0; i < vector.size(); ++i)
-      right_side[i] = static_cast<float>(vector[i] / scale);
-    factor.solve(right_side);
-    for (std::size_t i = 0; i < vector.size(); ++i)
-      vector[i] = scale * right_side[i];
+    const std::size_t   n = factor.get_structure().n(), n_columns = n == 0 ? 0 : columns.size() / n;
+    std::vector<double> scales(n_columns);
+    std::vector<float>  rounded(columns.size());
+    for (std::size_t k = 0; k < n_columns; ++k)
+    {
+      // of forces that shrink by ten orders of magnitude single precision would lose the last
+      double *column = columns.data() + k * n;
+      scales[k]      = max_entry(column, column + n);
+      for (std::size_t i = 0; i < n && scales[k] != 0.; ++i)
+        rounded[k * n + i] = static_cast<float>(column[i] / scales[k]);
+    }
+    factor.solve(rounded);
+    for (std::size_t k = 0; k < n_columns; ++k)
+      for (std::size_t i = 0; i < n; ++i)
+        columns[k * n + i] = scales[k] * rounded[k * n + i];
   }
 
-  std::size_t
-  SinglePrecisionInverse::memory_consumption() const
+  double
+  SinglePrecisionInverse::cost_in_iterations(std::size_t /*n_columns*/) const // they cost little
   {
-    return factor.memory_consumption() + sizeof(float) * right_side.capacity();
+    // nanoseconds on the machine of doc/speed.md, of which only the ratio matters
+    const FactorStructure &structure = factor->get_structure();
+    const auto             n         = static_cast<double>(structure.n()),
+               n_values              = static_cast<double>(structure.n_values());
+    return (0.022 * structure.n_operations + 7. * n_values) / (60. * n + 0.25 * n_values);
   }
 } // namespace Exemplar

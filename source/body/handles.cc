@@ -208,6 +208,8 @@ namespace Exemplar
     for (const Handle &handle : handles)
       if (handle.name == name)
         throw UserError("There is a handle '" + name + "' already. Give another name.");
+    if (!motion)
+      throw UserError("Handle '" + name + "' has no motion. Give a function of place and time.");
     const std::string               key = "Handles/" + name;
     const std::vector<unsigned int> all = fe_space.numbering().with_middles(nodes);
     handles.push_back({ name,

@@ -101,7 +101,13 @@ namespace Exemplar::Python
                             "poses=[...]).");
         return is_list(entry) ? join(entry, "; ", of_value) : of_value(entry);
       };
-      return is_list(value) ? join(value, separator(path, key), of_entry) : of_value(value);
+      if (!is_list(value))
+        return of_value(value);
+      const auto entries = py::reinterpret_borrow<py::sequence>(value);
+      // weights are a list, or a list of lists, one a region
+      const bool is_by_region
+          = key == "Prescribed weights" && py::len(entries) > 0 && is_list(py::object(entries[0]));
+      return join(value, is_by_region ? " | " : separator(path, key), of_entry);
     }
 
     /// Sections of a dictionary that name their subsections: who leaves out Names has listed all.

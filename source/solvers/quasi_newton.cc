@@ -57,8 +57,8 @@ namespace Exemplar
       predict(state, step_size, trial, evaluation);
       // within a step its memory is that of half a step, so nobody may stop it here
       report_iteration(potential, evaluation, trial, report);
-      find_metric(trial);
-      iterate(state, trial, evaluation, report);
+      find_metric(state, step_size, trial);
+      iterate(state, step_size, trial, evaluation, report);
     }
     catch (const SolverFailure &failure)
     {
@@ -94,14 +94,15 @@ namespace Exemplar
     potential.set_time(trial.time, trial);
     prediction.predict(accepted, step_size, trial);
     keep_within_max_step(potential, accepted.positions, trial.positions);
-    rebuild_metric();
+    rebuild_metric(accepted, step_size);
     potential.minimize_over_weights(trial, RotationUse::update, evaluation);
   }
 
   void
   QuasiNewton::make_metric(const Vector &positions, const std::vector<double> &weights)
   {
-    system.factorize(positions, weights, 1.);
+    metric.clear(); // whose memory the next one takes
+    system.factorize_metric(positions, weights);
     StepClock::Scope scope(clock, Phase::factorize);
     potential.get_cells().get_field().node_rotations(node_rotations);
     metric.reinit(system.bordered(), node_rotations);
@@ -109,15 +110,22 @@ namespace Exemplar
   }
 
   void
-  QuasiNewton::renew_metric(const State &trial)
+  QuasiNewton::renew_metric(const State &start, const double step_size, const State &trial)
   {
     make_metric(trial.positions, trial.weights);
-    history = { trial.positions, trial.weights, potential.mass_factor(), 0, 0, 0 };
+    history = { trial.positions,
+                trial.weights,
+                potential.changes_between_steps() ? start : State(),
+                step_size,
+                potential.mass_factor(),
+                0,
+                0,
+                0 };
     lbfgs.clear();
   }
 
   void
-  QuasiNewton::find_metric(const State &trial)
+  QuasiNewton::find_metric(const State &start, const double step_size, const State &trial)
   {
     const auto is_slow = [this]
     {
@@ -128,7 +136,7 @@ namespace Exemplar
     // where Newton's method has taken over, there is no metric, but steps since it was made
     if (history.positions.size() == 0 || history.mass_factor != potential.mass_factor()
         || is_slow())
-      renew_metric(trial);
+      renew_metric(start, step_size, trial);
     else
     {
       StepClock::Scope scope(clock, Phase::solve);
@@ -138,13 +146,17 @@ namespace Exemplar
   }
 
   void
-  QuasiNewton::rebuild_metric()
+  QuasiNewton::rebuild_metric(const State &accepted, const double step_size)
   {
     if (history.positions.size() == 0 || !metric.empty()
         || history.mass_factor != potential.mass_factor())
       return;
+    if (history.start.positions.size() > 0)
+      potential.begin_step(history.start, history.step_size);
     potential.get_cells().get_field().update_rotations(history.positions);
     make_metric(history.positions, history.weights);
+    if (history.start.positions.size() > 0)
+      potential.begin_step(accepted, step_size);
   }
 
   double
@@ -245,6 +257,7 @@ namespace Exemplar
 
   void
   QuasiNewton::iterate(const State &accepted,
+                       const double step_size,
                        State       &trial,
                        Evaluation  &evaluation,
                        SolveReport &report)
@@ -270,7 +283,7 @@ namespace Exemplar
           potential.minimize_over_weights(trial, RotationUse::update, evaluation);
         }
         free_dofs.gather(evaluation.gradient, iteration.gradient);
-        renew_metric(trial);
+        renew_metric(accepted, step_size, trial);
         n_with_metric = 0;
         continue;
       }
@@ -307,6 +320,8 @@ namespace Exemplar
     MetricHistory   of_body    = history;
     Lbfgs           body_lbfgs = lbfgs;
     of_body.positions          = whole(free_dofs.exchange(), history.positions);
+    for (Vector *field : of_body.start.nodal_fields())
+      *field = whole(free_dofs.exchange(), *field);
     body_lbfgs.map([&](const std::vector<double> &vector) { return free_dofs.whole(vector); });
     archive &of_body &body_lbfgs;
     prediction.save(archive);
@@ -318,6 +333,8 @@ namespace Exemplar
     const FreeDofs   &free_dofs = potential.get_free_dofs();
     archive &history &lbfgs;
     history.positions = part(free_dofs.exchange(), history.positions);
+    for (Vector *field : history.start.nodal_fields())
+      *field = part(free_dofs.exchange(), *field);
     lbfgs.map([&](const std::vector<double> &vector) { return free_dofs.part(vector); });
     prediction.load(archive);
     metric.clear();

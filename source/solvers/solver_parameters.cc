@@ -14,6 +14,7 @@ namespace Exemplar
 
     const EnumTable<LinearSolver> linear_solvers = { { LinearSolver::automatic, "auto" },
                                                      { LinearSolver::cholesky, "cholesky" },
+                                                     { LinearSolver::cholmod, "cholmod" },
                                                      { LinearSolver::iterative, "iterative" },
                                                      { LinearSolver::umfpack, "umfpack" } };
 
@@ -56,11 +57,12 @@ namespace Exemplar
         "velocities predict, for dynamic scenes. Not used by other methods.");
     keys.add(
         "Linear solver", linear_solver, linear_solvers,
-        "cholesky: CHOLMOD factorises the positions' block, the weights follow from a "
+        "cholesky: the positions' block is factorised, the weights follow from a "
         "dense Schur complement; iterative: the same with conjugate gradients and algebraic "
-        "multigrid in place of the factor, for large meshes; umfpack: the whole bordered matrix "
-        "at once, for checking; auto: cholesky, or iterative where that is faster by CHOLMOD's "
-        "count of operations, in compact bodies from about 40,000 degrees of freedom.");
+        "multigrid in place of the factor, for large meshes; cholmod: the factor is CHOLMOD's, for "
+        "checking; umfpack: the whole bordered matrix at once, for checking; auto: cholesky, or "
+        "iterative where that is faster by the count of operations, in compact bodies from about "
+        "40,000 degrees of freedom.");
     keys.leave_subsection();
   }
 

@@ -21,21 +21,35 @@ namespace Exemplar
                         const std::vector<double> &weights,
                         const double               convexity)
   {
+    assemble(positions, weights, convexity);
+    StepClock::Scope scope(clock, Phase::factorize);
+    system->factorize(positions);
+  }
+
+  void
+  StepSystem::factorize_metric(const Vector &positions, const std::vector<double> &weights)
+  {
+    assemble(positions, weights, 1.);
+    StepClock::Scope scope(clock, Phase::factorize);
+    system->factorize_roughly(positions);
+  }
+
+  void
+  StepSystem::assemble(const Vector              &positions,
+                       const std::vector<double> &weights,
+                       const double               convexity)
+  {
     if (pattern_version != potential.matrix_pattern().version)
     {
       system.reset(); // its memory first
       system          = make_system();
       pattern_version = potential.matrix_pattern().version;
     }
-    {
-      StepClock::Scope scope(clock, Phase::assemble);
-      potential.assemble(positions, weights, convexity, system->matrix_values(), system->columns());
-      potential.get_free_dofs().assemble_columns(system->columns());
-    }
-    StepClock::Scope scope(clock, Phase::factorize);
+    StepClock::Scope scope(clock, Phase::assemble);
+    potential.assemble(positions, weights, convexity, system->matrix_values(), system->columns());
+    potential.get_free_dofs().assemble_columns(system->columns());
     ++factorizations;
     factor_of = potential.get_free_dofs().version();
-    system->factorize(positions);
   }
 
   BorderedVector

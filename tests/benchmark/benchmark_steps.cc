@@ -178,9 +178,24 @@ namespace Exemplar
         if (peak_kib == 0.)
           peak_kib = memory().VmHWM; // before there is a unit
         if (!options.no_unit)
-          unit.measure(problem);
+          unit.measure(problem_of_unit());
         else
           peak_kib = memory().VmHWM;
+      }
+
+      /// The unit is that of the scene with cells, whatever its dilatation is.
+      Problem &
+      problem_of_unit()
+      {
+        if (problem.body.patches.size() == 0)
+          return problem;
+        if (with_cells == nullptr)
+        {
+          std::vector<std::string> overrides = options.overrides;
+          overrides.emplace_back("Model/Dilatation=cells");
+          with_cells.reset(new Problem(problem_of(options.scene_file, overrides)));
+        }
+        return *with_cells;
       }
 
       void
@@ -255,14 +270,14 @@ namespace Exemplar
       }
 
       void
-      add_machine(Json &json) const
+      add_machine(Json &json)
       {
         const BlasInfo blas = blas_info();
         json["blas"]        = blas.library;
         json["blas_core"]   = blas.core;
         if (options.no_unit)
           return;
-        const FactorSize size  = factor_size(problem.potential.matrix_pattern());
+        const FactorSize size  = factor_size(problem_of_unit().potential.matrix_pattern());
         json["factor_gflop"]   = 1e-9 * size.flops;
         json["factor_mib"]     = size.bytes / 1024. / 1024.;
         json["factor_gflop_s"] = 1e-9 * size.flops / median(unit.factorize).cpu;
@@ -276,6 +291,7 @@ namespace Exemplar
       Problem                    problem;
       Diagnostics                diagnostics{ problem };
       std::unique_ptr<Reference> reference;
+      std::unique_ptr<Problem>   with_cells; ///< null unless the unit needs it
       Unit                       unit;
       std::vector<Duration>      steps;
       PhaseSeconds               seconds{};

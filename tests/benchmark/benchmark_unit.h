@@ -46,7 +46,7 @@ namespace Exemplar
   Duration
   median(const std::vector<Duration> &durations);
 
-  /// One factorisation and one solve of the scene's matrix.
+  /// One factorisation and one solve of a problem's matrix by CHOLMOD.
   class Unit
   {
   public:
@@ -56,7 +56,7 @@ namespace Exemplar
     {
       if (!matrix)
       {
-        matrix = make_cholesky_operator();
+        matrix = make_cholmod_operator();
         matrix->reinit(problem.potential.matrix_pattern());
         measure_once(problem); // touches the factor's memory for the first time
       }

@@ -7,8 +7,8 @@ on a quiet machine, after `ninja -C build/release benchmark_steps`. SCENE is a n
 growth-examples; by default all but those of a million cells, which --large adds. --steps measures so many steps of
 each scene only. --set applies to all scenes.
 
-A number is the median of three runs. The unit is one CHOLMOD factorisation and one solve of the scene's own matrix, so
-ratios to it can be compared between machines. Errors are those of each step against the step solved to 1e-11 from the
+A number is the median of three runs. The unit is one CHOLMOD factorisation and one solve of the scene's matrix with
+`Dilatation = cells`, so that ratios to it can be compared between machines and elements. Errors are those of each step against the step solved to 1e-11 from the
 same state, relative to its greatest displacement, and come from a run of their own. The whole results, results.json,
 and how costs grow, growth_cells.csv and growth_examples.csv, go to DIRECTORY (output/benchmarks); those in doc/studies
 are what doc/scripts/draw_plots.py draws. baseline.json, beside this file, holds ratios only. The exit status is 1 if a

@@ -92,6 +92,15 @@ class Scenes(unittest.TestCase):
         by_array = solved(BAR, poses=[twisted(box()[0])])
         np.testing.assert_allclose(by_formulas.weights, by_array.weights, atol=1e-9)
 
+    def test_weights_by_region_are_lists_of_lists(self):
+        nodes, cells = box()
+        ids = np.where(np.arange(len(cells)) % 2 == 0, 1, 2)
+        by_text, by_lists = ({**without_mesh(BAR), "Examples": {
+            "Pose functions": [["x", "y+0.2*x*z", "z-0.2*x*y"]], "Include rest pose": True, "Weights": "prescribed",
+            "Weights per region": True, "Prescribed weights": weights}} for weights in ("1-t; t | 1; 0", [["1-t", "t"], [1, 0]]))
+        np.testing.assert_array_equal(solved(by_lists, mesh=(nodes, cells, ids)).positions,
+                                      solved(by_text, mesh=(nodes, cells, ids)).positions)
+
     def test_materials_by_cell(self):
         nodes, cells = box()
         soft = {**without_mesh(BAR), "Material": {"region 2": {"Young's modulus": 10}}}

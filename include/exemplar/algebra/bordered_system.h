@@ -71,6 +71,13 @@ namespace Exemplar
     factorize(const Vector &positions)
         = 0;
 
+    /// As SpdOperator::factorize_roughly().
+    virtual void
+    factorize_roughly(const Vector &positions)
+    {
+      factorize(positions);
+    }
+
     /// Overwrite the right side by the solution, with changes of the weights not below `lower`
     /// (empty: no bounds). Throws SolverFailure if the system is singular.
     virtual void

@@ -92,6 +92,13 @@ namespace Exemplar
     factorize(const Vector &positions)
         = 0;
 
+    /// The same where solve() and keep() need a few digits only, as those of a metric.
+    virtual void
+    factorize_roughly(const Vector &positions)
+    {
+      factorize(positions);
+    }
+
     /// Overwrite the columns (n entries each, one after the other) by A^-1 times them.
     /// Throws SolverFailure if the matrix turns out not to be positive definite only here.
     virtual void
@@ -104,9 +111,14 @@ namespace Exemplar
     keep() const = 0;
   };
 
-  /// A sparse Cholesky factorisation: CHOLMOD's, spd_operator_cholmod.cc.
+  /// A sparse Cholesky factorisation in the order that CHOLMOD finds, by MultifrontalFactor; no result
+  /// depends on the number of threads.
   std::unique_ptr<SpdOperator>
-  make_cholesky_operator();
+  make_cholesky_operator(unsigned int n_threads = 1);
+
+  /// CHOLMOD's own, for checking.
+  std::unique_ptr<SpdOperator>
+  make_cholmod_operator();
 
   /// Conjugate gradients to a residual of `tolerance` times the right side, preconditioned
   /// with ML's smoothed aggregation, whose coarse spaces hold the six rigid motions of the

@@ -50,8 +50,10 @@ namespace Exemplar
     /// Where the metric was made, and how it has served since.
     struct MetricHistory
     {
-      Vector              positions;            ///< [m]; empty: none was made
-      std::vector<double> weights;              ///< then, which some convex tangents know
+      Vector              positions; ///< [m]; empty: none was made
+      std::vector<double> weights;   ///< then, which some convex tangents know
+      State               start; ///< of the step, if the energy changes between steps; else empty
+      double              step_size       = 0.; ///< [s]
       double              mass_factor     = 0.; ///< IncrementalPotential::mass_factor() then
       unsigned int        steps           = 0;  ///< since then
       unsigned int        iterations      = 0;  ///< in these steps
@@ -61,7 +63,8 @@ namespace Exemplar
       void
       serialize(Archive &archive, unsigned int /*version*/)
       {
-        archive &positions &weights &mass_factor &steps &iterations &last_iterations;
+        archive &positions &weights &start &step_size &mass_factor &steps &iterations
+            &last_iterations;
       }
     };
 
@@ -82,15 +85,15 @@ namespace Exemplar
     make_metric(const Vector &positions, const std::vector<double> &weights);
 
     void
-    renew_metric(const State &trial);
+    renew_metric(const State &start, double step_size, const State &trial);
 
     /// Have a metric for this step: the last, or a new one if that has become slow.
     void
-    find_metric(const State &trial);
+    find_metric(const State &start, double step_size, const State &trial);
 
     /// After a resume: rotations are functions of the positions.
     void
-    rebuild_metric();
+    rebuild_metric(const State &accepted, double step_size);
 
     /// Find the step at the trial; returns the slope along it.
     double
@@ -122,7 +125,11 @@ namespace Exemplar
                 Iteration         &iteration) const;
 
     void
-    iterate(const State &accepted, State &trial, Evaluation &evaluation, SolveReport &report);
+    iterate(const State &accepted,
+            double       step_size,
+            State       &trial,
+            Evaluation  &evaluation,
+            SolveReport &report);
 
     const SolverParameters parameters;
     IncrementalPotential  &potential;

@@ -30,6 +30,7 @@ namespace Exemplar
   {
     automatic,
     cholesky,
+    cholmod,
     iterative,
     umfpack
   };

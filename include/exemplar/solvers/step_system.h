@@ -33,6 +33,11 @@ namespace Exemplar
     void
     factorize(const Vector &positions, const std::vector<double> &weights, double convexity);
 
+    /// The same with the convex tangent and few digits: for BorderedSystem::keep() and the columns of
+    /// weights, not for steps.
+    void
+    factorize_metric(const Vector &positions, const std::vector<double> &weights);
+
     /// The step that takes the derivatives of `evaluation`, made at `at`, to zero by the last
     /// factor. Throws SolverFailure if the weights are not determined.
     BorderedVector
@@ -93,6 +98,9 @@ namespace Exemplar
     memory_of_weights() const;
 
   private:
+    void
+    assemble(const Vector &positions, const std::vector<double> &weights, double convexity);
+
     IncrementalPotential           &potential;
     const MakeSystem                make_system;
     std::unique_ptr<BorderedSystem> system;

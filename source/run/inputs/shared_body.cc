@@ -97,9 +97,9 @@ namespace Exemplar
       throw UserError(scene.name + ": " + what + " is for one process. " + remedy
                       + ", or start without mpirun.");
     };
-    if (scene.solver.linear_solver == LinearSolver::cholesky
-        || scene.solver.linear_solver == LinearSolver::umfpack)
-      refuse("Solver/Linear solver = cholesky or umfpack", "Set it to auto or iterative");
+    if (scene.solver.linear_solver != LinearSolver::automatic
+        && scene.solver.linear_solver != LinearSolver::iterative)
+      refuse("Solver/Linear solver = cholesky, cholmod or umfpack", "Set it to auto or iterative");
     if (scene.examples.in_use() && scene.examples.weights_per_region
         && scene.examples.region_blend_length > 0.)
       refuse("Examples/Region blend length", "Set it to 0");

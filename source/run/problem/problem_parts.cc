@@ -118,7 +118,9 @@ namespace Exemplar
         return nullptr;
       const bool may_choose
           = solver.linear_solver == LinearSolver::automatic && has_iterative_operator();
-      auto matrix = make_cholesky_operator();
+      auto matrix = solver.linear_solver == LinearSolver::cholmod
+                        ? make_cholmod_operator()
+                        : make_cholesky_operator(solver.n_threads);
       try
       {
         matrix->reinit(pattern);

@@ -147,8 +147,12 @@ namespace Exemplar::Testing
     {
       Scene      scene(static_bar), same(static_bar);
       const auto let_go = [](Handles &handles) { handles.let_go("left"), handles.let_go("right"); };
+      const auto stay   = [](const std::vector<dealii::Point<3>> &rest, double)
+      { return std::vector<dealii::Tensor<1, 3>>(rest.size()); };
       const auto grab_all
-          = [&](Handles &handles) { handles.grab("all", nodes_beyond(scene.problem, -1.), {}); };
+          = [&](Handles &handles) { handles.grab("all", nodes_beyond(scene.problem, -1.), stay); };
+      const auto grab_without_motion
+          = [&](Handles &handles) { handles.grab("hand", nodes_beyond(scene.problem, 3.9), {}); };
       const auto let_go_another = [](Handles &handles) { handles.let_go("middle"); };
       advance(scene.problem, 1);
       advance(same.problem, 1);
@@ -156,6 +160,8 @@ namespace Exemplar::Testing
                       "6 of 6 rigid motions free");
       expect_contains(message_of([&] { scene.problem.change_handles(grab_all); }),
                       "nothing to solve");
+      expect_contains(message_of([&] { scene.problem.change_handles(grab_without_motion); }),
+                      "Handle 'hand' has no motion.");
       expect_contains(message_of([&] { scene.problem.change_handles(let_go_another); }),
                       "There is no handle 'middle'. Handles/Names has: left, right.");
       advance(scene.problem, 1);

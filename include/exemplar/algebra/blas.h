@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_blas_h
+#define exemplar_blas_h
+
+// Two functions of BLAS for both precisions. Matrices are stored by columns, `stride` apart. No deal.II
+// header here: see matrix3.h.
+
+extern "C"
+{
+  void
+  dgemm_(const char *,
+         const char *,
+         const int *,
+         const int *,
+         const int *,
+         const double *,
+         const double *,
+         const int *,
+         const double *,
+         const int *,
+         const double *,
+         double *,
+         const int *);
+  void
+  sgemm_(const char *,
+         const char *,
+         const int *,
+         const int *,
+         const int *,
+         const float *,
+         const float *,
+         const int *,
+         const float *,
+         const int *,
+         const float *,
+         float *,
+         const int *);
+  void
+  dtrsm_(const char *,
+         const char *,
+         const char *,
+         const char *,
+         const int *,
+         const int *,
+         const double *,
+         const double *,
+         const int *,
+         double *,
+         const int *);
+  void
+  strsm_(const char *,
+         const char *,
+         const char *,
+         const char *,
+         const int *,
+         const int *,
+         const float *,
+         const float *,
+         const int *,
+         float *,
+         const int *);
+}
+
+namespace Exemplar::Blas
+{
+  /// Of the first entry, by columns.
+  template <typename Number>
+  struct Matrix
+  {
+    Number *values;
+    int     stride;
+  };
+
+  /// C = beta C - op(A) op(B), with m x n entries of C and k columns of op(A); op is the transpose
+  /// where `transposed` says "T".
+  template <typename Number>
+  void
+  subtract_product(const char          *transposed_A,
+                   const char          *transposed_B,
+                   const int            m,
+                   const int            n,
+                   const int            k,
+                   Matrix<const Number> A,
+                   Matrix<const Number> B,
+                   const Number         beta,
+                   Matrix<Number>       C)
+  {
+    const Number minus_one = -1.;
+    if constexpr (sizeof(Number) == sizeof(double))
+      dgemm_(transposed_A, transposed_B, &m, &n, &k, &minus_one, A.values, &A.stride, B.values,
+             &B.stride, &beta, C.values, &C.stride);
+    else
+      sgemm_(transposed_A, transposed_B, &m, &n, &k, &minus_one, A.values, &A.stride, B.values,
+             &B.stride, &beta, C.values, &C.stride);
+  }
+
+  /// Overwrite the m x n matrix B by op(L)^-1 B, with `side` "L", or by B op(L)^-1 with "R"; L is a
+  /// lower triangle.
+  template <typename Number>
+  void
+  solve_triangle(const char          *side,
+                 const char          *transposed,
+                 const int            m,
+                 const int            n,
+                 Matrix<const Number> L,
+                 Matrix<Number>       B)
+  {
+    const Number one = 1.;
+    if constexpr (sizeof(Number) == sizeof(double))
+      dtrsm_(side, "L", transposed, "N", &m, &n, &one, L.values, &L.stride, B.values, &B.stride);
+    else
+      strsm_(side, "L", transposed, "N", &m, &n, &one, L.values, &L.stride, B.values, &B.stride);
+  }
+} // namespace Exemplar::Blas
+
+#endif

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_cholmod_analysis_h
+#define exemplar_cholmod_analysis_h
+
+#include <exemplar/algebra/factor_structure.h>
+#include <exemplar/algebra/spd_operator.h>
+
+#include <cholmod.h>
+#include <string>
+
+namespace Exemplar
+{
+  /// CHOLMOD's state, set for supernodal factors and silence.
+  class CholmodCommon
+  {
+  public:
+    CholmodCommon();
+    ~CholmodCommon();
+
+    CholmodCommon(const CholmodCommon &) = delete;
+    CholmodCommon &
+    operator=(const CholmodCommon &)
+        = delete;
+
+    cholmod_common *
+    operator&()
+    {
+      return &common;
+    }
+
+    const cholmod_common *
+    operator->() const
+    {
+      return &common;
+    }
+
+    /// Throws SolverFailure if CHOLMOD's last call, its `what`, has failed.
+    void
+    check(const std::string &what) const;
+
+  private:
+    cholmod_common common{};
+  };
+
+  /// The matrix with these values, which may be null, as CHOLMOD sees it; nothing is copied.
+  cholmod_sparse
+  cholmod_view(const SymmetricPattern &pattern, const double *values);
+
+  /// CHOLMOD's analysis of a pattern, in the order of which it expects the least fill. The factor is
+  /// the caller's to free. Throws SolverFailure.
+  cholmod_factor *
+  analyze(const SymmetricPattern &pattern, CholmodCommon &common);
+
+  /// The structure of the factor that CHOLMOD has analysed for a pattern.
+  FactorStructure
+  factor_structure(const SymmetricPattern &pattern,
+                   const cholmod_factor   &factor,
+                   const CholmodCommon    &common);
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_factor_structure_h
+#define exemplar_factor_structure_h
+
+#include <cstddef>
+#include <vector>
+
+// Where the entries of a Cholesky factor stand. No deal.II header here: see matrix3.h.
+
+namespace Exemplar
+{
+  /// L of P A P^T = L L^T by supernodes, consecutive columns with the same rows below their triangle.
+  /// The columns of a supernode are a dense panel, stored one after the other; the supernode's own
+  /// columns are its first rows. A supernode's parent in the elimination tree is that of its first row
+  /// below the triangle; children come before their parents.
+  ///
+  /// Subtrees of the tree have no row in common but rows of the supernodes above them, the top. So that
+  /// each may be solved for alone, vectors have a tail: entry n + i stands for row tail[i], as one
+  /// subtree sees it.
+  struct FactorStructure
+  {
+    /// Supernodes begin to end - 1 and their entries of the tail.
+    struct Subtree
+    {
+      int begin, end;
+      int begin_of_tail, end_of_tail;
+    };
+
+    int
+    n() const
+    {
+      return static_cast<int>(permutation.size());
+    }
+
+    int
+    n_supernodes() const
+    {
+      return static_cast<int>(parent.size());
+    }
+
+    int
+    n_columns(const int s) const
+    {
+      return first_column[s + 1] - first_column[s];
+    }
+
+    int
+    n_rows(const int s) const
+    {
+      return static_cast<int>(first_row[s + 1] - first_row[s]);
+    }
+
+    std::size_t
+    n_values() const
+    {
+      return first_value.back();
+    }
+
+    /// In bytes.
+    std::size_t
+    memory_consumption() const;
+
+    std::vector<int>         permutation;  ///< row i of L is row permutation[i] of A
+    std::vector<int>         first_column; ///< of each supernode, and n
+    std::vector<std::size_t> first_row;    ///< where its rows begin in `rows`, and the end
+    std::vector<std::size_t> first_value;  ///< where its panel begins among the values, and the end
+    std::vector<int>         rows;         ///< ascending; those of the top in the tail for subtrees
+    std::vector<int>         parent;       ///< of each supernode; -1: none
+    std::vector<int> place_in_parent;     ///< of each of `rows` below the triangle: its place among
+                                          ///< the rows of the parent
+    std::vector<std::size_t> first_entry; ///< where a supernode's entries of A begin, and the end
+    std::vector<int>         entry;       ///< position of the entry on A's pattern
+    std::vector<int>         place;       ///< where it stands in the panel
+    std::vector<Subtree>     subtrees;    ///< ascending
+    std::vector<int>         top;         ///< the supernodes above them, ascending
+    std::vector<int>         tail;
+    double                   n_operations = 0.; ///< of a factorisation
+  };
+} // namespace Exemplar
+
+#endif

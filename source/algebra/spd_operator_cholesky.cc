@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/cholmod_analysis.h>
+#include <exemplar/algebra/long_vectors.h>
+#include <exemplar/algebra/single_precision_inverse.h>
+#include <exemplar/algebra/spd_operator.h>
+
+#include <optional>
+
+namespace Exemplar
+{
+  namespace
+  {
+    std::shared_ptr<const FactorStructure>
+    analyzed(const SymmetricPattern &pattern)
+    {
+      CholmodCommon         common;
+      cholmod_factor       *factor = analyze(pattern, common);
+      const FactorStructure result = factor_structure(pattern, *factor, common);
+      cholmod_free_factor(&factor, &common);
+      return std::make_shared<const FactorStructure>(result);
+    }
+
+    /// r -= A x, of a matrix of which the lower triangle is given.
+    void
+    subtract_product(const SymmetricPattern    &pattern,
+                     const std::vector<double> &values,
+                     const double              *x,
+                     double                    *r)
+    {
+      for (unsigned int j = 0; j < pattern.n(); ++j)
+      {
+        const int diagonal = pattern.column_start[j];
+        double    sum      = values[diagonal] * x[j];
+        for (int k = diagonal + 1; k < pattern.column_start[j + 1]; ++k)
+        {
+          sum += values[k] * x[pattern.row[k]];
+          r[pattern.row[k]] -= values[k] * x[j];
+        }
+        r[j] -= sum;
+      }
+    }
+
+    class CholeskyOperator : public SpdOperator
+    {
+    public:
+      explicit CholeskyOperator(const unsigned int n_threads) : n_threads(n_threads) {}
+
+      OperatorTraits
+      traits() const override
+      {
+        OperatorTraits traits = { "cholesky", structure->n_operations, 0.,
+                                  sizeof(int) * (pattern.row.size() + pattern.column_start.size())
+                                      + sizeof(double) * matrix_values.size() };
+        if (factor)
+          traits.pivot_ratio = factor->pivot_ratio();
+        else if (rough_factor != nullptr)
+          traits.pivot_ratio = rough_factor->pivot_ratio();
+        traits.bytes += factor         ? factor->memory_consumption()
+                        : rough_factor ? rough_factor->memory_consumption()
+                                       : 0;
+        return traits;
+      }
+
+      void
+      reinit(const SymmetricPattern &new_pattern) override
+      {
+        pattern = new_pattern;
+        matrix_values.assign(pattern.n_values(), 0.);
+        rough_factor.reset();
+        factor.reset();
+        structure = analyzed(pattern);
+      }
+
+      std::vector<double> &
+      values() override
+      {
+        return matrix_values;
+      }
+
+      void
+      factorize(const Vector & /*positions*/) override
+      {
+        rough_factor.reset();
+        if (!factor)
+          factor.emplace(structure, n_threads);
+        if (factor->factorize(matrix_values))
+          return;
+        factor.reset();
+        throw indefinite_matrix();
+      }
+
+      void
+      factorize_roughly(const Vector &positions) override
+      {
+        factor.reset();
+        if (rough_factor.use_count() != 1) // the last one is kept
+          rough_factor = std::make_shared<MultifrontalFactor<float>>(structure, n_threads);
+        if (!rough_factor->factorize(matrix_values)) // in single precision, at least
+          factorize(positions);
+      }
+
+      void
+      solve(std::vector<double> &columns) override
+      {
+        if (factor)
+          factor->solve(columns);
+        else
+          solve_roughly(columns);
+      }
+
+      std::unique_ptr<KeptInverse>
+      keep() const override
+      {
+        if (!factor)
+          return std::make_unique<SinglePrecisionInverse>(rough_factor);
+        auto rounded = std::make_shared<MultifrontalFactor<float>>(structure, n_threads);
+        rounded->assign(factor->get_values());
+        return std::make_unique<SinglePrecisionInverse>(std::move(rounded));
+      }
+
+    private:
+      /// By iterative refinement, of which each step gains the digits of single precision.
+      void
+      solve_roughly(std::vector<double> &columns)
+      {
+        const std::size_t   n        = pattern.n();
+        std::vector<double> residual = columns, step;
+        std::fill(columns.begin(), columns.end(), 0.);
+        for (unsigned int k = 0;; ++k)
+        {
+          step = residual;
+          apply_in_single_precision(*rough_factor, step);
+          add(columns, 1., step.data());
+          if (k == n_refinements)
+            return;
+          for (std::size_t begin = 0; begin < columns.size(); begin += n)
+            subtract_product(pattern, matrix_values, step.data() + begin, residual.data() + begin);
+        }
+      }
+
+      static constexpr unsigned int n_refinements = 2;
+
+      const unsigned int                         n_threads;
+      SymmetricPattern                           pattern;
+      std::vector<double>                        matrix_values;
+      std::shared_ptr<const FactorStructure>     structure;
+      std::optional<MultifrontalFactor<double>>  factor;
+      std::shared_ptr<MultifrontalFactor<float>> rough_factor; ///< instead of it
+    };
+  } // namespace
+
+  std::unique_ptr<SpdOperator>
+  make_cholesky_operator(const unsigned int n_threads)
+  {
+    return std::make_unique<CholeskyOperator>(n_threads);
+  }
+} // namespace Exemplar
