@@ -103,10 +103,10 @@ namespace Exemplar
       potential.add_terms(from.positions, evaluation);
       if (!has_factor)
         system.factorize(from.positions, from.weights, tangent == Tangent::convex ? 1. : 0.);
-      if (tangent == Tangent::exact && !has_factor && predicts_with_factors())
-        start.linearization = { from.positions, from.weights, system.n_factorizations() };
       system.add(system.solve(from, evaluation), trial.state);
       keep_within_max_step(potential, from.positions, trial.state.positions);
+      if (tangent == Tangent::exact && !has_factor && predicts_with_factors())
+        start.linearization = { from.positions, from.weights, system.n_factorizations() };
       return true;
     }
     catch (const SolverFailure &)
@@ -139,9 +139,7 @@ namespace Exemplar
   }
 
   bool
-  Newton::has_residual(const double      bound,
-                       const State      &state,
-                       const Evaluation &evaluation) const
+  Newton::has_residual(const double bound, const State &state, const Evaluation &evaluation) const
   {
     const Residual residual = potential.residual(state, evaluation);
     return max_or_nan(residual.positions, residual.weights) <= bound;
