@@ -236,6 +236,8 @@ namespace Exemplar
     structure.first_value.assign(value, value + n_super + 1);
     structure.rows.assign(rows, rows + row[n_super]);
     structure.n_operations = common->fl;
+    for (int s = 0; s < static_cast<int>(n_super); ++s)
+      structure.max_rows = std::max(structure.max_rows, structure.n_rows(s));
     find_parents(structure);
     find_places_in_parents(structure);
     find_entries(pattern, structure);

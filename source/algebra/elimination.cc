@@ -32,9 +32,11 @@ namespace Exemplar
   template <typename Number>
   Elimination<Number>::Elimination(const FactorStructure     &structure,
                                    const std::vector<double> &entries,
+                                   const double               scale,
                                    Number                    *panels)
-      : structure(structure), entries(entries), panels(panels), kernels(front_kernels<Number>()),
-        children(structure.n_supernodes()), squares(structure.n_supernodes())
+      : structure(structure), entries(entries), scale(scale), panels(panels),
+        kernels(front_kernels<Number>()), children(structure.n_supernodes()),
+        squares(structure.n_supernodes())
   {
     for (int s = 0; s < structure.n_supernodes(); ++s)
       if (structure.parent[s] >= 0)
@@ -84,7 +86,7 @@ namespace Exemplar
     Number *to = panel(s);
     std::fill(to, panels + structure.first_value[s + 1], Number(0.));
     for (std::size_t e = structure.first_entry[s]; e < structure.first_entry[s + 1]; ++e)
-      to[structure.place[e]] = static_cast<Number>(entries[structure.entry[e]]);
+      to[structure.place[e]] = static_cast<Number>(scale * entries[structure.entry[e]]);
   }
 
   template <typename Number>

@@ -2,28 +2,16 @@
 #include <exemplar/algebra/blas.h>
 #include <exemplar/algebra/elimination.h>
 #include <exemplar/algebra/front_kernels.h>
+#include <exemplar/algebra/long_vectors.h>
 #include <exemplar/algebra/multifrontal_factor.h>
 
 #include <algorithm>
 #include <cmath>
-#include <omp.h>
 
 namespace Exemplar
 {
   namespace
   {
-    int
-    max_rows(const FactorStructure &structure)
-    {
-      int maximum = 0;
-      for (int s = 0; s < structure.n_supernodes(); ++s)
-        maximum = std::max(maximum, structure.n_rows(s));
-      return maximum;
-    }
-
-    /// Numbers of a factor from which on threads are worth their start in a solve.
-    constexpr std::size_t min_values_for_threads = 400000;
-
     /// L^-1, or L^-T, for columns of a vector by supernodes begin to end - 1, by BLAS.
     template <typename Number>
     struct SeveralColumns
@@ -97,7 +85,7 @@ namespace Exemplar
   MultifrontalFactor<Number>::MultifrontalFactor(
       std::shared_ptr<const FactorStructure> new_structure, const unsigned int n_threads)
       : structure(std::move(new_structure)), n_threads(static_cast<int>(n_threads)),
-        inverse_diagonal(structure->n()), blocks(n_threads)
+        inverse_diagonal(structure->n()), workspace(n_threads)
   {
   }
 
@@ -106,20 +94,25 @@ namespace Exemplar
   MultifrontalFactor<Number>::factorize(const std::vector<double> &entries)
   {
     values.resize(structure->n_values() + FrontKernels<Number>::max_lanes);
-    const bool is_definite = Elimination<Number>(*structure, entries, values.data()).run(n_threads);
+    if constexpr (sizeof(Number) < sizeof(double))
+      scale = std::exp2(-std::ilogb(max_entry(entries)));
+    const bool is_definite
+        = Elimination<Number>(*structure, entries, scale, values.data()).run(n_threads);
     if (is_definite)
       finish();
     return is_definite;
   }
 
   template <typename Number>
-  template <typename Other>
   void
-  MultifrontalFactor<Number>::assign(const Other *factor_values)
+  MultifrontalFactor<Number>::assign(const double *panels)
   {
+    const double *end  = panels + structure->n_values();
+    const double  unit = std::exp2(-std::ilogb(max_entry(panels, end)));
+    scale              = unit * unit;
     values.resize(structure->n_values() + FrontKernels<Number>::max_lanes);
-    std::transform(factor_values, factor_values + structure->n_values(), values.begin(),
-                   [](const Other value) { return static_cast<Number>(value); });
+    std::transform(panels, end, values.begin(),
+                   [unit](const double value) { return static_cast<Number>(unit * value); });
     finish();
   }
 
@@ -144,104 +137,47 @@ namespace Exemplar
   }
 
   template <typename Number>
-  template <typename Forward, typename Backward>
-  void
-  MultifrontalFactor<Number>::run(const std::size_t n_columns,
-                                  const Forward    &forward,
-                                  const Backward   &backward)
-  {
-    const std::size_t n = structure->n(), n_tail = structure->tail.size(), stride = n + n_tail;
-    const int         n_subtrees = static_cast<int>(structure->subtrees.size());
-    const int         n_at_once  = structure->n_values() < min_values_for_threads ? 1 : n_threads;
-    for (std::size_t k = 0; k < n_columns; ++k)
-      std::fill_n(permuted.begin() + k * stride + n, n_tail, Number(0.));
-#pragma omp parallel for schedule(dynamic) num_threads(n_at_once)
-    for (int i = 0; i < n_subtrees; ++i)
-      forward(structure->subtrees[i].begin, structure->subtrees[i].end,
-              blocks[omp_get_thread_num()]);
-    for (std::size_t k = 0; k < n_columns; ++k)
-      for (std::size_t i = 0; i < n_tail; ++i)
-        permuted[k * stride + structure->tail[i]] += permuted[k * stride + n + i];
-    for (const int s : structure->top)
-      forward(s, s + 1, blocks[0]);
-    for (auto s = structure->top.rbegin(); s != structure->top.rend(); ++s)
-      backward(*s, *s + 1, blocks[0]);
-    for (std::size_t k = 0; k < n_columns; ++k)
-      for (std::size_t i = 0; i < n_tail; ++i)
-        permuted[k * stride + n + i] = permuted[k * stride + structure->tail[i]];
-#pragma omp parallel for schedule(dynamic) num_threads(n_at_once)
-    for (int i = 0; i < n_subtrees; ++i)
-      backward(structure->subtrees[i].begin, structure->subtrees[i].end,
-               blocks[omp_get_thread_num()]);
-  }
-
-  template <typename Number>
   void
   MultifrontalFactor<Number>::solve(std::vector<Number> &columns)
   {
-    const std::size_t n = structure->n(), n_columns = n == 0 ? 0 : columns.size() / n;
-    const std::size_t stride = n + structure->tail.size();
-    if (n_columns == 0)
-      return;
-    permuted.resize(n_columns * stride);
-    for (std::size_t k = 0; k < n_columns; ++k)
-      for (std::size_t i = 0; i < n; ++i)
-        permuted[k * stride + i] = columns[k * n + structure->permutation[i]];
+    const auto n_columns = static_cast<int>(columns.size() / std::max(1, structure->n()));
     if (n_columns == 1)
-      solve_one();
-    else
-      solve_several(n_columns);
-    for (std::size_t k = 0; k < n_columns; ++k)
-      for (std::size_t i = 0; i < n; ++i)
-        columns[k * n + structure->permutation[i]] = permuted[k * stride + i];
-  }
-
-  template <typename Number>
-  void
-  MultifrontalFactor<Number>::solve_one()
-  {
-    const FrontKernels<Number> &kernels = front_kernels<Number>();
-    for (std::vector<Number> &block : blocks)
-      block.resize(max_rows(*structure) + FrontKernels<Number>::max_lanes);
-    const auto by = [&](const auto &kernel)
     {
-      return [&, kernel](const int begin, const int end, std::vector<Number> &block)
+      const FrontKernels<Number> &kernels = front_kernels<Number>();
+      const auto                  by      = [&](const auto &kernel)
       {
-        kernel(*structure, values.data(), inverse_diagonal.data(), begin, end, permuted.data(),
-               block.data());
+        return [&, kernel](const int begin, const int end, Number *column, std::size_t,
+                           std::vector<Number> &block)
+        {
+          block.resize(structure->max_rows + FrontKernels<Number>::max_lanes);
+          kernel(*structure, values.data(), inverse_diagonal.data(), begin, end, column,
+                 block.data());
+        };
       };
+      workspace.solve(*structure, columns, by(kernels.forward), by(kernels.backward));
+      return;
+    }
+    const auto of = [&](Number *permuted, const std::size_t stride)
+    {
+      return SeveralColumns<Number>{ *structure, values.data(), permuted, static_cast<int>(stride),
+                                     n_columns };
     };
-    run(1, by(kernels.forward), by(kernels.backward));
-  }
-
-  template <typename Number>
-  void
-  MultifrontalFactor<Number>::solve_several(const std::size_t n_columns)
-  {
-    const SeveralColumns<Number> columns
-        = { *structure, values.data(), permuted.data(),
-            static_cast<int>(permuted.size() / n_columns), static_cast<int>(n_columns) };
-    run(
-        n_columns,
-        [&](const int begin, const int end, std::vector<Number> &block)
-        { columns.forward(begin, end, block); },
-        [&](const int begin, const int end, std::vector<Number> &block)
-        { columns.backward(begin, end, block); });
-    permuted.resize(structure->n() + structure->tail.size());
+    workspace.solve(
+        *structure, columns,
+        [&](const int begin, const int end, Number *permuted, const std::size_t stride,
+            std::vector<Number> &block) { of(permuted, stride).forward(begin, end, block); },
+        [&](const int begin, const int end, Number *permuted, const std::size_t stride,
+            std::vector<Number> &block) { of(permuted, stride).backward(begin, end, block); });
   }
 
   template <typename Number>
   std::size_t
   MultifrontalFactor<Number>::memory_consumption() const
   {
-    std::size_t numbers = values.capacity() + inverse_diagonal.capacity() + permuted.capacity();
-    for (const std::vector<Number> &block : blocks)
-      numbers += block.capacity();
-    return structure->memory_consumption() + sizeof(Number) * numbers;
+    return structure->memory_consumption() + workspace.memory_consumption()
+           + sizeof(Number) * (values.capacity() + inverse_diagonal.capacity());
   }
 
   template class MultifrontalFactor<double>;
   template class MultifrontalFactor<float>;
-  template void
-  MultifrontalFactor<float>::assign(const double *);
 } // namespace Exemplar

@@ -21,7 +21,7 @@ namespace Exemplar
     factor.solve(rounded);
     for (std::size_t k = 0; k < n_columns; ++k)
       for (std::size_t i = 0; i < n; ++i)
-        columns[k * n + i] = scales[k] * rounded[k * n + i];
+        columns[k * n + i] = scales[k] * factor.get_scale() * rounded[k * n + i];
   }
 
   double

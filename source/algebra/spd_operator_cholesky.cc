@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/algebra/cholmod_analysis.h>
 #include <exemplar/algebra/long_vectors.h>
+#include <exemplar/algebra/multifrontal_factor.h>
 #include <exemplar/algebra/single_precision_inverse.h>
 #include <exemplar/algebra/spd_operator.h>
 
@@ -53,7 +54,7 @@ namespace Exemplar
                                       + sizeof(double) * matrix_values.size() };
         if (factor)
           traits.pivot_ratio = factor->pivot_ratio();
-        else if (rough_factor != nullptr)
+        else if (rough_factor)
           traits.pivot_ratio = rough_factor->pivot_ratio();
         traits.bytes += factor         ? factor->memory_consumption()
                         : rough_factor ? rough_factor->memory_consumption()
@@ -124,13 +125,13 @@ namespace Exemplar
       solve_roughly(std::vector<double> &columns)
       {
         const std::size_t   n        = pattern.n();
-        std::vector<double> residual = columns, step;
+        std::vector<double> residual = columns;
         std::fill(columns.begin(), columns.end(), 0.);
         for (unsigned int k = 0;; ++k)
         {
-          step = residual;
+          std::vector<double> step = residual;
           apply_in_single_precision(*rough_factor, step);
-          add(columns, 1., step.data());
+          add(columns, 1., step);
           if (k == n_refinements)
             return;
           for (std::size_t begin = 0; begin < columns.size(); begin += n)

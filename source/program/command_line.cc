@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/environment.h>
 #include <exemplar/base/errors.h>
+#include <exemplar/base/launcher.h>
 #include <exemplar/base/message_text.h>
+#include <exemplar/base/mpi_session.h>
+#include <exemplar/base/program_server.h>
 #include <exemplar/base/standard_streams.h>
 #include <exemplar/base/version.h>
 #include <exemplar/mesh/mesh_parameters.h>
@@ -12,6 +15,7 @@
 #include <exemplar/program/mesh_command.h>
 #include <exemplar/program/number_option.h>
 #include <exemplar/program/pose_command.h>
+#include <exemplar/program/run_program.h>
 #include <exemplar/program/run_scene.h>
 #include <exemplar/study/study.h>
 #include <exemplar/study/study_file.h>
@@ -176,11 +180,31 @@ Exit status:
       return status;
     }
 
+    /// Runs in copies of this process, which has begun nothing so far. mpirun would take them for
+    /// processes of its own.
+    void
+    make_study(StudyOptions options)
+    {
+      if (!find_launch().program.empty())
+        return run_study(options);
+      ProgramServer server(
+          [](const int argc, char *argv[])
+          {
+            const MpiSession mpi; // that of main() does not end in a copy
+            return run_program(argc, argv);
+          });
+      options.run_program
+          = [&](const std::vector<std::string> &command, const std::filesystem::path &log,
+                const double timeout, const std::function<bool()> &stop)
+      { return server.run(command, log, timeout, stop); };
+      run_study(options);
+    }
+
     void
     do_study(const Arguments &arguments)
     {
       if (!arguments.print_study)
-        return run_study(arguments.study);
+        return make_study(arguments.study);
       print_study_parameters();
       require_printed();
     }

@@ -285,7 +285,7 @@ namespace Exemplar
     try
     {
       directory.take(plan.named_files);
-      kept_runs.emplace(directory.runs(), study, options.stop);
+      kept_runs.emplace(directory.runs(), study, options);
       kept_runs->require_room_for(plan.names());
     }
     catch (const fs::filesystem_error &error)

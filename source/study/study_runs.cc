@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/atomic_file.h>
-#include <exemplar/base/child_process.h>
 #include <exemplar/base/digest.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
@@ -205,8 +204,9 @@ namespace Exemplar
 
   const std::string StudyRuns::scratch_name = "running";
 
-  StudyRuns::StudyRuns(fs::path path, const Study &study, std::function<bool()> stop)
-      : directory(std::move(path)), study(study), stop(std::move(stop))
+  StudyRuns::StudyRuns(fs::path path, const Study &study, const StudyOptions &options)
+      : directory(std::move(path)), study(study), stop(options.stop),
+        run_program(options.run_program)
   {
     if (fs::exists(directory))
       for (const auto &entry : fs::directory_iterator(directory))
@@ -258,7 +258,7 @@ namespace Exemplar
     const fs::path log = directory / "running.log"; // a run wants its directory for itself
 
     remove_run(scratch());
-    const ChildEnd end = run_child(command, log, study.timeout, stop);
+    const ChildEnd end = run_program(command, log, study.timeout, stop);
     if (end.exit_status == 130)
       throw Interrupted("A run has been interrupted.");
 

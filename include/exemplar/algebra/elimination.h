@@ -16,10 +16,11 @@ namespace Exemplar
   class Elimination
   {
   public:
-    /// `entries` on the pattern of A; `panels` have room for structure.n_values() numbers and
-    /// a register's more.
+    /// Of the matrix with these entries times `scale`. `panels` have room for structure.n_values()
+    /// numbers and a register's more.
     Elimination(const FactorStructure     &structure,
                 const std::vector<double> &entries,
+                double                     scale,
                 Number                    *panels);
 
     /// Returns whether the matrix is positive definite.
@@ -63,6 +64,7 @@ namespace Exemplar
 
     const FactorStructure        &structure;
     const std::vector<double>    &entries;
+    const double                  scale;
     Number                       *panels;
     const FrontKernels<Number>   &kernels;
     std::vector<std::vector<int>> children;

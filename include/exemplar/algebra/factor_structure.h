@@ -74,6 +74,7 @@ namespace Exemplar
     std::vector<Subtree>     subtrees;    ///< ascending
     std::vector<int>         top;         ///< the supernodes above them, ascending
     std::vector<int>         tail;
+    int                      max_rows     = 0;  ///< of a supernode
     double                   n_operations = 0.; ///< of a factorisation
   };
 } // namespace Exemplar

@@ -2,7 +2,7 @@
 #ifndef exemplar_multifrontal_factor_h
 #define exemplar_multifrontal_factor_h
 
-#include <exemplar/algebra/factor_structure.h>
+#include <exemplar/algebra/subtree_solve.h>
 
 #include <memory>
 #include <vector>
@@ -26,14 +26,21 @@ namespace Exemplar
     bool
     factorize(const std::vector<double> &values);
 
-    /// Take over the values of a factor, panel by panel.
-    template <typename Other>
+    /// Take over the panels of a factor of A.
     void
-    assign(const Other *factor_values);
+    assign(const double *panels);
 
-    /// Overwrite columns (n entries each, one after the other, in the order of A) by A^-1 times them.
+    /// Overwrite columns (n entries each, one after the other, in the order of A) by A^-1 times them, for A times
+    /// get_scale().
     void
     solve(std::vector<Number> &columns);
+
+    /// A power of two: what is factorised is A times this, so that single precision has room for it.
+    double
+    get_scale() const
+    {
+      return scale;
+    }
 
     /// The values of the panels.
     const Number *
@@ -60,24 +67,12 @@ namespace Exemplar
     void
     finish();
 
-    /// forward(begin, end, block) and then backward() of the supernodes, in the order of the tree, on
-    /// the permuted columns.
-    template <typename Forward, typename Backward>
-    void
-    run(std::size_t n_columns, const Forward &forward, const Backward &backward);
-
-    void
-    solve_one();
-
-    void
-    solve_several(std::size_t n_columns);
-
     std::shared_ptr<const FactorStructure> structure;
     int                                    n_threads;
+    double                                 scale = 1.;
     std::vector<Number>                    values; ///< panels, and as many more as a register holds
     std::vector<Number>                    inverse_diagonal;
-    std::vector<Number>                    permuted; ///< columns with their tails
-    std::vector<std::vector<Number>>       blocks;   ///< one a thread
+    SubtreeSolve<Number>                   workspace;
   };
 } // namespace Exemplar
 

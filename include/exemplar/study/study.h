@@ -2,11 +2,21 @@
 #ifndef exemplar_study_h
 #define exemplar_study_h
 
+#include <exemplar/base/child_process.h>
+
 #include <filesystem>
 #include <functional>
+#include <string>
+#include <vector>
 
 namespace Exemplar
 {
+  /// How a run of this program is made: as run_child() does it.
+  using RunProgram = std::function<ChildEnd(const std::vector<std::string> &command,
+                                            const std::filesystem::path    &log,
+                                            double                          timeout,
+                                            const std::function<bool()>    &stop)>;
+
   /// What the command line says of a study.
   struct StudyOptions
   {
@@ -14,6 +24,7 @@ namespace Exemplar
     std::filesystem::path output; ///< empty: output/NAME of the study file
     bool                  quiet = false;
     std::function<bool()> stop; ///< asked from the first run on: true interrupts the study
+    RunProgram            run_program = run_child;
   };
 
   /// Make the runs of a study that are not there yet, each in a process of its own, and write

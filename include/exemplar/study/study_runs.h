@@ -2,6 +2,7 @@
 #ifndef exemplar_study_runs_h
 #define exemplar_study_runs_h
 
+#include <exemplar/study/study.h>
 #include <exemplar/study/study_file.h>
 
 #include <filesystem>
@@ -63,8 +64,8 @@ namespace Exemplar
     /// The name of the directory in which a run is made.
     static const std::string scratch_name;
 
-    /// A run is interrupted once `stop` returns true.
-    StudyRuns(std::filesystem::path directory, const Study &study, std::function<bool()> stop);
+    /// What `options` say of runs.
+    StudyRuns(std::filesystem::path directory, const Study &study, const StudyOptions &options);
 
     /// Throws UserError if something stands where a run is to be made that no run has left.
     void
@@ -121,6 +122,7 @@ namespace Exemplar
     const std::filesystem::path        directory;
     const Study                       &study;
     const std::function<bool()>        stop;
+    const RunProgram                   run_program;
     std::map<std::string, StudyRecord> records;
   };
 } // namespace Exemplar

@@ -136,7 +136,7 @@ namespace Exemplar::Testing
         EXPECT_TRUE(factorized(n_threads) == alone) << n_threads;
     }
 
-    TEST(MultifrontalFactorTest, InSinglePrecisionHasItsDigits)
+    TEST(MultifrontalFactorTest, ARoughOneHasFewDigitsAndItsSolutionAlmostAll)
     {
       const SparseMatrix        matrix = laplacian(12, 1.);
       const std::vector<double> b      = random_columns(2 * matrix.pattern.n());
@@ -166,6 +166,33 @@ namespace Exemplar::Testing
       rough->keep()->apply(small);
       for (std::size_t i = 0; i < large.size(); ++i)
         EXPECT_EQ(small[i], std::pow(2., -200.) * large[i]);
+    }
+
+    TEST(MultifrontalFactorTest, SinglePrecisionHasRoomForMatricesOfAnySize)
+    {
+      const SparseMatrix matrix = laplacian(4, 1.);
+      SparseMatrix       great  = matrix;
+      for (double &entry : great.values)
+        entry *= std::pow(2., 300.);
+      const std::vector<double> b = random_columns(2 * matrix.pattern.n());
+      const auto solve_roughly    = [&](const SparseMatrix &with_values, std::vector<double> x)
+      {
+        const auto rough = with(make_cholesky_operator(), with_values);
+        rough->factorize_roughly({});
+        rough->solve(x);
+        std::vector<double> once(b.begin(), b.begin() + matrix.pattern.n());
+        rough->keep()->apply(once);
+        x.insert(x.end(), once.begin(), once.end());
+        return x;
+      };
+      const std::vector<double> x = solve_roughly(matrix, b), of_great = solve_roughly(great, b);
+      for (std::size_t i = 0; i < x.size(); ++i)
+        EXPECT_EQ(of_great[i], std::pow(2., -300.) * x[i]);
+      const auto exact = with(make_cholesky_operator(), great); // also from double precision
+      exact->factorize({});
+      std::vector<double> once(b.begin(), b.begin() + matrix.pattern.n());
+      exact->keep()->apply(once);
+      EXPECT_LT(difference(once, { of_great.end() - matrix.pattern.n(), of_great.end() }), 1e-5);
     }
 
     TEST(MultifrontalFactorTest, RefusesAnIndefiniteMatrix)
