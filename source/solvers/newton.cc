@@ -12,6 +12,13 @@
 
 namespace Exemplar
 {
+  namespace
+  {
+    /// Residual after a prediction up to which its factor serves for more steps: as much as forces
+    /// differ from those that the tangent predicts, the tangent itself has changed.
+    constexpr double nearly_linear = 1e-3;
+  } // namespace
+
   Newton::Newton(const SolverParameters &parameters,
                  IncrementalPotential   &potential,
                  StepSystem             &system,
@@ -74,7 +81,7 @@ namespace Exemplar
     displacement -= start.state.positions;
     if (!add_tangent_step(start, displacement, Tangent::exact, trial, evaluation))
       add_tangent_step(start, displacement, Tangent::convex, trial, evaluation);
-    trial.linearization = start.linearization; // of which the factor may have been made anew
+    trial.linearization = start.linearization; // of which the factor may have been made
   }
 
   bool
@@ -98,6 +105,8 @@ namespace Exemplar
         system.factorize(from.positions, from.weights, tangent == Tangent::convex ? 1. : 0.);
       system.add(system.solve(from, evaluation), trial.state);
       keep_within_max_step(potential, from.positions, trial.state.positions);
+      if (tangent == Tangent::exact && !has_factor && predicts_with_factors())
+        start.linearization = { from.positions, from.weights, system.n_factorizations() };
       return true;
     }
     catch (const SolverFailure &)
@@ -130,10 +139,10 @@ namespace Exemplar
   }
 
   bool
-  Newton::has_converged(const State &state, const Evaluation &evaluation) const
+  Newton::has_residual(const double bound, const State &state, const Evaluation &evaluation) const
   {
     const Residual residual = potential.residual(state, evaluation);
-    return max_or_nan(residual.positions, residual.weights) <= parameters.tolerance;
+    return max_or_nan(residual.positions, residual.weights) <= bound;
   }
 
   void
@@ -143,6 +152,9 @@ namespace Exemplar
                   SolveReport       &report)
   {
     evaluate(trial.state, evaluation);
+    if (trial.linearization.factor == system.n_factorizations()
+        && has_residual(nearly_linear, trial.state, evaluation))
+      go_on_with_same_factor(trial.state, evaluation);
     for (unsigned int iteration = 0;; ++iteration)
     {
       const bool goes_on = report_iteration(potential, evaluation, trial.state, report);
@@ -190,13 +202,19 @@ namespace Exemplar
     if (!find_step(trial.state, evaluation, step, report)
         || !search_along(step, trial.state, evaluation, report))
       return;
-    if (!has_converged(trial.state, evaluation))
+    if (!has_residual(parameters.tolerance, trial.state, evaluation))
       correct_with_same_factor(trial.state, evaluation);
     here.factor = system.n_factorizations();
-    // statics predict with the factor, if it is that of the exact tangent
-    const bool is_used_again = potential.inertial_positions() == nullptr && report.convexity == 0.
-                               && !potential.get_cells().get_field().get_batches().remembers();
-    trial.linearization = is_used_again ? std::move(here) : Linearization();
+    // if it is that of the exact tangent
+    const bool is_used_again = predicts_with_factors() && report.convexity == 0.;
+    trial.linearization      = is_used_again ? std::move(here) : Linearization();
+  }
+
+  bool
+  Newton::predicts_with_factors() const
+  {
+    return potential.inertial_positions() == nullptr
+           && !potential.get_cells().get_field().get_batches().remembers();
   }
 
   void

@@ -121,6 +121,16 @@ namespace Exemplar
   }
 
   void
+  Newton::go_on_with_same_factor(State &state, Evaluation &evaluation)
+  {
+    const double tolerance = parameters.tolerance;
+    double       left      = 0.;
+    while (!has_residual(tolerance, state, evaluation)
+           && has_residual(tolerance / (left * left), state, evaluation))
+      left = correct_with_same_factor(state, evaluation);
+  }
+
+  double
   Newton::correct_with_same_factor(State &state, Evaluation &evaluation)
   {
     const State    start = state;
@@ -132,17 +142,18 @@ namespace Exemplar
     }
     catch (const SolverFailure &)
     {
-      return; // for other active weights the Schur complement may be indefinite
+      return 1.; // for other active weights the Schur complement may be indefinite
     }
     const double slope = system.slope(evaluation, step);
     state.positions += system.displacement(state, step);
     keep_within_max_step(potential, start.positions, state.positions);
     evaluate(state, evaluation);
-    const Merit now(potential, evaluation);
-    if (slope < 0. && now.max_free_gradient < 0.5 * before.max_free_gradient
-        && is_better(now, before, slope))
-      return;
+    const Merit  now(potential, evaluation);
+    const double left = now.max_free_gradient / before.max_free_gradient;
+    if (slope < 0. && left < 0.5 && is_better(now, before, slope))
+      return left;
     state = start;
     evaluate(state, evaluation);
+    return 1.;
   }
 } // namespace Exemplar

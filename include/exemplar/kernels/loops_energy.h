@@ -123,10 +123,11 @@ namespace Exemplar::Loops
           for (int k = 0; k < 4; ++k)
             load_four(lanes[a][k] + lane, rows[k]);
           transpose(rows);
-          for (std::size_t l = 0; l < 4; ++l)
-          {
-            add_four(rows[l], nodal_sums + 4 * nodes[lane + l]);
-          }
+          if constexpr (fours_share_nodes<n_nodes>)
+            add_four((rows[0] + rows[1]) + (rows[2] + rows[3]), nodal_sums + 4 * nodes[lane]);
+          else
+            for (std::size_t l = 0; l < 4; ++l)
+              add_four(rows[l], nodal_sums + 4 * nodes[lane + l]);
         }
       else
         for (std::size_t lane = 0; lane < LaneGroup<Number>::width; ++lane)

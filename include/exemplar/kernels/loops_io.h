@@ -50,6 +50,10 @@ namespace Exemplar::Loops
     return 0;
   }
 
+  /// Whether four neighbours in a batch are the points of one cell, so that their nodes are the same.
+  template <int n_nodes>
+  constexpr bool fours_share_nodes = points_of_cell(n_nodes) == 4;
+
   /// Call function(group) for all groups of the batches begin to end - 1.
   template <typename Number, typename Function>
   inline void
@@ -286,7 +290,7 @@ namespace Exemplar::Loops
   }
 
   /// The positions of one node of each cell; `positions` holds four numbers a node.
-  template <typename Number>
+  template <int n_nodes, typename Number>
   inline void
   load_nodes(const double *positions, const int *nodes, Vector3<Number> &x)
   {
@@ -294,14 +298,18 @@ namespace Exemplar::Loops
     {
       Four parts[3][2];
       for (std::size_t lane = 0; lane < LaneGroup<Number>::width; lane += 4)
-      {
-        Four rows[4];
-        for (std::size_t l = 0; l < 4; ++l)
-          load_four(positions + 4 * nodes[lane + l], rows[l]);
-        transpose(rows);
-        for (int i = 0; i < 3; ++i)
-          parts[i][lane / 4] = rows[i];
-      }
+        if constexpr (fours_share_nodes<n_nodes>)
+          for (int i = 0; i < 3; ++i)
+            parts[i][lane / 4] = positions[4 * nodes[lane] + i] - Four{};
+        else
+        {
+          Four rows[4];
+          for (std::size_t l = 0; l < 4; ++l)
+            load_four(positions + 4 * nodes[lane + l], rows[l]);
+          transpose(rows);
+          for (int i = 0; i < 3; ++i)
+            parts[i][lane / 4] = rows[i];
+        }
       for (int i = 0; i < 3; ++i)
         x[i] = join<Number>(parts[i]);
     }
@@ -324,7 +332,7 @@ namespace Exemplar::Loops
   {
     Vector3<Number> x[n_nodes];
     for (int a = 0; a < n_nodes; ++a)
-      load_nodes(task.positions, task.cells.nodes + group.at(n_nodes, a), x[a]);
+      load_nodes<n_nodes>(task.positions, task.cells.nodes + group.at(n_nodes, a), x[a]);
     Vector3<Number> edge[n_nodes]; // from node 0
     for (int a = 1; a < n_nodes; ++a)
       for (int i = 0; i < 3; ++i)

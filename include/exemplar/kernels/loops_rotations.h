@@ -88,7 +88,10 @@ namespace Exemplar::Loops
             {
               FourFloats R[4][3];
               load_rotations<Number>(task.cells, { group.batch, group.lane + lane }, R);
-              for (std::size_t l = 0; l < 4; ++l)
+              if constexpr (fours_share_nodes<n_nodes>)
+                for (int part = 0; part < 3; ++part)
+                  R[0][part] = (R[0][part] + R[1][part]) + (R[2][part] + R[3][part]);
+              for (std::size_t l = 0; l < (fours_share_nodes<n_nodes> ? 1 : 4); ++l)
                 for (int a = 0; a < n_nodes; ++a)
                   add_to(nodal_sums + 12 * nodes[a * batch_size + lane + l], R[l]);
             }

@@ -141,17 +141,25 @@ namespace Exemplar
     bool
     leave_saddle(State &state, Evaluation &evaluation);
 
-    /// One more step with the same factor from the new gradient (Shamanskii's method), if it
-    /// halves the gradient.
-    void
+    /// One more step with the same factor from the new gradient (Shamanskii's method). Returns how
+    /// much of the gradient it leaves, or 1 if that is more than half: then it is taken back.
+    double
     correct_with_same_factor(State &state, Evaluation &evaluation);
+
+    /// Such steps, as long as two more like the last would reach the tolerance.
+    void
+    go_on_with_same_factor(State &state, Evaluation &evaluation);
 
     /// With the best weights.
     void
     evaluate(State &state, Evaluation &evaluation);
 
     bool
-    has_converged(const State &state, const Evaluation &evaluation) const;
+    has_residual(double bound, const State &state, const Evaluation &evaluation) const;
+
+    /// Whether factors of exact tangents serve the next prediction: in statics.
+    bool
+    predicts_with_factors() const;
 
     const SolverParameters parameters;
     IncrementalPotential  &potential;

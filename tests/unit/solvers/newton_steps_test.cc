@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace Exemplar::Testing
 {
@@ -55,6 +56,32 @@ namespace Exemplar::Testing
         EXPECT_NEAR(r[1], std::abs(c.first(c.is_corrected ? corrected : step)), 1e-9);
         EXPECT_NEAR(unknowns.a(), 0., 1e-9);
       }
+    }
+
+    /// The residual before the first iteration of a step from `start` to the minimum of
+    /// a^2/2 + a^4/4 at 0, and the factorisations that the step takes.
+    std::pair<double, unsigned int>
+    residual_and_factors(const double start)
+    {
+      TwoUnknowns unknowns(valley([](const double a) { return a * a / 2. + std::pow(a, 4) / 4.; },
+                                  [](const double a) { return a + std::pow(a, 3); },
+                                  [](const double a) { return 1. + 3. * a * a; }, 1.),
+                           start, 0.);
+      const SolveReport report = unknowns.solve(by_method(Method::newton, 1e-9));
+      EXPECT_EQ(report.status, SolveStatus::converged);
+      EXPECT_NEAR(unknowns.a(), 0., 1e-8);
+      return { report.residual_history.front(), unknowns.system.n_factorizations() };
+    }
+
+    TEST(NewtonStep, GoesOnWithTheFactorOfThePredictionWhereThatIsNearlyRight)
+    {
+      // a prediction from a leads to 2 a^3, and each further step with its factor takes 3 a^2 of that
+      const auto [residual, n_factors] = residual_and_factors(0.05);
+      EXPECT_LT(residual, 1e-9);
+      EXPECT_EQ(n_factors, 1u);
+      const auto [greater_residual, more_factors] = residual_and_factors(0.1);
+      EXPECT_NEAR(greater_residual, 2e-3, 1e-4); // the tangent has changed too much
+      EXPECT_GT(more_factors, 1u);
     }
 
     /// A hill at 0 between two minima at -1 and 1, of which the convex tangent is much too stiff.
