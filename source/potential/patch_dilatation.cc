@@ -41,7 +41,8 @@ namespace Exemplar
   {
     cells     = &field;
     free_dofs = &all_free_dofs;
-    scatter.emplace(patches, fe_space, pattern, all_free_dofs);
+    scatter.emplace(patches, fe_space, pattern, all_free_dofs,
+                    !(pattern.products_are_apart && couples_by_products()));
     field.get_dilatation().resize(fe_space.n_points());
   }
 
@@ -233,10 +234,11 @@ namespace Exemplar
   PatchDilatation::add_special_tangent(const unsigned int          patch,
                                        const Tangent               kind,
                                        const std::vector<double>  &b,
-                                       dealii::FullMatrix<double> &matrix) const
+                                       dealii::FullMatrix<double> &matrix,
+                                       OuterProducts              *products) const
   {
     if (guard.acts_in(patch))
-      guard.add_tangent(patch, *cells, *scatter, thin, kind, b, matrix);
+      guard.add_tangent(patch, *cells, *scatter, thin, kind, b, matrix, products);
     const unsigned int *places = scatter->places(patch);
     for (const unsigned int point : patches.points(patch))
     {
@@ -276,6 +278,28 @@ namespace Exemplar
       dealii::FullMatrix<double> matrix(b.size());
       add_special_tangent(patch, kind, b, matrix);
       scatter->add_matrix(patch, matrix, values);
+    }
+  }
+
+  void
+  PatchDilatation::add_tangent_in_parts(const TermPoint & /*at*/,
+                                        const Tangent        kind,
+                                        std::vector<double> &values,
+                                        std::vector<double> &columns,
+                                        OuterProducts       &products)
+  {
+    std::vector<double> b;
+    for (unsigned int patch = 0; patch < patches.size(); ++patch)
+    {
+      find_gradient(patch, b);
+      products.add(tangent_factor(patch, kind), scatter->nodes(patch), b);
+      if (!columns.empty())
+        add_columns(patch, b, columns);
+      if (!is_special(patch))
+        continue;
+      dealii::FullMatrix<double> of_cells(b.size());
+      add_special_tangent(patch, kind, b, of_cells, &products);
+      scatter->add_cells(patch, of_cells, values);
     }
   }
 

@@ -59,6 +59,31 @@ namespace Exemplar
           matrix(i, j) += 0.5 * factor * (u[i] * v[j] + v[i] * u[j]);
     }
 
+    /// The same as outer products of single vectors.
+    void
+    add_product(const double                     factor,
+                const std::vector<double>       &u,
+                const std::vector<double>       &v,
+                const std::vector<unsigned int> &nodes,
+                OuterProducts                   &products)
+    {
+      if (factor == 0.)
+        return;
+      if (u == v)
+      {
+        products.add(factor, nodes, u);
+        return;
+      }
+      std::vector<double> sum(u.size()), difference(u.size());
+      for (std::size_t i = 0; i < u.size(); ++i)
+      {
+        sum[i]        = u[i] + v[i];
+        difference[i] = u[i] - v[i];
+      }
+      products.add(0.25 * factor, nodes, sum);
+      products.add(-0.25 * factor, nodes, difference);
+    }
+
     /// Add vectors over the nodes of a cell to one over the nodes of its patch.
     void
     add_at(const unsigned int        *places,
@@ -196,7 +221,8 @@ namespace Exemplar
                           const ThinCells            &thin,
                           const Tangent               tangent,
                           const std::vector<double>  &b,
-                          dealii::FullMatrix<double> &matrix) const
+                          dealii::FullMatrix<double> &matrix,
+                          OuterProducts              *products) const
   {
     const Stretched    &of_patch = stretched.at(patch);
     const double        lambda = patches.lambda(patch), volume = patches.volume(patch);
@@ -220,8 +246,16 @@ namespace Exemplar
       add_at(places, forces, 1., by_x_of_sum);
       places += forces.size() / 3;
     }
-    add_product(-lambda * of_patch.beta * volume, b, b, matrix);
-    add_patch_tangent(of_patch, tangent, by_x_of_square, by_x_of_sum, matrix);
+    const auto add
+        = [&](const double factor, const std::vector<double> &u, const std::vector<double> &v)
+    {
+      if (products == nullptr)
+        add_product(factor, u, v, matrix);
+      else
+        add_product(factor, u, v, scatter.nodes(patch), *products);
+    };
+    add(-lambda * of_patch.beta * volume, b, b);
+    add_patch_tangent(of_patch, tangent, by_x_of_square, by_x_of_sum, add);
   }
 
   void
@@ -284,17 +318,18 @@ namespace Exemplar
     }
   }
 
+  template <typename AddProduct>
   void
-  PatchGuard::add_patch_tangent(const Stretched            &of_patch,
-                                const Tangent               tangent,
-                                const std::vector<double>  &by_x_of_square,
-                                const std::vector<double>  &by_x_of_sum,
-                                dealii::FullMatrix<double> &matrix) const
+  PatchGuard::add_patch_tangent(const Stretched           &of_patch,
+                                const Tangent              tangent,
+                                const std::vector<double> &by_x_of_square,
+                                const std::vector<double> &by_x_of_sum,
+                                const AddProduct          &add_product) const
   {
     const bool   is_exact = tangent == Tangent::exact;
     const double second   = is_exact ? of_patch.second : std::max(of_patch.second, 0.);
-    add_product(of_patch.sum * second, by_x_of_square, by_x_of_square, matrix);
+    add_product(of_patch.sum * second, by_x_of_square, by_x_of_square);
     if (is_exact)
-      add_product(2. * of_patch.first, by_x_of_square, by_x_of_sum, matrix);
+      add_product(2. * of_patch.first, by_x_of_square, by_x_of_sum);
   }
 } // namespace Exemplar

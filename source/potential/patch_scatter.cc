@@ -25,8 +25,10 @@ namespace Exemplar
   PatchScatter::PatchScatter(const Patches          &patches,
                              const FESpace          &fe_space,
                              const SymmetricPattern &pattern,
-                             const FreeDofs         &free_dofs)
-      : patches(patches), fe_space(fe_space), free_dofs(free_dofs), layouts(patches.size())
+                             const FreeDofs         &free_dofs,
+                             const bool              has_couplings)
+      : patches(patches), fe_space(fe_space), free_dofs(free_dofs), pattern(pattern),
+        layouts(patches.size())
   {
     for (unsigned int patch = 0; patch < patches.size(); ++patch)
     {
@@ -43,23 +45,26 @@ namespace Exemplar
             layout.free_dofs.push_back(3 * place + c);
         layout.node_ends.push_back(layout.free_dofs.size());
       }
-      find_entries(pattern, layout);
+      if (has_couplings)
+        find_entries(layout);
     }
   }
 
-  void
-  PatchScatter::find_entries(const SymmetricPattern &pattern, Layout &layout) const
+  int
+  PatchScatter::free_index(const Layout &layout, const unsigned int i) const
   {
-    const auto index = [&](const unsigned int i)
-    {
-      const unsigned int dof = layout.free_dofs[i];
-      return free_dofs.free_index(3 * layout.nodes[dof / 3] + dof % 3);
-    };
+    const unsigned int dof = layout.free_dofs[i];
+    return free_dofs.free_index(3 * layout.nodes[dof / 3] + dof % 3);
+  }
+
+  void
+  PatchScatter::find_entries(Layout &layout) const
+  {
     for (unsigned int j = 0; j < layout.free_dofs.size(); ++j)
       for (unsigned int place = layout.free_dofs[j] / 3, i = j; place < layout.nodes.size();
            i = layout.node_ends[place++])
         if (i < layout.node_ends[place]) // not all of the node is held
-          layout.entries.push_back(pattern.position(index(i), index(j)));
+          layout.entries.push_back(pattern.position(free_index(layout, i), free_index(layout, j)));
   }
 
   std::vector<std::pair<unsigned int, unsigned int>>
@@ -159,6 +164,19 @@ namespace Exemplar
     for_each_value(layouts[patch], values,
                    [&](const unsigned int i, const unsigned int j, double &value)
                    { value += matrix(free[i], free[j]); });
+  }
+
+  void
+  PatchScatter::add_cells(const unsigned int                patch,
+                          const dealii::FullMatrix<double> &matrix,
+                          std::vector<double>              &values) const
+  {
+    const Layout                    &layout = layouts[patch];
+    const std::vector<unsigned int> &free   = layout.free_dofs;
+    for (unsigned int j = 0; j < free.size(); ++j)
+      for (unsigned int i = j; i < free.size(); ++i)
+        if (const double value = matrix(free[i], free[j]); value != 0.)
+          values[pattern.position(free_index(layout, i), free_index(layout, j))] += value;
   }
 
   void

@@ -29,7 +29,8 @@ namespace Exemplar
     }
     {
       StepClock::Scope scope(clock, Phase::assemble);
-      potential.assemble(positions, weights, convexity, system->matrix_values(), system->columns());
+      potential.assemble(positions, weights, convexity, system->matrix_values(), system->columns(),
+                         system->outer_products());
       potential.get_free_dofs().assemble_columns(system->columns());
     }
     StepClock::Scope scope(clock, Phase::factorize);

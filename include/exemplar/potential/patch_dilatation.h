@@ -52,6 +52,13 @@ namespace Exemplar
       return PatchScatter::couplings(patches, fe_space);
     }
 
+    /// Where patches couple more nodes than cells do.
+    bool
+    couples_by_products() const override
+    {
+      return traits_of(fe_space.element()).locks;
+    }
+
     void
     attach(const SymmetricPattern &pattern, const FreeDofs &free_dofs, CellField &cells) override;
 
@@ -81,6 +88,13 @@ namespace Exemplar
                 Tangent              kind,
                 std::vector<double> &values,
                 std::vector<double> &columns) override;
+
+    void
+    add_tangent_in_parts(const TermPoint     &at,
+                         Tangent              kind,
+                         std::vector<double> &values,
+                         std::vector<double> &columns,
+                         OuterProducts       &products) override;
 
     void
     add_response(const TermPoint &at,
@@ -122,12 +136,14 @@ namespace Exemplar
     bool
     is_special(unsigned int patch) const;
 
-    /// Add it to `matrix` over the nodes of the patch.
+    /// Add it to `matrix` over the nodes of the patch; outer products over all of them go to
+    /// `products`, if there are any.
     void
     add_special_tangent(unsigned int                patch,
                         Tangent                     kind,
                         const std::vector<double>  &b,
-                        dealii::FullMatrix<double> &matrix) const;
+                        dealii::FullMatrix<double> &matrix,
+                        OuterProducts              *products = nullptr) const;
 
     void
     add_columns(unsigned int               patch,

@@ -66,7 +66,9 @@ namespace Exemplar
 
     /// Add what it adds to the tangent of a patch, beside that which turning R does with the
     /// pressures, to `matrix` over the nodes of the patch, three rows each. `b` is dtheta_p/dx.
-    /// A convex tangent lacks what may make it indefinite. Requires acts_in().
+    /// A convex tangent lacks what may make it indefinite. Where there are `products`, they get what
+    /// couples all nodes of the patch, and `matrix` only what couples those of one cell. Requires
+    /// acts_in().
     void
     add_tangent(unsigned int                patch,
                 const CellField            &cells,
@@ -74,7 +76,8 @@ namespace Exemplar
                 const ThinCells            &thin,
                 Tangent                     tangent,
                 const std::vector<double>  &b,
-                dealii::FullMatrix<double> &matrix) const;
+                dealii::FullMatrix<double> &matrix,
+                OuterProducts              *products) const;
 
   private:
     /// theta_p, beta of a patch with its derivatives by m_p, and sum V W [J].
@@ -131,13 +134,15 @@ namespace Exemplar
                       dealii::FullMatrix<double> &matrix) const;
 
     /// The part that couples all nodes of the patch: the second derivatives of beta, and those by it
-    /// and by sum V W, from the derivatives of m_p and sum V W by the positions.
+    /// and by sum V W, from the derivatives of m_p and sum V W by the positions. Calls
+    /// add_product(factor, u, v) for factor (u v^T + v u^T) / 2.
+    template <typename AddProduct>
     void
-    add_patch_tangent(const Stretched            &of_patch,
-                      Tangent                     tangent,
-                      const std::vector<double>  &by_x_of_square,
-                      const std::vector<double>  &by_x_of_sum,
-                      dealii::FullMatrix<double> &matrix) const;
+    add_patch_tangent(const Stretched           &of_patch,
+                      Tangent                    tangent,
+                      const std::vector<double> &by_x_of_square,
+                      const std::vector<double> &by_x_of_sum,
+                      const AddProduct          &add_product) const;
 
     const Patches                    &patches;
     const FESpace                    &fe_space;

@@ -19,11 +19,12 @@ namespace Exemplar
   class PatchScatter
   {
   public:
-    /// `pattern` has the couplings(). All must outlive it.
+    /// Whether `pattern` has the couplings(), or only those of cells. All must outlive it.
     PatchScatter(const Patches          &patches,
                  const FESpace          &fe_space,
                  const SymmetricPattern &pattern,
-                 const FreeDofs         &free_dofs);
+                 const FreeDofs         &free_dofs,
+                 bool                    has_couplings);
 
     /// All pairs of nodes that share a patch, for make_pattern().
     static std::vector<std::pair<unsigned int, unsigned int>>
@@ -55,7 +56,7 @@ namespace Exemplar
       return layouts[patch].free_dofs.size() < 3 * layouts[patch].nodes.size();
     }
 
-    /// Add factor u u^T to the values on the pattern.
+    /// Add factor u u^T to the values on a pattern with the couplings, as add_matrix() requires, too.
     void
     add_square(unsigned int               patch,
                double                     factor,
@@ -67,6 +68,13 @@ namespace Exemplar
     add_matrix(unsigned int                      patch,
                const dealii::FullMatrix<double> &matrix,
                std::vector<double>              &values) const;
+
+    /// The same on a pattern that need not have the couplings of nodes between which the matrix is
+    /// zero.
+    void
+    add_cells(unsigned int                      patch,
+              const dealii::FullMatrix<double> &matrix,
+              std::vector<double>              &values) const;
 
     /// Add factor b to a column by free degree of freedom.
     void
@@ -92,8 +100,12 @@ namespace Exemplar
       std::vector<int> entries;
     };
 
+    /// In the matrix of the body of one of its free_dofs.
+    int
+    free_index(const Layout &layout, unsigned int i) const;
+
     void
-    find_entries(const SymmetricPattern &pattern, Layout &layout) const;
+    find_entries(Layout &layout) const;
 
     std::vector<double>
     free_part(const Layout &layout, const std::vector<double> &u) const;
@@ -104,10 +116,11 @@ namespace Exemplar
     void
     for_each_value(const Layout &layout, std::vector<double> &values, const Function &add) const;
 
-    const Patches      &patches;
-    const FESpace      &fe_space;
-    const FreeDofs     &free_dofs;
-    std::vector<Layout> layouts;
+    const Patches          &patches;
+    const FESpace          &fe_space;
+    const FreeDofs         &free_dofs;
+    const SymmetricPattern &pattern;
+    std::vector<Layout>     layouts;
   };
 } // namespace Exemplar
 
