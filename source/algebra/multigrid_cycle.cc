@@ -69,10 +69,10 @@ namespace Exemplar
   }
 
   const BlockVector &
-  MultigridCycle::apply(const BlockVector &residual)
+  MultigridCycle::apply(const BlockVector &residual, const CycleShape shape)
   {
     levels[0].right_side = residual;
-    cycle(0);
+    cycle(0, shape);
     return levels[0].solution;
   }
 
@@ -106,7 +106,7 @@ namespace Exemplar
   }
 
   void
-  MultigridCycle::cycle(const std::size_t number)
+  MultigridCycle::cycle(const std::size_t number, const CycleShape shape)
   {
     if (number + 1 == levels.size())
     {
@@ -119,10 +119,24 @@ namespace Exemplar
     level.prolongation.multiply_transposed(level.residual, level.coarser);
     const std::size_t n = 4 * coarser.matrix.n_rows();
     std::copy(level.coarser.begin(), level.coarser.begin() + n, coarser.right_side.begin());
-    cycle(number + 1);
+    visit(number + 1, shape);
     std::copy(coarser.solution.begin(), coarser.solution.begin() + n, level.coarser.begin());
     level.prolongation.multiply_and_add(level.coarser, level.solution);
     smooth(level, false);
+  }
+
+  void
+  MultigridCycle::visit(const std::size_t number, const CycleShape shape)
+  {
+    cycle(number, shape);
+    if (shape == CycleShape::V || number + 1 == levels.size())
+      return;
+    Level            &level      = levels[number];
+    const BlockVector right_side = level.right_side, first = level.solution;
+    level.matrix.find_residual(right_side, level.solution, level.right_side);
+    cycle(number, shape);
+    for (std::size_t i = 0; i < 4 * level.matrix.n_rows(); ++i)
+      level.solution[i] += first[i];
   }
 
   std::size_t

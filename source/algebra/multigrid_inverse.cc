@@ -36,7 +36,7 @@ namespace Exemplar
         right_side(cycle->matrix().zeros()), step(right_side)
   {
     const auto by_cycle = [this](const BlockVector &residual) -> const BlockVector &
-    { return cycle->apply(residual); };
+    { return cycle->apply(residual, CycleShape::V); };
     spectrum = find_eigenvalues(cycle->matrix(), by_cycle, exchange);
     spectrum.second *= cycle_is_above;
     n_cycles = find_n_cycles(spectrum.second / spectrum.first);
@@ -67,7 +67,7 @@ namespace Exemplar
     {
       if (k > 0)
         cycle->matrix().find_residual(of_all, result, right_side);
-      const BlockVector &solution = cycle->apply(right_side);
+      const BlockVector &solution = cycle->apply(right_side, CycleShape::V);
       const auto keep = static_cast<float>(factors.keep), take = static_cast<float>(factors.take);
       for (std::size_t i = 0; i < 4 * cycle->matrix().n_rows(); ++i)
       {

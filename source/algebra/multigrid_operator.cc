@@ -260,7 +260,7 @@ namespace Exemplar
     BlockVector  residual = cycle->matrix().zeros();
     for (unsigned int row = 0; row < n && scale > 0.; ++row)
       residual[4 * (row / 3) + row % 3] = static_cast<float>(vector[row] / scale);
-    const BlockVector &result = cycle->apply(residual);
+    const BlockVector &result = cycle->apply(residual, CycleShape::W);
     for (unsigned int row = 0; row < n; ++row)
       image[row] = scale * result[4 * (row / 3) + row % 3];
   }

@@ -9,6 +9,14 @@
 
 namespace Exemplar
 {
+  /// How often a cycle comes to coarser levels: once, or twice from each finer level, which takes more
+  /// time and leaves less of an error.
+  enum class CycleShape
+  {
+    V,
+    W
+  };
+
   /// A cycle of multigrid in single precision, with Chebyshev's polynomials of a block-diagonal
   /// preconditioner as smoothers: a symmetric positive definite operation, about the inverse of the
   /// finest matrix.
@@ -21,7 +29,7 @@ namespace Exemplar
 
     /// About A^-1 residual, own blocks; here until the next call.
     const BlockVector &
-    apply(const BlockVector &residual);
+    apply(const BlockVector &residual, CycleShape shape);
 
     const BlockMatrix &
     matrix() const
@@ -29,7 +37,7 @@ namespace Exemplar
       return levels[0].matrix;
     }
 
-    /// Blocks of matrices that a cycle multiplies by, of this process.
+    /// Blocks of matrices that a V cycle multiplies by, of this process.
     double
     n_blocks() const;
 
@@ -52,7 +60,11 @@ namespace Exemplar
 
     /// From right_side to solution of a level.
     void
-    cycle(std::size_t number);
+    cycle(std::size_t number, CycleShape shape);
+
+    /// As often as the shape asks for.
+    void
+    visit(std::size_t number, CycleShape shape);
 
     void
     smooth(Level &level, bool from_zero) const;
