@@ -52,6 +52,14 @@ namespace Exemplar
   }
 
   void
+  BlockMatrix::add_row(const std::vector<int> &columns, const std::vector<float> &blocks)
+  {
+    column.insert(column.end(), columns.begin(), columns.end());
+    values.insert(values.end(), blocks.begin(), blocks.end());
+    start.push_back(static_cast<int>(column.size()));
+  }
+
+  void
   BlockMatrix::finish()
   {
     values.resize(values.size() + read_beyond, 0.F);
@@ -60,14 +68,39 @@ namespace Exemplar
     start.shrink_to_fit();
   }
 
-  const float *
-  BlockMatrix::block(const std::size_t row, const std::size_t other) const
+  std::array<float, 9>
+  BlockMatrix::diagonal_block(const std::size_t row) const
   {
-    const auto begin = column.begin() + start[row], end = column.begin() + start[row + 1];
-    const auto found = std::lower_bound(begin, end, static_cast<int>(other));
-    return found == end || *found != static_cast<int>(other)
-               ? nullptr
-               : &values[9 * (found - column.begin())];
+    std::array<float, 9> sum{};
+    const auto           begin = column.begin() + start[row], end = column.begin() + start[row + 1];
+    const auto           found = std::lower_bound(begin, end, static_cast<int>(row));
+    if (found != end && *found == static_cast<int>(row))
+      std::copy_n(&values[9 * (found - column.begin())], 9, sum.begin());
+    products.for_each_in_row(row,
+                             [&](const int product, const float *u)
+                             {
+                               for (int j = 0; j < 3; ++j)
+                                 for (int i = 0; i < 3; ++i)
+                                   sum[3 * j + i] += products.factor(product) * u[j] * u[i];
+                             });
+    return sum;
+  }
+
+  std::vector<std::size_t>
+  BlockMatrix::block_numbers(const std::size_t first) const
+  {
+    const std::size_t        n_own = halo.n_own() / 4;
+    std::vector<double>      own(halo.n_own()), others(halo.n_others());
+    std::vector<std::size_t> numbers;
+    for (std::size_t block = 0; block < n_own; ++block)
+    {
+      numbers.push_back(first + block);
+      own[4 * block] = static_cast<double>(first + block);
+    }
+    halo.share(own.data(), others.data());
+    for (std::size_t k = 0; k < others.size(); k += 4)
+      numbers.push_back(static_cast<std::size_t>(others[k]));
+    return numbers;
   }
 
   void
@@ -76,47 +109,41 @@ namespace Exemplar
     halo.share(vector.data(), vector.data() + halo.n_own());
   }
 
-  namespace
+  template <typename Action>
+  void
+  BlockMatrix::for_each_product(BlockVector &x, const Action &action) const
   {
-    /// Call action(row, product) for the rows of a product.
-    template <typename Action>
-    void
-    for_each_product(const BlockMatrix &matrix, const BlockVector &x, const Action &action)
+    share(x);
+    const std::vector<float> coefficients = products.coefficients(x.data());
+    for (std::size_t row = 0; row < n_rows(); ++row)
     {
-      for (std::size_t row = 0; row < matrix.n_rows(); ++row)
-      {
-        Register sum{};
-        matrix.for_each_block(row, [&](const std::size_t column, const float *block)
-                              { sum += times(block, &x[4 * column]); });
-        action(row, sum);
-      }
+      Register sum{};
+      for_each_block(row, [&](const std::size_t other, const float *block)
+                     { sum += times(block, &x[4 * other]); });
+      products.for_each_in_row(row, [&](const int product, const float *u)
+                               { sum += load(u) * coefficients[product]; });
+      action(row, sum);
     }
-  } // namespace
+  }
 
   void
   BlockMatrix::multiply(BlockVector &x, BlockVector &result) const
   {
-    share(x);
-    for_each_product(*this, x,
-                     [&](const std::size_t row, const Register product)
+    for_each_product(x, [&](const std::size_t row, const Register product)
                      { store(&result[4 * row], product); });
   }
 
   void
   BlockMatrix::multiply_and_add(BlockVector &x, BlockVector &result) const
   {
-    share(x);
-    for_each_product(*this, x,
-                     [&](const std::size_t row, const Register product)
+    for_each_product(x, [&](const std::size_t row, const Register product)
                      { store(&result[4 * row], load(&result[4 * row]) + product); });
   }
 
   void
   BlockMatrix::find_residual(const BlockVector &b, BlockVector &x, BlockVector &result) const
   {
-    share(x);
-    for_each_product(*this, x,
-                     [&](const std::size_t row, const Register product)
+    for_each_product(x, [&](const std::size_t row, const Register product)
                      { store(&result[4 * row], load(&b[4 * row]) - product); });
   }
 
@@ -128,8 +155,7 @@ namespace Exemplar
                        BlockVector              &x,
                        BlockVector              &change) const
   {
-    share(x);
-    for_each_product(*this, x,
+    for_each_product(x,
                      [&](const std::size_t row, const Register product)
                      {
                        float residual[4];
@@ -163,7 +189,8 @@ namespace Exemplar
   std::size_t
   BlockMatrix::memory_consumption() const
   {
-    return sizeof(int) * (start.capacity() + column.capacity()) + sizeof(float) * values.capacity();
+    return sizeof(int) * (start.capacity() + column.capacity()) + sizeof(float) * values.capacity()
+           + products.memory_consumption();
   }
 
   namespace

@@ -54,6 +54,12 @@ namespace Exemplar
         return A->values();
       }
 
+      OuterProducts *
+      outer_products() override
+      {
+        return A->outer_products();
+      }
+
       void
       factorize(const Vector &positions) override
       {

@@ -8,8 +8,7 @@ namespace Exemplar
 {
   namespace
   {
-    constexpr double min_pivot_ratio
-        = 1e-6; ///< less in single precision: a row depends on others
+    constexpr double min_pivot_ratio = 1e-6; ///< less in single precision: a row depends on others
 
     std::size_t
     place(const std::size_t row)

@@ -210,7 +210,8 @@ namespace Exemplar
   }
 
   void
-  DistributedRows::fill(const std::vector<double> &lower_values)
+  DistributedRows::fill(const std::vector<double> &lower_values,
+                        const std::vector<double> &further_diagonal)
   {
     std::fill(matrix.value.begin(), matrix.value.end(), 0.);
     std::vector<bool> is_held(numbers.n_rows(), true);
@@ -221,7 +222,7 @@ namespace Exemplar
         matrix.value[matrix.row_start[row]] = 1.;
     add_own(lower_values);
     add_received(lower_values);
-    check_diagonal();
+    check_diagonal(further_diagonal);
   }
 
   void
@@ -262,11 +263,14 @@ namespace Exemplar
   }
 
   void
-  DistributedRows::check_diagonal() const
+  DistributedRows::check_diagonal(const std::vector<double> &further_diagonal) const
   {
     bool is_positive = true;
     for (unsigned int row = 0; row < numbers.n_rows(); ++row)
-      is_positive = is_positive && matrix.value[place_of(row, row)] > 0.; // nor a NaN
+    {
+      const double further = further_diagonal.empty() ? 0. : further_diagonal[row];
+      is_positive = is_positive && matrix.value[place_of(row, row)] + further > 0.; // nor a NaN
+    }
     if (numbers.exchange().any(!is_positive))
       throw indefinite_matrix();
   }

@@ -31,10 +31,7 @@ namespace Exemplar
 
     /// Conjugate gradients, of which the factors are those of Lanczos' method.
     Tridiagonal
-    iterate(const BlockMatrix  &matrix,
-            const Precondition &precondition,
-            const unsigned int  n_steps,
-            const Exchange     &exchange)
+    iterate(const BlockMatrix &matrix, const Precondition &precondition, const Exchange &exchange)
     {
       Tridiagonal       result;
       const std::size_t n = matrix.n_rows();
@@ -42,7 +39,7 @@ namespace Exemplar
       double            old_product = 0., old_length = 0.;
       for (std::size_t i = 0; i < 4 * n; ++i)
         r[i] = std::sin(1.F + 1.7F * static_cast<float>(i % 1000)); // any vector
-      for (unsigned int k = 0; k < n_steps; ++k)
+      for (unsigned int k = 0; k < n_lanczos_steps; ++k)
       {
         const BlockVector &z       = precondition(r);
         const double       product = dot(r, z, n, exchange);
@@ -69,10 +66,9 @@ namespace Exemplar
   std::pair<double, double>
   find_eigenvalues(const BlockMatrix  &matrix,
                    const Precondition &precondition,
-                   const unsigned int  n_steps,
                    const Exchange     &exchange)
   {
-    const auto [diagonal, beside] = iterate(matrix, precondition, n_steps, exchange);
+    const auto [diagonal, beside] = iterate(matrix, precondition, exchange);
     if (diagonal.empty())
       return { 0.5, 1. };
     dealii::TridiagonalMatrix<double> tridiagonal(diagonal.size(), true);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/long_vectors.h>
 #include <exemplar/algebra/multigrid_inverse.h>
 #include <exemplar/algebra/multigrid_operator.h>
 #include <exemplar/algebra/rigid_modes.h>
@@ -106,20 +107,55 @@ namespace Exemplar
       const bool      has_rows;
     };
 
-    /// Bytes that are allocated; libraries do not tell what their hierarchies take.
-    std::size_t
-    heap_in_use()
+    /// Products by node as products by block of rows among all processes, without what is held.
+    OuterProducts
+    by_rows(const OuterProducts &products, const FreeDofs &free_dofs, const RowNumbers &numbers)
     {
-      const auto heap = mallinfo2();
-      return heap.uordblks + heap.hblkhd;
+      constexpr unsigned int    none = -1;
+      std::vector<unsigned int> block_of(free_dofs.n_dofs() / 3, none);
+      for (std::size_t i = 0; i < free_dofs.local_list().size(); ++i)
+        block_of[free_dofs.local_list()[i] / 3] = numbers.global_rows()[i] / 3;
+      OuterProducts result;
+      for (std::size_t product = 0; product < products.size(); ++product)
+      {
+        for (std::size_t k = products.begin(product); k < products.ends[product]; ++k)
+        {
+          const unsigned int node = products.blocks[k];
+          if (block_of[node] == none)
+            continue;
+          result.blocks.push_back(block_of[node]);
+          for (unsigned int c = 0; c < 3; ++c)
+            result.values.push_back(free_dofs.free_index(3 * node + c) == FreeDofs::held
+                                        ? 0.
+                                        : products.values[3 * k + c]);
+        }
+        result.factors.push_back(products.factors[product]);
+        result.ends.push_back(result.blocks.size());
+      }
+      return result;
+    }
+
+    /// The diagonal of a sum of products, by own row.
+    std::vector<double>
+    diagonal_of(const OuterProductRows<double> &products, const std::size_t n_rows)
+    {
+      std::vector<double> diagonal(n_rows, 0.);
+      for (std::size_t row = 0; row < n_rows; row += 3)
+        products.for_each_in_row(row / 3,
+                                 [&](const int product, const double *u)
+                                 {
+                                   for (unsigned int c = 0; c < 3; ++c)
+                                     diagonal[row + c] += products.factor(product) * u[c] * u[c];
+                                 });
+      return diagonal;
     }
   } // namespace
 
   MultigridOperator::MultigridOperator(const FreeDofs &free_dofs,
                                        const double    tolerance,
                                        MakeHierarchy   make_hierarchy)
-      : exchange(free_dofs.exchange()), tolerance(tolerance),
-        make_hierarchy(std::move(make_hierarchy)), rows(free_dofs)
+      : free_dofs(free_dofs), tolerance(tolerance), make_hierarchy(std::move(make_hierarchy)),
+        rows(free_dofs)
   {
     MpiSession::require();
   }
@@ -128,19 +164,19 @@ namespace Exemplar
   MultigridOperator::traits() const
   {
     return { "iterative", 0., 0.,
-             sizeof(double) * lower_values.size() + rows.memory_consumption() + multigrid_memory };
+             sizeof(double) * (lower_values.size() + products.values.size())
+                 + rows.memory_consumption() + product_rows.memory_consumption()
+                 + (cycle == nullptr ? 0 : cycle->memory_consumption()) };
   }
 
   void
   MultigridOperator::reinit(const SymmetricPattern &pattern)
   {
-    hierarchy.reset();
+    cycle.reset();
+    products.clear();
     lower_values.assign(pattern.n_values(), 0.);
-    {
-      const TrilinosLock lock; // calls MPI
-      rows.reinit(pattern);
-    }
-    hierarchy = make_hierarchy(rows);
+    const TrilinosLock lock; // calls MPI
+    rows.reinit(pattern);
   }
 
   void
@@ -149,18 +185,18 @@ namespace Exemplar
     const RowNumbers &numbers = rows.get_numbers();
     if (numbers.first_nodes().back() == 0)
       return;
-    std::vector<double> modes = rigid_modes(places_of_nodes(positions), numbers.row_of());
-    {
-      const TrilinosLock lock; // calls MPI
-      rows.fill(lower_values);
-    }
+    const Exchange     &exchange = free_dofs.exchange();
+    std::vector<double> modes    = rigid_modes(places_of_nodes(positions), numbers.row_of());
     // nothing takes as much memory as a hierarchy: give back what has been freed before
-    hierarchy->clear();
+    cycle.reset();
     malloc_trim(0);
-    const std::size_t before = heap_in_use();
-    hierarchy->make(std::move(modes));
-    const std::size_t after = heap_in_use(); // a frame's writer may have freed memory since
-    multigrid_memory        = after > before ? after - before : 0;
+    const TrilinosLock  lock; // calls MPI
+    const OuterProducts of_rows = by_rows(products, free_dofs, numbers);
+    product_rows = OuterProductRows<double>(of_rows, numbers.first_nodes(), exchange);
+    rows.fill(lower_values, diagonal_of(product_rows, numbers.n_rows()));
+    std::vector<MultigridLevel> levels = make_hierarchy(rows, std::move(modes));
+    add_products(of_rows, levels, exchange);
+    cycle = std::make_shared<MultigridCycle>(std::move(levels), exchange);
   }
 
   void
@@ -171,8 +207,8 @@ namespace Exemplar
     const std::size_t       n       = row_of.size();
     // a process without unknowns does not know how many there are
     const auto n_columns = static_cast<std::size_t>(
-        exchange.max(n == 0 ? 0. : static_cast<double>(columns.size() / n)));
-    SharedVector right_side(numbers.n_rows(), exchange), solution(numbers.n_rows(), exchange);
+        free_dofs.exchange().max(n == 0 ? 0. : static_cast<double>(columns.size() / n)));
+    SharedVector right_side(numbers.n_rows(), free_dofs.exchange()), solution(right_side);
     for (std::size_t column = 0; column < n_columns; ++column)
     {
       double *entries = columns.data() + column * n;
@@ -187,8 +223,8 @@ namespace Exemplar
   std::unique_ptr<KeptInverse>
   MultigridOperator::keep() const
   {
-    return std::make_unique<MultigridInverse>(hierarchy->copy(), rows.get_numbers().row_of(),
-                                              exchange);
+    return std::make_unique<MultigridInverse>(cycle, rows.get_numbers().row_of(),
+                                              free_dofs.exchange());
   }
 
   std::vector<double>
@@ -197,8 +233,36 @@ namespace Exemplar
     std::vector<double> places;
     for (const unsigned int node : rows.get_numbers().nodes())
       places.insert(places.end(), positions.begin() + 3 * node, positions.begin() + 3 * node + 3);
-    center_and_scale(places, exchange);
+    center_and_scale(places, free_dofs.exchange());
     return places;
+  }
+
+  void
+  MultigridOperator::multiply(const Vector &vector, Vector &image) const
+  {
+    rows.multiply(vector, image);
+    const std::vector<double> coefficients = product_rows.coefficients(vector.begin());
+    for (unsigned int row = 0; row < rows.get_numbers().n_rows(); row += 3)
+      product_rows.for_each_in_row(row / 3,
+                                   [&](const int product, const double *u)
+                                   {
+                                     for (unsigned int c = 0; c < 3; ++c)
+                                       image[row + c] += coefficients[product] * u[c];
+                                   });
+  }
+
+  void
+  MultigridOperator::precondition(const Vector &vector, Vector &image) const
+  {
+    // of residuals that shrink by ten orders of magnitude single precision would lose the last
+    const unsigned int n  = rows.get_numbers().n_rows();
+    const double scale    = free_dofs.exchange().max(max_entry(vector.begin(), vector.begin() + n));
+    BlockVector  residual = cycle->matrix().zeros();
+    for (unsigned int row = 0; row < n && scale > 0.; ++row)
+      residual[4 * (row / 3) + row % 3] = static_cast<float>(vector[row] / scale);
+    const BlockVector &result = cycle->apply(residual, CycleShape::W);
+    for (unsigned int row = 0; row < n; ++row)
+      image[row] = scale * result[4 * (row / 3) + row % 3];
   }
 
   void
@@ -210,16 +274,16 @@ namespace Exemplar
       return;
     if (!std::isfinite(norm))
       throw SolverFailure("The forces are not finite numbers.");
-    const auto            multiply = [this](const Vector &x, Vector &y) { rows.multiply(x, y); };
-    const auto            cycle    = [this](const Vector &x, Vector &y) { hierarchy->apply(x, y); };
+    const auto            A        = [this](const Vector &x, Vector &y) { multiply(x, y); };
+    const auto            inverse  = [this](const Vector &x, Vector &y) { precondition(x, y); };
     const bool            has_rows = rows.get_numbers().n_rows() > 0;
     dealii::SolverControl control(max_iterations, tolerance * norm);
     dealii::PrimitiveVectorMemory<SharedVector> memory;
     try
     {
       dealii::SolverCG<SharedVector>(control, memory)
-          .solve(CheckedOperator(multiply, has_rows), solution, right_side,
-                 CheckedOperator(cycle, has_rows));
+          .solve(CheckedOperator(A, has_rows), solution, right_side,
+                 CheckedOperator(inverse, has_rows));
     }
     catch (const dealii::SolverControl::NoConvergence &)
     {

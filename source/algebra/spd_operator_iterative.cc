@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/algebra/multigrid_operator.h>
 #include <exemplar/algebra/rigid_modes.h>
-#include <exemplar/algebra/trilinos_lock.h>
 
 #include <Epetra_CrsMatrix.h>
 #include <Epetra_Map.h>
 #include <Epetra_MpiComm.h>
-#include <Epetra_Vector.h>
 #include <Teuchos_ParameterList.hpp>
 #include <ml_MultiLevelPreconditioner.h>
 #include <ml_include.h>
@@ -14,7 +12,7 @@
 #include <ml_utils.h>
 #include <mpi.h>
 
-// All that is Trilinos': Epetra's and ML's view of rows, and ML's multigrid.
+// All that is Trilinos': Epetra's view of rows, and ML's levels.
 
 namespace Exemplar
 {
@@ -42,13 +40,6 @@ namespace Exemplar
       return matrix;
     }
 
-    /// A vector as Epetra takes it.
-    Epetra_Vector
-    view(const Epetra_Map &map, const Vector &vector)
-    {
-      return Epetra_Vector(View, map, const_cast<double *>(vector.begin()));
-    }
-
     /// Numbers among all processes of the columns of a matrix of ML, of which the own begin with
     /// `first`.
     std::vector<std::size_t>
@@ -73,7 +64,6 @@ namespace Exemplar
     BlockMatrix
     copy_in_blocks(ML_Operator *matrix, const Exchange &exchange)
     {
-      const TrilinosLock             lock;
       const std::vector<std::size_t> firsts = first_numbers(matrix->invec_leng / 3, exchange);
       const auto                     read_row
           = [matrix](const int row, std::vector<int> &columns, std::vector<double> &values)
@@ -93,87 +83,47 @@ namespace Exemplar
                                exchange);
     }
 
-    /// Smoothed aggregation by ML.
-    class MlHierarchy : public MultigridHierarchy
+    std::vector<MultigridLevel>
+    copy_levels(const ML_Struct &ml, const Exchange &exchange)
     {
-    public:
-      explicit MlHierarchy(DistributedRows &rows) : exchange(rows.get_numbers().exchange())
+      const int                   down = ml.ML_finest_level < ml.ML_coarsest_level ? 1 : -1;
+      std::vector<MultigridLevel> levels;
+      for (int number = ml.ML_finest_level; number != ml.ML_coarsest_level; number += down)
       {
-        const TrilinosLock lock;
-        matrix = view(rows);
-      }
-
-      ~MlHierarchy() override
-      {
-        const TrilinosLock lock;
-        multigrid.reset(); // refers to the matrix
-        matrix.reset();
-      }
-
-      void
-      make(std::vector<double> modes) override
-      {
-        const TrilinosLock lock;
-        modes.reserve(1); // where there are no rows, too, ML wants an address
-        Teuchos::ParameterList parameters;
-        ML_Epetra::SetDefaults("SA", parameters);
-        parameters.set("ML output", 0);
-        parameters.set("PDE equations", 3);
-        parameters.set("null space: type", "pre-computed");
-        parameters.set("null space: dimension", static_cast<int>(n_rigid_modes));
-        parameters.set("null space: vectors", modes.data());
-        parameters.set("aggregation: type", "Uncoupled");
-        parameters.set("prec type", "MGW"); // W cycles: coarse levels cost next to nothing
-        parameters.set("smoother: type", "Chebyshev");
-        parameters.set("smoother: sweeps", 2);
-        parameters.set("coarse: type", "Amesos-KLU");
-        // of its eigenvalue estimates, or else they would depend on the hierarchies before
-        ML_set_random_seed(1);
-        multigrid = std::make_unique<Multigrid>(*matrix, parameters);
-        if (exchange.any(!multigrid->IsPreconditionerComputed()))
-          throw SolverFailure("ML makes no multigrid hierarchy of the matrix of the step. Set "
-                              "Solver/Linear solver to cholesky.");
-      }
-
-      void
-      clear() override
-      {
-        const TrilinosLock lock;
-        multigrid.reset();
-      }
-
-      void
-      apply(const Vector &vector, Vector &image) const override
-      {
-        const TrilinosLock lock; // its products start a timer of the process
-        Epetra_Vector      result = view(matrix->RowMap(), image);
-        multigrid->ApplyInverse(view(matrix->RowMap(), vector), result);
-      }
-
-      std::vector<MultigridLevel>
-      copy() const override
-      {
-        const ML_Struct            &ml   = *multigrid->GetML();
-        const int                   down = ml.ML_finest_level < ml.ML_coarsest_level ? 1 : -1;
-        std::vector<MultigridLevel> levels;
-        for (int number = ml.ML_finest_level; number != ml.ML_coarsest_level; number += down)
-        {
-          BlockMatrix of_level = copy_in_blocks(&ml.Amat[number], exchange);
-          levels.push_back(
-              { std::move(of_level), copy_in_blocks(&ml.Pmat[number + down], exchange) });
-        }
+        BlockMatrix of_level = copy_in_blocks(&ml.Amat[number], exchange);
         levels.push_back(
-            { copy_in_blocks(&ml.Amat[ml.ML_coarsest_level], exchange), BlockMatrix(Halo()) });
-        return levels;
+            { std::move(of_level), copy_in_blocks(&ml.Pmat[number + down], exchange) });
       }
+      levels.push_back(
+          { copy_in_blocks(&ml.Amat[ml.ML_coarsest_level], exchange), BlockMatrix(Halo()) });
+      return levels;
+    }
 
-    private:
-      using Multigrid = ML_Epetra::MultiLevelPreconditioner;
-
-      const Exchange                   &exchange;
-      std::unique_ptr<Epetra_CrsMatrix> matrix;
-      std::unique_ptr<Multigrid>        multigrid;
-    };
+    /// Smoothed aggregation by ML; what is computed with it is not ML's.
+    std::vector<MultigridLevel>
+    make_by_ml(DistributedRows &rows, std::vector<double> modes)
+    {
+      const Exchange                         &exchange = rows.get_numbers().exchange();
+      const std::unique_ptr<Epetra_CrsMatrix> matrix   = view(rows);
+      modes.reserve(1); // where there are no rows, too, ML wants an address
+      Teuchos::ParameterList parameters;
+      ML_Epetra::SetDefaults("SA", parameters);
+      parameters.set("ML output", 0);
+      parameters.set("PDE equations", 3);
+      parameters.set("null space: type", "pre-computed");
+      parameters.set("null space: dimension", static_cast<int>(n_rigid_modes));
+      parameters.set("null space: vectors", modes.data());
+      parameters.set("aggregation: type", "Uncoupled");
+      parameters.set("smoother: type", "do-nothing");
+      parameters.set("coarse: type", "do-nothing");
+      // of its eigenvalue estimates, or else they would depend on the hierarchies before
+      ML_set_random_seed(1);
+      const ML_Epetra::MultiLevelPreconditioner multigrid(*matrix, parameters);
+      if (exchange.any(!multigrid.IsPreconditionerComputed()))
+        throw SolverFailure("ML makes no multigrid hierarchy of the matrix of the step. Set "
+                            "Solver/Linear solver to cholesky.");
+      return copy_levels(*multigrid.GetML(), exchange);
+    }
   } // namespace
 
   bool
@@ -185,8 +135,6 @@ namespace Exemplar
   std::unique_ptr<SpdOperator>
   make_iterative_operator(const FreeDofs &free_dofs, const double tolerance)
   {
-    return std::make_unique<MultigridOperator>(free_dofs, tolerance,
-                                               [](DistributedRows &rows)
-                                               { return std::make_unique<MlHierarchy>(rows); });
+    return std::make_unique<MultigridOperator>(free_dofs, tolerance, make_by_ml);
   }
 } // namespace Exemplar

@@ -15,9 +15,10 @@ namespace Exemplar
   std::unique_ptr<SpdOperator>
   make_iterative_operator(const FreeDofs & /*free_dofs*/, const double /*tolerance*/)
   {
-    throw UserError("Solver/Linear solver = iterative, which several processes need, too: this "
-                    "exemplar was built without Trilinos (Epetra and ML). Set Solver/Linear solver "
-                    "to auto or cholesky and start one process, or build it with a deal.II that has "
-                    "Trilinos.");
+    throw UserError(
+        "Solver/Linear solver = iterative, which several processes need, too: this "
+        "exemplar was built without Trilinos (Epetra and ML). Set Solver/Linear solver "
+        "to auto or cholesky and start one process, or build it with a deal.II that has "
+        "Trilinos.");
   }
 } // namespace Exemplar

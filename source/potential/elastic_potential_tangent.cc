@@ -255,7 +255,8 @@ namespace Exemplar
                                      const Vector              &positions,
                                      const std::vector<double> &weights,
                                      std::vector<double>       &matrix_values,
-                                     std::vector<double>       &columns)
+                                     std::vector<double>       &columns,
+                                     OuterProducts             *products)
   {
     find_dilatations(positions, RotationUse::keep);
     tell_cells({ positions, weights });
@@ -273,7 +274,7 @@ namespace Exemplar
       with_element(parts.fe_space.element(),
                    [&](const auto of) { assemble_coupling<of()>(cell_task, to, columns); });
     for (const auto &term : terms)
-      term->add_tangent({ positions, weights }, tangent, matrix_values, columns);
+      add_tangent_of(*term, { positions, weights }, tangent, matrix_values, columns, products);
   }
 
   void

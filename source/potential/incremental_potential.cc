@@ -23,17 +23,25 @@ namespace Exemplar
       return ratio;
     }
 
-    NodePairs
-    couplings_of(const PotentialTerms &elastic_terms, const PotentialTerms &terms)
+    /// Of cells and terms.
+    SymmetricPattern
+    pattern_of(const FESpace        &fe_space,
+               const PotentialTerms &elastic_terms,
+               const PotentialTerms &terms,
+               const FreeDofs       &free_dofs,
+               const bool            in_parts)
     {
       NodePairs couplings;
       for (const PotentialTerms *some : { &elastic_terms, &terms })
         for (const auto &term : *some)
-        {
-          const NodePairs more = term->couplings();
-          couplings.insert(couplings.end(), more.begin(), more.end());
-        }
-      return couplings;
+          if (!in_parts || !term->couples_by_products())
+          {
+            const NodePairs more = term->couplings();
+            couplings.insert(couplings.end(), more.begin(), more.end());
+          }
+      SymmetricPattern pattern   = make_pattern(fe_space, couplings, free_dofs);
+      pattern.products_are_apart = in_parts;
+      return pattern;
     }
 
     std::vector<PotentialTerm *>
@@ -52,6 +60,14 @@ namespace Exemplar
     {
       for (std::size_t i = 0; i < b.size(); ++i)
         a[i] += c * (b[i] - a[i]);
+    }
+
+    void
+    mix(OuterProducts &a, OuterProducts &b, const double c)
+    {
+      a.scale(1. - c);
+      b.scale(c);
+      a.add(b);
     }
   } // namespace
 
@@ -81,9 +97,10 @@ namespace Exemplar
   IncrementalPotential::IncrementalPotential(const ElasticParts &parts,
                                              PotentialTerms      elastic_terms,
                                              PotentialTerms      new_terms,
-                                             TimeIntegrator     *integrator)
+                                             TimeIntegrator     *integrator,
+                                             const bool          in_parts)
       : terms(std::move(new_terms)), fe_space(parts.fe_space),
-        pattern(make_pattern(parts.fe_space, couplings_of(elastic_terms, terms), parts.free_dofs)),
+        pattern(pattern_of(fe_space, elastic_terms, terms, parts.free_dofs, in_parts)),
         cells(parts, std::move(elastic_terms), pattern), weights(parts.weights),
         integrator(integrator), free_dofs(parts.free_dofs),
         all_terms(pointers_to(cells.get_terms(), terms))
@@ -96,11 +113,20 @@ namespace Exemplar
   IncrementalPotential::renew_pattern()
   {
     const unsigned int version = pattern.version;
-    pattern         = make_pattern(fe_space, couplings_of(cells.get_terms(), terms), free_dofs);
+    pattern = pattern_of(fe_space, cells.get_terms(), terms, free_dofs, pattern.products_are_apart);
     pattern.version = version + 1;
     cells.follow_pattern();
     for (const auto &term : terms)
       term->attach(pattern, free_dofs, cells.get_field());
+  }
+
+  void
+  IncrementalPotential::assemble_in_parts(const bool in_parts)
+  {
+    if (pattern.products_are_apart == in_parts)
+      return;
+    pattern.products_are_apart = in_parts;
+    renew_pattern();
   }
 
   void
@@ -223,27 +249,44 @@ namespace Exemplar
   }
 
   void
+  IncrementalPotential::assemble_one(const Tangent              kind,
+                                     const Vector              &positions,
+                                     const std::vector<double> &at_weights,
+                                     std::vector<double>       &values,
+                                     std::vector<double>       &columns,
+                                     OuterProducts             *products)
+  {
+    std::fill(values.begin(), values.end(), 0.);
+    if (products != nullptr)
+      products->clear();
+    cells.assemble_tangent(kind, positions, at_weights, values, columns, products);
+    for (const auto &term : terms)
+      add_tangent_of(*term, { positions, at_weights }, kind, values, columns, products);
+  }
+
+  void
   IncrementalPotential::assemble(const Vector              &positions,
                                  const std::vector<double> &at_weights,
                                  const double               convexity,
                                  std::vector<double>       &matrix_values,
-                                 std::vector<double>       &columns)
+                                 std::vector<double>       &columns,
+                                 OuterProducts             *products)
   {
-    const auto assemble_one
-        = [&](const Tangent kind, std::vector<double> &values, std::vector<double> &G)
-    {
-      std::fill(values.begin(), values.end(), 0.);
-      cells.assemble_tangent(kind, positions, at_weights, values, G);
-      for (const auto &term : terms)
-        term->add_tangent({ positions, at_weights }, kind, values, G);
-    };
-    assemble_one(convexity < 1. ? Tangent::exact : Tangent::convex, matrix_values, columns);
+    Assert(!pattern.products_are_apart || products != nullptr, dealii::ExcInternalError());
+    if (!pattern.products_are_apart)
+      products = nullptr; // all is on the pattern
+    assemble_one(convexity < 1. ? Tangent::exact : Tangent::convex, positions, at_weights,
+                 matrix_values, columns, products);
     if (convexity > 0. && convexity < 1.)
     {
       std::vector<double> convex_values(matrix_values.size()), convex_columns;
-      assemble_one(Tangent::convex, convex_values, convex_columns);
+      OuterProducts       convex_products;
+      assemble_one(Tangent::convex, positions, at_weights, convex_values, convex_columns,
+                   products == nullptr ? nullptr : &convex_products);
       mix(matrix_values, convex_values, convexity);
       mix(columns, convex_columns, convexity);
+      if (products != nullptr)
+        mix(*products, convex_products, convexity);
     }
   }
 

@@ -36,7 +36,8 @@ namespace Exemplar
   {
     cells     = &field;
     free_dofs = &all_free_dofs;
-    scatter.emplace(patches, fe_space, pattern, all_free_dofs, field);
+    scatter.emplace(patches, fe_space, pattern, all_free_dofs, field,
+                    !(pattern.products_are_apart && couples_by_products()));
     field.get_dilatation().resize(fe_space.n_points());
   }
 
@@ -230,6 +231,19 @@ namespace Exemplar
     if (!columns.empty())
       add_columns(products.vectors, columns);
     scatter->add_products(*cells, products, values);
+  }
+
+  void
+  PatchDilatation::add_tangent_in_parts(const TermPoint &at,
+                                        const Tangent    kind,
+                                        std::vector<double> & /*values*/,
+                                        std::vector<double> &columns,
+                                        OuterProducts       &products)
+  {
+    const PatchProducts of_patches = find_products(at.positions, kind);
+    if (!columns.empty())
+      add_columns(of_patches.vectors, columns);
+    scatter->add_products(of_patches, products);
   }
 
   void

@@ -27,7 +27,8 @@ namespace Exemplar
                              const FESpace          &fe_space,
                              const SymmetricPattern &pattern,
                              const FreeDofs         &free_dofs,
-                             const CellField        &cells)
+                             const CellField        &cells,
+                             const bool              has_couplings)
       : fe_space(fe_space), free_dofs(free_dofs), node_starts(1, 0)
   {
     for (unsigned int patch = 0; patch < patches.size(); ++patch)
@@ -37,7 +38,9 @@ namespace Exemplar
       node_starts.push_back(all_nodes.size());
     }
     find_points(patches, cells);
-    find_columns(pattern);
+    find_held();
+    if (has_couplings)
+      find_columns(pattern);
   }
 
   std::vector<std::pair<unsigned int, unsigned int>>
@@ -89,11 +92,9 @@ namespace Exemplar
   }
 
   void
-  PatchScatter::find_columns(const SymmetricPattern &pattern)
+  PatchScatter::find_held()
   {
-    std::vector<std::vector<PatchAtNode>> at_nodes(fe_space.n_nodes());
-    const unsigned int                    n_patches = node_starts.size() - 1;
-    for (unsigned int patch = 0; patch < n_patches; ++patch)
+    for (unsigned int patch = 0; patch + 1 < node_starts.size(); ++patch)
     {
       beside_held.push_back(false);
       for (auto place = node_starts[patch]; place < node_starts[patch + 1]; ++place)
@@ -105,10 +106,18 @@ namespace Exemplar
           mixed.push_back(place);
         if (n_held > 0)
           beside_held.back() = true;
-        if (n_held < 3)
-          at_nodes[all_nodes[place]].push_back({ patch, static_cast<unsigned int>(place), 0 });
       }
     }
+  }
+
+  void
+  PatchScatter::find_columns(const SymmetricPattern &pattern)
+  {
+    std::vector<std::vector<PatchAtNode>> at_nodes(fe_space.n_nodes());
+    for (unsigned int patch = 0; patch + 1 < node_starts.size(); ++patch)
+      for (auto place = node_starts[patch]; place < node_starts[patch + 1]; ++place)
+        if (first_free(all_nodes[place]) != FreeDofs::held)
+          at_nodes[all_nodes[place]].push_back({ patch, static_cast<unsigned int>(place), 0 });
     of_columns.starts.push_back(0);
     for (unsigned int node = 0; node < at_nodes.size(); ++node)
     {
@@ -251,6 +260,42 @@ namespace Exemplar
     for_each_part(n, n_columns, 1,
                   [&](std::size_t /*part*/, const std::size_t begin, const std::size_t end)
                   { add(last_of(begin, end), end); });
+  }
+
+  std::vector<double>
+  PatchScatter::of_nodes(const unsigned int patch, const PatchVectors &vectors) const
+  {
+    std::vector<double> numbers;
+    for (std::size_t place = node_starts[patch]; place < node_starts[patch + 1]; ++place)
+      numbers.insert(numbers.end(), &vectors[4 * place], &vectors[4 * place] + 3);
+    return numbers;
+  }
+
+  void
+  PatchScatter::add_products(const PatchProducts &products, OuterProducts &to) const
+  {
+    for (unsigned int patch = 0; patch + 1 < node_starts.size(); ++patch)
+    {
+      const std::vector<unsigned int> nodes(all_nodes.begin() + node_starts[patch],
+                                            all_nodes.begin() + node_starts[patch + 1]);
+      to.add(products.factors[patch], nodes, of_nodes(patch, products.vectors));
+      if (products.squares.empty())
+        continue;
+      const std::vector<double> square = of_nodes(patch, products.squares);
+      if (products.of_squares[patch] != 0.)
+        to.add(products.of_squares[patch], nodes, square);
+      if (products.of_products[patch] == 0.)
+        continue;
+      // u v^T + v u^T = ((u + v) (u + v)^T - (u - v) (u - v)^T) / 2
+      std::vector<double> sum = of_nodes(patch, products.sums), difference = square;
+      for (std::size_t i = 0; i < sum.size(); ++i)
+      {
+        difference[i] -= sum[i];
+        sum[i] += square[i];
+      }
+      to.add(0.5 * products.of_products[patch], nodes, sum);
+      to.add(-0.5 * products.of_products[patch], nodes, difference);
+    }
   }
 
   void

@@ -46,7 +46,8 @@ namespace Exemplar
       pattern_version = potential.matrix_pattern().version;
     }
     StepClock::Scope scope(clock, Phase::assemble);
-    potential.assemble(positions, weights, convexity, system->matrix_values(), system->columns());
+    potential.assemble(positions, weights, convexity, system->matrix_values(), system->columns(),
+                       system->outer_products());
     potential.get_free_dofs().assemble_columns(system->columns());
     ++factorizations;
     factor_of = potential.get_free_dofs().version();

@@ -86,9 +86,10 @@ namespace Exemplar
       const State &state = problem.state;
       Sample       sample;
       sample.assemble = duration_of(
-          [&] {
+          [&]
+          {
             problem.potential.assemble(state.positions, state.weights, 1., matrix->values(),
-                                       coupling);
+                                       coupling, &products);
           });
       sample.factorize = duration_of([&] { matrix->factorize(state.positions); });
       column.assign(problem.constraints.free_dofs.size(), 1.);
@@ -98,6 +99,7 @@ namespace Exemplar
 
     std::unique_ptr<SpdOperator> matrix;
     std::vector<double>          coupling;
+    OuterProducts                products; ///< no part of the matrix where a scene keeps them apart
     std::vector<double>          column;
   };
 

@@ -235,6 +235,29 @@ namespace Exemplar::Testing
     std::vector<const MshElement *> cells; ///< of a mesh that outlives this
   };
 
+  /// Outer products over patches of cells far from each other, as one process makes them of its cells;
+  /// by the nodes of the whole body.
+  inline OuterProducts
+  make_products(const MshFile &msh, const Partition &partition, const unsigned int process)
+  {
+    constexpr std::size_t n_patches = 30;
+    OuterProducts         products;
+    const auto            cells = tetrahedra(msh);
+    for (std::size_t patch = 0; patch < n_patches; ++patch)
+    {
+      std::set<unsigned int> nodes;
+      for (std::size_t cell = patch; cell < cells.size(); cell += n_patches)
+        if (partition[cell] == process)
+          nodes.insert(cells[cell]->nodes.begin(), cells[cell]->nodes.end());
+      std::vector<double> values;
+      for (const unsigned int node : nodes)
+        for (unsigned int c = 0; c < 3; ++c)
+          values.push_back(std::sin(1. + patch + 3. * node + c));
+      products.add(0.1 * (1. + patch % 3), { nodes.begin(), nodes.end() }, values);
+    }
+    return products;
+  }
+
   /// A body in this process alone, and its part of it among all processes.
   class Distributed : public testing::Test
   {
@@ -261,6 +284,52 @@ namespace Exemplar::Testing
       };
       whole = std::make_unique<Elasticity>(msh, held(msh));
       part  = std::make_unique<Elasticity>(own, held(own), *exchange);
+
+      own_products = make_products(msh, partition, this_process());
+      for (unsigned int &node : own_products.blocks)
+        node = std::lower_bound(shared.in_files.begin(), shared.in_files.end(), node)
+               - shared.in_files.begin();
+      all_products.clear();
+      for (unsigned int process = 0; process < n_processes(); ++process)
+        all_products.add(make_products(msh, partition, process));
+    }
+
+    /// The solution of one process with all products assembled, on a full pattern.
+    Columns
+    solve_assembled()
+    {
+      const FreeDofs  &free = whole->free_dofs;
+      const int        n    = static_cast<int>(free.size());
+      SymmetricPattern full;
+      full.column_start = { 0 };
+      for (int j = 0; j < n; ++j)
+      {
+        for (int i = j; i < n; ++i)
+          full.row.push_back(i);
+        full.column_start.push_back(full.row.size());
+      }
+      const auto matrix = make_cholesky_operator();
+      matrix->reinit(full);
+      std::fill(matrix->values().begin(), matrix->values().end(), 0.);
+      const Columns values = whole->values();
+      for (int j = 0; j < n; ++j)
+        for (int k = whole->pattern.column_start[j]; k < whole->pattern.column_start[j + 1]; ++k)
+          matrix->values()[full.position(whole->pattern.row[k], j)] = values[k];
+      for (std::size_t product = 0; product < all_products.size(); ++product)
+      {
+        Columns u(n, 0.);
+        for (std::size_t k = all_products.begin(product); k < all_products.ends[product]; ++k)
+          for (unsigned int c = 0; c < 3; ++c)
+            if (const int i = free.free_index(3 * all_products.blocks[k] + c); i != FreeDofs::held)
+              u[i] = all_products.values[3 * k + c];
+        for (int j = 0; j < n; ++j)
+          for (int i = j; i < n; ++i)
+            matrix->values()[full.position(i, j)] += all_products.factors[product] * u[i] * u[j];
+      }
+      matrix->factorize(whole->positions);
+      Columns columns = right_side();
+      matrix->solve(columns);
+      return columns;
     }
 
     /// Two columns for the body.
@@ -325,6 +394,7 @@ namespace Exemplar::Testing
       return box_mesh(4., 12, 3);
     }
 
+    OuterProducts                own_products, all_products;
     MshFile                      msh, own;
     std::unique_ptr<MpiExchange> exchange;
     std::unique_ptr<Elasticity>  whole, part;

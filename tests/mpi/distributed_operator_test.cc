@@ -86,6 +86,47 @@ namespace Exemplar::Testing
       expect_agreement();
     }
 
+    /// Two columns of numbers for unknowns, as two vectors.
+    std::pair<Columns, Columns>
+    halves(const Columns &columns)
+    {
+      const auto middle = columns.begin() + columns.size() / 2;
+      return { { columns.begin(), middle }, { middle, columns.end() } };
+    }
+
+    /// On levels with the Galerkin products, and with a product on the finest that is not assembled.
+    TEST_F(DistributedOperator, KeepsOuterProductsApart)
+    {
+      const auto rollers = [](const dealii::Point<3> &x, const unsigned int component)
+      { return x[0] == 0. && (component == 0 || x[component] < -0.4); };
+      const auto first_slice
+          = [](const dealii::Point<3> &x, unsigned int /*component*/) { return x[0] <= 2.5; };
+      for (const auto partition : { slices, scattered })
+        for (const IsHeld &is_held : { IsHeld(left_end), IsHeld(rollers), IsHeld(first_slice) })
+        {
+          make(bar(), is_held, partition);
+          const auto matrix         = distributed();
+          *matrix->outer_products() = own_products;
+          const Columns solution = solve(*matrix), expected = own_rows(solve_assembled());
+          EXPECT_LT(difference(solution, expected), 1e-10);
+          Columns kept = halves(own_rows(right_side())).first;
+          matrix->keep()->apply(kept);
+          EXPECT_LT(difference(kept, halves(expected).first), 0.5);
+        }
+    }
+
+    TEST_F(DistributedOperator, IsIndefiniteByOuterProducts)
+    {
+      make(bar(), left_end);
+      const auto matrix         = distributed();
+      *matrix->outer_products() = own_products;
+      const Columns expected    = solve(*matrix);
+      matrix->outer_products()->scale(-1.);
+      expect_indefinite(*matrix);
+      matrix->outer_products()->scale(-1.);
+      EXPECT_EQ(solve(*matrix), expected);
+    }
+
     TEST_F(DistributedOperator, HasNothingToDoWithoutUnknowns)
     {
       make(bar(), [](const dealii::Point<3> &, unsigned int) { return true; });
@@ -109,14 +150,6 @@ namespace Exemplar::Testing
     product(const Exchange &exchange, const Columns &a, const Columns &b)
     {
       return exchange.sum(std::inner_product(a.begin(), a.end(), b.begin(), 0.));
-    }
-
-    /// Two columns of numbers for unknowns, as two vectors.
-    std::pair<Columns, Columns>
-    halves(const Columns &columns)
-    {
-      const auto middle = columns.begin() + columns.size() / 2;
-      return { { columns.begin(), middle }, { middle, columns.end() } };
     }
 
     TEST_F(DistributedOperator, KeepsASymmetricPositiveInverse)

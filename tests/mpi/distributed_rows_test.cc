@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "distributed_body.h"
 
-#include <exemplar/algebra/distributed_rows.h>
 #include <exemplar/algebra/multigrid_operator.h>
 
 #include <limits>
@@ -10,6 +9,8 @@ namespace Exemplar::Testing
 {
   namespace
   {
+    using Indices = std::vector<int>;
+
     class Rows : public Distributed
     {
     protected:
@@ -126,54 +127,51 @@ namespace Exemplar::Testing
       }
     }
 
-    /// No library's multigrid.
-    class DiagonalHierarchy : public MultigridHierarchy
+    /// No library's multigrid: a level, of which the coarsest inverse is a dense one.
+    std::vector<MultigridLevel>
+    make_one_level(DistributedRows &rows, const std::vector<double> & /*modes*/)
     {
-    public:
-      explicit DiagonalHierarchy(DistributedRows &rows) : matrix(rows.get_matrix()) {}
-
-      void
-      make(std::vector<double> /*modes*/) override
+      const CsrMatrix       &matrix   = rows.get_matrix();
+      const RowNumbers      &numbers  = rows.get_numbers();
+      const std::vector<int> all      = rows.global_columns();
+      const auto             read_row = [&](const int row, Indices &columns, Columns &values)
       {
-        for (std::size_t row = 0; row + 1 < matrix.row_start.size(); ++row)
-          diagonal.push_back(matrix.value[std::find(&matrix.column[matrix.row_start[row]],
-                                                    &matrix.column[matrix.row_start[row + 1]],
-                                                    static_cast<int>(row))
-                                          - matrix.column.data()]);
-      }
+        const int begin = matrix.row_start[row], end = matrix.row_start[row + 1];
+        std::copy(&matrix.column[begin], &matrix.column[end], columns.begin());
+        std::copy(&matrix.value[begin], &matrix.value[end], values.begin());
+        return end - begin;
+      };
+      std::vector<MultigridLevel> levels;
+      levels.push_back(
+          { make_block_matrix(numbers.n_rows() / 3, numbers.first_nodes(),
+                              { all.begin(), all.end() }, read_row, numbers.exchange()),
+            BlockMatrix(Halo()) });
+      return levels;
+    }
 
-      void
-      clear() override
-      {
-        diagonal.clear();
-      }
-
-      void
-      apply(const Vector &vector, Vector &image) const override
-      {
-        for (std::size_t row = 0; row < diagonal.size(); ++row)
-          image[row] = vector[row] / diagonal[row];
-      }
-
-      std::vector<MultigridLevel>
-      copy() const override
-      {
-        return {};
-      }
-
-    private:
-      const CsrMatrix    &matrix;
-      std::vector<double> diagonal;
-    };
+    TEST_F(Rows, MayHaveOuterProductsBesideThem)
+    {
+      for (const auto partition : { slices, scattered })
+        for (const auto is_held : { left_end, rollers })
+        {
+          make(bar(), is_held, partition);
+          const auto matrix = part->reinit(
+              std::make_unique<MultigridOperator>(part->free_dofs, 1e-13, make_one_level));
+          const Columns without     = solve(*matrix);
+          *matrix->outer_products() = own_products;
+          const Columns with = solve(*matrix), expected = own_rows(solve_assembled());
+          EXPECT_LT(difference(with, expected), 1e-10);
+          EXPECT_GT(difference(without, expected), 0.01); // else it proves nothing
+        }
+    }
 
     TEST_F(Rows, AreSolvedWithAnyLibrary)
     {
       for (const auto is_held : { left_end, rollers })
       {
         make(bar(), is_held, scattered);
-        const auto matrix = part->reinit(std::make_unique<MultigridOperator>(
-            part->free_dofs, 1e-13,
-            [](DistributedRows &rows) { return std::make_unique<DiagonalHierarchy>(rows); }));
+        const auto matrix = part->reinit(
+            std::make_unique<MultigridOperator>(part->free_dofs, 1e-13, make_one_level));
         EXPECT_LT(difference(solve(*matrix), own_rows(solve_alone(make_cholesky_operator()))),
                   1e-10);
       }

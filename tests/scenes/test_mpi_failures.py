@@ -311,7 +311,7 @@ class Death(MpiTest):
 
     def test_memory(self):
         # enough to start, not enough for the matrix: a library ends the program, or this throws
-        big = {**STATIC, "Mesh/Box cells": "40, 20, 20", "Time/Increments": "1"}
+        big = {**STATIC, "Mesh/Box cells": "60, 30, 30", "Time/Increments": "1"}
         for kib in (750000, 1000000):
             with self.subTest(kib):
                 run = self.run_all(big, script=ONE_BY_SCRIPT.format(1, f"ulimit -v {kib}"))

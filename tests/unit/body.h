@@ -206,6 +206,15 @@ namespace Exemplar::Testing
     {
     }
 
+    /// From now on the pattern is that of the cells.
+    void
+    assemble_in_parts(const Body &body, const FreeDofs &free_dofs)
+    {
+      matrix_pattern                    = make_pattern(body.fe_space, {}, free_dofs);
+      matrix_pattern.products_are_apart = true;
+      follow_pattern();
+    }
+
     void
     update_rotations(const Vector &positions)
     {

@@ -2,8 +2,9 @@
 #ifndef exemplar_block_matrix_h
 #define exemplar_block_matrix_h
 
-#include <exemplar/algebra/halo.h>
+#include <exemplar/algebra/outer_product_rows.h>
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <vector>
@@ -14,8 +15,9 @@ namespace Exemplar
   /// register. Behind the own blocks of a process are copies of those of others.
   using BlockVector = std::vector<float>;
 
-  /// A sparse matrix of blocks of 3 x 3 numbers in single precision. Each process has rows of it,
-  /// and of its columns those that it owns and those of others that occur in its rows.
+  /// A sparse matrix of blocks of 3 x 3 numbers in single precision, and a sum of outer products that
+  /// is not assembled. Each process has rows of it, and of its columns those that it owns and those of
+  /// others that occur in its rows.
   class BlockMatrix
   {
   public:
@@ -34,9 +36,26 @@ namespace Exemplar
     void
     add_row(std::vector<Entry> &entries);
 
+    /// The same of whole blocks, whose columns ascend: nine numbers each, by columns.
+    void
+    add_row(const std::vector<int> &columns, const std::vector<float> &blocks);
+
     /// After the last row.
     void
     finish();
+
+    /// A summand with the same rows.
+    void
+    set_products(OuterProductRows<float> new_products)
+    {
+      products = std::move(new_products);
+    }
+
+    const OuterProductRows<float> &
+    get_products() const
+    {
+      return products;
+    }
 
     /// Blocks of rows.
     std::size_t
@@ -58,11 +77,15 @@ namespace Exemplar
       return column.size();
     }
 
-    /// A block by columns, or null.
-    const float *
-    block(std::size_t row, std::size_t column) const;
+    /// On the diagonal, by columns; zero where there is none.
+    std::array<float, 9>
+    diagonal_block(std::size_t row) const;
 
-    /// Call action(column, block) for the blocks of a row.
+    /// The numbers among all processes of the blocks here, of which the own begin with `first`.
+    std::vector<std::size_t>
+    block_numbers(std::size_t first) const;
+
+    /// Call action(column, block) for the blocks of a row, without the products.
     template <typename Action>
     void
     for_each_block(const std::size_t row, const Action &action) const
@@ -83,7 +106,7 @@ namespace Exemplar
     void
     find_residual(const BlockVector &b, BlockVector &x, BlockVector &result) const;
 
-    /// result = A^T x, the own blocks.
+    /// result = A^T x, the own blocks, without the products.
     void
     multiply_transposed(const BlockVector &x, BlockVector &result) const;
 
@@ -106,9 +129,15 @@ namespace Exemplar
     void
     share(BlockVector &vector) const;
 
-    Halo               halo;
-    std::vector<int>   start, column;
-    std::vector<float> values; ///< 9 a block, and some behind, as registers of four are read
+    /// Call action(row, product) for the rows of a product.
+    template <typename Action>
+    void
+    for_each_product(BlockVector &x, const Action &action) const;
+
+    Halo                    halo;
+    std::vector<int>        start, column;
+    std::vector<float>      values; ///< 9 a block, and some behind, as registers of four are read
+    OuterProductRows<float> products;
   };
 
   /// Reads a row of a matrix of numbers, by its own number: columns by local number, and the values
@@ -132,9 +161,6 @@ namespace Exemplar
                      const BlockVector        &x,
                      float                     factor,
                      BlockVector              &result);
-
-  /// Room behind numbers by threes that are read by fours.
-  constexpr std::size_t read_beyond = 4;
 } // namespace Exemplar
 
 #endif

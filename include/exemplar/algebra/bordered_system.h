@@ -50,6 +50,13 @@ namespace Exemplar
     matrix_values()
         = 0;
 
+    /// As SpdOperator::outer_products().
+    virtual OuterProducts *
+    outer_products()
+    {
+      return nullptr;
+    }
+
     /// The columns of G of the coupled weights, one after the other, to be overwritten before
     /// factorize() and left as they are until the next.
     std::vector<double> &

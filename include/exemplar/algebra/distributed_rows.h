@@ -107,9 +107,10 @@ namespace Exemplar
     reinit(const SymmetricPattern &lower_pattern);
 
     /// From the values of the lower triangle, of which each process has its cells' part. Throws
-    /// SolverFailure, in all processes, if an entry of the diagonal is not positive.
+    /// SolverFailure, in all processes, if an entry of the diagonal is not positive, together with what
+    /// summands that are not assembled have there, by own row.
     void
-    fill(const std::vector<double> &lower_values);
+    fill(const std::vector<double> &lower_values, const std::vector<double> &further_diagonal = {});
 
     /// image = A vector, by own rows.
     void
@@ -171,7 +172,7 @@ namespace Exemplar
     add_received(const std::vector<double> &lower_values);
 
     void
-    check_diagonal() const;
+    check_diagonal(const std::vector<double> &further_diagonal) const;
 
     /// Of a row and a column that there are.
     int

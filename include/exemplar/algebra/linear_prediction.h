@@ -20,9 +20,7 @@ namespace Exemplar
     static constexpr std::size_t max_vectors = 6;
 
     /// `exchange` must outlive this.
-    explicit LinearPrediction(const Exchange &exchange) : exchange(&exchange)
-    {
-    }
+    explicit LinearPrediction(const Exchange &exchange) : exchange(&exchange) {}
 
     void
     add(std::vector<double> vector);

@@ -3,8 +3,9 @@
 #define exemplar_multigrid_hierarchy_h
 
 #include <exemplar/algebra/block_matrix.h>
-#include <exemplar/algebra/vector.h>
+#include <exemplar/algebra/distributed_rows.h>
 
+#include <functional>
 #include <vector>
 
 namespace Exemplar
@@ -15,32 +16,20 @@ namespace Exemplar
     BlockMatrix matrix, prolongation; ///< no prolongation on the coarsest level
   };
 
-  /// What a library makes of DistributedRows: algebraic multigrid. All processes that have rows
-  /// must call its functions.
-  class MultigridHierarchy
-  {
-  public:
-    virtual ~MultigridHierarchy() = default;
+  /// What a library makes of rows with the values that they have now: the levels of algebraic
+  /// multigrid, the finest first, of which the coarse spaces hold what rigid_modes() gives. All
+  /// processes that have rows must call it, under a TrilinosLock. Throws SolverFailure in all
+  /// processes.
+  using MakeHierarchy = std::function<std::vector<MultigridLevel>(DistributedRows    &rows,
+                                                                  std::vector<double> modes)>;
 
-    /// A hierarchy of the rows with the values that they have now, of which the coarse spaces hold
-    /// what rigid_modes() gives. Throws SolverFailure in all processes.
-    virtual void
-    make(std::vector<double> modes)
-        = 0;
-
-    /// Free what make() has made.
-    virtual void
-    clear()
-        = 0;
-
-    /// image = about A^-1 vector, by own rows: a symmetric positive definite operation.
-    virtual void
-    apply(const Vector &vector, Vector &image) const = 0;
-
-    /// The levels, the finest first.
-    virtual std::vector<MultigridLevel>
-    copy() const = 0;
-  };
+  /// Add a sum of outer products, with the blocks of the finest matrix, to all levels: as it is to
+  /// the finest, and the Galerkin products P^T (.) P, assembled, to the coarser ones. All processes
+  /// must call this.
+  void
+  add_products(const OuterProducts         &products,
+               std::vector<MultigridLevel> &levels,
+               const Exchange              &exchange);
 } // namespace Exemplar
 
 #endif

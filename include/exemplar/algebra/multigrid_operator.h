@@ -2,11 +2,9 @@
 #ifndef exemplar_multigrid_operator_h
 #define exemplar_multigrid_operator_h
 
-#include <exemplar/algebra/distributed_rows.h>
-#include <exemplar/algebra/multigrid_hierarchy.h>
+#include <exemplar/algebra/multigrid_cycle.h>
 #include <exemplar/algebra/spd_operator.h>
 
-#include <functional>
 #include <memory>
 #include <vector>
 
@@ -15,14 +13,11 @@ namespace Exemplar
   class SharedVector;
 
   /// What make_iterative_operator() makes, for one process or for several: conjugate gradients on
-  /// DistributedRows, preconditioned by the multigrid of a library. Libraries take the blocks of three
-  /// rows a node for their graph.
+  /// DistributedRows and OuterProductRows, preconditioned by a MultigridCycle of the levels that a
+  /// library makes of the former. Libraries take the blocks of three rows a node for their graph.
   class MultigridOperator : public SpdOperator
   {
   public:
-    /// By the library: a hierarchy that points at the rows' matrix.
-    using MakeHierarchy = std::function<std::unique_ptr<MultigridHierarchy>(DistributedRows &)>;
-
     /// `free_dofs` must outlive this. Starts MPI if it does not run.
     MultigridOperator(const FreeDofs &free_dofs, double tolerance, MakeHierarchy make_hierarchy);
 
@@ -36,6 +31,12 @@ namespace Exemplar
     values() override
     {
       return lower_values;
+    }
+
+    OuterProducts *
+    outer_products() override
+    {
+      return &products;
     }
 
     void
@@ -52,16 +53,25 @@ namespace Exemplar
     std::vector<double>
     places_of_nodes(const Vector &positions) const;
 
+    /// image = A vector, by own rows.
+    void
+    multiply(const Vector &vector, Vector &image) const;
+
+    /// image = about A^-1 vector, by own rows.
+    void
+    precondition(const Vector &vector, Vector &image) const;
+
     void
     solve(const SharedVector &right_side, SharedVector &solution) const;
 
-    const Exchange                     &exchange;
-    const double                        tolerance;
-    const MakeHierarchy                 make_hierarchy;
-    std::vector<double>                 lower_values;
-    DistributedRows                     rows;
-    std::unique_ptr<MultigridHierarchy> hierarchy;            ///< points at the rows
-    std::size_t                         multigrid_memory = 0; ///< that its making left [bytes]
+    const FreeDofs                 &free_dofs;
+    const double                    tolerance;
+    const MakeHierarchy             make_hierarchy;
+    std::vector<double>             lower_values;
+    OuterProducts                   products; ///< by node
+    DistributedRows                 rows;
+    OuterProductRows<double>        product_rows;
+    std::shared_ptr<MultigridCycle> cycle; ///< of the last factorize()
   };
 } // namespace Exemplar
 

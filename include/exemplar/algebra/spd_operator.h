@@ -4,6 +4,7 @@
 
 #include <exemplar/algebra/free_dofs.h>
 #include <exemplar/algebra/kept_inverse.h>
+#include <exemplar/algebra/outer_products.h>
 #include <exemplar/algebra/vector.h>
 #include <exemplar/base/errors.h>
 
@@ -21,6 +22,9 @@ namespace Exemplar
     std::vector<int> column_start; ///< n + 1 entries
     std::vector<int> row;
     unsigned int     version = 0; ///< how often it was made anew
+    /// Whether values on it lack what terms give as OuterProducts, of which the couplings are no part
+    /// of it.
+    bool products_are_apart = false;
 
     unsigned int
     n() const
@@ -85,6 +89,14 @@ namespace Exemplar
     values()
         = 0;
 
+    /// By node, a further summand of the matrix, to be overwritten; null for an operator that takes
+    /// none, and has all on its pattern.
+    virtual OuterProducts *
+    outer_products()
+    {
+      return nullptr;
+    }
+
     /// Prepare for solve() with the values as they are. `positions` [m], by degree of freedom,
     /// are those of the state of which the matrix is the tangent: multigrid takes the rigid
     /// motions from there. Throws SolverFailure if the matrix is not positive definite.
@@ -121,8 +133,8 @@ namespace Exemplar
   make_cholmod_operator();
 
   /// Conjugate gradients to a residual of `tolerance` times the right side, preconditioned
-  /// with ML's smoothed aggregation, whose coarse spaces hold the six rigid motions of the
-  /// nodes. Results depend on the matrix, the positions of the nodes and the right side alone.
+  /// with multigrid on the levels of ML's smoothed aggregation, whose coarse spaces hold the six rigid
+  /// motions of the nodes. Results depend on the matrix, the positions of the nodes and the right side alone.
   /// The pattern that reinit() is given must outlive it.
   /// Throws UserError in a build without Trilinos, and where MPI neither runs nor may be started
   /// (MpiSession).

@@ -99,14 +99,15 @@ namespace Exemplar
              const std::vector<double> *linear_term = nullptr);
 
     /// Add what the cells of this process give to A, Eq. (8) or (18), to the values on the pattern
-    /// [N/m] and, with weights to find, set what they give to the coupling G, Eq. (9): a column a
+    /// [N/m], and to `products` where the pattern wants them apart, and, with weights to find, set what they give to the coupling G, Eq. (9): a column a
     /// strained weight on FreeDofs::local_list(), one after the other [N]. An exact tangent needs the rotations of these positions.
     void
     assemble_tangent(Tangent                    tangent,
                      const Vector              &positions,
                      const std::vector<double> &weights,
                      std::vector<double>       &matrix_values,
-                     std::vector<double>       &columns);
+                     std::vector<double>       &columns,
+                     OuterProducts             *products = nullptr);
 
     /// Add what `displacement` [m] from `positions`, zero but on held degrees of freedom, changes
     /// by that tangent in the forces and the weight gradient. Only cells beside held nodes feel it.

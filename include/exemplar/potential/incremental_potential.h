@@ -53,11 +53,17 @@ namespace Exemplar
   {
   public:
     /// `elastic_terms` are summands of Psi, see PotentialTerm; `integrator` is null unless the scene is
-    /// dynamic. The terms are nobody else's; all else must outlive the potential.
+    /// dynamic. The terms are nobody else's; all else must outlive the potential. If `in_parts`, the
+    /// pattern is without the couplings of outer products.
     IncrementalPotential(const ElasticParts &parts,
                          PotentialTerms      elastic_terms,
                          PotentialTerms      terms,
-                         TimeIntegrator     *integrator);
+                         TimeIntegrator     *integrator,
+                         bool                in_parts = false);
+
+    /// From now on the pattern is one with the couplings of outer products, or without them.
+    void
+    assemble_in_parts(bool in_parts);
 
     /// The free degrees of freedom, or the couplings of terms, are others from now on. All processes
     /// must call this.
@@ -104,13 +110,15 @@ namespace Exemplar
     void
     add_terms(const Vector &positions, Evaluation &evaluation) const;
 
-    /// The matrix A and the columns G: exact for convexity 0, convex for 1, a mixture between.
+    /// The matrix A and the columns G: exact for convexity 0, convex for 1, a mixture between. There
+    /// must be `products`, which A is the sum of the values and, where the pattern is without them.
     void
     assemble(const Vector              &positions,
              const std::vector<double> &weights,
              double                     convexity,
              std::vector<double>       &matrix_values,
-             std::vector<double>       &columns);
+             std::vector<double>       &columns,
+             OuterProducts             *products = nullptr);
 
     /// Throws SolverFailure if it is not finite.
     Residual
@@ -195,6 +203,15 @@ namespace Exemplar
     }
 
   private:
+    /// Exact or convex.
+    void
+    assemble_one(Tangent                    kind,
+                 const Vector              &positions,
+                 const std::vector<double> &weights,
+                 std::vector<double>       &values,
+                 std::vector<double>       &columns,
+                 OuterProducts             *products);
+
     const PotentialTerms  terms;
     const FESpace        &fe_space;
     SymmetricPattern      pattern; ///< of cells and terms

@@ -51,6 +51,13 @@ namespace Exemplar
       return PatchScatter::couplings(patches, fe_space);
     }
 
+    /// Where patches couple more nodes than cells do.
+    bool
+    couples_by_products() const override
+    {
+      return traits_of(fe_space.element()).locks;
+    }
+
     void
     attach(const SymmetricPattern &pattern, const FreeDofs &free_dofs, CellField &cells) override;
 
@@ -83,6 +90,13 @@ namespace Exemplar
                 Tangent              kind,
                 std::vector<double> &values,
                 std::vector<double> &columns) override;
+
+    void
+    add_tangent_in_parts(const TermPoint     &at,
+                         Tangent              kind,
+                         std::vector<double> &values,
+                         std::vector<double> &columns,
+                         OuterProducts       &products) override;
 
     void
     add_response(const TermPoint &at,

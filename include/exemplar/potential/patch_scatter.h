@@ -3,6 +3,7 @@
 #define exemplar_patch_scatter_h
 
 #include <exemplar/algebra/free_dofs.h>
+#include <exemplar/algebra/outer_products.h>
 #include <exemplar/algebra/spd_operator.h>
 #include <exemplar/body/patches.h>
 #include <exemplar/potential/cell_field.h>
@@ -32,12 +33,13 @@ namespace Exemplar
   class PatchScatter
   {
   public:
-    /// `pattern` has the couplings(). All must outlive it.
+    /// Whether `pattern` has the couplings(), or only those of cells. All must outlive it.
     PatchScatter(const Patches          &patches,
                  const FESpace          &fe_space,
                  const SymmetricPattern &pattern,
                  const FreeDofs         &free_dofs,
-                 const CellField        &cells);
+                 const CellField        &cells,
+                 bool                    has_couplings);
 
     /// All pairs of nodes that share a patch, for make_pattern().
     static std::vector<std::pair<unsigned int, unsigned int>>
@@ -82,11 +84,15 @@ namespace Exemplar
       return beside_held[patch];
     }
 
-    /// Add to the values on the pattern; the vectors are changed.
+    /// Add to the values on a pattern with the couplings; the vectors are changed.
     void
     add_products(const CellField     &cells,
                  PatchProducts       &products,
                  std::vector<double> &values) const;
+
+    /// Add to a sum of outer products over nodes.
+    void
+    add_products(const PatchProducts &products, OuterProducts &to) const;
 
     /// Add factor b to a column by free degree of freedom.
     void
@@ -122,6 +128,9 @@ namespace Exemplar
     find_points(const Patches &patches, const CellField &cells);
 
     void
+    find_held();
+
+    void
     find_columns(const SymmetricPattern &pattern);
 
     /// Where the rows of the nodes from `place` on are in the first column of the node there.
@@ -131,6 +140,10 @@ namespace Exemplar
     /// The first free degree of freedom of a node by number among the free ones, or FreeDofs::held.
     int
     first_free(unsigned int node) const;
+
+    /// The three numbers of each node of a patch.
+    std::vector<double>
+    of_nodes(unsigned int patch, const PatchVectors &vectors) const;
 
     /// At nodes of which some components are held the free ones first.
     void

@@ -55,6 +55,14 @@ namespace Exemplar
       return {};
     }
 
+    /// Whether all these couplings are those of outer products, which add_tangent_in_parts() can keep
+    /// apart. Then a pattern may be without them.
+    virtual bool
+    couples_by_products() const
+    {
+      return false;
+    }
+
     /// Whether begin_step() has changed the couplings, as contact does. The pattern then follows
     /// before the step goes on.
     virtual bool
@@ -150,6 +158,17 @@ namespace Exemplar
     {
     }
 
+    /// The same on a pattern without its couplings, with these outer products added to `products`, by
+    /// node, for terms that couple by them.
+    virtual void
+    add_tangent_in_parts(const TermPoint & /*at*/,
+                         Tangent /*kind*/,
+                         std::vector<double> & /*values*/,
+                         std::vector<double> & /*columns*/,
+                         OuterProducts & /*products*/)
+    {
+    }
+
     /// Add what `displacement` [m], zero but on held degrees of freedom, changes by that tangent.
     virtual void
     add_response(const TermPoint & /*at*/,
@@ -206,6 +225,21 @@ namespace Exemplar
   };
 
   using PotentialTerms = std::vector<std::unique_ptr<PotentialTerm>>;
+
+  /// Add its tangent, in parts if it has some and there are `products` to add to.
+  inline void
+  add_tangent_of(PotentialTerm       &term,
+                 const TermPoint     &at,
+                 const Tangent        kind,
+                 std::vector<double> &values,
+                 std::vector<double> &columns,
+                 OuterProducts       *products)
+  {
+    if (products == nullptr || !term.couples_by_products())
+      term.add_tangent(at, kind, values, columns);
+    else
+      term.add_tangent_in_parts(at, kind, values, columns, *products);
+  }
 } // namespace Exemplar
 
 #endif

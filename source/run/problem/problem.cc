@@ -36,7 +36,8 @@ namespace Exemplar
                     parameters.solver.n_threads },
                   make_elastic_terms(body, examples),
                   actions.make_terms(body),
-                  actions.integrator.get()),
+                  actions.integrator.get(),
+                  is_assembled_in_parts(parameters.solver, body.exchange())),
         system(
             potential,
             [this] { return make_bordered_system(parameters.solver, potential); },

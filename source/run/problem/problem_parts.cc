@@ -335,18 +335,26 @@ namespace Exemplar
     return terms;
   }
 
-  std::unique_ptr<BorderedSystem>
-  make_bordered_system(const SolverParameters &solver, const IncrementalPotential &potential)
+  bool
+  is_assembled_in_parts(const SolverParameters &solver, const Exchange &exchange)
   {
+    return solver.linear_solver == LinearSolver::iterative || exchange.n_processes() > 1;
+  }
+
+  std::unique_ptr<BorderedSystem>
+  make_bordered_system(const SolverParameters &solver, IncrementalPotential &potential)
+  {
+    const Exchange &exchange = potential.get_free_dofs().exchange();
+    potential.assemble_in_parts(is_assembled_in_parts(solver, exchange));
     const SymmetricPattern &pattern = potential.matrix_pattern();
     const WeightForm       &form    = potential.get_weights().weight_form();
     if (solver.linear_solver == LinearSolver::umfpack)
       return make_umfpack_system(pattern, form);
     const unsigned int n_examples = form.coupled.size();
-    const Exchange    &exchange   = potential.get_free_dofs().exchange();
     auto matrix = find_cholesky_operator(solver, exchange.n_processes(), n_examples, pattern);
     if (matrix == nullptr)
     {
+      potential.assemble_in_parts(true);
       const bool is_last_word = solver.method == Method::one_pass || n_examples > 0;
       matrix                  = make_iterative_operator(potential.get_free_dofs(), is_last_word
                                                                                        ? tolerance_of_last_word

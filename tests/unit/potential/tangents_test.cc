@@ -25,6 +25,7 @@ namespace Exemplar::Testing
       struct Matrix
       {
         std::vector<double> values, columns;
+        OuterProducts       products;
       };
 
       static Matrix
@@ -36,7 +37,9 @@ namespace Exemplar::Testing
         elastic.update_rotations(x);
         Matrix matrix;
         matrix.values.resize(elastic.matrix_pattern.n_values());
-        elastic.assemble_tangent(kind, x, weights, matrix.values, matrix.columns);
+        elastic.assemble_tangent(kind, x, weights, matrix.values, matrix.columns,
+                                 elastic.matrix_pattern.products_are_apart ? &matrix.products
+                                                                           : nullptr);
         return matrix;
       }
 
@@ -56,6 +59,20 @@ namespace Exemplar::Testing
         return result;
       }
 
+      static void
+      add_products(const OuterProducts &products, const Vector &u, Vector &result)
+      {
+        for (std::size_t k = 0; k < products.size(); ++k)
+        {
+          double sum = 0.;
+          for (std::size_t entry = 3 * products.begin(k); entry < 3 * products.ends[k]; ++entry)
+            sum += products.values[entry] * u[3 * products.blocks[entry / 3] + entry % 3];
+          for (std::size_t entry = 3 * products.begin(k); entry < 3 * products.ends[k]; ++entry)
+            result[3 * products.blocks[entry / 3] + entry % 3]
+                += products.factors[k] * sum * products.values[entry];
+        }
+      }
+
       static constexpr double s = 0.7; ///< of the damping
 
       Body                            body;
@@ -69,6 +86,36 @@ namespace Exemplar::Testing
                                              Discretisation{ Element::P2, false },
                                              Discretisation{ Element::P1, true },
                                              Discretisation{ Element::P2, true }));
+
+    TEST_P(TangentsTest, ThePartsOfATangentAreTheWhole)
+    {
+      ExampleParameters parameters;
+      parameters.pose_functions          = twist(60.) + " | 1.1*x; 0.9*y; z";
+      const Examples            examples = body.examples(parameters, CellLaw::corotational);
+      const std::vector<double> weights  = { 0.2, 0.5, 0.3 };
+      const FreeDofs            free_dofs(body.fe_space.n_dofs(), {}, Exchange::serial());
+      BodyPotential             whole(body, ModelParameters(), examples, free_dofs),
+          parts(body, ModelParameters(), examples, free_dofs);
+      parts.assemble_in_parts(body, free_dofs);
+      std::mt19937 generator(7);
+      const Vector u = body.random_positions(generator, 1.);
+      // also where the guards of patches act, of stretched ones and of those with thin cells
+      for (const Vector &x : { body.drawn(1.2, 0.9, 1), body.drawn(2.3, 0.47, 3),
+                               body.drawn(5., 0.3, 3), body.with_mirrored_end(4. / 6.) })
+        for (const Tangent kind : { Tangent::exact, Tangent::convex })
+        {
+          const Matrix expected = assemble(whole, kind, x, weights),
+                       got      = assemble(parts, kind, x, weights);
+          Vector of_whole       = product(whole.matrix_pattern, expected.values, u),
+                 of_parts       = product(parts.matrix_pattern, got.values, u);
+          add_products(got.products, u, of_parts);
+          of_parts -= of_whole;
+          EXPECT_LT(of_parts.linfty_norm(), 1e-12 * of_whole.linfty_norm());
+          EXPECT_EQ(got.columns, expected.columns);
+        }
+      const bool couples_more = GetParam().has_patches && GetParam().element == Element::P1;
+      EXPECT_EQ(parts.matrix_pattern.row.size() < whole.matrix_pattern.row.size(), couples_more);
+    }
 
     TEST_P(TangentsTest, TheResponseToHeldNodesIsTheProductWithTheTangent)
     {

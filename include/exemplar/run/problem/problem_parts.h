@@ -128,10 +128,14 @@ namespace Exemplar
     const bool energy_is_bounded;
   };
 
+  /// Whether the matrix keeps outer products apart at first: where multigrid is sure to be chosen.
+  bool
+  is_assembled_in_parts(const SolverParameters &solver, const Exchange &exchange);
+
   /// The bordered system of a step with the linear solver that a scene asks for or, if it leaves
-  /// the choice, the faster one.
+  /// the choice, the faster one; the potential's pattern becomes one for it.
   std::unique_ptr<BorderedSystem>
-  make_bordered_system(const SolverParameters &solver, const IncrementalPotential &potential);
+  make_bordered_system(const SolverParameters &solver, IncrementalPotential &potential);
 } // namespace Exemplar
 
 #endif
