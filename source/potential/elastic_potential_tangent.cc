@@ -3,7 +3,6 @@
 #include <exemplar/potential/stretch_stiffness.h>
 
 #include <algorithm>
-#include <limits>
 
 // The matrix A and the columns G of a step: R K R^T, for which four vectors are turned and
 // no matrix is multiplied, and the tangents of the models.
@@ -18,26 +17,6 @@ namespace Exemplar
     {
       const ModelTraits traits = traits_of(law);
       return tangent == Tangent::exact ? traits.exact_is_rotated : traits.convex_is_rotated;
-    }
-
-    /// Where parts of about as many values begin, with whole nodes, and the last ends.
-    std::vector<int>
-    bounds_of_parts(const SymmetricPattern &pattern, const FreeDofs &free_dofs, const int n_parts)
-    {
-      const std::vector<unsigned int> &dofs = free_dofs.local_list();
-      std::vector<int>                 bounds(1, 0);
-      std::size_t                      column = 0;
-      for (int part = 1; part < n_parts; ++part)
-      {
-        const auto values = static_cast<long>(pattern.row.size()) * part / n_parts;
-        while (column < dofs.size()
-               && (pattern.column_start[column] < values
-                   || (column > 0 && dofs[column] / 3 == dofs[column - 1] / 3)))
-          ++column;
-        bounds.push_back(pattern.column_start[column]);
-      }
-      bounds.push_back(std::numeric_limits<int>::max());
-      return bounds;
     }
 
     /// What a displacement changes at single quadrature points, by the tangent of a kind at some positions
@@ -169,25 +148,6 @@ namespace Exemplar
   }
 
   void
-  ElasticPotential::add_in_parts(const CellTask &task, const TangentTask &tangent)
-  {
-    // each part has its own columns and goes over all cells, in their order: no sum depends on the
-    // number of parts
-    const int              n      = cells.n_threads();
-    const std::vector<int> bounds = bounds_of_parts(pattern, parts.free_dofs, n);
-    for_each_part(n, n, n,
-                  [&](const std::size_t part, std::size_t, std::size_t)
-                  {
-                    TangentTask of_part = tangent;
-                    of_part.begin       = bounds[part];
-                    of_part.end         = bounds[part + 1];
-                    cells.for_each_law(
-                        task, [&](const CellTask &of_law)
-                        { add_tangent_of_law(of_law, of_part, 0, of_law.cells.n_batches()); });
-                  });
-  }
-
-  void
   ElasticPotential::add_mixed_cells(const CellTask      &task,
                                     TangentTask          tangent,
                                     std::vector<double> &values)
@@ -265,7 +225,8 @@ namespace Exemplar
       cell_task.damping = cells.get_damping().arrays_of_all_cells();
     const TangentTask to
         = { tangent == Tangent::convex, scatter.positions(), matrix_values.data() };
-    add_in_parts(cell_task, to);
+    cells.for_each_law(cell_task, [&](const CellTask &of_law)
+                       { add_tangent_of_law(of_law, to, 0, of_law.cells.n_batches()); });
     add_mixed_cells(cell_task, to, matrix_values);
     if (tangent == Tangent::convex)
       add_stretch_stiffness(parts.fe_space, cells, scatter, positions, matrix_values);

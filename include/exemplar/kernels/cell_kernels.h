@@ -202,16 +202,6 @@ namespace Exemplar
     const int *positions = nullptr; ///< n_block_columns() a cell (all its points) from the first
                                     ///< batch on; -1: left out
     double *values = nullptr;
-    /// Columns that begin elsewhere are left out. All of a node begin in one such part, and behind it
-    /// nothing is written.
-    int begin = 0;
-    int end   = std::numeric_limits<int>::max();
-
-    bool
-    has(const int position) const
-    {
-      return position >= begin && position < end;
-    }
   };
 
   /// A sparse symmetric matrix on the nodes, by rows: the diagonal, which is there first, and what is

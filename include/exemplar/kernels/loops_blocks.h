@@ -93,7 +93,7 @@ namespace Exemplar::Loops
         return;
       const int *position = matrix_positions<n_nodes>(tangent, begin, cell);
       for (std::size_t column = 0; column < n_block_columns(n_nodes); ++column)
-        if (tangent.has(position[column]))
+        if (position[column] >= 0)
           for (int i = 0; i < 3; ++i)
           {
             double sum = columns[column][i][lane];

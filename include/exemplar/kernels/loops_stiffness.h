@@ -32,7 +32,7 @@ namespace Exemplar::Loops
     if (task.damping.factors != nullptr)
       factor *= Number(1.) + load(task.damping.factors, group, 1, 0);
     const CellMaterial<Number> C = load_constants<Constants>(task.cells, group).scaled(factor);
-    Vector3<Number>            g[n];
+    Vector3<Number> g[n];
     rotate_gradients(tet, R, g);
     for (int a = 0; a < n; ++a)
     {
@@ -54,8 +54,8 @@ namespace Exemplar::Loops
   add_stiffness(const RotatedStiffness<Number, n> &K,
                 const std::size_t                  lane,
                 const Four (&g)[n][n_points],
-                const int         *position,
-                const TangentTask &to)
+                const int *position,
+                double    *values)
   {
     const Four unit[3] = { { 1., 0., 0., 0. }, { 0., 1., 0., 0. }, { 0., 0., 1., 0. } };
     const Four rows[3] = { { 1., 1., 1., 0. }, { 0., 1., 1., 0. }, { 0., 0., 1., 0. } };
@@ -65,9 +65,8 @@ namespace Exemplar::Loops
       for (int b = 0; b <= a; ++b)
       {
         const int *column = position + 3 * (a * (a + 1) / 2 + b);
-        if (!to.has(column[0])) // then all three are left out
+        if (column[0] < 0) // then all three are left out
           continue;
-        const bool is_last = column[2] + 4 > to.end;
 #pragma GCC unroll 3
         for (int j = 0; j < 3; ++j)
         {
@@ -78,11 +77,7 @@ namespace Exemplar::Loops
                        + unit[j] * K.diagonal[a][b][lane + p];
           if (a == b)
             entries *= rows[j]; // of diagonal blocks, the lower triangle alone
-          if (is_last)
-            for (int i = 0; i < 3; ++i)
-              to.values[column[j] + i] += entries[i];
-          else
-            add_four(entries, to.values + column[j]);
+          add_four(entries, values + column[j]);
         }
       }
   }
@@ -175,7 +170,7 @@ namespace Exemplar::Loops
                 for (std::size_t p = 0; p < n_points; ++p)
                   g_of_cell[a][p] = g[a][l + p];
               add_stiffness(K, first + l, g_of_cell, matrix_positions<n>(tangent, begin, cell),
-                            tangent);
+                            tangent.values);
             }
           }
         });

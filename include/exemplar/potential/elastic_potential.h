@@ -181,10 +181,6 @@ namespace Exemplar
                        std::size_t        begin,
                        std::size_t        end) const;
 
-    /// The tangents of all cells that are not mixed.
-    void
-    add_in_parts(const CellTask &task, const TangentTask &tangent);
-
     void
     add_mixed_cells(const CellTask &task, TangentTask tangent, std::vector<double> &values);
 
