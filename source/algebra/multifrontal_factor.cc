@@ -28,6 +28,8 @@ namespace Exemplar
         {
           const auto [n, below, rows, L, own] = front(s);
           Blas::solve_triangle<Number>("L", "N", n, n_columns, L, own);
+          if (below == 0) // the reference BLAS refuses empty blocks
+            continue;
           block.resize(static_cast<std::size_t>(below) * n_columns);
           Blas::subtract_product<Number>("N", "N", below, n_columns, n, { L.values + n, L.stride },
                                          { own.values, stride }, 0., { block.data(), below });
@@ -47,8 +49,10 @@ namespace Exemplar
           for (int k = 0; k < n_columns; ++k)
             for (int i = 0; i < below; ++i)
               block[static_cast<std::size_t>(k) * below + i] = at(rows[i], k);
-          Blas::subtract_product<Number>("T", "N", n, n_columns, below, { L.values + n, L.stride },
-                                         { block.data(), below }, 1., own);
+          if (below > 0)
+            Blas::subtract_product<Number>("T", "N", n, n_columns, below,
+                                           { L.values + n, L.stride }, { block.data(), below }, 1.,
+                                           own);
           Blas::solve_triangle<Number>("L", "T", n, n_columns, L, own);
         }
       }
