@@ -105,15 +105,19 @@ namespace Exemplar
       {
         if (factor)
           factor->solve(columns);
-        else
+        else if (rough_factor != nullptr)
           solve_roughly(columns);
+        else if (pattern.n() > 0)
+          throw indefinite_matrix(); // the last factorisation has failed
       }
 
       std::unique_ptr<KeptInverse>
       keep() const override
       {
-        if (!factor)
+        if (rough_factor != nullptr)
           return std::make_unique<SinglePrecisionInverse>(rough_factor);
+        if (!factor)
+          throw indefinite_matrix(); // the last factorisation has failed
         auto rounded = std::make_shared<MultifrontalFactor<float>>(structure, n_threads);
         rounded->assign(factor->get_values());
         return std::make_unique<SinglePrecisionInverse>(std::move(rounded));

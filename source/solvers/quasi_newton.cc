@@ -3,10 +3,6 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/solvers/quasi_newton.h>
 
-#include <boost/serialization/deque.hpp>
-#include <boost/serialization/vector.hpp>
-#include <deal.II/base/memory_consumption.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -301,52 +297,5 @@ namespace Exemplar
         break;
     }
     report.status = SolveStatus::converged;
-  }
-
-  void
-  QuasiNewton::forget()
-  {
-    newton.forget();
-    prediction.forget();
-    lbfgs.clear();
-    metric.clear();
-    history = {};
-  }
-
-  void
-  QuasiNewton::save(boost::archive::binary_oarchive &archive) const
-  {
-    const FreeDofs &free_dofs  = potential.get_free_dofs();
-    MetricHistory   of_body    = history;
-    Lbfgs           body_lbfgs = lbfgs;
-    of_body.positions          = whole(free_dofs.exchange(), history.positions);
-    for (Vector *field : of_body.start.nodal_fields())
-      *field = whole(free_dofs.exchange(), *field);
-    body_lbfgs.map([&](const std::vector<double> &vector) { return free_dofs.whole(vector); });
-    archive &of_body &body_lbfgs;
-    prediction.save(archive);
-  }
-
-  void
-  QuasiNewton::load(boost::archive::binary_iarchive &archive)
-  {
-    const FreeDofs   &free_dofs = potential.get_free_dofs();
-    archive &history &lbfgs;
-    history.positions = part(free_dofs.exchange(), history.positions);
-    for (Vector *field : history.start.nodal_fields())
-      *field = part(free_dofs.exchange(), *field);
-    lbfgs.map([&](const std::vector<double> &vector) { return free_dofs.part(vector); });
-    prediction.load(archive);
-    metric.clear();
-  }
-
-  std::size_t
-  QuasiNewton::memory_consumption() const
-  {
-    if (metric.empty())
-      return 0;
-    return metric.memory_consumption() + history.positions.memory_consumption()
-           + lbfgs.memory_consumption() + prediction.memory_consumption()
-           + dealii::MemoryConsumption::memory_consumption(node_rotations);
   }
 } // namespace Exemplar

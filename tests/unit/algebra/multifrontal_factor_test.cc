@@ -202,6 +202,9 @@ namespace Exemplar::Testing
         const auto matrix = with(make_cholesky_operator(2), laplacian(n, -6.5));
         EXPECT_THROW(matrix->factorize({}), SolverFailure);
         EXPECT_THROW(matrix->factorize_roughly({}), SolverFailure);
+        std::vector<double> column(n * n * n, 1.);
+        EXPECT_THROW(matrix->solve(column), SolverFailure); // there is no factor
+        EXPECT_THROW(matrix->keep(), SolverFailure);
         matrix->values() = laplacian(n, 0.).values; // and takes the next
         EXPECT_NO_THROW(matrix->factorize({}));
       }
