@@ -8,14 +8,27 @@ namespace Exemplar
 {
   namespace
   {
-    /// Operations of a factorisation, for each value of the matrix, from which multigrid is faster:
-    /// measured, doc/speed.md. Columns of weights beside the right side take conjugate gradients as
-    /// long as that; quasi-Newton's method finds them with each new matrix alone.
+    /// Operations of a factorisation, for each value of the matrix that multigrid would have, from which
+    /// multigrid is faster: measured, doc/speed.md. Columns of weights beside the right side take
+    /// conjugate gradients as long as that; quasi-Newton's method finds them with each new matrix alone,
+    /// and has a factor in single precision.
     double
     operations_at_crossover(const Method method, const unsigned int n_examples)
     {
-      return method == Method::quasi_newton ? 1e4 * (1. + 0.25 * n_examples)
-                                            : 1.75e4 * (1. + n_examples);
+      return method == Method::quasi_newton ? 2.8e4 * (1. + 0.25 * n_examples)
+                                            : 1.2e4 * (1. + n_examples);
+    }
+
+    /// Of a matrix without the couplings of outer products, as multigrid has it. In a mesh of linear
+    /// tetrahedra a node has 14 neighbours, half of which are in the lower triangle.
+    double
+    n_values_in_parts(const IncrementalPotential &potential)
+    {
+      const SymmetricPattern &pattern = potential.matrix_pattern();
+      for (const auto &term : potential.get_cells().get_terms())
+        if (term->couples_by_products())
+          return 21. * pattern.n();
+      return static_cast<double>(pattern.n_values());
     }
 
     /// Residual of a linear solve over its right side. Newton's method and the fixed point
@@ -25,10 +38,10 @@ namespace Exemplar
 
     /// A Cholesky factorisation for a pattern, unless it is to be chosen and is not worth it.
     std::unique_ptr<SpdOperator>
-    find_cholesky_operator(const SolverParameters &solver,
-                           const unsigned int      n_processes,
-                           const unsigned int      n_examples,
-                           const SymmetricPattern &pattern)
+    find_cholesky_operator(const SolverParameters     &solver,
+                           const unsigned int          n_processes,
+                           const unsigned int          n_examples,
+                           const IncrementalPotential &potential)
     {
       if (solver.linear_solver == LinearSolver::iterative || n_processes > 1)
         return nullptr;
@@ -39,7 +52,7 @@ namespace Exemplar
                         : make_cholesky_operator(solver.n_threads);
       try
       {
-        matrix->reinit(pattern);
+        matrix->reinit(potential.matrix_pattern());
       }
       catch (const SolverFailure &)
       {
@@ -48,8 +61,8 @@ namespace Exemplar
         return nullptr; // too large for its library
       }
       if (may_choose
-          && matrix->traits().n_operations
-                 > operations_at_crossover(solver.method, n_examples) * pattern.n_values())
+          && matrix->traits().n_operations > operations_at_crossover(solver.method, n_examples)
+                                                 * n_values_in_parts(potential))
         return nullptr;
       return matrix;
     }
@@ -71,7 +84,7 @@ namespace Exemplar
     if (solver.linear_solver == LinearSolver::umfpack)
       return make_umfpack_system(pattern, form);
     const unsigned int n_examples = form.coupled.size();
-    auto matrix = find_cholesky_operator(solver, exchange.n_processes(), n_examples, pattern);
+    auto matrix = find_cholesky_operator(solver, exchange.n_processes(), n_examples, potential);
     if (matrix == nullptr)
     {
       potential.assemble_in_parts(true);
