@@ -154,7 +154,7 @@ namespace Exemplar::Testing
       for (const auto partition : { slices, scattered })
         for (const auto is_held : { left_end, rollers })
         {
-          make(bar(), is_held, partition);
+          make(box_mesh(4., 6, 2), is_held, partition);
           const auto matrix = part->reinit(
               std::make_unique<MultigridOperator>(part->free_dofs, 1e-13, make_one_level));
           const Columns without     = solve(*matrix);
@@ -169,7 +169,7 @@ namespace Exemplar::Testing
     {
       for (const auto is_held : { left_end, rollers })
       {
-        make(bar(), is_held, scattered);
+        make(box_mesh(4., 6, 2), is_held, scattered);
         const auto matrix = part->reinit(
             std::make_unique<MultigridOperator>(part->free_dofs, 1e-13, make_one_level));
         EXPECT_LT(difference(solve(*matrix), own_rows(solve_alone(make_cholesky_operator()))),
