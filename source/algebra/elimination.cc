@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/algebra/blas.h>
 #include <exemplar/algebra/elimination.h>
+#include <exemplar/base/loop_parts.h>
 
 #include <algorithm>
 
@@ -48,10 +49,13 @@ namespace Exemplar
   Elimination<Number>::run(const int n_threads)
   {
     const int n = static_cast<int>(structure.subtrees.size());
-#pragma omp parallel for schedule(dynamic) num_threads(n_threads)
-    for (int i = 0; i < n; ++i)
-      for (int s = structure.subtrees[i].begin; s < structure.subtrees[i].end && is_definite; ++s)
-        eliminate(s, 1);
+    for_each_task(n, n_threads,
+                  [&](const int i, int /*thread*/)
+                  {
+                    const FactorStructure::Subtree &subtree = structure.subtrees[i];
+                    for (int s = subtree.begin; s < subtree.end && is_definite; ++s)
+                      eliminate(s, 1);
+                  });
     for (const int s : structure.top)
       if (is_definite)
         eliminate(s, n_threads);
@@ -102,15 +106,21 @@ namespace Exemplar
     const auto boundary
         = static_cast<int>(std::lower_bound(places, places + n, n_columns) - places);
     const int     begin = to_panel ? 0 : boundary, end = to_panel ? boundary : n;
-    const Number *from   = squares[child].get();
-    Number       *to     = to_panel ? panel(s) : squares[s].get();
-    const int     shift  = to_panel ? 0 : n_columns;
-    const auto    stride = static_cast<std::ptrdiff_t>(structure.n_rows(s) - shift);
-#pragma omp parallel for schedule(dynamic, 16)                                                     \
-    num_threads(threads_for(n_threads, end - begin, 0.5 * n))
-    for (int j = begin; j < end; ++j)
-      kernels.add_scattered(from + static_cast<std::ptrdiff_t>(j) * n + j, places + j, n - j,
-                            to + stride * (places[j] - shift) - shift);
+    const Number *from            = squares[child].get();
+    Number       *to              = to_panel ? panel(s) : squares[s].get();
+    const int     shift           = to_panel ? 0 : n_columns;
+    const auto    stride          = static_cast<std::ptrdiff_t>(structure.n_rows(s) - shift);
+    constexpr int columns_at_once = 16;
+    const int     blocks          = n_blocks(end - begin, columns_at_once);
+    for_each_task(blocks, threads_for(n_threads, blocks, 8. * n),
+                  [&](const int b, int /*thread*/)
+                  {
+                    const int first = begin + b * columns_at_once;
+                    for (int j = first; j < std::min(end, first + columns_at_once); ++j)
+                      kernels.add_scattered(from + static_cast<std::ptrdiff_t>(j) * n + j,
+                                            places + j, n - j,
+                                            to + stride * (places[j] - shift) - shift);
+                  });
   }
 
   template <typename Number>
@@ -136,22 +146,25 @@ namespace Exemplar
       const int m = std::min(great_columns, n - c), below = c + m;
       // columns c to below - 1: their rows lose what the columns before have
       const int blocks = n_blocks(n_rows - c, rows_of_block);
-#pragma omp parallel for schedule(dynamic) num_threads(threads_for(n_threads, blocks, 2e4 * c))
-      for (int b = 0; b < blocks; ++b)
-        if (const int row = c + b * rows_of_block; c > 0)
-          Blas::subtract_product<Number>("N", "T", std::min(rows_of_block, n_rows - row), m, c,
-                                         { at(row, 0), n_rows }, { at(c, 0), n_rows }, 1.,
-                                         { at(row, c), n_rows });
+      for_each_task(blocks, threads_for(n_threads, blocks, 2e4 * c),
+                    [&](const int b, int /*thread*/)
+                    {
+                      if (const int row = c + b * rows_of_block; c > 0)
+                        Blas::subtract_product<Number>("N", "T",
+                                                       std::min(rows_of_block, n_rows - row), m, c,
+                                                       { at(row, 0), n_rows }, { at(c, 0), n_rows },
+                                                       1., { at(row, c), n_rows });
+                    });
       if (!kernels.factorize(at(c, c), n_rows, m, m))
         return false;
       const int blocks_below = n_blocks(n_rows - below, rows_of_block);
-#pragma omp parallel for schedule(dynamic) num_threads(threads_for(n_threads, blocks_below, 1e6))
-      for (int b = 0; b < blocks_below; ++b)
-      {
-        const int row = below + b * rows_of_block;
-        Blas::solve_triangle<Number>("R", "T", std::min(rows_of_block, n_rows - row), m,
-                                     { at(c, c), n_rows }, { at(row, c), n_rows });
-      }
+      for_each_task(blocks_below, threads_for(n_threads, blocks_below, 1e6),
+                    [&](const int b, int /*thread*/)
+                    {
+                      const int row = below + b * rows_of_block;
+                      Blas::solve_triangle<Number>("R", "T", std::min(rows_of_block, n_rows - row),
+                                                   m, { at(c, c), n_rows }, { at(row, c), n_rows });
+                    });
     }
     return true;
   }
@@ -166,18 +179,17 @@ namespace Exemplar
     const Number *A      = panel(s) + n_inner;
     Number       *square = squares[s].get();
     const int     blocks = n_blocks(n, columns_of_square);
-#pragma omp parallel for schedule(dynamic)                                                         \
-    num_threads(threads_for(n_threads, blocks, 50. * n * n_inner))
-    for (int b = 0; b < blocks; ++b)
-    {
-      const int c = b * columns_of_square, m = std::min(columns_of_square, n - c);
-      Number   *to = square + static_cast<std::ptrdiff_t>(c) * n + c;
-      if (is_great)
-        Blas::subtract_product<Number>("N", "T", n - c, m, n_inner, { A + c, n_rows },
-                                       { A + c, n_rows }, 0., { to, n });
-      else
-        kernels.subtract_square(A + c, n_rows, n_inner, n - c, m, to, n, true);
-    }
+    for_each_task(blocks, threads_for(n_threads, blocks, 50. * n * n_inner),
+                  [&](const int b, int /*thread*/)
+                  {
+                    const int c = b * columns_of_square, m = std::min(columns_of_square, n - c);
+                    Number   *to = square + static_cast<std::ptrdiff_t>(c) * n + c;
+                    if (is_great)
+                      Blas::subtract_product<Number>("N", "T", n - c, m, n_inner, { A + c, n_rows },
+                                                     { A + c, n_rows }, 0., { to, n });
+                    else
+                      kernels.subtract_square(A + c, n_rows, n_inner, n - c, m, to, n, true);
+                  });
   }
 
   template class Elimination<double>;

@@ -14,11 +14,11 @@ namespace Exemplar
     std::shared_ptr<const FactorStructure>
     analyzed(const SymmetricPattern &pattern)
     {
-      CholmodCommon         common;
-      cholmod_factor       *factor = analyze(pattern, common);
-      const FactorStructure result = factor_structure(pattern, *factor, common);
+      CholmodCommon   common;
+      cholmod_factor *factor = analyze(pattern, common);
+      FactorStructure result = factor_structure(pattern, *factor, common);
       cholmod_free_factor(&factor, &common);
-      return std::make_shared<const FactorStructure>(result);
+      return std::make_shared<const FactorStructure>(std::move(result));
     }
 
     /// r -= A x, of a matrix of which the lower triangle is given.

@@ -3,9 +3,9 @@
 #define exemplar_subtree_solve_h
 
 #include <exemplar/algebra/factor_structure.h>
+#include <exemplar/base/loop_parts.h>
 
 #include <algorithm>
-#include <omp.h>
 #include <vector>
 
 namespace Exemplar
@@ -75,10 +75,12 @@ namespace Exemplar
     {
       const int n         = static_cast<int>(structure.subtrees.size());
       const int n_at_once = structure.n_values() < min_values ? 1 : static_cast<int>(blocks.size());
-#pragma omp parallel for schedule(dynamic) num_threads(n_at_once)
-      for (int i = 0; i < n; ++i)
-        kernel(structure.subtrees[i].begin, structure.subtrees[i].end, permuted.data(), stride,
-               blocks[omp_get_thread_num()]);
+      for_each_task(n, n_at_once,
+                    [&](const int i, const int thread)
+                    {
+                      kernel(structure.subtrees[i].begin, structure.subtrees[i].end,
+                             permuted.data(), stride, blocks[thread]);
+                    });
     }
 
     std::vector<Number>              permuted;
