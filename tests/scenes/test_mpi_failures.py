@@ -293,7 +293,7 @@ class Death(MpiTest):
                 self.check_resumed(DYNAMIC)
 
     def test_replaced_directory(self):
-        scene = {**DYNAMIC, "Time/End": "80", "Output/Every": "1", "Output/Keep states": "true"}
+        scene = {**DYNAMIC, "Time/End": "1000", "Output/Every": "1", "Output/Keep states": "true"}
         for processes in (N, 2, 1):
             for moment in range(4):
                 with self.subTest(processes=processes, moment=moment):
@@ -304,7 +304,7 @@ class Death(MpiTest):
                     run = self.result_of(process)
                     said = self.messages(run)
                     self.assertEqual((run.status, len(said)), (2, 1), run.stderr)
-                    self.assertRegex(said[0], "has been removed or replaced while|^Cannot (create|replace) out/")
+                    self.assertRegex(said[0], "has been removed or replaced while")
                     self.assertEqual(list((self.directory / "out").iterdir()), [])
                     for name in ("out", "moved"):
                         shutil.rmtree(self.directory / name)

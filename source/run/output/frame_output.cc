@@ -156,12 +156,13 @@ namespace Exemplar
       frame.surface = skin->carry(frame.displacement);
     for (const auto &[format, writer] : writers)
     {
-      directory.require_taken();
       const auto pieces = format->names_of_pieces(frame.step, exchange.n_processes());
-      writer->write(frame, path / pieces[exchange.process()]);
+      directory.do_inside([&, &by = *writer]
+                          { by.write(frame, path / pieces[exchange.process()]); });
+      const auto join = [&, &of = *format]
+      { of.join(frame, pieces, path / of.joint_name(frame.step)); };
       if (pieces.size() > 1)
-        at_root(exchange,
-                [&, &of = *format] { of.join(frame, pieces, path / of.joint_name(frame.step)); });
+        at_root(exchange, [&] { directory.do_inside(join); });
     }
   }
 

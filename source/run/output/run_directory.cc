@@ -135,13 +135,28 @@ namespace Exemplar
   }
 
   void
-  RunDirectory::require_taken() const
+  RunDirectory::require_in_place() const
   {
     if ((taken != nullptr && !taken->is_in_place())
         || (watched != nullptr && !watched->is_in_place()))
       throw std::runtime_error(
           "The output directory " + get_path().string()
           + " has been removed or replaced while the run was writing into it.");
+  }
+
+  void
+  RunDirectory::do_inside(const std::function<void()> &action) const
+  {
+    require_in_place();
+    try
+    {
+      action();
+    }
+    catch (...)
+    {
+      require_in_place();
+      throw;
+    }
   }
 
   void

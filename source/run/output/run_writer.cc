@@ -63,12 +63,7 @@ namespace Exemplar
   void
   RunWriter::at_root(const std::function<void()> &action) const
   {
-    do_at_root(exchange,
-               [&]
-               {
-                 directory.require_taken();
-                 action();
-               });
+    do_at_root(exchange, [&] { directory.do_inside(action); });
   }
 
   void

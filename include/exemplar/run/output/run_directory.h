@@ -7,6 +7,7 @@
 #include <exemplar/run/output/run_files.h>
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -52,10 +53,11 @@ namespace Exemplar
     void
     watch();
 
-    /// Throws std::runtime_error if the directory that was taken, or is watched, has been removed or
-    /// replaced, for what stands there now may be another run's.
+    /// Do something in the directory that was taken, or is watched. Throws std::runtime_error if it has been
+    /// removed or replaced before, or if that is why the action failed, for what stands there now may be
+    /// another run's; what the action throws otherwise.
     void
-    require_taken() const;
+    do_inside(const std::function<void()> &action) const;
 
     /// Why a file in this directory is none that a run has written, in words that follow "which"; empty
     /// if it is one, by its name and beginning.
@@ -105,6 +107,9 @@ namespace Exemplar
 
     void
     lock();
+
+    void
+    require_in_place() const;
 
     /// Throws UserError if one of the inputs is among the files of these names.
     void
