@@ -83,7 +83,7 @@ namespace Exemplar
       {
         rough_factor.reset();
         if (!factor)
-          factor.emplace(structure, n_threads);
+          factor.emplace(structure, threads_at_work());
         if (factor->factorize(matrix_values))
           return;
         factor.reset();
@@ -95,7 +95,7 @@ namespace Exemplar
       {
         factor.reset();
         if (rough_factor.use_count() != 1) // the last one is kept
-          rough_factor = std::make_shared<MultifrontalFactor<float>>(structure, n_threads);
+          rough_factor = std::make_shared<MultifrontalFactor<float>>(structure, threads_at_work());
         if (!rough_factor->factorize(matrix_values)) // in single precision, at least
           factorize(positions);
       }
@@ -118,12 +118,20 @@ namespace Exemplar
           return std::make_unique<SinglePrecisionInverse>(rough_factor);
         if (!factor)
           throw indefinite_matrix(); // the last factorisation has failed
-        auto rounded = std::make_shared<MultifrontalFactor<float>>(structure, n_threads);
+        auto rounded = std::make_shared<MultifrontalFactor<float>>(structure, threads_at_work());
         rounded->assign(factor->get_values());
         return std::make_unique<SinglePrecisionInverse>(std::move(rounded));
       }
 
     private:
+      /// Threads of a small factor would wait for each other longer than they work, by far where other
+      /// programs have the cores.
+      unsigned int
+      threads_at_work() const
+      {
+        return structure->n_operations < 3e7 ? 1 : n_threads;
+      }
+
       /// By iterative refinement, of which each step gains the digits of single precision.
       void
       solve_roughly(std::vector<double> &columns)
