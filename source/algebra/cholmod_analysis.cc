@@ -3,6 +3,8 @@
 #include <exemplar/base/environment.h>
 #include <exemplar/base/errors.h>
 
+#include <fmt/core.h>
+
 #include <mutex>
 
 namespace Exemplar
@@ -30,8 +32,7 @@ namespace Exemplar
                           + " needs more memory than there is. Set Solver/Linear solver to "
                             "iterative, or use a coarser mesh.");
     if (common.status < CHOLMOD_OK)
-      throw SolverFailure("CHOLMOD's " + what + " failed with status "
-                          + std::to_string(common.status) + ".");
+      throw SolverFailure(fmt::format("CHOLMOD's {} failed with status {}.", what, common.status));
   }
 
   cholmod_sparse

@@ -9,6 +9,8 @@
 #include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/vector_memory.templates.h> // for vectors that are not deal.II's
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <malloc.h>
@@ -287,10 +289,10 @@ namespace Exemplar
     }
     catch (const dealii::SolverControl::NoConvergence &)
     {
-      throw SolverFailure(
-          "The conjugate gradients do not converge in " + std::to_string(max_iterations)
-          + " iterations. Flat cells and a Poisson's ratio near 0.5 make them slow: set "
-            "Solver/Linear solver to cholesky, or improve the mesh.");
+      throw SolverFailure(fmt::format("The conjugate gradients do not converge in {} iterations. "
+                                      "Flat cells and a Poisson's ratio near 0.5 make them slow: "
+                                      "set Solver/Linear solver to cholesky, or improve the mesh.",
+                                      max_iterations));
     }
   }
 } // namespace Exemplar

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/build_identity.h>
 
+#include <fmt/core.h>
+
 #include <dlfcn.h>
 #include <elf.h>
 #include <link.h>
@@ -87,8 +89,8 @@ namespace Exemplar
       struct stat status;
       if (dladdr(address, &object) == 0 || stat(object.dli_fname, &status) != 0)
         return "unknown";
-      return std::string(object.dli_fname) + " " + std::to_string(status.st_size) + " "
-             + std::to_string(status.st_mtim.tv_sec) + " " + std::to_string(status.st_mtim.tv_nsec);
+      return fmt::format("{} {} {} {}", object.dli_fname, status.st_size, status.st_mtim.tv_sec,
+                         status.st_mtim.tv_nsec);
     }
   } // namespace
 

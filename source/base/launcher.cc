@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/launcher.h>
 
+#include <fmt/core.h>
+
 #include <cstdlib>
 #include <fstream>
 #include <unistd.h>
@@ -52,7 +54,7 @@ namespace Exemplar
   {
     if (!is_in_environment("OMPI_COMM_WORLD_SIZE"))
       return false;
-    std::ifstream comm("/proc/" + std::to_string(getppid()) + "/comm");
+    std::ifstream comm(fmt::format("/proc/{}/comm", getppid()));
     std::string   parent;
     std::getline(comm, parent);
     for (const std::string name : { "mpirun", "mpiexec", "orte" }) // orterun, orted, mpirun.openmpi

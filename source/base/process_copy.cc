@@ -2,6 +2,8 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/base/process_copy.h>
 
+#include <fmt/core.h>
+
 #include <fcntl.h>
 #include <poll.h>
 #include <stdio_ext.h>
@@ -227,13 +229,11 @@ namespace Exemplar
     require_end(const CopyEnd end, const CopyTask &task, const CopyMessages *messages)
     {
       if (end == CopyEnd::too_late)
-        throw SolverFailure(task.what + " did not come to an end within "
-                            + std::to_string(static_cast<long>(task.timeout))
-                            + " s and was ended. " + task.remedy);
+        throw SolverFailure(fmt::format("{} did not come to an end within {} s and was ended. {}",
+                                        task.what, static_cast<long>(task.timeout), task.remedy));
       if (end == CopyEnd::too_many_messages)
-        throw SolverFailure(task.what + " wrote more than "
-                            + std::to_string(messages->max_bytes >> 20)
-                            + " MiB of messages and was ended. " + task.remedy);
+        throw SolverFailure(fmt::format("{} wrote more than {} MiB of messages and was ended. {}",
+                                        task.what, messages->max_bytes >> 20, task.remedy));
     }
   } // namespace
 

@@ -9,6 +9,8 @@
 
 #include <deal.II/base/memory_consumption.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -127,7 +129,7 @@ namespace Exemplar
           warnings.push_back("Examples/Pose functions" + of_function);
         else if (const std::string problem = describe_pose(mesh, fe_space, positions);
                  !problem.empty())
-          warnings.push_back("Example " + std::to_string(i) + " (" + name + ") " + problem);
+          warnings.push_back(fmt::format("Example {} ({}) {}", i, name, problem));
       }
       return warnings;
     }

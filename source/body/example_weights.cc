@@ -6,6 +6,8 @@
 #include <exemplar/body/example_weights.h>
 #include <exemplar/prm/assignments.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -90,19 +92,18 @@ namespace Exemplar
     const unsigned int             n_regions      = poses.get_regions().n_regions();
     const bool                     are_per_region = poses.get_regions().material_id(0).has_value();
     if (lists.size() != 1 && lists.size() != n_regions)
-      throw UserError(key + " has " + std::to_string(lists.size()) + " lists separated by |, but "
-                      + (are_per_region ? "there are " + std::to_string(n_regions) + " regions."
-                                        : "Examples/Weights per region is false.")
-                      + " Give one list for all"
-                      + (are_per_region ? " or one for each region." : "."));
+      throw UserError(fmt::format("{} has {} lists separated by |, but {} Give one list for all{}",
+                                  key, lists.size(),
+                                  are_per_region ? fmt::format("there are {} regions.", n_regions)
+                                                 : "Examples/Weights per region is false.",
+                                  are_per_region ? " or one for each region." : "."));
     for (const std::string &list : lists)
     {
       if (const std::size_t n = split_trimmed(list, ';').size(); n < poses.size())
-        throw UserError(key + " = '" + list + "' has " + std::to_string(n) + " weights for "
-                        + std::to_string(poses.size()) + " examples: example " + std::to_string(n)
-                        + " (" + poses.name(n)
-                        + ") lacks one. Write one for each, separated by ';'. The examples are "
-                        + names_of_examples(poses) + ".");
+        throw UserError(
+            fmt::format("{} = '{}' has {} weights for {} examples: example {} ({}) lacks one. "
+                        "Write one for each, separated by ';'. The examples are {}.",
+                        key, list, n, poses.size(), n, poses.name(n), names_of_examples(poses)));
       prescribed.emplace_back(key, list, "t", poses.size());
     }
   }
@@ -221,14 +222,14 @@ namespace Exemplar
   ExampleWeights::region_name(const std::string &prefix, const unsigned int region) const
   {
     const auto id = poses.get_regions().material_id(region);
-    return id ? prefix + "_" + std::to_string(*id) : prefix;
+    return id ? fmt::format("{}_{}", prefix, *id) : prefix;
   }
 
   std::string
   ExampleWeights::weight_name(const std::string &prefix, const unsigned int weight) const
   {
-    return region_name(prefix, weight / n_per_region()) + "_"
-           + std::to_string(weight % n_per_region());
+    return fmt::format("{}_{}", region_name(prefix, weight / n_per_region()),
+                       weight % n_per_region());
   }
 
   std::size_t

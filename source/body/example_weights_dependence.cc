@@ -4,6 +4,8 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/body/example_weights.h>
 
+#include <fmt/core.h>
+
 #include <cmath>
 #include <sstream>
 
@@ -38,9 +40,8 @@ namespace Exemplar
       return;
     const unsigned int example = second(least.row) % k;
     const auto         region  = poses.get_regions().material_id(second(least.row) / k);
-    const std::string  where   = region ? " in region " + std::to_string(*region) : "";
-    const std::string  which
-        = "Example " + std::to_string(example) + " (" + poses.name(example) + ")" + where;
+    const std::string  where   = region ? fmt::format(" in region {}", *region) : "";
+    const std::string which = fmt::format("Example {} ({}){}", example, poses.name(example), where);
     if (least.ratio < 1e-12 && !has_ridge)
       throw UserError(which
                       + " is an affine combination of the examples before it, so their weights "

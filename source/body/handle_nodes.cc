@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/body/handle_nodes.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -82,11 +84,11 @@ namespace Exemplar
   std::string
   name_of_node(const unsigned int node, const Mesh &mesh, const FESpace &fe_space)
   {
-    const auto number = [&](const unsigned int vertex)
-    { return std::to_string(mesh.get_contents().node_numbers[vertex]); };
+    const auto number
+        = [&](const unsigned int vertex) { return mesh.get_contents().node_numbers[vertex]; };
     if (node < mesh.n_nodes())
-      return "node " + number(node);
+      return fmt::format("node {}", number(node));
     const auto &[a, b] = fe_space.numbering().ends(node);
-    return "the middle between nodes " + number(a) + " and " + number(b);
+    return fmt::format("the middle between nodes {} and {}", number(a), number(b));
   }
 } // namespace Exemplar

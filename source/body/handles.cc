@@ -4,6 +4,8 @@
 #include <exemplar/body/handles.h>
 #include <exemplar/prm/assignments.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -59,9 +61,9 @@ namespace Exemplar
             const double                      time)
     {
       if (displacements.size() != n_points)
-        throw UserError(key + ": the function of its motion gives "
-                        + std::to_string(displacements.size()) + " displacements, but it holds "
-                        + std::to_string(n_points) + " nodes.");
+        throw UserError(fmt::format(
+            "{}: the function of its motion gives {} displacements, but it holds {} nodes.", key,
+            displacements.size(), n_points));
       for (const dealii::Tensor<1, 3> &displacement : displacements)
         if (!std::isfinite(displacement.norm_square()))
           throw SolverFailure(key + ": the function of its motion gives what is not finite at t = "

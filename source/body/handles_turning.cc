@@ -2,6 +2,8 @@
 #include <exemplar/base/number_text.h>
 #include <exemplar/body/handles.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -91,7 +93,7 @@ namespace Exemplar
     std::string
     rounded(const double value)
     {
-      return std::to_string(std::lround(value));
+      return fmt::format("{}", std::lround(value));
     }
   } // namespace
 

@@ -4,6 +4,8 @@
 #include <exemplar/body/material.h>
 #include <exemplar/mesh/physical_names.h>
 
+#include <fmt/core.h>
+
 #include <cmath>
 #include <map>
 #include <set>
@@ -40,11 +42,11 @@ namespace Exemplar
       const auto check = [&](const std::string &name, const double value, const bool is_allowed)
       {
         if (!is_allowed)
-          throw UserError("Material/" + name + origin + ": the " + std::to_string(cell + 1)
-                          + ". cell would get " + shortest_text(value)
-                          + ". Young's modulus and density must be greater than 0, Poisson's ratio "
-                            "between -1 and 0.5."
-                          + (origin.empty() ? "" : " Change the map, or how it is used."));
+          throw UserError(
+              fmt::format("Material/{}{}: the {}. cell would get {}. Young's modulus and density "
+                          "must be greater than 0, Poisson's ratio between -1 and 0.5.{}",
+                          name, origin, cell + 1, shortest_text(value),
+                          origin.empty() ? "" : " Change the map, or how it is used."));
       };
       check("Young's modulus", values.youngs_modulus, values.youngs_modulus >= 1e-300);
       check("Density", values.density, values.density >= 1e-300);
@@ -62,8 +64,9 @@ namespace Exemplar
         const std::string  key = "Material/" + MaterialParameters::region_name(name);
         const unsigned int id  = find_id(names, 3, name, key);
         if (!regions.emplace(id, constants).second)
-          throw UserError(key + ": the region of this name has material id " + std::to_string(id)
-                          + ", which another subsection sets, too. Keep one of the two.");
+          throw UserError(fmt::format("{}: the region of this name has material id {}, which "
+                                      "another subsection sets, too. Keep one of the two.",
+                                      key, id));
       }
       return regions;
     }
@@ -87,11 +90,11 @@ namespace Exemplar
       {
         std::string present;
         for (const unsigned int other : ids)
-          present += (present.empty() ? "" : ", ") + std::to_string(other);
-        throw UserError("Material/" + MaterialParameters::region_name(id)
-                        + ": no cell of the mesh has material id " + std::to_string(id)
-                        + " (present: " + present
-                        + "). Give a Physical Volume that tag, or rename the subsection.");
+          present += fmt::format("{}{}", present.empty() ? "" : ", ", other);
+        throw UserError(
+            fmt::format("Material/{}: no cell of the mesh has material id {} (present: {}). Give a "
+                        "Physical Volume that tag, or rename the subsection.",
+                        MaterialParameters::region_name(id), id, present));
       }
       add(region);
       bases.push_back(region);
@@ -148,8 +151,9 @@ namespace Exemplar
                  const std::string         &key)
     {
       if (values.size() > 1 && values.size() != n_cells)
-        throw UserError(key + ": there are " + std::to_string(values.size()) + " numbers for "
-                        + std::to_string(n_cells) + " cells. Give one for all, or one a cell.");
+        throw UserError(
+            fmt::format("{}: there are {} numbers for {} cells. Give one for all, or one a cell.",
+                        key, values.size(), n_cells));
     }
   } // namespace
 

@@ -5,6 +5,8 @@
 #include <exemplar/kernels/cell_model.h>
 #include <exemplar/prm/key_table.h>
 
+#include <fmt/core.h>
+
 namespace Exemplar
 {
   namespace
@@ -59,7 +61,7 @@ namespace Exemplar
   std::string
   MaterialParameters::region_name(const unsigned int id)
   {
-    return region_name(std::to_string(id));
+    return region_name(fmt::format("{}", id));
   }
 
   std::string

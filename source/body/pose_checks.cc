@@ -5,6 +5,8 @@
 #include <exemplar/mesh/mesh_checks.h>
 #include <exemplar/prm/assignments.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -87,12 +89,13 @@ namespace Exemplar
       if (pose.inverted.size() == n_cells)
         return "is a mirror image: all of its cells are inside out, and their strain is ambiguous. "
                "Mirror it back: negate one coordinate.";
-      return "has " + std::to_string(pose.inverted.size()) + " inverted cells: element "
-             + list_numbers(pose.inverted) + "; their strain is ambiguous."
-             + (inverted_share * pose.inverted.size() < n_cells
-                    ? ""
-                    : " So many are inverted where the nodes are in another order than the mesh's. "
-                      "Take a pose that was made on this mesh, such as a final.msh.");
+      return fmt::format(
+          "has {} inverted cells: element {}; their strain is ambiguous.{}", pose.inverted.size(),
+          list_numbers(pose.inverted),
+          inverted_share * pose.inverted.size() < n_cells
+              ? ""
+              : " So many are inverted where the nodes are in another order than the mesh's. Take "
+                "a pose that was made on this mesh, such as a final.msh.");
     }
   } // namespace
 

@@ -3,6 +3,8 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/body/region_shares.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <set>
 
@@ -110,9 +112,10 @@ namespace Exemplar
     start.push_back(shares.size());
     for (unsigned int region = 0; region < n_regions(); ++region)
       if (!acts[region])
-        throw UserError("Examples/Weight maps: map " + std::to_string(ids[region])
-                        + " is 0 in all cells, so its weights would act nowhere. Paint it, or "
-                          "remove it from the list.");
+        throw UserError(
+            fmt::format("Examples/Weight maps: map {} is 0 in all cells, so its weights would act "
+                        "nowhere. Paint it, or remove it from the list.",
+                        ids[region]));
     spread(points_per_cell);
   }
 

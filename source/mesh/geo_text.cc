@@ -7,6 +7,8 @@
 #include <exemplar/mesh/geo_text.h>
 #include <exemplar/mesh/merged_formats.h>
 
+#include <fmt/core.h>
+
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -184,7 +186,7 @@ namespace Exemplar
       open_named(const GeoToken &name, const fs::path &path)
       {
         return open_file(place_of(name, path),
-                         *name.origin.file + ":" + std::to_string(name.origin.line) + ": ",
+                         fmt::format("{}:{}: ", *name.origin.file, name.origin.line),
                          "Names in a .geo are relative to it.");
       }
 
@@ -206,7 +208,7 @@ namespace Exemplar
       void
       add_name(const GeoToken &name, const std::string &bytes, const std::string &extension)
       {
-        const std::string copy = "data_" + std::to_string(data.size() + 1) + extension;
+        const std::string copy = fmt::format("data_{}{}", data.size() + 1, extension);
         data[copy]             = bytes;
         script.push_back({ GeoToken::Kind::text, "\"" + copy + "\"", name.origin, true });
       }
@@ -269,7 +271,7 @@ namespace Exemplar
       const auto line = std::strtoul(messages.c_str() + digits, nullptr, 10);
       text += messages.substr(at, found - at);
       if (line >= 1 && line <= origins.size())
-        text += "'" + *origins[line - 1].file + "', line " + std::to_string(origins[line - 1].line);
+        text += fmt::format("'{}', line {}", *origins[line - 1].file, origins[line - 1].line);
       else
         text += messages.substr(found, end - found);
       at = end;

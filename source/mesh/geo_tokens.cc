@@ -3,6 +3,8 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/mesh/geo_tokens.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cctype>
 #include <set>
@@ -166,10 +168,10 @@ namespace Exemplar
   void
   refuse_geo(const GeoOrigin &origin, const std::string &what)
   {
-    throw UserError(*origin.file + ":" + std::to_string(origin.line) + ": " + what
-                    + ". A mesh that somebody else made may not run programs or write files. If "
-                      "you trust it, give --allow-commands, or mesh it yourself (gmsh -3 FILE) "
-                      "and set Mesh/File to the .msh.");
+    throw UserError(fmt::format("{}:{}: {}. A mesh that somebody else made may not run programs or "
+                                "write files. If you trust it, give --allow-commands, or mesh it "
+                                "yourself (gmsh -3 FILE) and set Mesh/File to the .msh.",
+                                *origin.file, origin.line, what));
   }
 
   std::vector<GeoToken>

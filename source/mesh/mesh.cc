@@ -7,6 +7,8 @@
 #include <deal.II/grid/tria_accessor.h>
 #include <deal.II/grid/tria_iterator.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <numeric>
 #include <utility>
@@ -103,15 +105,14 @@ namespace Exemplar
                           + ". Take surfaces that bound no volume out of the Physical Surfaces, or "
                             "mesh surfaces and volumes together.");
         if (!internal.empty())
-          warnings.push_back(name + ": " + std::to_string(internal.size())
-                             + " physical triangles between two tetrahedra have no boundary id: "
-                               "element "
-                             + list_numbers(internal) + ".");
+          warnings.push_back(fmt::format(
+              "{}: {} physical triangles between two tetrahedra have no boundary id: element {}.",
+              name, internal.size(), list_numbers(internal)));
         if (!repeated.empty())
-          warnings.push_back(name + ": " + std::to_string(repeated.size())
-                             + " boundary triangles appear again with another physical tag; the "
-                               "first tag counts, not that of element "
-                             + list_numbers(repeated) + ".");
+          warnings.push_back(
+              fmt::format("{}: {} boundary triangles appear again with another physical tag; the "
+                          "first tag counts, not that of element {}.",
+                          name, repeated.size(), list_numbers(repeated)));
       }
 
       std::vector<BoundaryFace>
@@ -157,8 +158,9 @@ namespace Exemplar
   check_mesh(MshFile contents, const std::string &name, const double scale)
   {
     if (!(scale > 0.))
-      throw UserError("Mesh/Scale: must be positive, found " + std::to_string(scale)
-                      + ". Leave it at 1 if the mesh is in metres.");
+      throw UserError(fmt::format(
+          "Mesh/Scale: must be positive, found {:f}. Leave it at 1 if the mesh is in metres.",
+          scale));
     MeshArrays mesh;
     for (auto &node : contents.nodes)
       node *= scale;
@@ -169,9 +171,9 @@ namespace Exemplar
     Tetrahedra tetrahedra = extract_tetrahedra(contents, name);
     const auto swapped    = orient_tetrahedra(contents, name, tetrahedra);
     if (!swapped.empty())
-      mesh.warnings.push_back(name + ": " + std::to_string(swapped.size())
-                              + " tetrahedra of negative volume were re-oriented: element "
-                              + list_numbers(swapped) + ".");
+      mesh.warnings.push_back(
+          fmt::format("{}: {} tetrahedra of negative volume were re-oriented: element {}.", name,
+                      swapped.size(), list_numbers(swapped)));
     check_orphan_nodes(contents, name, tetrahedra);
     const std::vector<CellFace> faces = sorted_faces(tetrahedra);
     check_faces(contents, name, tetrahedra, faces);

@@ -3,6 +3,8 @@
 #include <exemplar/base/number_text.h>
 #include <exemplar/mesh/mesh_checks.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -19,7 +21,7 @@ namespace Exemplar
     std::string
     in_words(const std::size_t n, const std::string &noun)
     {
-      return std::to_string(n) + " " + noun + (n == 1 ? "" : "s");
+      return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s");
     }
 
     void
@@ -42,13 +44,12 @@ namespace Exemplar
       if (refused.empty())
         return;
       const MshElementKind *const kind = find_msh_element_kind(refused_type);
-      throw UserError(name + ": element " + std::to_string(refused.front()) + " is a "
-                      + (kind != nullptr ? kind->name : "element of unknown type")
-                      + "; only 4-node tetrahedra and 3-node triangles are supported ("
-                      + in_words(refused.size(), "element")
-                      + " of other kinds: " + list_numbers(refused)
-                      + "). Mesh with tetrahedra of first order: Mesh.ElementOrder = 1, no "
-                        "Recombine, no Transfinite Volume with Recombine.");
+      throw UserError(fmt::format(
+          "{}: element {} is a {}; only 4-node tetrahedra and 3-node triangles are supported ({} "
+          "of other kinds: {}). Mesh with tetrahedra of first order: Mesh.ElementOrder = 1, no "
+          "Recombine, no Transfinite Volume with Recombine.",
+          name, refused.front(), kind != nullptr ? kind->name : "element of unknown type",
+          in_words(refused.size(), "element"), list_numbers(refused)));
     }
 
     /// Of which one coordinate is the same everywhere.
@@ -92,9 +93,9 @@ namespace Exemplar
     constexpr std::size_t n_listed = 5;
     std::string           text;
     for (std::size_t i = 0; i < std::min(n_listed, numbers.size()); ++i)
-      text += (i == 0 ? "" : ", ") + std::to_string(numbers[i]);
+      text += fmt::format("{}{}", i == 0 ? "" : ", ", numbers[i]);
     if (numbers.size() > n_listed)
-      text += " and " + std::to_string(numbers.size() - n_listed) + " more";
+      text += fmt::format(" and {} more", numbers.size() - n_listed);
     return text;
   }
 
@@ -169,13 +170,12 @@ namespace Exemplar
     for (std::size_t node = 0; node < nodes.size(); ++node)
       for (unsigned int d = 0; d < 3; ++d)
         if (!(std::abs(nodes[node][d]) < largest_place))
-          throw UserError(
-              name + ": "
-              + (node < contents.node_numbers.size()
-                     ? "node " + std::to_string(contents.node_numbers[node])
-                     : "a node in the middle of an edge")
-              + " lies at a coordinate that is no finite number, or larger than 1e50 m. "
-                "Look at the file, and at Mesh/Scale.");
+          throw UserError(fmt::format("{}: {} lies at a coordinate that is no finite number, or "
+                                      "larger than 1e50 m. Look at the file, and at Mesh/Scale.",
+                                      name,
+                                      node < contents.node_numbers.size()
+                                          ? fmt::format("node {}", contents.node_numbers[node])
+                                          : "a node in the middle of an edge"));
   }
 
   void
@@ -226,10 +226,10 @@ namespace Exemplar
     const auto &numbers = tetrahedra.element_numbers;
     for (std::size_t i = 1; i < faces.size(); ++i)
       if (faces[i].nodes == faces[i - 1].nodes && faces[i].opposite == faces[i - 1].opposite)
-        throw UserError(name + ": tetrahedra " + std::to_string(numbers[faces[i - 1].cell])
-                        + " and " + std::to_string(numbers[faces[i].cell])
-                        + " have the same nodes. Mesh every volume once, and put it in one "
-                          "Physical Volume only: MSH 2.2 repeats the elements for each.");
+        throw UserError(fmt::format(
+            "{}: tetrahedra {} and {} have the same nodes. Mesh every volume once, and put it in "
+            "one Physical Volume only: MSH 2.2 repeats the elements for each.",
+            name, numbers[faces[i - 1].cell], numbers[faces[i].cell]));
 
     for (std::size_t begin = 0, end = 0; begin < faces.size(); begin = end)
     {
@@ -278,11 +278,10 @@ namespace Exemplar
         inverted.push_back(number);
     if (inverted.empty())
       inverted.assign(overlapping.begin(), overlapping.end());
-    throw UserError(name + ": " + std::to_string(inverted.size()) + " of "
-                    + std::to_string(tetrahedra.nodes.size())
-                    + " tetrahedra are inside out and overlap their neighbours: element "
-                    + list_numbers(inverted)
-                    + ". A rest pose needs cells of positive volume: remesh its surface, or take "
-                      "another pose for the mesh and this one as an example.");
+    throw UserError(
+        fmt::format("{}: {} of {} tetrahedra are inside out and overlap their neighbours: element "
+                    "{}. A rest pose needs cells of positive volume: remesh its surface, or take "
+                    "another pose for the mesh and this one as an example.",
+                    name, inverted.size(), tetrahedra.nodes.size(), list_numbers(inverted)));
   }
 } // namespace Exemplar

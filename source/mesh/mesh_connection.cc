@@ -2,6 +2,8 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/mesh/mesh_checks.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <numeric>
 #include <optional>
@@ -109,11 +111,11 @@ namespace Exemplar
         first_elements.push_back(tetrahedra.element_numbers[cell]);
     if (first_elements.size() == 1)
       return;
-    throw UserError(name + ": has " + std::to_string(first_elements.size())
-                    + " parts that no common face connects, beginning with element "
-                    + list_numbers(first_elements) + ". "
-                    + describe_contact(contents, tetrahedra, parts)
-                    + " A body must be in one piece: join the volumes in the geometry "
-                      "(BooleanUnion, or BooleanFragments and Coherence), or keep one of them.");
+    throw UserError(
+        fmt::format("{}: has {} parts that no common face connects, beginning with element {}. {} "
+                    "A body must be in one piece: join the volumes in the geometry (BooleanUnion, "
+                    "or BooleanFragments and Coherence), or keep one of them.",
+                    name, first_elements.size(), list_numbers(first_elements),
+                    describe_contact(contents, tetrahedra, parts)));
   }
 } // namespace Exemplar

@@ -2,6 +2,8 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/mesh/mesh_generation.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <limits>
 #include <utility>
@@ -123,8 +125,9 @@ namespace Exemplar
       for (unsigned int d = 0; d < 3; ++d)
       {
         if (!(size[d] > 0.) || size[d] > std::numeric_limits<double>::max())
-          throw UserError("Mesh/Box size: the three lengths must be positive, found "
-                          + std::to_string(size[d]) + ". Give them as e.g. 4, 1, 1.");
+          throw UserError(fmt::format("Mesh/Box size: the three lengths must be positive, found "
+                                      "{}. Give them as e.g. 4, 1, 1.",
+                                      size[d]));
         if (n_cells[d] == 0)
           throw UserError("Mesh/Box cells: the three counts must be at least 1, found 0. Give "
                           "them as e.g. 16, 4, 4.");

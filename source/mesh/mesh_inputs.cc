@@ -4,6 +4,8 @@
 #include <exemplar/mesh/mesh_inputs.h>
 #include <exemplar/mesh/quadratic_msh.h>
 
+#include <fmt/core.h>
+
 #include <numeric>
 
 namespace Exemplar
@@ -28,10 +30,9 @@ namespace Exemplar
     {
       for (const unsigned int node : nodes)
         if (node >= msh.nodes.size())
-          throw UserError(
-              std::string("The mesh has ") + std::to_string(msh.nodes.size()) + " nodes, but a "
-              + find_msh_element_kind(type)->name + " has node " + std::to_string(node)
-              + ". Nodes are counted from 0: if these are from 1, subtract 1 from all.");
+          throw UserError(fmt::format("The mesh has {} nodes, but a {} has node {}. Nodes are "
+                                      "counted from 0: if these are from 1, subtract 1 from all.",
+                                      msh.nodes.size(), find_msh_element_kind(type)->name, node));
       const int id = static_cast<int>(tag);
       msh.elements.push_back(
           { msh.elements.size() + 1, type, id, id, { nodes.begin(), nodes.end() } });
@@ -63,9 +64,9 @@ namespace Exemplar
            const std::vector<BoundaryFace>                &boundary_faces)
   {
     if (!material_ids.empty() && material_ids.size() != cells.size())
-      throw UserError("The mesh has " + std::to_string(cells.size()) + " cells, but "
-                      + std::to_string(material_ids.size())
-                      + " material ids. Give one for each cell, or none.");
+      throw UserError(fmt::format(
+          "The mesh has {} cells, but {} material ids. Give one for each cell, or none.",
+          cells.size(), material_ids.size()));
     MshFile msh;
     msh.nodes = std::move(nodes);
     msh.node_numbers.resize(msh.nodes.size());

@@ -5,6 +5,8 @@
 #include <exemplar/mesh/mesh_edges.h>
 #include <exemplar/mesh/quadratic_msh.h>
 
+#include <fmt/core.h>
+
 namespace Exemplar
 {
   namespace
@@ -18,15 +20,13 @@ namespace Exemplar
     compare_node_numbers(const MshFile &mesh, const MshFile &pose, const std::string &prefix)
     {
       if (pose.nodes.size() != mesh.nodes.size())
-        throw UserError(prefix + "it has " + std::to_string(pose.nodes.size())
-                        + " nodes, the mesh has " + std::to_string(mesh.nodes.size()) + "."
-                        + pose_remedy);
+        throw UserError(fmt::format("{}it has {} nodes, the mesh has {}.{}", prefix,
+                                    pose.nodes.size(), mesh.nodes.size(), pose_remedy));
       for (std::size_t i = 0; i < mesh.nodes.size(); ++i)
         if (pose.node_numbers[i] != mesh.node_numbers[i])
-          throw UserError(prefix + "the node at position " + std::to_string(i + 1)
-                          + " has the number " + std::to_string(pose.node_numbers[i])
-                          + ", in the mesh " + std::to_string(mesh.node_numbers[i]) + "."
-                          + pose_remedy);
+          throw UserError(
+              fmt::format("{}the node at position {} has the number {}, in the mesh {}.{}", prefix,
+                          i + 1, pose.node_numbers[i], mesh.node_numbers[i], pose_remedy));
     }
 
     std::vector<const MshElement *>
@@ -54,16 +54,14 @@ namespace Exemplar
       const auto expected = tetrahedra_of(mesh);
       const auto found    = tetrahedra_of(pose);
       if (found.size() != expected.size())
-        throw UserError(prefix + "it has " + std::to_string(found.size())
-                        + " tetrahedra, the mesh has " + std::to_string(expected.size()) + "."
-                        + pose_remedy);
+        throw UserError(fmt::format("{}it has {} tetrahedra, the mesh has {}.{}", prefix,
+                                    found.size(), expected.size(), pose_remedy));
       for (std::size_t i = 0; i < expected.size(); ++i)
         if (found[i]->nodes != expected[i]->nodes)
-          throw UserError(prefix + "tetrahedron " + std::to_string(i + 1) + " (element "
-                          + std::to_string(found[i]->number) + ") has the nodes "
-                          + node_list(pose, *found[i]) + ", in the mesh (element "
-                          + std::to_string(expected[i]->number) + ") "
-                          + node_list(mesh, *expected[i]) + "." + pose_remedy);
+          throw UserError(fmt::format(
+              "{}tetrahedron {} (element {}) has the nodes {}, in the mesh (element {}) {}.{}",
+              prefix, i + 1, found[i]->number, node_list(pose, *found[i]), expected[i]->number,
+              node_list(mesh, *expected[i]), pose_remedy));
     }
   } // namespace
 
@@ -106,9 +104,9 @@ namespace Exemplar
                       + "' among the inputs. Hand it in by this name, or read it from a file.");
     const std::size_t n = found->second.size();
     if (n != n_nodes() && n != n_nodes() + edges_of(arrays.cells).size())
-      throw UserError(key + ": the pose '" + pose + "' has " + std::to_string(n)
-                      + " nodes, the mesh " + std::to_string(n_nodes())
-                      + ". Hand in a place for each node.");
+      throw UserError(
+          fmt::format("{}: the pose '{}' has {} nodes, the mesh {}. Hand in a place for each node.",
+                      key, pose, n, n_nodes()));
     return scaled(found->second, *this);
   }
 

@@ -6,6 +6,8 @@
 #include <exemplar/mesh/msh_node_index.h>
 #include <exemplar/mesh/msh_reader.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -73,8 +75,8 @@ namespace Exemplar
     const int binary         = in.text_int();
     const int bytes_per_real = in.text_int();
     if ((binary != 0 && binary != 1) || bytes_per_real != sizeof(double))
-      in.fail("the file type must be 0 or 1 and the data size 8, found " + std::to_string(binary)
-              + " and " + std::to_string(bytes_per_real) + ".");
+      in.fail(fmt::format("the file type must be 0 or 1 and the data size 8, found {} and {}.",
+                          binary, bytes_per_real));
     if (binary == 0)
       return;
     in.end_line();
@@ -101,9 +103,9 @@ namespace Exemplar
   MshReader::checked_tag(const int tag) const
   {
     if (tag == std::numeric_limits<int>::min())
-      in.fail(
-          "a tag of " + std::to_string(tag)
-          + " is not allowed, as there is no such positive number. Give the group another one.");
+      in.fail(fmt::format("a tag of {} is not allowed, as there is no such positive number. Give "
+                          "the group another one.",
+                          tag));
     return tag;
   }
 
@@ -115,8 +117,8 @@ namespace Exemplar
     {
       point[d] = in.read_double();
       if (!std::isfinite(point[d]))
-        in.fail("node " + std::to_string(number)
-                + " has a coordinate that is no finite number. Repair the mesh.");
+        in.fail(fmt::format("node {} has a coordinate that is no finite number. Repair the mesh.",
+                            number));
     }
     msh.nodes.push_back(point);
     in.count();
@@ -138,8 +140,8 @@ namespace Exemplar
   {
     const MshElementKind *const kind = find_msh_element_kind(type);
     if (kind == nullptr)
-      in.fail("element type " + std::to_string(type)
-              + " is not known (1 to 31 are). Mesh with 4-node tetrahedra.");
+      in.fail(fmt::format(
+          "element type {} is not known (1 to 31 are). Mesh with 4-node tetrahedra.", type));
     return *kind;
   }
 
@@ -163,8 +165,8 @@ namespace Exemplar
   MshReader::require_all(const std::size_t n_read, const std::size_t n_announced) const
   {
     if (n_read != n_announced)
-      in.fail("the blocks hold " + std::to_string(n_read)
-              + ", which is not the number announced. Save the mesh anew.");
+      in.fail(fmt::format(
+          "the blocks hold {}, which is not the number announced. Save the mesh anew.", n_read));
   }
 
   void
@@ -176,9 +178,9 @@ namespace Exemplar
       {
         const std::size_t number = node;
         if (!index.find(number, node))
-          in.fail("element " + std::to_string(element.number) + " uses node "
-                  + std::to_string(number)
-                  + ", which $Nodes does not have. Save the mesh anew, with all its nodes.");
+          in.fail(fmt::format("element {} uses node {}, which $Nodes does not have. Save the mesh "
+                              "anew, with all its nodes.",
+                              element.number, number));
       }
   }
 

@@ -2,6 +2,8 @@
 // Format: https://gmsh.info/doc/texinfo/gmsh.html, "File formats".
 #include <exemplar/mesh/msh_reader.h>
 
+#include <fmt/core.h>
+
 #include <array>
 
 // Sections of version 4.1.
@@ -16,7 +18,7 @@ namespace Exemplar
       n = in.read_size();
     for (unsigned int dimension = 0; dimension <= 3; ++dimension)
     {
-      in.begin_count(n_entities[dimension], "entities of dimension " + std::to_string(dimension));
+      in.begin_count(n_entities[dimension], fmt::format("entities of dimension {}", dimension));
       for (std::size_t i = 0; i < n_entities[dimension]; ++i, in.count())
       {
         const int tag = in.read_int();

@@ -4,6 +4,8 @@
 #include <exemplar/mesh/foreign_formats.h>
 #include <exemplar/mesh/msh_scanner.h>
 
+#include <fmt/core.h>
+
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
@@ -169,7 +171,7 @@ namespace Exemplar
   {
     const int value = read_int();
     if (value < 0)
-      fail("expected a count or number >= 0, found " + std::to_string(value) + ".");
+      fail(fmt::format("expected a count or number >= 0, found {}.", value));
     return static_cast<std::size_t>(value);
   }
 
@@ -209,7 +211,7 @@ namespace Exemplar
     if (!section.empty())
       text += " within section $" + section;
     if (!counted.empty())
-      text += " after " + std::to_string(n_done) + " of " + std::to_string(n_total) + " " + counted;
+      text += fmt::format(" after {} of {} {}", n_done, n_total, counted);
     return text;
   }
 

@@ -2,6 +2,8 @@
 #include <exemplar/base/atomic_file.h>
 #include <exemplar/mesh/msh_file.h>
 
+#include <fmt/core.h>
+
 #include <array>
 #include <charconv>
 #include <sstream>
@@ -71,17 +73,16 @@ namespace Exemplar
     {
       if (msh.physical_names.empty())
         return;
-      out << "$PhysicalNames\n" << std::to_string(msh.physical_names.size()) << '\n';
+      out << fmt::format("$PhysicalNames\n{}\n", msh.physical_names.size());
       for (const auto &[key, name] : msh.physical_names)
-        out << std::to_string(key.first) << ' ' << std::to_string(key.second) << " \"" << name
-            << "\"\n";
+        out << fmt::format("{} {} \"{}\"\n", key.first, key.second, name);
       out << "$EndPhysicalNames\n";
     }
 
     void
     write_nodes(const MshFile &msh, std::ostream &out)
     {
-      out << "$Nodes\n" << std::to_string(msh.nodes.size()) << '\n';
+      out << fmt::format("$Nodes\n{}\n", msh.nodes.size());
       LineWriter line(out);
       for (std::size_t i = 0; i < msh.nodes.size(); ++i)
       {
@@ -97,7 +98,7 @@ namespace Exemplar
     void
     write_elements(const MshFile &msh, std::ostream &out)
     {
-      out << "$Elements\n" << std::to_string(msh.elements.size()) << '\n';
+      out << fmt::format("$Elements\n{}\n", msh.elements.size());
       LineWriter line(out);
       for (const MshElement &element : msh.elements)
       {

@@ -6,6 +6,8 @@
 #include <exemplar/base/text_file.h>
 #include <exemplar/mesh/mesh_inputs.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -71,13 +73,13 @@ namespace Exemplar
                                ? index.find(static_cast<std::size_t>(number))
                                : index.end();
         if (found == index.end())
-          throw UserError(key + ": " + in_quotes(word) + " in " + file.string()
-                          + " is no node number of " + mesh_name
-                          + (number == 0.
-                                 ? ", whose nodes are counted from " + std::to_string(minimum)
-                                       + ": add " + std::to_string(minimum) + " to all."
-                                 : ".")
-                          + remedy);
+          throw UserError(fmt::format(
+              "{}: {} in {} is no node number of {}{}{}", key, in_quotes(word), file.string(),
+              mesh_name,
+              number == 0.
+                  ? fmt::format(", whose nodes are counted from {0}: add {0} to all.", minimum)
+                  : ".",
+              remedy));
         nodes.insert(found->second);
       }
 
@@ -129,12 +131,10 @@ namespace Exemplar
         static const std::regex type_pattern("'descr': *'[<|]([iuf][1248])'");
         std::smatch             type;
         if (header.find("'|b1'") < header.size())
-          throw UserError(key + ": " + file.string()
-                          + " holds True and False. Save the numbers of the nodes that are meant, "
-                            "which are counted from "
-                          + std::to_string(minimum)
-                          + ": numpy.save(FILE, numpy.flatnonzero(mask) + "
-                          + std::to_string(minimum) + ").");
+          throw UserError(fmt::format(
+              "{}: {} holds True and False. Save the numbers of the nodes that are meant, which "
+              "are counted from {}: numpy.save(FILE, numpy.flatnonzero(mask) + {}).",
+              key, file.string(), minimum, minimum));
         if (!std::regex_search(header, type, type_pattern))
           fail_npy("holds no numbers of this machine's byte order");
         const std::string data = bytes.substr(begin + header_size);

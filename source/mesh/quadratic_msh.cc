@@ -5,6 +5,8 @@
 #include <exemplar/mesh/mesh_edges.h>
 #include <exemplar/mesh/quadratic_msh.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <optional>
 
@@ -52,14 +54,13 @@ namespace Exemplar
         const double      length = msh.nodes[a].distance(msh.nodes[b]);
         if (off.norm() <= 1e-6 * length)
           continue;
-        throw UserError(
-            name + ": element " + std::to_string(element.number) + " has a curved edge: node "
-            + std::to_string(msh.node_numbers[m]) + " lies beside the middle of nodes "
-            + std::to_string(msh.node_numbers[a]) + " and " + std::to_string(msh.node_numbers[b])
-            + " by " + short_text(off.norm() / length)
-            + " of their distance. Edges must be straight at rest, of quadratic elements, too. In "
-              "gmsh mesh with first order (Mesh.ElementOrder = 1) or with Mesh.SecondOrderLinear = "
-              "1; Model/Element = P2 then puts nodes into the middles of edges.");
+        throw UserError(fmt::format(
+            "{}: element {} has a curved edge: node {} lies beside the middle of nodes {} and {} "
+            "by {} of their distance. Edges must be straight at rest, of quadratic elements, too. "
+            "In gmsh mesh with first order (Mesh.ElementOrder = 1) or with Mesh.SecondOrderLinear "
+            "= 1; Model/Element = P2 then puts nodes into the middles of edges.",
+            name, element.number, msh.node_numbers[m], msh.node_numbers[a], msh.node_numbers[b],
+            short_text(off.norm() / length)));
       }
     }
 
@@ -162,9 +163,9 @@ namespace Exemplar
     const auto expected = elements_of(mesh, MshElementType::tetrahedron);
     const auto found    = elements_of(pose, MshElementType::quadratic_tetrahedron);
     if (found.size() != expected.size())
-      throw UserError(prefix + "has " + std::to_string(found.size())
-                      + " 10-node tetrahedra, the mesh has " + std::to_string(expected.size())
-                      + " tetrahedra. A pose must have those of the mesh, in the same order.");
+      throw UserError(fmt::format("{}has {} 10-node tetrahedra, the mesh has {} tetrahedra. A pose "
+                                  "must have those of the mesh, in the same order.",
+                                  prefix, found.size(), expected.size()));
     const std::vector<Edge>       edges = edges_of(corners_of(expected));
     std::vector<dealii::Point<3>> places(mesh.nodes.size() + edges.size());
     std::vector<std::size_t>      middles(edges.size(), pose.nodes.size());
@@ -174,12 +175,12 @@ namespace Exemplar
       for (unsigned int v = 0; v < 4; ++v)
       {
         if (pose.node_numbers[posed[v]] != mesh.node_numbers[nodes[v]])
-          throw UserError(prefix + "corner " + std::to_string(v + 1) + " of tetrahedron "
-                          + std::to_string(i + 1) + " (element " + std::to_string(found[i]->number)
-                          + ") is node " + std::to_string(pose.node_numbers[posed[v]])
-                          + ", in the mesh node " + std::to_string(mesh.node_numbers[nodes[v]])
-                          + ". A pose must have the tetrahedra of the mesh, in the same order and "
-                            "with the same numbers of their corners.");
+          throw UserError(
+              fmt::format("{}corner {} of tetrahedron {} (element {}) is node {}, in the mesh node "
+                          "{}. A pose must have the tetrahedra of the mesh, in the same order and "
+                          "with the same numbers of their corners.",
+                          prefix, v + 1, i + 1, found[i]->number, pose.node_numbers[posed[v]],
+                          mesh.node_numbers[nodes[v]]));
         places[nodes[v]] = pose.nodes[posed[v]];
       }
       for (unsigned int e = 0; e < 6; ++e)
@@ -189,12 +190,11 @@ namespace Exemplar
                         static_cast<unsigned int>(nodes[gmsh_edges[e][1]]));
         const std::size_t node = posed[4 + e];
         if (middles[edge] != pose.nodes.size() && middles[edge] != node)
-          throw UserError(
-              prefix + "the edge between nodes " + std::to_string(mesh.node_numbers[edges[edge][0]])
-              + " and " + std::to_string(mesh.node_numbers[edges[edge][1]])
-              + " has two nodes in its middle, " + std::to_string(pose.node_numbers[node]) + " and "
-              + std::to_string(pose.node_numbers[middles[edge]])
-              + ". Cells that share an edge must share its node: save the mesh anew.");
+          throw UserError(fmt::format(
+              "{}the edge between nodes {} and {} has two nodes in its middle, {} and {}. Cells "
+              "that share an edge must share its node: save the mesh anew.",
+              prefix, mesh.node_numbers[edges[edge][0]], mesh.node_numbers[edges[edge][1]],
+              pose.node_numbers[node], pose.node_numbers[middles[edge]]));
         middles[edge]                    = node;
         places[mesh.nodes.size() + edge] = pose.nodes[node];
       }

@@ -5,6 +5,8 @@
 #include <exemplar/mesh/selection.h>
 #include <exemplar/mesh/selection_words.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <set>
 #include <sstream>
@@ -34,7 +36,7 @@ namespace Exemplar
     {
       std::string text;
       for (const unsigned int id : ids)
-        text += (text.empty() ? "" : ", ") + std::to_string(id);
+        text += fmt::format("{}{}", text.empty() ? "" : ", ", id);
       return text;
     }
 
@@ -80,10 +82,10 @@ namespace Exemplar
         if (ids[cell] == id)
           nodes.insert(mesh.get_cells()[cell].begin(), mesh.get_cells()[cell].end());
       if (nodes.empty())
-        throw UserError(key + ": region " + std::to_string(id) + " has no cells in "
-                        + mesh.get_name()
-                        + " (present: " + list(std::set<unsigned int>(ids.begin(), ids.end()))
-                        + "). Give a Physical Volume that tag, or change " + key + "/Select.");
+        throw UserError(fmt::format("{}: region {} has no cells in {} (present: {}). Give a "
+                                    "Physical Volume that tag, or change {}/Select.",
+                                    key, id, mesh.get_name(),
+                                    list(std::set<unsigned int>(ids.begin(), ids.end())), key));
       return { nodes.begin(), nodes.end() };
     }
 
@@ -99,14 +101,14 @@ namespace Exemplar
       for (const BoundaryFace &face : mesh.get_boundary_faces())
         present.insert(face.boundary_id);
       if (nodes.empty())
-        throw UserError(
-            key + ": boundary id " + std::to_string(id) + " has no faces in " + mesh.get_name()
-            + " (present: " + list(present)
-            + (mesh.get_contents().elements.size() == mesh.n_cells()
-                   ? "), which has no triangles. Select by box, sphere or region; boundary "
-                     "ids come from the Physical Surfaces of a mesh file."
-                   : "). Give a Physical Surface the tag " + std::to_string(id) + ", or change "
-                         + key + "/Select." + remedy_of_geo(mesh.get_contents())));
+        throw UserError(fmt::format(
+            "{}: boundary id {} has no faces in {} (present: {}{}", key, id, mesh.get_name(),
+            list(present),
+            mesh.get_contents().elements.size() == mesh.n_cells()
+                ? "), which has no triangles. Select by box, sphere or region; boundary ids come "
+                  "from the Physical Surfaces of a mesh file."
+                : fmt::format("). Give a Physical Surface the tag {}, or change {}/Select.{}", id,
+                              key, remedy_of_geo(mesh.get_contents()))));
       return { nodes.begin(), nodes.end() };
     }
 
@@ -123,9 +125,9 @@ namespace Exemplar
                           "file.");
       const std::set<unsigned int> nodes(found->second.begin(), found->second.end());
       if (!nodes.empty() && *nodes.rbegin() >= mesh.n_nodes())
-        throw UserError(key + "/Select: the nodes '" + name + "' have the index "
-                        + std::to_string(*nodes.rbegin()) + ", but the mesh has "
-                        + std::to_string(mesh.n_nodes()) + " nodes. They are counted from 0.");
+        throw UserError(fmt::format("{}/Select: the nodes '{}' have the index {}, but the mesh has "
+                                    "{} nodes. They are counted from 0.",
+                                    key, name, *nodes.rbegin(), mesh.n_nodes()));
       return { nodes.begin(), nodes.end() };
     }
 

@@ -6,6 +6,8 @@
 #include <exemplar/prm/assignments.h>
 #include <exemplar/prm/key_table.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <regex>
@@ -96,10 +98,10 @@ namespace Exemplar
                       + "': there is one selection alone, and | joins none. Make a subsection of "
                         "its own for each.");
     if (!are_all || values.size() != n)
-      throw UserError(key + "/Select = '" + words.kind + " " + words.rest + "': '" + words.kind
-                      + "' takes " + std::to_string(n)
-                      + " numbers, separated by blanks, with points as decimal signs."
-                      + remedy_of_numbers(words, n) + " Allowed: " + selection_forms + ".");
+      throw UserError(fmt::format("{}/Select = '{} {}': '{}' takes {} numbers, separated by "
+                                  "blanks, with points as decimal signs.{} Allowed: {}.",
+                                  key, words.kind, words.rest, words.kind, n,
+                                  remedy_of_numbers(words, n), selection_forms));
     return values;
   }
 

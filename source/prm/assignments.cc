@@ -5,6 +5,8 @@
 #include <exemplar/base/text_file.h>
 #include <exemplar/prm/assignments.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cctype>
 #include <map>
@@ -136,7 +138,7 @@ namespace Exemplar
       std::string
       place() const
       {
-        return file + ":" + std::to_string(line_number);
+        return fmt::format("{}:{}", file, line_number);
       }
 
       void
@@ -197,9 +199,9 @@ namespace Exemplar
         if (!unclosed.empty())
           return;
         unclosed_line = open.back().line;
-        unclosed      = "subsection '" + subsections.back() + "' is not closed before line "
-                   + std::to_string(line_number) + ", where " + what
-                   + ". Write a line 'end' before that line.";
+        unclosed = fmt::format("subsection '{}' is not closed before line {}, where {}. Write a "
+                               "line 'end' before that line.",
+                               subsections.back(), line_number, what);
       }
 
       [[noreturn]] void

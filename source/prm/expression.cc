@@ -4,6 +4,7 @@
 #include <exemplar/prm/assignments.h>
 #include <exemplar/prm/expression.h>
 
+#include <fmt/core.h>
 #include <muParser.h>
 
 #include <array>
@@ -114,7 +115,7 @@ namespace Exemplar
     {
       if (n == 1 || !split_trimmed(all, ';')[i].empty())
         return "";
-      return ", number " + std::to_string(i + 1) + " of '" + all + "',";
+      return fmt::format(", number {} of '{}',", i + 1, all);
     }
 
     double
@@ -152,11 +153,10 @@ namespace Exemplar
     parsers->key   = key;
     parsers->texts = split_trimmed(text, ';');
     if (parsers->texts.size() != n_components)
-      throw UserError(
-          key + " = '" + text + "' has " + std::to_string(parsers->texts.size())
-          + (parsers->texts.size() == 1 ? " formula, but needs " : " formulas, but needs ")
-          + std::to_string(n_components) + ", separated by ';'."
-          + remedy_of_number(parsers->texts, n_components, variables != "t"));
+      throw UserError(fmt::format(
+          "{} = '{}' has {}{}{}, separated by ';'.{}", key, text, parsers->texts.size(),
+          parsers->texts.size() == 1 ? " formula, but needs " : " formulas, but needs ",
+          n_components, remedy_of_number(parsers->texts, n_components, variables != "t")));
     parsers->parsers.resize(n_components);
     for (unsigned int i = 0; i < n_components; ++i)
     {

@@ -5,6 +5,8 @@
 #include <exemplar/prm/key_table.h>
 #include <exemplar/prm/remedies.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -64,8 +66,7 @@ namespace Exemplar
     std::string
     written(const double number)
     {
-      char digits[32];
-      std::snprintf(digits, sizeof(digits), "%.12g", number);
+      const std::string digits = fmt::format("{:.12g}", number);
       return replaced(shortest_text(parse_number(digits)), "e\\+0*", "e");
     }
 
@@ -144,7 +145,7 @@ namespace Exemplar
     {
       const double number = parse_number(value);
       return std::abs(number) < 2e9 && number == std::floor(number)
-                 ? std::to_string(static_cast<long>(number))
+                 ? fmt::format("{}", static_cast<long>(number))
                  : "";
     }
 

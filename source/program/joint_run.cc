@@ -7,6 +7,8 @@
 #include <exemplar/program/interrupt.h>
 #include <exemplar/program/joint_run.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <chrono>
 #include <csignal>
@@ -105,8 +107,8 @@ namespace Exemplar
       char name[MPI_MAX_PROCESSOR_NAME];
       int  length = 0;
       MPI_Get_processor_name(name, &length);
-      return " (process " + std::to_string(together.process) + " of "
-             + std::to_string(together.n_processes) + ", on " + std::string(name, length) + ")";
+      return fmt::format(" (process {} of {}, on {})", together.process, together.n_processes,
+                         std::string(name, length));
     }
 
     /// End all processes, as if each had returned `status`. Other than after MPI_Finalize, mpirun does
@@ -176,8 +178,8 @@ namespace Exemplar
         std::this_thread::sleep_for(std::chrono::seconds(2));
         _exit(1);
       }
-      throw UserError(launch.program + " has started " + std::to_string(launch.n_processes)
-                      + " processes that do not find each other: " + reason);
+      throw UserError(fmt::format("{} has started {} processes that do not find each other: {}",
+                                  launch.program, launch.n_processes, reason));
     }
 
     /// A signal handler: nothing but system calls is safe.
@@ -263,8 +265,7 @@ namespace Exemplar
     for (int i = 1; i < argc; ++i)
       arguments.append(argv[i]).push_back('\0');
     require_same(arguments, "was given other arguments than",
-                 "Start all by one command: mpirun -n " + std::to_string(size)
-                     + " exemplar SCENE.prm");
+                 fmt::format("Start all by one command: mpirun -n {} exemplar SCENE.prm", size));
   }
 
   const ProcessGroup &
@@ -286,9 +287,8 @@ namespace Exemplar
                   MPI_COMM_WORLD);
     for (unsigned int other = 1; other < together.n_processes; ++other)
       if (all.compare(other * own.size(), own.size(), all, 0, own.size()) != 0)
-        throw UserError("Process " + std::to_string(other) + " of "
-                        + std::to_string(together.n_processes) + ' ' + difference + " process 0. "
-                        + remedy);
+        throw UserError(fmt::format("Process {} of {} {} process 0. {}", other,
+                                    together.n_processes, difference, remedy));
   }
 
   int

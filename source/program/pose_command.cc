@@ -13,6 +13,8 @@
 #include <exemplar/surface/posing/pose_carrying.h>
 #include <exemplar/surface/shape/surface_poses.h>
 
+#include <fmt/core.h>
+
 #include <chrono>
 #include <iomanip>
 #include <iostream>
@@ -173,12 +175,11 @@ namespace Exemplar
       for (std::size_t k = 0; k < n_done; ++k)
       {
         const PoseQuality &q = poses[k].quality;
-        char               line[160];
-        std::snprintf(
-            line, sizeof(line),
-            "  %8u   %.3f to %6.3f  %8.3f %7.3f %6.3f %6.3f   %6.3f %6.3f   %6.1f  %5.1f s",
-            q.n_inverted, q.min_det, q.max_det, q.min_stretch, q.stretch_1, q.stretch_99,
-            q.max_stretch, 100. * q.mean_error, 100. * q.max_error, q.rotation, poses[k].seconds);
+        const std::string  line = fmt::format(
+             "  {:8}   {:.3f} to {:6.3f}  {:8.3f} {:7.3f} {:6.3f} {:6.3f}   {:6.3f} {:6.3f}   "
+              "{:6.1f}  {:5.1f} s",
+             q.n_inverted, q.min_det, q.max_det, q.min_stretch, q.stretch_1, q.stretch_99,
+             q.max_stretch, 100. * q.mean_error, 100. * q.max_error, q.rotation, poses[k].seconds);
         std::cout << std::left << std::setw(static_cast<int>(width))
                   << printable(poses[k].file.stem().string()) << line << '\n';
       }
@@ -232,8 +233,7 @@ namespace Exemplar
     if (!options.quiet)
       print_table(poses, n_done);
     if (n_done < poses.size())
-      throw Interrupted("Interrupted after pose " + std::to_string(n_done) + " of "
-                        + std::to_string(poses.size()) + ".");
+      throw Interrupted(fmt::format("Interrupted after pose {} of {}.", n_done, poses.size()));
     if (!failures.empty())
       throw SolverFailure(
           "Cells stay inverted in these poses, which are not written:" + failures

@@ -19,6 +19,8 @@
 #include <exemplar/run/problem/state_review.h>
 #include <exemplar/run/problem/unit_review.h>
 
+#include <fmt/core.h>
+
 #include <iostream>
 #include <memory>
 #include <unistd.h>
@@ -138,8 +140,7 @@ namespace Exemplar
       }
       catch (const Interrupted &)
       {
-        const std::string message
-            = "Interrupted after step " + std::to_string(problem.state.step) + ".";
+        const std::string message = fmt::format("Interrupted after step {}.", problem.state.step);
         log.note(message + '\n');
         writer.finish("interrupted", log.get_warnings());
         JointRun::group().wait_for_all(); // while the root writes

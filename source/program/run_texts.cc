@@ -5,6 +5,8 @@
 #include <exemplar/run/problem/body_measures.h>
 #include <exemplar/run/problem/idle_review.h>
 
+#include <fmt/core.h>
+
 #include <cmath>
 #include <iomanip>
 #include <numeric>
@@ -119,8 +121,8 @@ namespace Exemplar
       const unsigned int       bound = cells_of_one_process(problem.parameters.scene);
       std::vector<std::string> notes = idle_notes(problem);
       if (problem.body.exchange().n_processes() > 1 && problem.body.mesh.whole().n_cells < bound)
-        notes.push_back("with fewer than " + std::to_string(bound)
-                        + " cells one process is faster: start without mpirun");
+        notes.push_back(fmt::format(
+            "with fewer than {} cells one process is faster: start without mpirun", bound));
       std::string text;
       for (const std::string &note : notes)
         text += "Note      " + note + '\n';
@@ -169,7 +171,7 @@ namespace Exemplar
   std::string
   resumption_text(const Problem &problem)
   {
-    std::string text = "Resumed   after step " + std::to_string(problem.state.step) + '\n';
+    std::string text = fmt::format("Resumed   after step {}\n", problem.state.step);
     if (problem.state.step == problem.time_axis.n_steps())
       text += std::string("          it was the last one, and nothing is left to do; ")
               + (problem.parameters.scene == SceneKind::dynamic

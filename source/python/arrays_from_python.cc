@@ -4,6 +4,8 @@
 #include <exemplar/mesh/mesh_checks.h>
 #include <exemplar/python/arrays_from_python.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -26,8 +28,9 @@ namespace Exemplar::Python
     {
       const auto any = py::array::ensure(object);
       if (!any || any.ndim() != 2 || any.shape(1) != width || (n >= 0 && any.shape(0) != n))
-        throw UserError(what + " must be an array of shape (" + (n < 0 ? "n" : std::to_string(n))
-                        + ", " + std::to_string(width) + "), but is " + description(object) + ".");
+        throw UserError(fmt::format("{} must be an array of shape ({}, {}), but is {}.", what,
+                                    n < 0 ? "n" : fmt::format("{}", n), width,
+                                    description(object)));
       const char kind = any.dtype().kind();
       if (std::is_integral_v<Number> && kind != 'i' && kind != 'u')
         throw UserError(what + " must be an array of integers.");
@@ -57,9 +60,9 @@ namespace Exemplar::Python
     index_of(const long long value, const std::string &what)
     {
       if (value < 0 || value > std::numeric_limits<unsigned int>::max())
-        throw UserError(what + " has " + std::to_string(value)
-                        + ", which is not allowed. Allowed: indices from 0; if 1 was subtracted "
-                          "from such ones, add it to all.");
+        throw UserError(fmt::format("{} has {}, which is not allowed. Allowed: indices from 0; if "
+                                    "1 was subtracted from such ones, add it to all.",
+                                    what, value));
       return static_cast<unsigned int>(value);
     }
 
@@ -107,9 +110,9 @@ namespace Exemplar::Python
           = std::adjacent_find(sorted.begin(), sorted.end(),
                                [](const auto &a, const auto &b) { return a.first == b.first; });
       if (twin != sorted.end())
-        throw UserError("mesh: cells[" + std::to_string(std::next(twin)->second)
-                        + "] has the same nodes as cells[" + std::to_string(twin->second)
-                        + "]. Remove one of them.");
+        throw UserError(
+            fmt::format("mesh: cells[{}] has the same nodes as cells[{}]. Remove one of them.",
+                        std::next(twin)->second, twin->second));
     }
 
     void
@@ -119,10 +122,9 @@ namespace Exemplar::Python
         for (unsigned int v = 1; v < 4; ++v)
           if (std::find(cells[c].begin(), cells[c].begin() + v, cells[c][v])
               != cells[c].begin() + v)
-            throw UserError("mesh: cells[" + std::to_string(c) + "] has node "
-                            + std::to_string(cells[c][v])
-                            + " twice. A tetrahedron has four different nodes: remove the cell, or "
-                              "correct it.");
+            throw UserError(fmt::format("mesh: cells[{}] has node {} twice. A tetrahedron has four "
+                                        "different nodes: remove the cell, or correct it.",
+                                        c, cells[c][v]));
     }
 
     /// What else `mesh` may be by mistake, and how that is handed in.
@@ -157,11 +159,11 @@ namespace Exemplar::Python
       const py::tuple parts = is_some ? py::tuple(mesh) : py::tuple();
       if (parts.size() == 2 || parts.size() == 3)
         return parts;
-      throw UserError("mesh must be (nodes (n, 3), cells (m, 4)) or (nodes, cells, material ids "
-                      "(m)), but "
-                      + (is_some ? "has " + std::to_string(parts.size()) + " parts."
-                                 : "is " + description(mesh) + ".")
-                      + remedy_for_mesh(mesh));
+      throw UserError(fmt::format("mesh must be (nodes (n, 3), cells (m, 4)) or (nodes, cells, "
+                                  "material ids (m)), but {}.{}",
+                                  is_some ? fmt::format("has {} parts", parts.size())
+                                          : "is " + description(mesh),
+                                  remedy_for_mesh(mesh)));
     }
   } // namespace
 
@@ -183,9 +185,9 @@ namespace Exemplar::Python
     for (py::ssize_t i = 0; i < x.shape(0); ++i)
     {
       if (!std::isfinite(x(i, 0)) || !std::isfinite(x(i, 1)) || !std::isfinite(x(i, 2)))
-        throw UserError(what + " must be finite numbers, but row " + std::to_string(i)
-                        + ", counted from 0, is (" + short_text(x(i, 0)) + ", "
-                        + short_text(x(i, 1)) + ", " + short_text(x(i, 2)) + ").");
+        throw UserError(
+            fmt::format("{} must be finite numbers, but row {}, counted from 0, is ({}, {}, {}).",
+                        what, i, short_text(x(i, 0)), short_text(x(i, 1)), short_text(x(i, 2))));
       points.emplace_back(x(i, 0), x(i, 1), x(i, 2));
     }
     return points;

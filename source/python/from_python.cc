@@ -6,6 +6,8 @@
 #include <exemplar/python/from_python.h>
 #include <exemplar/run/scene/scene_file.h>
 
+#include <fmt/core.h>
+
 #include <cmath>
 #include <functional>
 
@@ -66,7 +68,7 @@ namespace Exemplar::Python
       if (py::isinstance<py::float_>(value)) // 2.0 may count steps
         if (const auto number = value.cast<double>();
             number == std::floor(number) && std::abs(number) < 1e9)
-          return std::to_string(std::lround(number));
+          return fmt::format("{}", std::lround(number));
       return text_of(value, what);
     }
 
@@ -248,13 +250,13 @@ namespace Exemplar::Python
     {
       std::string names;
       for (std::size_t i = 0; i < list.size(); ++i)
-        names += (i == 0 ? "pose_" : ", pose_") + std::to_string(i);
+        names += fmt::format("{}{}", i == 0 ? "pose_" : ", pose_", i);
       assignments.push_back({ { "Examples" }, "Poses", names, "poses" });
     }
     given.scene = read_scene(scene, assignments, !mesh.is_none());
     for (std::size_t i = 0; i < list.size(); ++i)
     {
-      const std::string what = "poses[" + std::to_string(i) + "]";
+      const std::string what = fmt::format("poses[{}]", i);
       refuse_file_name(list[i], what);
       given.inputs.poses[given.scene.examples.poses[i]] = points_of(list[i], what);
     }

@@ -11,6 +11,8 @@
 #include <exemplar/run/problem/scene_review.h>
 #include <exemplar/run/problem/unit_review.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -178,9 +180,9 @@ namespace Exemplar::Python
   {
     require_no_step("step()");
     if (problem->state.step >= problem->time_axis.n_steps())
-      throw UserError(
-          "All " + std::to_string(problem->time_axis.n_steps())
-          + " steps of the scene are made. Change Time/End or Time/Increments for more.");
+      throw UserError(fmt::format(
+          "All {} steps of the scene are made. Change Time/End or Time/Increments for more.",
+          problem->time_axis.n_steps()));
     UnlockedWork::check();
     let_go(problem->state.positions, shown_positions);
     let_go(problem->state.velocities, shown_velocities);
@@ -205,7 +207,7 @@ namespace Exemplar::Python
     stepping = std::thread::id();
     warn(at_end);
     if (is_stopped)
-      throw Interrupted("Interrupted after step " + std::to_string(problem->state.step) + ".");
+      throw Interrupted(fmt::format("Interrupted after step {}.", problem->state.step));
     return report;
   }
 
@@ -213,8 +215,9 @@ namespace Exemplar::Python
   HeldProblem::run()
   {
     if (problem->state.step >= problem->time_axis.n_steps())
-      warn({ "run() does nothing: all " + std::to_string(problem->time_axis.n_steps())
-             + " steps of the scene are made. A new Problem begins anew." });
+      warn({ fmt::format(
+          "run() does nothing: all {} steps of the scene are made. A new Problem begins anew.",
+          problem->time_axis.n_steps()) });
     while (problem->state.step < problem->time_axis.n_steps())
       step();
     return report;

@@ -10,6 +10,7 @@
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/multithread_info.h>
 
+#include <fmt/core.h>
 #include <pybind11/stl.h>
 
 #include <algorithm>
@@ -114,7 +115,7 @@ namespace Exemplar::Python
                  + usage;
       }
       return given.size() > names.size()
-                 ? "Problem has got " + std::to_string(given.size()) + " arguments. " + usage
+                 ? fmt::format("Problem has got {} arguments. {}", given.size(), usage)
                  : "Problem has got no scene. " + usage;
     }
 

@@ -16,6 +16,8 @@
 #include <exemplar/study/study_runs.h>
 #include <exemplar/study/study_table.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -174,9 +176,9 @@ namespace Exemplar
       catch (const Interrupted &)
       {
         progress.finish();
-        throw Interrupted("Interrupted after " + std::to_string(count_done(plan, runs)) + " of "
-                          + std::to_string(plan.n_repeats())
-                          + " runs. The same command goes on with the others.");
+        throw Interrupted(fmt::format(
+            "Interrupted after {} of {} runs. The same command goes on with the others.",
+            count_done(plan, runs), plan.n_repeats()));
       }
       progress.finish();
     }

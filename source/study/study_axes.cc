@@ -2,6 +2,8 @@
 #include <exemplar/base/message_text.h>
 #include <exemplar/study/study_axes.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <regex>
 #include <set>
@@ -172,11 +174,11 @@ namespace Exemplar
       {
         if (values.size() != axis.keys.size()
             || std::find(values.begin(), values.end(), "") != values.end())
-          throw UserError(
-              place + ": " + axis.name() + " has the value '" + joined(values, " + ") + "', where "
-              + std::to_string(axis.keys.size()) + " are needed, none of them empty."
-              + (axis.keys.size() > 1 ? remedy_of_joined(joined(values, " + "), axis.keys.size())
-                                      : remedy));
+          throw UserError(fmt::format(
+              "{}: {} has the value '{}', where {} are needed, none of them empty.{}", place,
+              axis.name(), joined(values, " + "), axis.keys.size(),
+              axis.keys.size() > 1 ? remedy_of_joined(joined(values, " + "), axis.keys.size())
+                                   : remedy));
         if (std::count(axis.values.begin(), axis.values.end(), values) > 1)
           throw UserError(place + ": " + axis.name() + " lists '" + joined(values, " + ")
                           + "' twice. Keep one."

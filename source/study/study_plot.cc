@@ -4,6 +4,8 @@
 #include <exemplar/base/number_text.h>
 #include <exemplar/study/study_plot.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 
@@ -75,9 +77,8 @@ namespace Exemplar
           choice.pop_back();
         }
         const std::size_t variant = place_of(choice, variants);
-        return "linespoints lw 2 dt " + std::to_string(1 + variant) + " pt "
-               + std::to_string(marks[variant % marks.size()]) + " ps 0.8 lc rgb '"
-               + palette[colour % palette.size()] + "'";
+        return fmt::format("linespoints lw 2 dt {} pt {} ps 0.8 lc rgb '{}'", 1 + variant,
+                           marks[variant % marks.size()], palette[colour % palette.size()]);
       }
 
     private:
@@ -102,7 +103,7 @@ namespace Exemplar
       for (unsigned int l = 0; l < lines.size(); ++l)
         if (const Points points = points_of(lines[l]); !points.empty())
         {
-          const std::string name = "line" + std::to_string(l);
+          const std::string name = fmt::format("line{}", l);
           write_data(out, name, points);
           plots += (plots.empty() ? "" : ", \\\n  ") + ("$" + name) + " with "
                    + style(lines[l].choice) + " title "

@@ -8,6 +8,7 @@
 #include <exemplar/run/output/run_directory.h>
 #include <exemplar/study/study_runs.h>
 
+#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -148,8 +149,8 @@ namespace Exemplar
       else if (end.signal != 0)
       {
         record.status  = "crash";
-        record.message = "Killed by signal " + std::to_string(end.signal) + " ("
-                         + strsignal(end.signal) + ").";
+        record.message
+            = fmt::format("Killed by signal {} ({}).", end.signal, strsignal(end.signal));
       }
       else if (end.exit_status == 1)
         record.status = "refused";
@@ -174,8 +175,8 @@ namespace Exemplar
   } // namespace
 
   RunNames::RunNames(const Study &study, const std::string &scene_text)
-      : common(sha256(program) + "\n" + std::to_string(study.threads) + "\n" + study.scene.string()
-               + "\n" + scene_text)
+      : common(fmt::format(
+          "{}\n{}\n{}\n{}", sha256(program), study.threads, study.scene.string(), scene_text))
   {
   }
 
@@ -250,9 +251,10 @@ namespace Exemplar
   StudyRecord
   StudyRuns::run_in_scratch(const PlannedRun &planned) const
   {
-    std::vector<std::string> command
-        = { program,    study.scene.string(), "--quiet", "--threads", std::to_string(study.threads),
-            "--output", scratch().string() };
+    std::vector<std::string> command = {
+      program,    study.scene.string(), "--quiet", "--threads", fmt::format("{}", study.threads),
+      "--output", scratch().string()
+    };
     for (const Assignment &assignment : planned.assignments)
       command.insert(command.end(), { "--set", assignment.path() + "=" + assignment.value });
     const fs::path log = directory / "running.log"; // a run wants its directory for itself

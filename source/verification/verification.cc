@@ -3,9 +3,10 @@
 #include <exemplar/base/nearest_word.h>
 #include <exemplar/verification/verification.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <iomanip>
 #include <iostream>
 
@@ -81,9 +82,7 @@ namespace Exemplar
       std::string
       six_digits(const double value)
       {
-        char text[32];
-        std::snprintf(text, sizeof(text), "%.6g", value);
-        return text;
+        return fmt::format("{:.6g}", value);
       }
 
       std::string

@@ -3,6 +3,8 @@
 #include <exemplar/verification/verification.h>
 #include <exemplar/verification/verification_scene.h>
 
+#include <fmt/core.h>
+
 #include <cmath>
 
 // Beams. Linear tetrahedra are too stiff in bending, so no case looks
@@ -33,7 +35,7 @@ namespace Exemplar::Verification
     std::string
     increments(const unsigned int n)
     {
-      return section("Time", set("Increments", std::to_string(n)));
+      return section("Time", set("Increments", fmt::format("{}", n)));
     }
 
     dealii::Tensor<1, 3>
@@ -95,7 +97,7 @@ namespace Exemplar::Verification
         const double first
             = edge ? dz * (X[2] / 3. + (X[2] - std::copysign(dz, X[2])) / 6.) : dz * X[2];
         const double force = -moment / I * first * width / 2.;
-        loads.emplace_back("n" + std::to_string(node),
+        loads.emplace_back(fmt::format("n{}", node),
                            set("Select", "sphere " + shortest_text(X[0]) + " " + shortest_text(X[1])
                                              + " " + shortest_text(X[2]) + " 1e-6")
                                + set("Force", turning(force, angle)));
@@ -180,10 +182,10 @@ namespace Exemplar::Verification
     const auto        add_cantilever
         = [&](const unsigned int slenderness, const unsigned int alpha, double w, double u)
     {
-      cases.push_back({ "cantilever-" + std::to_string(slenderness) + "-a" + std::to_string(alpha),
-                        "dead load P on the end, P L^2 = " + std::to_string(alpha)
-                            + " E I, L/h = " + std::to_string(slenderness)
-                            + "; solid (not beam) by quadratic elements, fine",
+      cases.push_back({ fmt::format("cantilever-{}-a{}", slenderness, alpha),
+                        fmt::format("dead load P on the end, P L^2 = {} E I, L/h = {}; solid (not "
+                                    "beam) by quadratic elements, fine",
+                                    alpha, slenderness),
                         [=] { return cantilever(slenderness, alpha, w, u); } });
     };
     add_cantilever(10, 1, .30372, .05680);

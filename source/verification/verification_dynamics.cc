@@ -5,6 +5,8 @@
 #include <exemplar/verification/verification.h>
 #include <exemplar/verification/verification_scene.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -40,8 +42,8 @@ namespace Exemplar::Verification
     {
       const SolveReport report = problem.advance();
       if (!is_success(report.status))
-        throw SolverFailure("step " + std::to_string(problem.state.step + 1) + ": "
-                            + status_name(report.status));
+        throw SolverFailure(
+            fmt::format("step {}: {}", problem.state.step + 1, status_name(report.status)));
     }
 
     std::vector<Measurement>
@@ -70,8 +72,7 @@ namespace Exemplar::Verification
       std::vector<std::pair<std::string, std::string>> handles
           = { { "middle", held("sphere 1 0 0 0.1") + set("Components", "y, z") } };
       for (unsigned int face = 1; face <= 6; ++face)
-        handles.emplace_back("face " + std::to_string(face),
-                             held("boundary " + std::to_string(face)));
+        handles.emplace_back(fmt::format("face {}", face), held(fmt::format("boundary {}", face)));
       const std::string at_middle
           = "abs(x-1) + abs(y) + abs(z) < 0.1 ? " + shortest_text(v) + " : 0";
       return set("Scene", "dynamic") + box({ { 2., 2., 2. } }, { { 2, 2, 2 } })

@@ -5,6 +5,8 @@
 #include <exemplar/verification/verification.h>
 #include <exemplar/verification/verification_scene.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -62,7 +64,7 @@ namespace Exemplar::Verification
         residual = max_or_nan(residual, max_entry(at.gradient.begin(), at.gradient.end()) / scale);
         p.resume_from(start);
         if (!is_success(p.advance().status))
-          throw SolverFailure("example " + std::to_string(i) + ": the step failed");
+          throw SolverFailure(fmt::format("example {}: the step failed", i));
         distance = max_or_nan(distance, max_difference(p.state.positions, start.positions));
         for (unsigned int j = 0; j < unit.size(); ++j)
           weight_error = max_or_nan(weight_error, std::abs(p.state.weights[j] - unit[j]));
@@ -138,7 +140,7 @@ namespace Exemplar::Verification
       std::vector<Measurement> all = { { "positions", 0., max_difference(a.positions, b.positions),
                                          Comparison::absolute, 1e-8 } };
       for (unsigned int i = 0; i < 3; ++i)
-        all.push_back({ "w_" + std::to_string(i), a.weights[i], b.weights[i] + b.weights[i + 3],
+        all.push_back({ fmt::format("w_{}", i), a.weights[i], b.weights[i] + b.weights[i + 3],
                         Comparison::absolute, 1e-8 });
       return all;
     }

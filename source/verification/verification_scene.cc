@@ -5,6 +5,8 @@
 #include <exemplar/run/scene/scene_file.h>
 #include <exemplar/verification/verification_scene.h>
 
+#include <fmt/core.h>
+
 #include <cmath>
 
 namespace Exemplar::Verification
@@ -26,9 +28,9 @@ namespace Exemplar::Verification
     {
       const SolveReport report = problem.advance();
       if (!is_success(report.status))
-        throw SolverFailure("step " + std::to_string(problem.state.step + 1) + ": "
-                            + status_name(report.status) + ", residual "
-                            + shortest_text(report.residual));
+        throw SolverFailure(fmt::format("step {}: {}, residual {}", problem.state.step + 1,
+                                        status_name(report.status),
+                                        shortest_text(report.residual)));
     }
     return problem.state;
   }
@@ -77,7 +79,7 @@ namespace Exemplar::Verification
     for (unsigned int d = 0; d < 3; ++d)
     {
       sizes += (d > 0 ? ", " : "") + shortest_text(size[d]);
-      cells += (d > 0 ? ", " : "") + std::to_string(n_cells[d]);
+      cells += fmt::format("{}{}", d > 0 ? ", " : "", n_cells[d]);
     }
     return section("Mesh",
                    set("Generator", "box") + set("Box size", sizes) + set("Box cells", cells));

@@ -3,6 +3,8 @@
 #include <exemplar/verification/verification.h>
 #include <exemplar/verification/verification_scene.h>
 
+#include <fmt/core.h>
+
 #include <cmath>
 
 // Errors of space up to nearly incompressible bodies, in plane strain: bodies of one layer of cells
@@ -72,8 +74,8 @@ namespace Exemplar::Verification
     {
       std::vector<std::pair<std::string, std::string>> loads;
       for (unsigned int strip = 0; strip < n; ++strip)
-        loads.emplace_back("strip " + std::to_string(strip),
-                           set("Select", "boundary " + std::to_string(first_strip + strip))
+        loads.emplace_back(fmt::format("strip {}", strip),
+                           set("Select", fmt::format("boundary {}", first_strip + strip))
                                + set("Force", vector_text(force(strip))));
       return named_sections("Loads", loads);
     }
@@ -90,7 +92,7 @@ namespace Exemplar::Verification
     std::pair<std::string, std::string>
     held(const std::string &name, const unsigned int boundary, const std::string &more = "")
     {
-      return { name, set("Select", "boundary " + std::to_string(boundary)) + more };
+      return { name, set("Select", fmt::format("boundary {}", boundary)) + more };
     }
 
     /// Cook's membrane (0,0), (48,44), (48,60), (0,44) in plane strain: the mean displacement of

@@ -4,6 +4,8 @@
 #include <exemplar/verification/verification.h>
 #include <exemplar/verification/verification_scene.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -44,9 +46,8 @@ namespace Exemplar::Verification
       const std::string     motion = "t*(0.3*x+0.2*y); t*(0.1*x-0.2*y+0.1*z); t*(0.4*y+0.1*z)";
       std::vector<std::pair<std::string, std::string>> faces;
       for (unsigned int face = 1; face <= 6; ++face)
-        faces.emplace_back("face " + std::to_string(face),
-                           set("Select", "boundary " + std::to_string(face))
-                               + set("Motion", motion));
+        faces.emplace_back(fmt::format("face {}", face),
+                           set("Select", fmt::format("boundary {}", face)) + set("Motion", motion));
       Scene       scene(set("Scene", "static") + named_sections("Handles", faces)
                             + section("Time", set("Increments", "2"))
                             + section("Solver", set("Tolerance", 1e-13)),
@@ -128,7 +129,7 @@ namespace Exemplar::Verification
           set("Scene", "interpolation") + box({ { 4., 1., 1. } }, { { 16, 4, 4 } })
           + section("Model", set("Dilatation", dilatation))
           + section("Examples", set("Pose functions", pose) + set("Prescribed weights", "1-t; t"))
-          + section("Time", set("Increments", std::to_string(increments)))
+          + section("Time", set("Increments", fmt::format("{}", increments)))
           + section("Solver", set("Tolerance", 1e-13)));
       Problem            &p = scene.problem;
       std::vector<double> ways; // of the node that moves most, for each increment
@@ -137,8 +138,8 @@ namespace Exemplar::Verification
         const dealii::Vector<double> before = p.state.positions;
         const SolveReport            report = p.advance();
         if (!is_success(report.status))
-          throw SolverFailure("increment " + std::to_string(step + 1) + ": "
-                              + status_name(report.status));
+          throw SolverFailure(
+              fmt::format("increment {}: {}", step + 1, status_name(report.status)));
         ways.push_back(max_difference(before, p.state.positions));
       }
       const double           longest = *std::max_element(ways.begin(), ways.end());

@@ -7,6 +7,7 @@
 #include <exemplar/base/number_text.h>
 
 #include <CLI/CLI.hpp>
+#include <fmt/core.h>
 
 #include <cmath>
 #include <regex>
@@ -21,7 +22,7 @@ namespace Exemplar
   bound_text(const Number bound)
   {
     if constexpr (std::is_integral<Number>::value)
-      return std::to_string(bound);
+      return fmt::format("{}", bound);
     else
       return shortest_text(bound);
   }
@@ -37,7 +38,7 @@ namespace Exemplar
         = has_groups ? std::regex_replace(text, std::regex("[,_']"), "") : text;
     const double number = parse_number(digits);
     return number == std::floor(number) && number >= minimum && number <= maximum
-               ? "Did you mean " + std::to_string(static_cast<long long>(number)) + "? "
+               ? fmt::format("Did you mean {}? ", static_cast<long long>(number))
                : "";
   }
 

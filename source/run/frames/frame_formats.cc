@@ -2,6 +2,8 @@
 #include <exemplar/run/frames/frame_formats.h>
 #include <exemplar/run/frames/frame_writer.h>
 
+#include <fmt/core.h>
+
 #include <regex>
 #include <string>
 
@@ -57,20 +59,10 @@ namespace Exemplar
     return names;
   }
 
-  namespace
-  {
-    std::string
-    padded(const unsigned int number)
-    {
-      const std::string digits = std::to_string(number);
-      return std::string(digits.size() < 4 ? 4 - digits.size() : 0, '0') + digits;
-    }
-  } // namespace
-
   std::string
   FrameFormat::frame_name(const unsigned int step) const
   {
-    return "frame_" + padded(step) + "." + name;
+    return fmt::format("frame_{:04}.{}", step, name);
   }
 
   std::vector<std::string>
@@ -80,14 +72,14 @@ namespace Exemplar
       return { frame_name(step) };
     std::vector<std::string> names;
     for (unsigned int process = 0; process < n_processes; ++process)
-      names.push_back("frame_" + padded(step) + "_process_" + padded(process) + "." + name);
+      names.push_back(fmt::format("frame_{:04}_process_{:04}.{}", step, process, name));
     return names;
   }
 
   std::string
   FrameFormat::joint_name(const unsigned int step) const
   {
-    return "frame_" + padded(step) + "." + joint_ending;
+    return fmt::format("frame_{:04}.{}", step, joint_ending);
   }
 
   std::optional<unsigned int>

@@ -5,6 +5,8 @@
 #include <exemplar/run/frames/frame_writer.h>
 #include <exemplar/run/frames/raw_bytes.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
 namespace Exemplar
@@ -42,12 +44,12 @@ namespace Exemplar
     head_of_ply(const SurfaceMesh &surface)
     {
       const std::string count = counts_are_bytes(surface) ? "uchar" : "int";
-      return "ply\nformat binary_little_endian 1.0\ncomment a frame by exemplar\nelement vertex "
-             + std::to_string(surface.vertices.size())
-             + "\nproperty double x\nproperty double y\nproperty double z\nelement face "
-             + std::to_string(surface.faces.size()) + "\nproperty list " + count
-             + " int vertex_indices\n" + (surface.face_groups.empty() ? "" : "property int label\n")
-             + "end_header\n";
+      return fmt::format(
+          "ply\nformat binary_little_endian 1.0\ncomment a frame by exemplar\nelement vertex "
+          "{}\nproperty double x\nproperty double y\nproperty double z\nelement face {}\nproperty "
+          "list {} int vertex_indices\n{}end_header\n",
+          surface.vertices.size(), surface.faces.size(), count,
+          surface.face_groups.empty() ? "" : "property int label\n");
     }
 
     std::string

@@ -6,9 +6,12 @@
 #include <exemplar/run/frames/frame_writer.h>
 #include <exemplar/run/frames/single_precision.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cctype>
 #include <fstream>
+#include <iterator>
 #include <set>
 #include <stdexcept>
 
@@ -52,7 +55,7 @@ namespace Exemplar
     list_of_numbers(const std::vector<unsigned int> &numbers)
     {
       return list_of(numbers, [](std::string &text, const unsigned int number)
-                     { text += std::to_string(number); });
+                     { fmt::format_to(std::back_inserter(text), "{}", number); });
     }
 
     /// A name that USD allows for a prim and that is not among `taken`, to which it is added.
@@ -66,7 +69,7 @@ namespace Exemplar
         result = "group_" + result;
       std::string unique = result;
       for (unsigned int i = 2; !taken.insert(unique).second; ++i)
-        unique = result + "_" + std::to_string(i);
+        unique = fmt::format("{}_{}", result, i);
       return unique;
     }
 

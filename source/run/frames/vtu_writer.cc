@@ -5,6 +5,8 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <fmt/core.h>
+
 #include <cstdint>
 #include <cstring>
 #include <iomanip>
@@ -66,8 +68,8 @@ namespace Exemplar
     std::string
     piece_of(const FESpace &fe_space)
     {
-      return "<Piece NumberOfPoints=\"" + std::to_string(fe_space.n_nodes()) + "\" NumberOfCells=\""
-             + std::to_string(fe_space.n_cells()) + "\">\n";
+      return fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", fe_space.n_nodes(),
+                         fe_space.n_cells());
     }
 
     std::string

@@ -4,6 +4,8 @@
 #include <exemplar/mesh/rigid_motion.h>
 #include <exemplar/run/inputs/cache_motion.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -94,7 +96,7 @@ namespace Exemplar
       for (unsigned int d = 0; d < 3; ++d)
         axis += (d == 0 ? "" : ", ")
                 + short_text(std::abs(turn.axis[d]) < rounding ? 0. : turn.axis[d]);
-      return std::to_string(std::lround(turn.angle * in_degrees)) + " degrees about (" + axis + ")";
+      return fmt::format("{} degrees about ({})", std::lround(turn.angle * in_degrees), axis);
     }
 
     /// Of the nodes of a handle that are turned as a whole in one step of the cache, which lasts no
@@ -113,10 +115,10 @@ namespace Exemplar
           after[i] += track.samples[k][i];
         }
         if (const AxisAngle turn = rigid_turn(before, after); turn.angle > great_turn)
-          return "/Follow cache turns the held nodes by " + turn_text(turn) + " from sample "
-                 + std::to_string(k)
-                 + " to the next. Give the cache more samples, or, if its axes "
-                   "are others from there on, export all with those of Mesh/Surface.";
+          return fmt::format("/Follow cache turns the held nodes by {} from sample {} to the next. "
+                             "Give the cache more samples, or, if its axes are others from there "
+                             "on, export all with those of Mesh/Surface.",
+                             turn_text(turn), k);
       }
       return "";
     }
@@ -146,11 +148,11 @@ namespace Exemplar
       const auto        n_reached = std::upper_bound(times.begin(), times.end(), 1. + 1e-6);
       const bool has_frames = std::filesystem::path(handle.follow_cache).extension() != ".mdd";
       from.warnings.push_back(
-          key + "/Follow cache goes to t = " + short_text(times.back())
-          + " s, but t of a static scene ends at 1, after "
-          + std::to_string(n_reached - times.begin()) + " of " + std::to_string(times.size())
-          + " samples. Set Scene = dynamic and Time/End = " + shortest_text(times.back())
-          + (has_frames ? ", or a greater " + key + "/Frames per second." : "."));
+          fmt::format("{}/Follow cache goes to t = {} s, but t of a static scene ends at 1, after "
+                      "{} of {} samples. Set Scene = dynamic and Time/End = {}{}",
+                      key, short_text(times.back()), n_reached - times.begin(), times.size(),
+                      shortest_text(times.back()),
+                      has_frames ? ", or a greater " + key + "/Frames per second." : "."));
     }
 
     const PointCache &
@@ -197,9 +199,10 @@ namespace Exemplar
       const double farthest = 1e3 * from.mesh.diameter();
       for (const auto &displacement : result)
         if (!(displacement.norm() < farthest))
-          throw UserError(key + "/Follow cache: in sample " + std::to_string(k + 1)
-                          + " the surface is farther from its rest than 1000 times the body's "
-                            "size. Export the cache in the unit of the surface at rest.");
+          throw UserError(fmt::format(
+              "{}/Follow cache: in sample {} the surface is farther from its rest than 1000 times "
+              "the body's size. Export the cache in the unit of the surface at rest.",
+              key, k + 1));
       return result;
     }
 

@@ -2,6 +2,8 @@
 #include <exemplar/base/number_text.h>
 #include <exemplar/run/inputs/made_of_surfaces.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
 namespace Exemplar
@@ -37,11 +39,11 @@ namespace Exemplar
                       + value("surface_to_mesh_max") + " % of the diagonal from it at most, "
                       + value("surface_to_mesh_mean") + " % on average");
     for (const MadeOfSurfaces::Pose &pose : made.poses)
-      lines.push_back(pose.file + ": " + std::to_string(pose.quality.n_inverted)
-                      + " inverted cells, det F from " + short_text(pose.quality.min_det) + " to "
-                      + short_text(pose.quality.max_det) + "; " + percent(pose.quality.max_error)
-                      + " from the surface at most, " + percent(pose.quality.mean_error)
-                      + " on average");
+      lines.push_back(fmt::format(
+          "{}: {} inverted cells, det F from {} to {}; {} from the surface at most, {} on average",
+          pose.file, pose.quality.n_inverted, short_text(pose.quality.min_det),
+          short_text(pose.quality.max_det), percent(pose.quality.max_error),
+          percent(pose.quality.mean_error)));
     return lines;
   }
 

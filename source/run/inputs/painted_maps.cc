@@ -5,6 +5,8 @@
 #include <exemplar/mesh/map_name.h>
 #include <exemplar/run/inputs/painted_maps.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -151,15 +153,15 @@ namespace Exemplar
         values[v]                  = use.at_0 + painted_value * (use.at_1 - use.at_0);
         for (const double factor : factors)
           if (!(values[v] * factor > low && values[v] * factor < high))
-            throw UserError(
-                key + " = '" + text + "': vertex " + std::to_string(v + 1)
-                + (std::isnan(painted_value)
-                       ? " has no value in the table."
-                       : " has the value " + short_text(painted_value) + ", which makes "
-                             + short_text(values[v] * factor) + " of it.")
-                + " It must be greater than " + short_text(low)
-                + (high < 1. ? " and less than " + short_text(high) : "")
-                + " everywhere. Paint other values there, or say 'from A to B' behind the map.");
+            throw UserError(fmt::format(
+                "{} = '{}': vertex {}{} It must be greater than {}{} everywhere. Paint other "
+                "values there, or say 'from A to B' behind the map.",
+                key, text, v + 1,
+                std::isnan(painted_value)
+                    ? " has no value in the table."
+                    : fmt::format(" has the value {}, which makes {} of it.",
+                                  short_text(painted_value), short_text(values[v] * factor)),
+                short_text(low), high < 1. ? " and less than " + short_text(high) : ""));
       }
       const bool scales_one = *std::max_element(factors.begin(), factors.end()) <= 1.;
       if (low == 0. && use.is_factor != scales_one)
@@ -183,13 +185,13 @@ namespace Exemplar
       {
         values[v] = std::isnan(values[v]) ? 0. : values[v]; // not in the table
         if (!(values[v] >= 0. && values[v] <= 1. + 1e-6))
-          throw UserError(
-              key + ": in " + map.name() + " vertex " + std::to_string(v + 1) + " has the value "
-              + short_text(values[v]) + ", but shares lie between 0 and 1. "
-              + (values[v] > 1.
-                     ? "The greatest value is " + short_text(maximum) + ": divide all by "
-                           + short_text(divisor_of(maximum)) + ", or paint it anew."
-                     : std::string("Paint it anew.")));
+          throw UserError(fmt::format(
+              "{}: in {} vertex {} has the value {}, but shares lie between 0 and 1. {}", key,
+              map.name(), v + 1, short_text(values[v]),
+              values[v] > 1.
+                  ? fmt::format("The greatest value is {}: divide all by {}, or paint it anew.",
+                                short_text(maximum), short_text(divisor_of(maximum)))
+                  : "Paint it anew."));
       }
       return from.selector.at_cells(values);
     }

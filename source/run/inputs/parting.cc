@@ -7,6 +7,8 @@
 #include <deal.II/lac/sparsity_pattern.h>
 #include <deal.II/lac/sparsity_tools.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <map>
 #include <numeric>
@@ -75,11 +77,11 @@ namespace Exemplar
       for (const unsigned int process : process_of)
         has_cells[process] = true;
       if (std::find(has_cells.begin(), has_cells.end(), false) != has_cells.end())
-        throw UserError(mesh.get_name() + ": " + std::to_string(n_processes)
-                        + " processes are more than its " + std::to_string(mesh.n_cells())
-                        + " cells are enough for"
-                        + (n_lumps == mesh.n_cells() ? "" : " in patches that stay whole")
-                        + ". Start fewer with mpirun -n.");
+        throw UserError(
+            fmt::format("{}: {} processes are more than its {} cells are enough for{}. Start fewer "
+                        "with mpirun -n.",
+                        mesh.get_name(), n_processes, mesh.n_cells(),
+                        n_lumps == mesh.n_cells() ? "" : " in patches that stay whole"));
       return chosen(process_of, lumps);
     }
 

@@ -12,6 +12,7 @@
 #include <exemplar/surface/filling/mesh_making.h>
 #include <exemplar/surface/posing/pose_carrying.h>
 
+#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -131,13 +132,13 @@ namespace Exemplar
   {
     const MeshParameters &mesh = scene.mesh;
     const std::string     key
-        = sha256_of_text(maker() + surface_digest(mesh.file) + std::to_string(mesh.n_cells)
-                         + (mesh.repair ? " repaired" : ""));
+        = sha256_of_text(fmt::format("{}{}{}{}", maker(), surface_digest(mesh.file), mesh.n_cells,
+                                     mesh.repair ? " repaired" : ""));
     const KeptBytes kept = kept_bytes(
         key + ".msh",
         [&]
         {
-          announce("filling " + mesh.file + " with " + std::to_string(mesh.n_cells) + " cells");
+          announce(fmt::format("filling {} with {} cells", mesh.file, mesh.n_cells));
           return Exemplar::make_mesh(
               { mesh.file, mesh.n_cells, mesh.repair, "", "Mesh/Cells", "Mesh/Repair = true" });
         });

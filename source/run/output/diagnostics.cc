@@ -2,6 +2,8 @@
 #include <exemplar/base/number_text.h>
 #include <exemplar/run/output/diagnostics.h>
 
+#include <fmt/core.h>
+
 #include <numeric>
 
 namespace Exemplar
@@ -28,7 +30,7 @@ namespace Exemplar
     if (const double *const number = std::get_if<double>(&value))
       return shortest_text(*number);
     if (const unsigned int *const number = std::get_if<unsigned int>(&value))
-      return std::to_string(*number);
+      return fmt::format("{}", *number);
     const std::string *const word = std::get_if<std::string>(&value);
     return word == nullptr ? "" : *word;
   }

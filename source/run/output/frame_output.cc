@@ -7,6 +7,8 @@
 #include <exemplar/run/problem/finiteness.h>
 #include <exemplar/surface/files/write_obj.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -142,9 +144,10 @@ namespace Exemplar
   FrameOutput::refuse_what_is_not_finite(const Frame &frame)
   {
     if (const std::string what = what_is_not_finite(frame.cells); !what.empty())
-      throw SolverFailure("The frame of step " + std::to_string(frame.step) + " would hold " + what
-                          + " that are not finite numbers. Take smaller steps, and look at what "
-                            "handles, loads and Initial do.");
+      throw SolverFailure(
+          fmt::format("The frame of step {} would hold {} that are not finite numbers. Take "
+                      "smaller steps, and look at what handles, loads and Initial do.",
+                      frame.step, what));
   }
 
   void

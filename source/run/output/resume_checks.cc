@@ -4,6 +4,8 @@
 #include <exemplar/base/number_text.h>
 #include <exemplar/run/output/resume_checks.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -120,9 +122,9 @@ namespace Exemplar
             "the section Output may change";
       if (const std::string what = fixed_change(checkpoint, scene, input_digests); !what.empty())
         throw UserError(failure + what + usual_remedy + ".");
-      const std::string step   = std::to_string(checkpoint.state.step);
-      const std::string remedy = usual_remedy + "; to go on with another scene after step " + step
-                                 + ", say --resume-from " + step + ".";
+      const std::string remedy
+          = fmt::format("{}; to go on with another scene after step {}, say --resume-from {}.",
+                        usual_remedy, checkpoint.state.step, checkpoint.state.step);
       for (const ChangedKey &changed : changed_keys(checkpoint, scene))
         throw UserError(failure + changed.text() + remedy);
       for (const std::string &input : changed_files(checkpoint, input_digests))
@@ -196,9 +198,9 @@ namespace Exemplar
            numbers_of(found, problem.state, problem.body.mesh, n_dofs))
       {
         if (numbers.size != numbers.expected)
-          throw UserError(failure + "it holds " + std::to_string(numbers.size) + " numbers as "
-                          + numbers.name + ", but the scene has " + std::to_string(numbers.expected)
-                          + remedy);
+          throw UserError(fmt::format("{}it holds {} numbers as {}, but the scene has {}{}",
+                                      failure, numbers.size, numbers.name, numbers.expected,
+                                      remedy));
         if (!std::all_of(numbers.first, numbers.first + numbers.size,
                          [](const double x) { return std::isfinite(x); }))
           throw UserError(failure + "its " + numbers.name + " are not all finite" + remedy);
@@ -246,8 +248,8 @@ namespace Exemplar
     const std::string remedy = " Take another step, or run the scene from its start, without "
                                "--resume-from.";
     if (state.state.step != step)
-      throw UserError(file.string() + " is not the state of step " + std::to_string(step)
-                      + ", but of step " + std::to_string(state.state.step) + "." + remedy);
+      throw UserError(fmt::format("{} is not the state of step {}, but of step {}.{}",
+                                  file.string(), step, state.state.step, remedy));
     if (!is_of_run(state, last.totals))
       throw UserError(file.string() + " is the state of another run than this directory's."
                       + remedy);
@@ -296,9 +298,9 @@ namespace Exemplar
       checkpoint.solver_memory.clear(); // of another potential
     if (rule && state.weights != problem.state.weights)
     {
-      result.notes.push_back("The example weights are others than those of step "
-                             + std::to_string(state.step)
-                             + ", so they begin anew, with those that the scene starts with.");
+      result.notes.push_back(fmt::format("The example weights are others than those of step {}, so "
+                                         "they begin anew, with those that the scene starts with.",
+                                         state.step));
       state.weights     = problem.state.weights;
       state.multipliers = problem.state.multipliers;
     }

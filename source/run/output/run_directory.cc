@@ -3,6 +3,8 @@
 #include <exemplar/run/output/output_directory.h>
 #include <exemplar/run/output/run_directory.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <map>
@@ -272,10 +274,7 @@ namespace Exemplar
   fs::path
   RunFiles::state(const unsigned int step) const
   {
-    const std::string digits = std::to_string(step);
-    return directory
-           / ("state_" + std::string(digits.size() < 4 ? 4 - digits.size() : 0, '0') + digits
-              + ".bin");
+    return directory / fmt::format("state_{:04}.bin", step);
   }
 
   std::vector<unsigned int>
@@ -295,7 +294,7 @@ namespace Exemplar
     const auto numbered = [&](const fs::path &file, const unsigned int number)
     {
       return get_path()
-             / (file.stem().string() + "_" + std::to_string(number) + file.extension().string());
+             / fmt::format("{}_{}{}", file.stem().string(), number, file.extension().string());
     };
     const std::array<fs::path, 3> kept{ { files.parameters_prm(), files.statistics(),
                                           files.original_prm() } };

@@ -4,6 +4,8 @@
 #include <exemplar/run/output/resume_checks.h>
 #include <exemplar/run/output/run_writer.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -70,12 +72,11 @@ namespace Exemplar
     std::string steps;
     for (const unsigned int other : directory.kept_states())
       if (other != last)
-        steps += std::to_string(other) + ", ";
-    throw UserError("There is no state of step " + std::to_string(step) + " in "
-                    + directory.get_path().string() + ". There are those of: " + steps
-                    + std::to_string(last)
-                    + ". Choose one of them, or run the scene from its start with "
-                      "Output/Keep states = true, which keeps one for each frame.");
+        steps += fmt::format("{}, ", other);
+    throw UserError(fmt::format(
+        "There is no state of step {} in {}. There are those of: {}{}. Choose one of them, or run "
+        "the scene from its start with Output/Keep states = true, which keeps one for each frame.",
+        step, directory.get_path().string(), steps, last));
   }
 
   fs::path

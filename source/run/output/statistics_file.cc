@@ -4,6 +4,8 @@
 #include <exemplar/base/text_file.h>
 #include <exemplar/run/output/statistics_file.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <stdexcept>
 
@@ -67,12 +69,13 @@ namespace Exemplar
         else
         {
           rows.lines.push_back(line);
-          found = line.substr(0, line.find(',')) == std::to_string(step);
+          found = line.substr(0, line.find(',')) == fmt::format("{}", step);
         }
       }
       if (!found)
-        throw UserError(path.string() + " has no row of step " + std::to_string(step)
-                        + ". Run the scene from its start, without --resume-from.");
+        throw UserError(fmt::format(
+            "{} has no row of step {}. Run the scene from its start, without --resume-from.",
+            path.string(), step));
       return rows;
     }
   } // namespace

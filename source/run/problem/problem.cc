@@ -7,6 +7,8 @@
 #include <exemplar/run/problem/initial_state.h>
 #include <exemplar/run/problem/problem.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -216,7 +218,7 @@ namespace Exemplar
   std::string
   Problem::failure_message(const SolveReport &report) const
   {
-    const std::string step = "Step " + std::to_string(state.step + 1);
+    const std::string step = fmt::format("Step {}", state.step + 1);
     if (report.status == SolveStatus::failed || report.status == SolveStatus::indefinite)
       return step + (report.status == SolveStatus::failed ? " failed: " : " has no descent: ")
              + report.failure;
@@ -225,22 +227,22 @@ namespace Exemplar
                                   && examples.poses.size() > 0
                                   && traits_of(parameters.model.law()).has_rotations
                                   && !traits_of(parameters.model.law()).exact_is_rotated;
-    message << step
-            << (report.status == SolveStatus::stalled ? " stalled"
-                                                      : " stopped at its iteration limit")
-            << ": residual " << report.residual << " after " << report.iterations
-            << " iterations, tolerance " << parameters.solver.tolerance
-            << (lacks_derivative
-                    ? ". The matrix of a fixed point lacks a part of the consistent force's "
-                      "derivative, so it may never converge: set Solver/Method = newton, "
-                      "or Model/Gradient = frozen."
-                : report.load_stages > 0 && parameters.scene == SceneKind::statics
-                    ? " and " + std::to_string(report.load_stages)
-                          + " stages in which the loads were raised. Let them grow over the "
-                            "increments (Loads/Ramp = increments, Time/Increments = 100), or look "
-                            "at the units of Young's modulus, density and lengths."
-                    : ". Take smaller steps (Time/Step or Time/Increments), or change "
-                      "Solver/Tolerance or Solver/Maximum iterations.");
+    message
+        << step
+        << (report.status == SolveStatus::stalled ? " stalled" : " stopped at its iteration limit")
+        << ": residual " << report.residual << " after " << report.iterations
+        << " iterations, tolerance " << parameters.solver.tolerance
+        << (lacks_derivative
+                ? ". The matrix of a fixed point lacks a part of the consistent force's "
+                  "derivative, so it may never converge: set Solver/Method = newton, "
+                  "or Model/Gradient = frozen."
+            : report.load_stages > 0 && parameters.scene == SceneKind::statics
+                ? fmt::format(" and {} stages in which the loads were raised. Let them grow over "
+                              "the increments (Loads/Ramp = increments, Time/Increments = 100), or "
+                              "look at the units of Young's modulus, density and lengths.",
+                              report.load_stages)
+                : ". Take smaller steps (Time/Step or Time/Increments), or change "
+                  "Solver/Tolerance or Solver/Maximum iterations.");
     return message.str();
   }
 

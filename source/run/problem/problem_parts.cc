@@ -6,6 +6,8 @@
 #include <exemplar/potential/patch_dilatation.h>
 #include <exemplar/run/problem/problem_parts.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -146,8 +148,9 @@ namespace Exemplar
             body.fe_space.n_dofs(), held_dofs(parameters, body, handles, support), body.exchange())
   {
     if (body.exchange().any(free_dofs.size() == 0))
-      throw UserError(parameters.name + ": of " + std::to_string(body.exchange().n_processes())
-                      + " processes some would have no node to move. Start fewer with mpirun -n.");
+      throw UserError(fmt::format(
+          "{}: of {} processes some would have no node to move. Start fewer with mpirun -n.",
+          parameters.name, body.exchange().n_processes()));
   }
 
   namespace
@@ -232,12 +235,11 @@ namespace Exemplar
     for (const std::string &sentence : describe_single_nodes(body))
       single_nodes += " " + sentence;
     if (n_free > 0)
-      throw UserError(
-          parameters.name + ": the handles leave " + std::to_string(n_free)
-          + " of 6 rigid motions free, so a static scene has no unique equilibrium." + single_nodes
-          + (single_nodes.empty() ? " Add" : " Or add")
-          + " a subsection of Handles that holds three nodes not on a line (a box, a sphere "
-            "or a boundary), or hold more Components.");
+      throw UserError(fmt::format(
+          "{}: the handles leave {} of 6 rigid motions free, so a static scene has no unique "
+          "equilibrium.{}{} a subsection of Handles that holds three nodes not on a line (a box, a "
+          "sphere or a boundary), or hold more Components.",
+          parameters.name, n_free, single_nodes, single_nodes.empty() ? " Add" : " Or add"));
   }
 
   Examples::Examples(const SceneParameters &parameters,

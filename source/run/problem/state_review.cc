@@ -5,6 +5,8 @@
 #include <exemplar/mesh/rigid_motion.h>
 #include <exemplar/run/problem/state_review.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -59,15 +61,15 @@ namespace Exemplar
     {
       const bool is_equilibrium = problem.parameters.scene != SceneKind::dynamic
                                   && problem.parameters.solver.method != Method::one_pass;
-      return std::to_string(inverted.size()) + " cells are inverted at the end: element "
-             + list_numbers(inverted)
-             + (is_equilibrium ? ". The state is an equilibrium, but there may be one of less "
-                                 "energy: look at the frames, or take smaller steps ("
-                               : ". Look at the frames, or take smaller steps (")
-             + (problem.parameters.scene == SceneKind::dynamic
-                    ? "Time/Step"
-                    : "Time/Increments, now " + std::to_string(problem.parameters.time.increments))
-             + ").";
+      return fmt::format(
+          "{} cells are inverted at the end: element {}{}{}).", inverted.size(),
+          list_numbers(inverted),
+          is_equilibrium ? ". The state is an equilibrium, but there may be one of less energy: "
+                           "look at the frames, or take smaller steps ("
+                         : ". Look at the frames, or take smaller steps (",
+          problem.parameters.scene == SceneKind::dynamic
+              ? "Time/Step"
+              : fmt::format("Time/Increments, now {}", problem.parameters.time.increments));
     }
 
     std::optional<std::string>
@@ -90,11 +92,11 @@ namespace Exemplar
       limit = min_of_all(problem.body.exchange(), limit);
       if (elements.empty())
         return {};
-      return std::to_string(elements.size())
-             + " cells are stretched to more than 1 + 1/nu = " + short_text(limit)
-             + " times their length at the end: element " + list_numbers(elements)
-             + ". Poisson's ratio nu would make them thinner than nothing, so their forces mean "
-               "little. Pull less, or take a smaller Material/Poisson's ratio.";
+      return fmt::format(
+          "{} cells are stretched to more than 1 + 1/nu = {} times their length at the end: "
+          "element {}. Poisson's ratio nu would make them thinner than nothing, so their forces "
+          "mean little. Pull less, or take a smaller Material/Poisson's ratio.",
+          elements.size(), short_text(limit), list_numbers(elements));
     }
 
     /// Angles [rad] beyond which the linear strain is far from one.
@@ -171,11 +173,11 @@ namespace Exemplar
       miss /= problem.body.mesh.diameter();
       if (!(miss > 1e-4))
         return {};
-      return "The interpolation ends beside example " + std::to_string(*example) + " ("
-             + problem.examples.poses.name(*example) + "), by up to " + short_text(100. * miss)
-             + " % of the body's size: another state has its strains, or less energy, as where an "
-               "example has inverted cells. Look at the frames, or take smaller steps"
-             + (problem.body.patches.size() > 0 ? ", or Model/Dilatation = cells." : ".");
+      return fmt::format("The interpolation ends beside example {} ({}), by up to {} % of the "
+                         "body's size: another state has its strains, or less energy, as where an "
+                         "example has inverted cells. Look at the frames, or take smaller steps{}",
+                         *example, problem.examples.poses.name(*example), short_text(100. * miss),
+                         problem.body.patches.size() > 0 ? ", or Model/Dilatation = cells." : ".");
     }
 
     /// Whether nothing acts on the body that the rest pose could not bear without strain.
@@ -223,21 +225,19 @@ namespace Exemplar
     if (const auto inverted = inverted_elements(problem); !inverted.empty())
       all.push_back(describe_end(problem, inverted));
     else if (inversions.n_steps > 0)
-      all.push_back("Cells were inverted in " + std::to_string(inversions.n_steps)
-                    + (inversions.n_steps == 1 ? " step" : " steps") + " on the way, up to "
-                    + std::to_string(inversions.n_cells) + " in step "
-                    + std::to_string(inversions.worst_step) + ", first in step "
-                    + std::to_string(inversions.first_step) + ": element "
-                    + list_numbers(inversions.elements)
-                    + ". At the end none is. Smaller steps may avoid it.");
+      all.push_back(fmt::format(
+          "Cells were inverted in {}{} on the way, up to {} in step {}, first in step {}: element "
+          "{}. At the end none is. Smaller steps may avoid it.",
+          inversions.n_steps, inversions.n_steps == 1 ? " step" : " steps", inversions.n_cells,
+          inversions.worst_step, inversions.first_step, list_numbers(inversions.elements)));
     if (first_raised > 0)
-      all.push_back("Step " + std::to_string(first_raised)
-                    + " stalled under its whole load, so its loads were raised in stages within "
-                      "the step. "
-                    + (problem.parameters.scene == SceneKind::statics
-                           ? "Loads/Ramp = increments raises them over the increments, with frames "
-                             "of the way."
-                           : "Smaller steps (Time/Step) may avoid it."));
+      all.push_back(fmt::format(
+          "Step {} stalled under its whole load, so its loads were raised in stages within the "
+          "step. {}",
+          first_raised,
+          problem.parameters.scene == SceneKind::statics
+              ? "Loads/Ramp = increments raises them over the increments, with frames of the way."
+              : "Smaller steps (Time/Step) may avoid it."));
     for (const auto &warning :
          { describe_stretched(problem), describe_turned(problem), describe_miss(problem) })
       if (warning)

@@ -7,6 +7,8 @@
 #include <exemplar/prm/expression.h>
 #include <exemplar/run/problem/unit_review.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -143,12 +145,12 @@ namespace Exemplar
       const double ratio = measures.weight_over_stiffness(gravity_of(problem)) * measures.length();
       const std::string how_far
           = sag > 1. ? "further than it is long"
-                     : "by some " + std::to_string(std::lround(100. * sag)) + " % of its length";
-      return "Its own weight makes this body sag " + how_far
-             + " (rho g L / E = " + short_text(ratio)
-             + "; estimated from where it is held and how slender it is). If that is not meant, "
-               "look at the units: Young's modulus is in Pa (1e6 are one MPa), lengths are in m "
-               "(Mesh/Scale), gravity is in m/s^2.";
+                     : fmt::format("by some {} % of its length", std::lround(100. * sag));
+      return fmt::format(
+          "Its own weight makes this body sag {} (rho g L / E = {}; estimated from where it is "
+          "held and how slender it is). If that is not meant, look at the units: Young's modulus "
+          "is in Pa (1e6 are one MPa), lengths are in m (Mesh/Scale), gravity is in m/s^2.",
+          how_far, short_text(ratio));
     }
 
     Warning
@@ -168,10 +170,11 @@ namespace Exemplar
       const unsigned int every = problem.parameters.output.every, n = problem.time_axis.n_steps();
       if (every == 0 || n / every <= many_frames)
         return {};
-      return "The run makes " + std::to_string(n) + " steps and writes " + std::to_string(n / every)
-             + " frames. If so many are not meant, "
-             + (problem.actions.mass != nullptr ? "take a greater Time/Step, or " : "")
-             + "set Output/Every = " + std::to_string(n / 1000) + ", for 1000 frames.";
+      return fmt::format("The run makes {} steps and writes {} frames. If so many are not meant, "
+                         "{}set Output/Every = {}, for 1000 frames.",
+                         n, n / every,
+                         problem.actions.mass != nullptr ? "take a greater Time/Step, or " : "",
+                         n / 1000);
     }
 
     Warning

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/run/scene/ignored_keys.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
 namespace Exemplar
@@ -36,9 +38,9 @@ namespace Exemplar
         { !is_dynamic,
           { "Time/Step", "Time/End", "Time/Scheme", "Time/Mass damping", "Time/Stiffness damping",
             "Initial/Velocity" },
-          "in a scene that is not dynamic: its t goes from 0 to 1 in Time/Increments = "
-              + std::to_string(scene.time.increments)
-              + " steps. Remove it, or set Scene = dynamic." },
+          fmt::format("in a scene that is not dynamic: its t goes from 0 to 1 in Time/Increments = "
+                      "{} steps. Remove it, or set Scene = dynamic.",
+                      scene.time.increments) },
         { is_dynamic,
           { "Time/Increments" },
           "in a dynamic scene, whose steps come from Time/Step and Time/End. Remove it, or "

@@ -7,6 +7,8 @@
 #include <exemplar/surface/files/surface_scanner.h>
 #include <exemplar/surface/files/write_obj.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -125,8 +127,9 @@ namespace Exemplar
       // a fourth number is a weight of rational curves; six or seven end with a colour
       const std::size_t n = n_words_before_comment() - 1;
       if (n != 3 && n != 4 && n != 6 && n != 7)
-        in.fail("a vertex has three coordinates (v x y z), found " + std::to_string(n)
-                + " numbers. Export the surface anew.");
+        in.fail(fmt::format(
+            "a vertex has three coordinates (v x y z), found {} numbers. Export the surface anew.",
+            n));
       surface.vertices.push_back({ { in.number(1), in.number(2), in.number(3) } });
       require_few(in, surface.vertices.size(), "vertices");
     }
@@ -147,8 +150,9 @@ namespace Exemplar
     {
       const std::size_t n = n_words_before_comment() - 1;
       if (n < 3)
-        in.fail("a face has at least three vertices, found " + std::to_string(n)
-                + ". Delete the face, or export the surface anew.");
+        in.fail(fmt::format("a face has at least three vertices, found {}. Delete the face, or "
+                            "export the surface anew.",
+                            n));
       std::vector<unsigned int> face;
       for (std::size_t i = 1; i <= n; ++i)
         face.push_back(vertex_of(in.words()[i]));
@@ -210,10 +214,9 @@ namespace Exemplar
       const long long index = in.integer(corner.substr(0, corner.find('/')));
       const auto      n     = static_cast<long long>(surface.vertices.size());
       if (index == 0 || index < -n || index > std::numeric_limits<unsigned int>::max() / 4)
-        in.fail("a face uses vertex " + std::to_string(index) + ", but "
-                + (index == 0 ? "vertices are counted from 1"
-                              : "there are " + std::to_string(n) + " before this line")
-                + ". Export the surface anew.");
+        in.fail(fmt::format("a face uses vertex {}, but {}. Export the surface anew.", index,
+                            index == 0 ? "vertices are counted from 1"
+                                       : fmt::format("there are {} before this line", n)));
       return static_cast<unsigned int>(index > 0 ? index - 1 : n + index);
     }
 
@@ -224,10 +227,11 @@ namespace Exemplar
       for (std::size_t f = 0; f < surface.faces.size(); ++f)
         for (const unsigned int vertex : surface.faces[f])
           if (vertex >= surface.vertices.size())
-            in.fail_at_line(face_lines[f], "a face uses vertex " + std::to_string(vertex + 1)
-                                               + ", but the file has "
-                                               + std::to_string(surface.vertices.size())
-                                               + " vertices. Export the surface anew.");
+            in.fail_at_line(
+                face_lines[f],
+                fmt::format(
+                    "a face uses vertex {}, but the file has {} vertices. Export the surface anew.",
+                    vertex + 1, surface.vertices.size()));
     }
   } // namespace
 
@@ -271,9 +275,9 @@ namespace Exemplar
       text += 'f';
       for (std::size_t i = 0; i < surface.faces[f].size(); ++i)
       {
-        text += ' ' + std::to_string(surface.faces[f][i] + 1);
+        text += fmt::format(" {}", surface.faces[f][i] + 1);
         if (!surface.face_texture_points.empty() && !surface.face_texture_points[f].empty())
-          text += '/' + std::to_string(surface.face_texture_points[f][i] + 1);
+          text += fmt::format("/{}", surface.face_texture_points[f][i] + 1);
       }
       text += '\n';
     }

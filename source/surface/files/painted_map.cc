@@ -10,6 +10,8 @@
 #include <exemplar/surface/files/surface_scanner.h>
 #include <exemplar/surface/shape/vectors.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -78,9 +80,8 @@ namespace Exemplar
         if (n_rows == 0)
           throw UserError(name + ": the map has no values." + table_remedy);
         if (vertex_column == none && n_rows != n_vertices)
-          throw UserError(name + ": has " + std::to_string(n_rows) + " rows of values, but "
-                          + surface_name + " has " + std::to_string(n_vertices) + " vertices."
-                          + table_remedy);
+          throw UserError(fmt::format("{}: has {} rows of values, but {} has {} vertices.{}", name,
+                                      n_rows, surface_name, n_vertices, table_remedy));
       }
 
       std::vector<double> &
@@ -93,7 +94,7 @@ namespace Exemplar
       [[noreturn]] void
       fail(const std::string &message) const
       {
-        throw UserError(name + ", line " + std::to_string(line) + ": " + message);
+        throw UserError(fmt::format("{}, line {}: {}", name, line, message));
       }
 
       void
@@ -109,8 +110,8 @@ namespace Exemplar
             return;
         }
         if (cells.size() != width)
-          fail("has " + std::to_string(cells.size()) + " cells, the line before "
-               + std::to_string(width) + "." + table_remedy);
+          fail(fmt::format("has {} cells, the line before {}.{}", cells.size(), width,
+                           table_remedy));
         const std::size_t vertex = vertex_column == none ? n_rows : vertex_of(cells[vertex_column]);
         const std::string &cell  = cells[value_column];
         if (!is_number(cell) || !std::isfinite(parse_number(cell)))
@@ -118,7 +119,7 @@ namespace Exemplar
         if (vertex < values.size())
         {
           if (!std::isnan(values[vertex]))
-            fail("vertex " + std::to_string(vertex + 1) + " has a value already. Keep one.");
+            fail(fmt::format("vertex {} has a value already. Keep one.", vertex + 1));
           values[vertex] = parse_number(cell);
         }
         ++n_rows;
@@ -141,8 +142,8 @@ namespace Exemplar
         const double number = is_number(cell) ? parse_number(cell) : 0.;
         if (!(number >= 1. && number <= static_cast<double>(values.size()))
             || number != std::floor(number))
-          fail(in_quotes(cell) + " is no vertex of " + surface_name + ", whose "
-               + std::to_string(values.size()) + " vertices are counted from 1.");
+          fail(fmt::format("{} is no vertex of {}, whose {} vertices are counted from 1.",
+                           in_quotes(cell), surface_name, values.size()));
         return static_cast<std::size_t>(number) - 1;
       }
 
@@ -196,9 +197,9 @@ namespace Exemplar
     {
       const auto &rest = surface.vertices;
       if (found.size() != rest.size())
-        throw UserError(name + ": has " + std::to_string(found.size()) + " vertices, but "
-                        + surface_name + " has " + std::to_string(rest.size())
-                        + ". Export both from the same model, in the same order.");
+        throw UserError(fmt::format("{}: has {} vertices, but {} has {}. Export both from the same "
+                                    "model, in the same order.",
+                                    name, found.size(), surface_name, rest.size()));
       const auto distances = [](const std::vector<SurfaceMesh::Vertex> &x)
       {
         std::vector<double> result;
@@ -216,10 +217,10 @@ namespace Exemplar
       const double ratio = sum / rest_sum, mean = sum / static_cast<double>(ours.size());
       for (std::size_t v = 0; v < ours.size(); ++v)
         if (!(std::abs(ours[v] - ratio * theirs[v]) <= 1e-3 * mean + 1e-2 * ours[v]))
-          throw UserError(name + ": vertices " + std::to_string(v + 1) + " and "
-                          + std::to_string(v + 2) + " are not those of " + surface_name
-                          + ": their distance is another one. Export both from the same model, at "
-                            "rest and in the same order.");
+          throw UserError(
+              fmt::format("{}: vertices {} and {} are not those of {}: their distance is another "
+                          "one. Export both from the same model, at rest and in the same order.",
+                          name, v + 1, v + 2, surface_name));
     }
 
     std::vector<double>
@@ -233,9 +234,9 @@ namespace Exemplar
       check_same_vertices(found.vertices, surface, file.string(), surface_name);
       for (std::size_t v = 0; v < found.values.size(); ++v)
         if (!std::isfinite(found.values[v]))
-          throw UserError(file.string() + ": " + in_quotes(attribute) + " of vertex "
-                          + std::to_string(v + 1)
-                          + " is no finite number. Paint it anew, or correct the file.");
+          throw UserError(fmt::format(
+              "{}: {} of vertex {} is no finite number. Paint it anew, or correct the file.",
+              file.string(), in_quotes(attribute), v + 1));
       return found.values;
     }
   } // namespace

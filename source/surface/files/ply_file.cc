@@ -5,6 +5,8 @@
 #include <exemplar/surface/files/surface_formats.h>
 #include <exemplar/surface/files/surface_scanner.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -168,9 +170,9 @@ namespace Exemplar
           values[p].push_back(next_value(property.type));
       }
       if (ascii && !element.properties.empty() && word != in.words().size())
-        in.fail("an element of " + in_quotes(element.name) + " has " + std::to_string(word)
-                + " numbers by the header, found " + std::to_string(in.words().size())
-                + ". Export the surface anew.");
+        in.fail(fmt::format(
+            "an element of {} has {} numbers by the header, found {}. Export the surface anew.",
+            in_quotes(element.name), word, in.words().size()));
     }
 
     double
@@ -179,8 +181,9 @@ namespace Exemplar
       if (ascii)
       {
         if (word == in.words().size())
-          in.fail("the line ends after " + std::to_string(word)
-                  + " numbers, but by the header there are more. Export the surface anew.");
+          in.fail(fmt::format("the line ends after {} numbers, but by the header there are more. "
+                              "Export the surface anew.",
+                              word));
         return in.number(word++);
       }
       switch (type)
@@ -235,22 +238,23 @@ namespace Exemplar
     {
       std::vector<unsigned int> face;
       if (values[corners].size() < 3)
-        in.fail("face " + std::to_string(surface.faces.size() + 1) + " has "
-                + std::to_string(values[corners].size())
-                + " vertices, at least three are needed. Delete it, or export the surface anew.");
+        in.fail(fmt::format("face {} has {} vertices, at least three are needed. Delete it, or "
+                            "export the surface anew.",
+                            surface.faces.size() + 1, values[corners].size()));
       for (const double vertex : values[corners])
       {
         if (!(vertex >= 0. && vertex < 4e9) || vertex != std::floor(vertex))
-          in.fail("face " + std::to_string(surface.faces.size() + 1)
-                  + " uses a vertex whose number is no count from 0. Export the surface anew.");
+          in.fail(fmt::format(
+              "face {} uses a vertex whose number is no count from 0. Export the surface anew.",
+              surface.faces.size() + 1));
         face.push_back(static_cast<unsigned int>(vertex));
       }
       const bool has_label = label < n_properties;
       if (has_label && !(std::abs(values[label][0]) <= 1e15))
-        in.fail("the label of face " + std::to_string(surface.faces.size() + 1)
-                + " is no number. Export the surface anew.");
+        in.fail(fmt::format("the label of face {} is no number. Export the surface anew.",
+                            surface.faces.size() + 1));
       faces.add(std::move(face),
-                has_label ? std::to_string(static_cast<long long>(values[label][0])) : "");
+                has_label ? fmt::format("{}", static_cast<long long>(values[label][0])) : "");
     }
 
     void
@@ -259,10 +263,9 @@ namespace Exemplar
       for (std::size_t f = 0; f < surface.faces.size(); ++f)
         for (const unsigned int vertex : surface.faces[f])
           if (vertex >= surface.vertices.size())
-            in.fail(
-                "face " + std::to_string(f + 1) + " of " + std::to_string(surface.faces.size())
-                + " uses vertex " + std::to_string(vertex) + " (counted from 0), but the file has "
-                + std::to_string(surface.vertices.size()) + " vertices. Export the surface anew.");
+            in.fail(fmt::format("face {} of {} uses vertex {} (counted from 0), but the file has "
+                                "{} vertices. Export the surface anew.",
+                                f + 1, surface.faces.size(), vertex, surface.vertices.size()));
     }
   } // namespace
 

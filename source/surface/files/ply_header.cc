@@ -5,6 +5,8 @@
 #include <exemplar/surface/files/surface_formats.h>
 #include <exemplar/surface/files/surface_scanner.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 
@@ -89,8 +91,8 @@ namespace Exemplar
         in.fail("an element is announced as: element NAME NUMBER. Export the surface anew.");
       const long long n = in.integer(in.words()[2]);
       if (n < 0)
-        in.fail("a number of elements cannot be negative, found " + std::to_string(n)
-                + ". Export the surface anew.");
+        in.fail(fmt::format(
+            "a number of elements cannot be negative, found {}. Export the surface anew.", n));
       require_few(in, static_cast<std::size_t>(n), "elements");
       header.elements.push_back({ std::string(in.words()[1]), static_cast<std::size_t>(n), {} });
     }

@@ -12,6 +12,8 @@
 #include <exemplar/surface/files/surface_scanner.h>
 #include <exemplar/surface/shape/surface_poses.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -32,14 +34,13 @@ namespace Exemplar
         throw UserError(name + ": the cache has no samples." + export_remedy);
       for (std::size_t k = 0; k < times.size(); ++k)
         if (!std::isfinite(times[k]) || (k > 0 && !(times[k] > times[k - 1])))
-          throw UserError(name + ": the time of sample " + std::to_string(k + 1) + " of "
-                          + std::to_string(times.size()) + " is "
-                          + (std::isfinite(times[k])
-                                 ? shortest_text(times[k])
-                                       + " s, not after that of the one before, "
-                                       + shortest_text(times[k - 1]) + " s."
-                                 : "no finite number.")
-                          + " Times must increase: look at the exporter's frames and rate.");
+          throw UserError(fmt::format("{}: the time of sample {} of {} is {} Times must increase: "
+                                      "look at the exporter's frames and rate.",
+                                      name, k + 1, times.size(),
+                                      std::isfinite(times[k]) ? fmt::format(
+                                          "{} s, not after that of the one before, {} s.",
+                                          shortest_text(times[k]), shortest_text(times[k - 1]))
+                                                              : "no finite number."));
     }
 
     void
@@ -49,9 +50,9 @@ namespace Exemplar
                   const std::string &name)
     {
       if (found != static_cast<double>(rest.vertices.size()))
-        throw UserError(name + ": the cache moves " + shortest_text(found) + " vertices, but "
-                        + rest_name + " has " + std::to_string(rest.vertices.size()) + "."
-                        + export_remedy);
+        throw UserError(fmt::format("{}: the cache moves {} vertices, but {} has {}.{}", name,
+                                    shortest_text(found), rest_name, rest.vertices.size(),
+                                    export_remedy));
     }
 
     /// The header of a file of points, and its bytes.
@@ -82,10 +83,9 @@ namespace Exemplar
           {
             x = static_cast<double>(in->raw<float>());
             if (!std::isfinite(x))
-              throw UserError(name + ": in sample " + std::to_string(k + 1) + " of "
-                              + std::to_string(get_times().size()) + ", vertex "
-                              + std::to_string(v + 1)
-                              + " is at no finite place. Mend the rig there, and export it anew.");
+              throw UserError(fmt::format("{}: in sample {} of {}, vertex {} is at no finite "
+                                          "place. Mend the rig there, and export it anew.",
+                                          name, k + 1, get_times().size(), v + 1));
           }
         return vertices;
       }
@@ -105,13 +105,12 @@ namespace Exemplar
       const double expected
           = 12. * static_cast<double>(points.n_points) * static_cast<double>(n_samples);
       if (static_cast<double>(size - points.begin) != expected)
-        throw UserError(
-            name + ": by its header there are " + std::to_string(n_samples) + " samples of "
-            + std::to_string(points.n_points) + " vertices, but the file is "
-            + (static_cast<double>(size - points.begin) < expected ? "truncated" : "longer")
-            + ": its size is " + std::to_string(size) + " bytes, not "
-            + shortest_text(expected + static_cast<double>(points.begin))
-            + ". Save or copy it anew.");
+        throw UserError(fmt::format(
+            "{}: by its header there are {} samples of {} vertices, but the file is {}: its size "
+            "is {} bytes, not {}. Save or copy it anew.",
+            name, n_samples, points.n_points,
+            static_cast<double>(size - points.begin) < expected ? "truncated" : "longer", size,
+            shortest_text(expected + static_cast<double>(points.begin))));
     }
 
     std::size_t
@@ -119,8 +118,8 @@ namespace Exemplar
     {
       const auto n = in.raw<std::int32_t>();
       if (n < 0)
-        throw UserError(name + ": a count of " + what + " of " + std::to_string(n)
-                        + " is none; this is no such cache." + export_remedy);
+        throw UserError(fmt::format("{}: a count of {} of {} is none; this is no such cache.{}",
+                                    name, what, n, export_remedy));
       return static_cast<std::size_t>(n);
     }
 
@@ -157,8 +156,9 @@ namespace Exemplar
                         + export_remedy);
       in.go_to(12);
       if (const auto version = in.raw<std::int32_t>(); version != 1)
-        throw UserError(name + ": version " + std::to_string(version)
-                        + " of .pc2 files is not known, 1 is. Is it a file of this format?");
+        throw UserError(fmt::format(
+            "{}: version {} of .pc2 files is not known, 1 is. Is it a file of this format?", name,
+            version));
       points.n_points = read_count(in, name, "vertices");
       require_count(static_cast<double>(points.n_points), rest, rest_name, name);
       const auto        first = static_cast<double>(in.raw<float>());
@@ -232,6 +232,12 @@ namespace Exemplar
       return std::make_unique<SequenceCache>(std::move(files), std::move(times), rest, rest_name);
     }
   } // namespace
+
+  std::string
+  PointCache::name_of(const std::size_t k) const
+  {
+    return fmt::format("sample {}", k + 1);
+  }
 
   std::unique_ptr<const PointCache>
   open_point_cache(const std::string &file,

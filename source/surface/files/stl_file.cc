@@ -4,6 +4,8 @@
 #include <exemplar/surface/files/surface_formats.h>
 #include <exemplar/surface/files/surface_scanner.h>
 
+#include <fmt/core.h>
+
 #include <cstring>
 #include <unordered_map>
 
@@ -94,8 +96,9 @@ namespace Exemplar
         surface.faces.push_back(std::move(face));
       }
       if (in.n_bytes_left() > 0)
-        in.fail(std::to_string(in.n_bytes_left()) + " bytes follow the " + std::to_string(n)
-                + " facets that the file announces. Export the surface anew.");
+        in.fail(fmt::format(
+            "{} bytes follow the {} facets that the file announces. Export the surface anew.",
+            in.n_bytes_left(), n));
       return surface;
     }
 
@@ -146,8 +149,8 @@ namespace Exemplar
       read_vertex()
       {
         if (in.words().size() != 4)
-          in.fail("a vertex has three coordinates, found " + std::to_string(in.words().size() - 1)
-                  + ". Export the surface anew.");
+          in.fail(fmt::format("a vertex has three coordinates, found {}. Export the surface anew.",
+                              in.words().size() - 1));
         facet.push_back(corners.vertex_at({ { in.number(1), in.number(2), in.number(3) } }));
       }
 
@@ -155,8 +158,8 @@ namespace Exemplar
       end_facet()
       {
         if (facet.size() != 3)
-          in.fail("a facet has three vertices, found " + std::to_string(facet.size())
-                  + ". Export the surface anew.");
+          in.fail(fmt::format("a facet has three vertices, found {}. Export the surface anew.",
+                              facet.size()));
         faces.add(std::move(facet), name);
         facet        = {};
         within_facet = false;

@@ -7,6 +7,8 @@
 #include <exemplar/surface/files/surface_formats.h>
 #include <exemplar/surface/files/surface_scanner.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -76,10 +78,10 @@ namespace Exemplar
       for (std::size_t i = 0; i < surface.vertices.size(); ++i)
         for (const double x : surface.vertices[i])
           if (!(std::abs(x) <= 1e100)) // squares and cubes are finite, too
-            throw UserError(name + ": vertex " + std::to_string(i + 1) + " of "
-                            + std::to_string(surface.vertices.size())
-                            + " has a coordinate that is no finite number (or beyond 1e100). "
-                              "Correct or delete it in the program that made the file.");
+            throw UserError(fmt::format(
+                "{}: vertex {} of {} has a coordinate that is no finite number (or beyond 1e100). "
+                "Correct or delete it in the program that made the file.",
+                name, i + 1, surface.vertices.size()));
     }
   } // namespace
 
@@ -112,8 +114,8 @@ namespace Exemplar
   require_few(const SurfaceScanner &in, const std::size_t n, const std::string &what)
   {
     if (n > std::numeric_limits<unsigned int>::max() / 4)
-      in.fail("more than " + std::to_string(std::numeric_limits<unsigned int>::max() / 4) + " "
-              + what + " are not supported. Reduce the surface.");
+      in.fail(fmt::format("more than {} {} are not supported. Reduce the surface.",
+                          std::numeric_limits<unsigned int>::max() / 4, what));
   }
 
   SurfaceMesh
@@ -121,9 +123,9 @@ namespace Exemplar
   {
     SurfaceMesh surface = read_by_extension(file);
     if (surface.vertices.empty() || surface.faces.empty())
-      throw UserError(file.string() + ": there are " + std::to_string(surface.vertices.size())
-                      + " vertices and " + std::to_string(surface.faces.size())
-                      + " faces, which is no surface. Export the object as a mesh of polygons.");
+      throw UserError(fmt::format("{}: there are {} vertices and {} faces, which is no surface. "
+                                  "Export the object as a mesh of polygons.",
+                                  file.string(), surface.vertices.size(), surface.faces.size()));
     require_finite(surface, file.string());
     return surface;
   }

@@ -5,6 +5,8 @@
 #include <exemplar/base/text_file.h>
 #include <exemplar/surface/files/surface_scanner.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cstdlib>
@@ -178,21 +180,21 @@ namespace Exemplar
   {
     if (!binary && line_number > 0)
       fail_at_line(line_number, message);
-    throw UserError(file.string() + (binary ? ", byte " + std::to_string(position) : "") + ": "
-                    + message);
+    throw UserError(fmt::format("{}{}: {}", file.string(),
+                                binary ? fmt::format(", byte {}", position) : "", message));
   }
 
   void
   SurfaceScanner::fail_at_line(const std::size_t line, const std::string &message) const
   {
-    throw UserError(file.string() + ", line " + std::to_string(line) + ": " + message);
+    throw UserError(fmt::format("{}, line {}: {}", file.string(), line, message));
   }
 
   void
   SurfaceScanner::fail_at_end() const
   {
-    throw UserError(file.string() + ": ends after " + std::to_string(n_done) + " of "
-                    + std::to_string(n_total) + " " + counted
-                    + "; the file is truncated. Save or copy it anew.");
+    throw UserError(
+        fmt::format("{}: ends after {} of {} {}; the file is truncated. Save or copy it anew.",
+                    file.string(), n_done, n_total, counted));
   }
 } // namespace Exemplar

@@ -9,6 +9,8 @@
 #include <exemplar/surface/shape/surface_geometry.h>
 #include <exemplar/surface/shape/vectors.h>
 
+#include <fmt/core.h>
+
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -34,7 +36,7 @@ namespace Exemplar
     [[noreturn]] void
     fail(const std::filesystem::path &file, const std::size_t line, const std::string &message)
     {
-      throw UserError(file.string() + ", line " + std::to_string(line) + ": " + message);
+      throw UserError(fmt::format("{}, line {}: {}", file.string(), line, message));
     }
 
     MaterialSeed
@@ -45,15 +47,14 @@ namespace Exemplar
       MaterialSeed seed{ {}, 0, cells.size() > 4 ? cells[4] : "", line };
       if (cells.size() < 4 || cells.size() > 5)
         fail(file, line,
-             "expected x,y,z,id or x,y,z,id,name, found " + std::to_string(cells.size())
-                 + " columns.");
+             fmt::format("expected x,y,z,id or x,y,z,id,name, found {} columns.", cells.size()));
       for (unsigned int d = 0; d < 3; ++d)
         if (!parse(cells[d], seed.place[d]) || !std::isfinite(seed.place[d]))
           fail(file, line, "expected a coordinate, found " + in_quotes(cells[d]) + ".");
       if (!parse(cells[3], seed.id) || seed.id == 0 || seed.id > largest_id)
         fail(file, line,
-             "expected a material id, a whole number from 1 to " + std::to_string(largest_id)
-                 + ", found " + in_quotes(cells[3]) + ".");
+             fmt::format("expected a material id, a whole number from 1 to {}, found {}.",
+                         largest_id, in_quotes(cells[3])));
       if (seed.name.find('"') != std::string::npos)
         fail(file, line, "the name " + in_quotes(seed.name) + " holds a quote. Leave it out.");
       return seed;
@@ -166,8 +167,8 @@ namespace Exemplar
       const auto  named = names.emplace(seed.id, seed.name);
       if (named.first->second != seed.name)
         fail(file, line,
-             "material " + std::to_string(seed.id) + " is called " + in_quotes(seed.name)
-                 + ", before " + in_quotes(named.first->second) + ". Give it one name.");
+             fmt::format("material {} is called {}, before {}. Give it one name.", seed.id,
+                         in_quotes(seed.name), in_quotes(named.first->second)));
     }
     if (seeds.empty())
       throw UserError(file.string()
@@ -213,8 +214,9 @@ namespace Exemplar
     for (const MaterialSeed &seed : seeds)
       if (used.count(seed.id) == 0)
         fail(file, seed.line,
-             "no cell is nearer to this point than to others, so material "
-                 + std::to_string(seed.id) + " has none. Take more cells, or fewer points.");
+             fmt::format("no cell is nearer to this point than to others, so material {} has none. "
+                         "Take more cells, or fewer points.",
+                         seed.id));
     return result;
   }
 } // namespace Exemplar

@@ -9,6 +9,8 @@
 #include <exemplar/surface/shape/surface_geometry.h>
 #include <exemplar/surface/shape/vectors.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -181,7 +183,7 @@ namespace Exemplar
                const std::size_t      n_materials)
     {
       const auto add = [&](const std::string &what, const std::size_t n)
-      { result.table.emplace_back(what, std::to_string(n)); };
+      { result.table.emplace_back(what, fmt::format("{}", n)); };
       add("surface_vertices", body.original.vertices.size());
       add("surface_triangles", body.original.triangles.size());
       add("nodes", mesh.nodes.size());
@@ -202,8 +204,8 @@ namespace Exemplar
       add("angle_1_percent", short_text(angles.percentile_1));
       add("angle_median", short_text(angles.median));
       add("angle_largest", short_text(angles.largest));
-      add("slivers", std::to_string(angles.n_slivers));
-      add("boundary_slivers", std::to_string(angles.n_boundary_slivers));
+      add("slivers", fmt::format("{}", angles.n_slivers));
+      add("boundary_slivers", fmt::format("{}", angles.n_boundary_slivers));
       double volume = 0.;
       for (std::size_t c = 0; c < mesh.cells.size(); ++c)
       {
@@ -232,9 +234,9 @@ namespace Exemplar
     {
       const std::size_t n_slivers = judged.judgement.angles.n_slivers;
       if (n_slivers > 0)
-        report.notes.push_back("Some cells are nearly flat: " + std::to_string(n_slivers)
-                               + " have an angle below 3 degrees. More cells may help ("
-                               + options.cells_option + ").");
+        report.notes.push_back(fmt::format("Some cells are nearly flat: {} have an angle below 3 "
+                                           "degrees. More cells may help ({}).",
+                                           n_slivers, options.cells_option));
       const double distance
           = 100. * judged.judgement.surface_to_mesh.maximum / diagonal_of(body.original.vertices);
       if (distance > tolerable_distance)
@@ -244,9 +246,9 @@ namespace Exemplar
                                + options.cells_option + ").");
       const std::size_t n_cells = judged.mesh.cells.size();
       if (std::abs(static_cast<double>(n_cells) / options.n_cells - 1.) > .1)
-        report.notes.push_back("The mesh has " + std::to_string(n_cells) + " cells, not "
-                               + std::to_string(options.n_cells)
-                               + ": its shape allows no number nearer to it.");
+        report.notes.push_back(
+            fmt::format("The mesh has {} cells, not {}: its shape allows no number nearer to it.",
+                        n_cells, options.n_cells));
     }
   } // namespace
 

@@ -3,6 +3,8 @@
 #include <exemplar/surface/filling/surface_msh.h>
 #include <exemplar/surface/shape/surface_edges.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <charconv>
 #include <map>
@@ -91,7 +93,7 @@ namespace Exemplar
       if (names.size() == 1)
         names[region] = "body";
       else if (names[region].empty() || n_regions[names[region]] > 1)
-        names[region] = "shell " + std::to_string(region + 1);
+        names[region] = fmt::format("shell {}", region + 1);
     return names;
   }
 

@@ -6,6 +6,8 @@
 #include <exemplar/surface/shape/surface_geometry.h>
 #include <exemplar/surface/shape/vectors.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <map>
 #include <set>
@@ -75,7 +77,7 @@ namespace Exemplar
       std::string
       vertex_text(const unsigned int vertex) const
       {
-        return "vertex " + std::to_string(vertex + 1) + " " + place_text(surface.vertices[vertex]);
+        return fmt::format("vertex {} {}", vertex + 1, place_text(surface.vertices[vertex]));
       }
 
       /// "faces 3, 7 and 9", each once.
@@ -92,7 +94,7 @@ namespace Exemplar
       void
       add_fault(const std::string &what, const std::size_t n, const std::string &where)
       {
-        findings.faults.push_back(what + ": " + std::to_string(n) + " (" + where + ")");
+        findings.faults.push_back(fmt::format("{}: {} ({})", what, n, where));
       }
 
       void
@@ -136,8 +138,8 @@ namespace Exemplar
         if (!used[i])
           numbers.push_back(i + 1);
       if (!numbers.empty())
-        findings.notes.push_back("unused vertices: " + std::to_string(numbers.size())
-                                 + " (vertices " + list_numbers(numbers) + "), left out");
+        findings.notes.push_back(fmt::format("unused vertices: {} (vertices {}), left out",
+                                             numbers.size(), list_numbers(numbers)));
     }
 
     void
@@ -149,9 +151,9 @@ namespace Exemplar
         if (!first.emplace(surface.vertices[i], i).second)
           numbers.push_back(i + 1);
       if (!numbers.empty())
-        findings.notes.push_back("duplicate vertices: " + std::to_string(numbers.size())
-                                 + " (at the place of an earlier one: vertices "
-                                 + list_numbers(numbers) + ")");
+        findings.notes.push_back(
+            fmt::format("duplicate vertices: {} (at the place of an earlier one: vertices {})",
+                        numbers.size(), list_numbers(numbers)));
     }
 
     /// As flat as cells are refused for, see orient_tetrahedra().
@@ -203,8 +205,8 @@ namespace Exemplar
           = std::max_element(n_edges.begin(), n_edges.end(),
                              [](const auto &a, const auto &b) { return a.second < b.second; });
       add_fault("holes", n_edges.size(),
-                "with " + std::to_string(open.size()) + " open edges; the largest has "
-                    + std::to_string(largest->second) + ", at " + vertex_text(largest->first));
+                fmt::format("with {} open edges; the largest has {}, at {}", open.size(),
+                            largest->second, vertex_text(largest->first)));
     }
 
     void
@@ -320,8 +322,9 @@ namespace Exemplar
             const TriangleSurface part = shell_of(surface, findings.shells, shell);
             if (!where.empty()) // those beside the first
               add_shell("shells side by side", shell);
-            where += (where.empty() ? "of " : ", ") + std::to_string(part.triangles.size())
-                     + " triangles at " + place_text(part.vertices[part.triangles[0][0]]);
+            where += fmt::format("{}{} triangles at {}", where.empty() ? "of " : ", ",
+                                 part.triangles.size(),
+                                 place_text(part.vertices[part.triangles[0][0]]));
           }
         add_fault("shells side by side", static_cast<std::size_t>(n_free), where);
       }

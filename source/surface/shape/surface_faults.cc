@@ -7,6 +7,8 @@
 #include <exemplar/surface/shape/surface_faults.h>
 #include <exemplar/surface/shape/surface_mesh.h>
 
+#include <fmt/core.h>
+
 #include <set>
 #include <sstream>
 #include <tuple>
@@ -36,8 +38,8 @@ namespace Exemplar
       const SurfaceMesh::Vertex place = place_of(element, surface);
       return { { "", element.fault },
                { "", element.is_face ? "face" : "vertex" },
-               { "", std::to_string(element.index + 1) },
-               { "", std::to_string(element.index) },
+               { "", fmt::format("{}", element.index + 1) },
+               { "", fmt::format("{}", element.index) },
                { "", shortest_text(place[0]) },
                { "", shortest_text(place[1]) },
                { "", shortest_text(place[2]) } };

@@ -6,6 +6,8 @@
 #include <exemplar/surface/shape/triangle_surface.h>
 #include <exemplar/surface/shape/vectors.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -28,7 +30,7 @@ namespace Exemplar
     std::string
     count(const std::size_t n, const std::string &noun)
     {
-      return std::to_string(n) + " " + (n == 1 ? noun : noun == "vertex" ? "vertices" : noun + "s");
+      return fmt::format("{} {}", n, n == 1 ? noun : noun == "vertex" ? "vertices" : noun + "s");
     }
 
     std::string
@@ -36,7 +38,7 @@ namespace Exemplar
     {
       std::string text;
       for (const unsigned int vertex : face)
-        text += (text.empty() ? "" : " ") + std::to_string(vertex + 1);
+        text += fmt::format("{}{}", text.empty() ? "" : " ", vertex + 1);
       return text;
     }
 
@@ -160,9 +162,10 @@ namespace Exemplar
     for (std::size_t v = 0; v < surface.vertices.size(); ++v)
       for (const double coordinate : surface.vertices[v])
         if (!(std::abs(coordinate) < 1e50))
-          throw UserError(name + ": vertex " + std::to_string(v + 1)
-                          + " lies at a coordinate that is no finite number, or larger than 1e50. "
-                            "Look at the file, and export it anew.");
+          throw UserError(
+              fmt::format("{}: vertex {} lies at a coordinate that is no finite number, or larger "
+                          "than 1e50. Look at the file, and export it anew.",
+                          name, v + 1));
     if (surface.faces.empty())
       throw UserError(name + ": has no faces. Export the surface, not its points alone.");
     if (!(total_area(triangulate(surface)) > 0.))
@@ -181,16 +184,15 @@ namespace Exemplar
         = [&](const std::size_t found, const std::size_t expected, const std::string &noun)
     {
       if (found != expected)
-        throw UserError(prefix + "it has " + count(found, noun) + ", the surface at rest "
-                        + std::to_string(expected) + "." + order_remedy);
+        throw UserError(fmt::format("{}it has {}, the surface at rest {}.{}", prefix,
+                                    count(found, noun), expected, order_remedy));
     };
     compare_counts(pose.vertices.size(), rest.vertices.size(), "vertex");
     compare_counts(pose.faces.size(), rest.faces.size(), "face");
     for (std::size_t f = 0; f < rest.faces.size(); ++f)
       if (pose.faces[f] != rest.faces[f])
-        throw UserError(prefix + "face " + std::to_string(f + 1) + " has the vertices "
-                        + corners(pose.faces[f]) + ", at rest " + corners(rest.faces[f]) + "."
-                        + order_remedy);
+        throw UserError(fmt::format("{}face {} has the vertices {}, at rest {}.{}", prefix, f + 1,
+                                    corners(pose.faces[f]), corners(rest.faces[f]), order_remedy));
   }
 
   void

@@ -6,6 +6,8 @@
 #include <exemplar/surface/skin/facing_points.h>
 #include <exemplar/surface/skin/surface_anchors.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
 namespace Exemplar
@@ -218,10 +220,10 @@ namespace Exemplar
     const std::string ratio = size_text(diagonal_of(surface.vertices) / size);
     if (maximum > max_outside * size || sum > mean_outside * size * static_cast<double>(n_used))
       refuse(surface_name, mesh,
-             "its vertex " + std::to_string(farthest + 1) + " is farthest outside the body, by "
-                 + percent(maximum) + " of the body's size (" + short_text(maximum / scale)
-                 + " in the unit of the files), the mean is "
-                 + percent(sum / static_cast<double>(n_used)) + "." + ratio);
+             fmt::format("its vertex {} is farthest outside the body, by {} of the body's size ({} "
+                         "in the unit of the files), the mean is {}.{}",
+                         farthest + 1, percent(maximum), short_text(maximum / scale),
+                         percent(sum / static_cast<double>(n_used)), ratio));
     const TriangleSurface triangles = triangulate(surface);
     for (std::size_t t = 0; t < triangles.triangles.size(); ++t)
       if (area_of(triangles, t) > 0.)

@@ -6,6 +6,8 @@
 #include <exemplar/surface/skin/facing_points.h>
 #include <exemplar/surface/skin/surface_attachment.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -189,11 +191,10 @@ namespace Exemplar
                       + " times as large. Give both in the same unit of length.");
     const unsigned int node = attachment.get_nodes()[farthest - distances.begin()];
     throw UserError(
-        mesh.get_name() + " is no mesh of the inside of " + surface_name + ": node "
-        + std::to_string(mesh.get_contents().node_numbers[node])
-        + " of its boundary is farthest from the surface, by " + short_text(100. * *farthest / size)
-        + " % of the body's size, the mean is " + short_text(100. * mean / size)
-        + " %. Unit, axes and place must be the same: make the mesh of this surface, by "
-          "exemplar mesh.");
+        fmt::format("{} is no mesh of the inside of {}: node {} of its boundary is farthest from "
+                    "the surface, by {} % of the body's size, the mean is {} %. Unit, axes and "
+                    "place must be the same: make the mesh of this surface, by exemplar mesh.",
+                    mesh.get_name(), surface_name, mesh.get_contents().node_numbers[node],
+                    short_text(100. * *farthest / size), short_text(100. * mean / size)));
   }
 } // namespace Exemplar

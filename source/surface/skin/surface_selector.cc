@@ -8,6 +8,8 @@
 #include <exemplar/surface/shape/vectors.h>
 #include <exemplar/surface/skin/surface_selector.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -122,9 +124,9 @@ namespace Exemplar
       const double number = parse_number(word);
       const auto   n      = surface.vertices.size();
       if (!(number >= 1. && number <= static_cast<double>(n)) || number != std::floor(number))
-        throw UserError(choice + ": " + in_quotes(word) + " is no vertex of " + name + ", whose "
-                        + std::to_string(n)
-                        + " vertices are counted from 1, in the order of the file.");
+        throw UserError(fmt::format("{}: {} is no vertex of {}, whose {} vertices are counted from "
+                                    "1, in the order of the file.",
+                                    choice, in_quotes(word), name, n));
       vertices.push_back(static_cast<unsigned int>(number) - 1);
     }
     const bool has_extent = word == "within";
@@ -211,10 +213,10 @@ namespace Exemplar
       if (area.touch(boundary.get_points()[k]))
         nodes.push_back(boundary.get_nodes()[k]);
     if (nodes.empty())
-      throw UserError(choice + " selects no node: none of the boundary of " + mesh.get_name()
-                      + " lies on the "
-                      + std::to_string(std::count(marked.begin(), marked.end(), true))
-                      + " triangles of the group. Take a finer mesh, or a larger group.");
+      throw UserError(fmt::format("{} selects no node: none of the boundary of {} lies on the {} "
+                                  "triangles of the group. Take a finer mesh, or a larger group.",
+                                  choice, mesh.get_name(),
+                                  std::count(marked.begin(), marked.end(), true)));
     return nodes;
   }
 

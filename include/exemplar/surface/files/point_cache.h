@@ -33,10 +33,7 @@ namespace Exemplar
 
     /// Of a sample, for messages: its file, if each has one.
     virtual std::string
-    name_of(const std::size_t k) const
-    {
-      return "sample " + std::to_string(k + 1);
-    }
+    name_of(std::size_t k) const;
 
   protected:
     explicit PointCache(std::vector<double> sample_times) : times(std::move(sample_times)) {}
