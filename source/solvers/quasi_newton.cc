@@ -14,7 +14,7 @@ namespace Exemplar
     constexpr unsigned int max_metrics           = 2; ///< that a step may ask for
     constexpr unsigned int max_halvings          = 5;
     constexpr double       max_contraction       = 0.9;
-    constexpr double       min_error_over_length = 1.2;
+    constexpr double       min_error_over_length = 2.2;
 
     double
     max_displacement(const Exchange &exchange, const State &from, const State &to)
