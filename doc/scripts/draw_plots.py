@@ -4,11 +4,11 @@
 
 Usage: python3 doc/scripts/draw_plots.py [NAME]...      all, if none is named; Debian: gnuplot-nox
 
-NAME is space, growth_cells, growth_examples or a study of which a page shows the plot.
+NAME is space, time_to_error, growth_cells, growth_examples or a study of which a page shows the plot.
 """
 import sys
 
-from plots import MARKS, PALETTE, curves, gnuplot, line, plot, plot_study
+from plots import BLACK, MARKS, PALETTE, curves, gnuplot, line, pareto_front, plot, plot_study
 from study_tables import ELEMENTS, FIGURES, FILES, PAGES, STUDIES, axes, error, own_limit, read, space_runs
 
 SPACE_BODIES = {"bar": "bar under its weight", "cook": "Cook's membrane", "cat": "cat", "horse": "horse"}
@@ -56,6 +56,25 @@ def draw_space():
     gnuplot(FIGURES / "space.svg", (width, total), "set termoption enhanced\n" + "\n".join(commands))
 
 
+def draw_time_to_error():
+    """Error of space and step together against seconds: a panel a body, a line an element's best runs."""
+    bodies = {"bar": "bar 4:1:1, lifted", "cat": "cat, soles turned"}
+    commands = ["set multiplot layout 1,2", "set logscale xy", "unset mxtics", "unset mytics", "set format '%g'", "set lmargin 11",
+                "set tmargin 4", "set xlabel 'seconds of time stepping'", "unset key"]
+    for body, title in bodies.items():
+        rows = read(f"time_to_error_{body}")
+        elements = list(dict.fromkeys(row["element"] for row in rows))
+        points = {(row["element"], number): (float(row["seconds_median"]), error(row)) for number, row in enumerate(rows)}
+        lines = [(element, line(number), pareto_front([point for (of, _), point in points.items() if of == element]))
+                 for number, element in enumerate(elements)]
+        front = pareto_front(points.values())
+        lines.append(("none is cheaper", f"points pt 6 ps 1.8 lw 2 lc rgb '{BLACK}'", front))
+        commands += [f"set label {i + 1} '{name}' at screen {0.1 + 0.15 * i:g},0.96 point pt {MARKS[0] if name in elements else 6} "
+                     f"lc rgb '{PALETTE[i] if name in elements else BLACK}' offset 1,-0.1" for i, (name, _, _) in enumerate(lines)]
+        commands += [f"set title '{title}'", f"set ylabel '{'error of the positions' if body == 'bar' else ' '}'", curves(lines), "unset label"]
+    gnuplot(FIGURES / "time_to_error.svg", (1000, 520), "\n".join(commands))
+
+
 def draw_growth_cells():
     rows, lines = read("growth_cells"), []
     for number, (dilatation, title) in enumerate((("cells", "Dilatation = cells"), ("patches", "Dilatation = patches, the default"))):
@@ -77,7 +96,7 @@ def draw_growth_examples():
 
 def main():
     shown = [name for name in STUDIES if any(f"figures/{name}.svg" in page.read_text() for page in PAGES)]
-    makers = {"space": draw_space, "growth_cells": draw_growth_cells, "growth_examples": draw_growth_examples}
+    makers = {"space": draw_space, "time_to_error": draw_time_to_error, "growth_cells": draw_growth_cells, "growth_examples": draw_growth_examples}
     for name in sys.argv[1:] or [*shown, *makers]:
         makers.get(name, lambda: draw_study(name))()
 
