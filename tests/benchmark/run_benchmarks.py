@@ -3,9 +3,10 @@
 
 Usage: python3 tests/benchmark/run_benchmarks.py [--large] [--steps N] [--repeats N] [--set 'Section/Key=value']...
                                                  [--program FILE] [--output DIRECTORY] [--write-baseline] [SCENE]...
-on a quiet machine, after `ninja -C build/release benchmark_steps`. SCENE is a name in scenes/, or growth-cells or
-growth-examples; by default all but those of a million cells, which --large adds. --steps measures so many steps of
-each scene only. --set applies to all scenes.
+on a quiet machine, after `ninja -C build/release benchmark_steps`. SCENE is a name in scenes/, such a name with what it is
+used with ("cat_mid60 patches"), or growth-cells or growth-examples; by default all but those of a million cells, which
+--large adds. --steps measures so many steps of each scene only. --set applies to all scenes. --write-baseline replaces
+what the baseline has of the scenes that were measured.
 
 A number is the median of three runs. The unit is one CHOLMOD factorisation and one solve of the scene's matrix with
 `Dilatation = cells`, so that ratios to it can be compared between machines and elements. Errors are those of each step against the step solved to 1e-11 from the
@@ -31,9 +32,13 @@ SCENES = ["cat_grav", "cat_mid60", "cat_mid30", "cat_mid60_examples", "cat_inver
           "horse_mid60", "bar100k"]
 LARGE_SCENE = "bar1M"
 GROWTHS = ["growth-cells", "growth-examples"]
+# scenes as they are used: with patches, the default; quadratic elements; a kept multigrid hierarchy
+VARIANTS = {f"{scene} patches": (scene, {"Model/Dilatation": "patches"}) for scene in SCENES}
+VARIANTS["cat_mid60 P2 patches"] = ("cat_mid60", {"Model/Element": "P2", "Model/Dilatation": "patches"})
+VARIANTS["bar100k patches, multigrid"] = ("bar100k", {"Model/Dilatation": "patches", "Solver/Linear solver": "iterative"})
 # frozen forces with examples are no gradient, so there is nothing to compare their steps with
 WITHOUT_REFERENCE = ["cat_one_pass", LARGE_SCENE]
-REFERENCE_STEPS = {"bar100k": 10}
+REFERENCE_STEPS = {"bar100k": 10, "cat_mid60 P2 patches": 10}
 BAR_BRICKS = [4, 8, 16]  # of the bar 4:1:1 along its short sides, with 24 n^3 tetrahedra
 LARGE_BAR_BRICKS = 35
 DILATATIONS = ["cells", "patches"]
@@ -89,16 +94,17 @@ def measure(options, scene, failures, settings=None, flags=()):
     return median_of(runs) if runs else None
 
 
-def measure_scene(options, scene, failures):
+def measure_scene(options, name, failures):
     """Times of a scene, and its errors if it has a reference."""
-    print(f"{scene} ...", file=sys.stderr, flush=True)
+    print(f"{name} ...", file=sys.stderr, flush=True)
+    scene, settings = VARIANTS.get(name, (name, {}))
     if scene == LARGE_SCENE:
         return measure(options, scene, failures, flags=["--no-unit"])
-    result = measure(options, scene, failures)
+    result = measure(options, scene, failures, settings)
     if result is None or scene in WITHOUT_REFERENCE:
         return result
-    reference = run_once(options, scene, {}, ["--reference", "--no-unit",
-                                              *steps_flags(options.steps, REFERENCE_STEPS.get(scene))], failures)
+    reference = run_once(options, scene, settings, ["--reference", "--no-unit",
+                                              *steps_flags(options.steps, REFERENCE_STEPS.get(name, REFERENCE_STEPS.get(scene)))], failures)
     for key in ("worst_error", "mean_error", "steps_above_1e-3", "steps_without_reference"):
         if reference is not None:
             result[key] = reference[key]
@@ -266,7 +272,8 @@ def report_baseline(options, ratios):
     if options.write_baseline:
         rounded = {name: {what: float(f"{value:.3g}") if isinstance(value, float) else value
                           for what, value in entry.items()} for name, entry in ratios.items()}
-        BASELINE.write_text(json.dumps(rounded, indent=1) + "\n")
+        before = json.loads(BASELINE.read_text()) if BASELINE.exists() else {}
+        BASELINE.write_text(json.dumps({**before, **rounded}, indent=1) + "\n")
         print(f"wrote {BASELINE}")
     elif not BASELINE.exists():
         print("There is no baseline to compare with; --write-baseline makes one.")
@@ -286,7 +293,7 @@ def parse_arguments():
     parser.add_argument("--output", type=Path, default=TOP / "output/benchmarks", help="directory of the results")
     parser.add_argument("--write-baseline", action="store_true", help="what is measured becomes the baseline")
     options = parser.parse_args()
-    known = [*SCENES, LARGE_SCENE, *GROWTHS]
+    known = [*SCENES, *VARIANTS, LARGE_SCENE, *GROWTHS]
     unknown = [name for name in options.names if name not in known]
     if unknown:
         parser.error(f"no scene {', '.join(unknown)}; there are {', '.join(known)}")
@@ -294,9 +301,9 @@ def parse_arguments():
         parser.error("--steps and --repeats are at least 1")
     if not options.program.exists():
         parser.error(f"{options.program} is missing: ninja -C build/release benchmark_steps")
-    if options.write_baseline and (options.names or options.set or options.steps):
-        parser.error("a baseline is of all scenes as they are")
-    options.names = options.names or SCENES + ([LARGE_SCENE] if options.large else []) + GROWTHS
+    if options.write_baseline and (options.set or options.steps):
+        parser.error("a baseline is of scenes as they are")
+    options.names = options.names or [*SCENES, *VARIANTS] + ([LARGE_SCENE] if options.large else []) + GROWTHS
     return options
 
 
