@@ -58,6 +58,14 @@ Exit status:
     }
 
     void
+    add_threads_option(CLI::App &app, unsigned int &n_threads)
+    {
+      add_number_option(app, "--threads", n_threads, 1U, 1024U,
+                        "threads instead of one a core (one in each of several processes); results "
+                        "do not depend on it");
+    }
+
+    void
     declare_scene(CLI::App &app, Arguments &arguments)
     {
       app.add_option("SCENE", arguments.run.scene_file, "scene file (.prm)");
@@ -72,9 +80,7 @@ Exit status:
                         "go on from the state of this step, also with an edited scene",
                         "It is the number of a step, as in the column step of statistics.csv; "
                         "--output names the run's directory. ");
-      add_number_option(app, "--threads", arguments.run.n_threads, 1U, 1024U,
-                        "threads instead of one a core (one in each of several processes); results "
-                        "do not depend on it");
+      add_threads_option(app, arguments.run.n_threads);
       app.add_flag("--allow-commands", arguments.run.allow_commands,
                    "let a .geo run programs and write files: only for one that you trust");
       app.add_flag("--quiet", arguments.run.quiet, "print warnings and errors only");
@@ -164,6 +170,7 @@ Exit status:
       add_number_option(command, "--attach", pose.attach, 1e-3, 1e6,
                         "how strongly the surface holds, over the stiffness of the body")
           ->default_str(shortest_text(pose.attach));
+      add_threads_option(command, pose.n_threads);
       command.add_flag("--quiet", pose.quiet, "print warnings and errors only");
       return command;
     }
@@ -269,8 +276,9 @@ Exit status:
   {
     Arguments arguments;
     // each of several processes has one core
-    arguments.run.n_threads = JointRun::group().n_processes > 1 ? 1 : n_available_cores();
-    arguments.study.stop    = is_interrupted;
+    arguments.run.n_threads  = JointRun::group().n_processes > 1 ? 1 : n_available_cores();
+    arguments.pose.n_threads = arguments.run.n_threads;
+    arguments.study.stop     = is_interrupted;
     CLI::App app("Elastic solids that deform the way their examples say", "exemplar");
     app.set_version_flag("--version", "exemplar " EXEMPLAR_VERSION " (" EXEMPLAR_GIT_REVISION
                                       ")" EXEMPLAR_LEFT_OUT);

@@ -133,7 +133,7 @@ namespace Exemplar
     {
       try
       {
-        return make_pose_transfer(mesh, rest, options.attach);
+        return make_pose_transfer(mesh, rest, options.attach, options.n_threads);
       }
       catch (const UserError &error)
       {
@@ -174,7 +174,7 @@ namespace Exemplar
              "rotation  time\n";
       for (std::size_t k = 0; k < n_done; ++k)
       {
-        const PoseQuality &q = poses[k].quality;
+        const PoseQuality &q    = poses[k].quality;
         const std::string  line = fmt::format(
              "  {:8}   {:.3f} to {:6.3f}  {:8.3f} {:7.3f} {:6.3f} {:6.3f}   {:6.3f} {:6.3f}   "
               "{:6.1f}  {:5.1f} s",

@@ -13,8 +13,9 @@ namespace Exemplar
   {
     std::filesystem::path    mesh, rest, output;
     std::vector<std::string> poses; ///< files, or patterns of files with * and ?
-    double                   attach = 30.;
-    bool                     quiet  = false;
+    double                   attach    = 30.;
+    unsigned int             n_threads = 1;
+    bool                     quiet     = false;
   };
 
   /// Carry each pose of the surface onto the mesh: OUTPUT/NAME.msh for a pose NAME.obj, and

@@ -92,7 +92,8 @@ namespace Exemplar
       if (!transfer)
       {
         mesh.emplace(contents, scene.mesh.name());
-        transfer.emplace(make_pose_transfer(*mesh, rest, scene.examples.attach));
+        transfer.emplace(
+            make_pose_transfer(*mesh, rest, scene.examples.attach, scene.solver.n_threads));
       }
       return *transfer;
     }
@@ -134,14 +135,14 @@ namespace Exemplar
     const std::string     key
         = sha256_of_text(fmt::format("{}{}{}{}", maker(), surface_digest(mesh.file), mesh.n_cells,
                                      mesh.repair ? " repaired" : ""));
-    const KeptBytes kept = kept_bytes(
-        key + ".msh",
-        [&]
-        {
-          announce(fmt::format("filling {} with {} cells", mesh.file, mesh.n_cells));
-          return Exemplar::make_mesh(
-              { mesh.file, mesh.n_cells, mesh.repair, "", "Mesh/Cells", "Mesh/Repair = true" });
-        });
+    const KeptBytes kept
+        = kept_bytes(key + ".msh",
+                     [&]
+                     {
+                       announce(fmt::format("filling {} with {} cells", mesh.file, mesh.n_cells));
+                       return Exemplar::make_mesh({ mesh.file, mesh.n_cells, mesh.repair, "",
+                                                    "Mesh/Cells", "Mesh/Repair = true" });
+                     });
     get_made_anew().mesh = report_in(kept.bytes);
     add_warning(kept.warning);
     return read_msh_bytes(kept.bytes, mesh.file);

@@ -68,7 +68,7 @@ namespace Exemplar
                                        const unsigned int   n_rings)
       : free(grown(whole.get_cells(), std::move(marked), n_rings - 1)),
         numbering(number(whole.get_cells(), free)), start(selected(x, numbering.nodes)),
-        potential(selected(rest, numbering.nodes), numbering.cells)
+        potential(selected(rest, numbering.nodes), numbering.cells, whole.get_n_threads())
   {
     // energies are means over the neighbourhood
     const double share = whole.get_volume() / potential.get_volume();

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/loop_parts.h>
 #include <exemplar/kernels/polar_decomposition.h>
 #include <exemplar/surface/posing/fold_energy.h>
 #include <exemplar/surface/posing/fold_potential.h>
@@ -34,10 +35,19 @@ namespace Exemplar
     /// The least curvature of a mode that a Newton step counts on, as a share of the stiffness at
     /// rest: flatter and concave ones would make it long without making it better.
     constexpr double min_stiffness = 1e-3;
+
+    /// Below so many cells threads would wait for each other longer than they work.
+    constexpr std::size_t few_cells = 2000;
+
+    /// So many cells' stiffness is held at a time.
+    constexpr std::size_t n_at_once = 4096;
   } // namespace
 
-  FoldPotential::FoldPotential(const Points &nodes, const Cells &cells)
-      : attachment{ std::vector<double>(nodes.size(), 0.), nodes }, cells(cells)
+  FoldPotential::FoldPotential(const Points      &nodes,
+                               const Cells       &cells,
+                               const unsigned int n_threads)
+      : attachment{ std::vector<double>(nodes.size(), 0.), nodes },
+        n_threads(cells.size() < few_cells ? 1 : n_threads), cells(cells)
   {
     for (const auto &cell : cells)
     {
@@ -104,12 +114,29 @@ namespace Exemplar
     return deformation_gradient(rest[cell], corners);
   }
 
+  /// function(c) of each cell c, on threads: sums over them are then made in the order of the cells.
+  template <typename Value, typename Function>
+  std::vector<Value>
+  FoldPotential::of_cells(const Function &function) const
+  {
+    std::vector<Value> result(cells.size());
+    for_each_part(n_threads, cells.size(), static_cast<int>(n_threads),
+                  [&](std::size_t, const std::size_t begin, const std::size_t end)
+                  {
+                    for (std::size_t c = begin; c < end; ++c)
+                      result[c] = function(c);
+                  });
+    return result;
+  }
+
   double
   FoldPotential::value(const Points &x, const double eps) const
   {
     double sum = 0.;
-    for (std::size_t c = 0; c < cells.size(); ++c)
-      sum += rest[c].volume * fold_energy(gradient_of_cell(x, c), eps);
+    for (const double of_cell :
+         of_cells<double>([&](const std::size_t c)
+                          { return rest[c].volume * fold_energy(gradient_of_cell(x, c), eps); }))
+      sum += of_cell;
     for (std::size_t i = 0; i < x.size(); ++i)
       sum += 0.5 * attachment.stiffness[i] * x[i].distance_square(attachment.target[i]);
     return sum;
@@ -118,17 +145,16 @@ namespace Exemplar
   std::vector<double>
   FoldPotential::gradient(const Points &x, const double eps) const
   {
+    const auto stresses = of_cells<Matrix3<double>>(
+        [&](const std::size_t c) { return fold_stress(gradient_of_cell(x, c), eps); });
     std::vector<double> result(3 * x.size(), 0.);
     for (std::size_t c = 0; c < cells.size(); ++c)
-    {
-      const Matrix3<double> P = fold_stress(gradient_of_cell(x, c), eps);
       for (int a = 0; a < 4; ++a)
       {
-        const Vector3<double> force = P * rest[c].shape_gradient[a];
+        const Vector3<double> force = stresses[c] * rest[c].shape_gradient[a];
         for (int d = 0; d < 3; ++d)
           result[3 * cells[c][a] + d] += rest[c].volume * force[d];
       }
-    }
     for (std::size_t i = 0; i < x.size(); ++i)
       for (int d = 0; d < 3; ++d)
         result[3 * i + d] += attachment.stiffness[i] * (x[i][d] - attachment.target[i][d]);
@@ -138,10 +164,8 @@ namespace Exemplar
   std::vector<double>
   FoldPotential::determinants(const Points &x) const
   {
-    std::vector<double> result(cells.size());
-    for (std::size_t c = 0; c < cells.size(); ++c)
-      result[c] = determinant(gradient_of_cell(x, c));
-    return result;
+    return of_cells<double>([&](const std::size_t c)
+                            { return determinant(gradient_of_cell(x, c)); });
   }
 
   /// Block (i, j) of nodes at `position` of the node pattern, j its column; see block_pattern().
@@ -161,11 +185,8 @@ namespace Exemplar
     }
   }
 
-  void
-  FoldPotential::add_cell_modes(const std::size_t    c,
-                                const Points        &x,
-                                const double         eps,
-                                std::vector<double> &values) const
+  FoldPotential::CellBlocks
+  FoldPotential::blocks_of_cell(const std::size_t c, const Points &x, const double eps) const
   {
     const FoldModes modes = fold_modes(gradient_of_cell(x, c), eps);
     double          pushes[9][4][3]; // of a mode on a node
@@ -179,27 +200,50 @@ namespace Exemplar
         std::copy(push.value, push.value + 3, pushes[m][a]);
       }
     }
-    int pair = 0;
+    CellBlocks result{};
+    int        pair = 0;
     for (int a = 0; a < 4; ++a)
       for (int b = a; b < 4; ++b, ++pair)
       {
-        const bool      a_first = cells[c][a] >= cells[c][b]; // a has the rows
-        const int       i = a_first ? a : b, j = a_first ? b : a;
-        Matrix3<double> block{};
+        const bool a_first = cells[c][a] >= cells[c][b];
+        const int  i = a_first ? a : b, j = a_first ? b : a;
         for (int m = 0; m < 9; ++m)
           for (int r = 0; r < 3; ++r)
             for (int s = 0; s < 3; ++s)
-              block[r][s] += stiffness[m] * pushes[m][i][r] * pushes[m][j][s];
-        add_to_block(positions[c][pair], static_cast<int>(cells[c][j]), block, values);
+              result[pair][r][s] += stiffness[m] * pushes[m][i][r] * pushes[m][j][s];
       }
+    return result;
+  }
+
+  void
+  FoldPotential::add_cell(const std::size_t    c,
+                          const CellBlocks    &blocks,
+                          std::vector<double> &values) const
+  {
+    int pair = 0;
+    for (int a = 0; a < 4; ++a)
+      for (int b = a; b < 4; ++b, ++pair)
+        add_to_block(positions[c][pair], static_cast<int>(std::min(cells[c][a], cells[c][b])),
+                     blocks[pair], values);
   }
 
   void
   FoldPotential::assemble(const Points &x, const double eps, std::vector<double> &values) const
   {
     std::fill(values.begin(), values.end(), 0.);
-    for (std::size_t c = 0; c < cells.size(); ++c)
-      add_cell_modes(c, x, eps, values);
+    std::vector<CellBlocks> blocks(std::min(n_at_once, cells.size()));
+    for (std::size_t first = 0; first < cells.size(); first += n_at_once)
+    {
+      const std::size_t n = std::min(n_at_once, cells.size() - first);
+      for_each_part(n_threads, n, static_cast<int>(n_threads),
+                    [&](std::size_t, const std::size_t begin, const std::size_t end)
+                    {
+                      for (std::size_t k = begin; k < end; ++k)
+                        blocks[k] = blocks_of_cell(first + k, x, eps);
+                    });
+      for (std::size_t k = 0; k < n; ++k)
+        add_cell(first + k, blocks[k], values);
+    }
     for (std::size_t i = 0; i < x.size(); ++i)
     {
       Matrix3<double> block{};
@@ -228,19 +272,20 @@ namespace Exemplar
   std::vector<double>
   FoldPotential::rotated_rest(const Points *x) const
   {
-    const std::size_t   n = pattern.n();
+    const std::size_t n         = pattern.n();
+    const auto        rotations = of_cells<Matrix3<double>>(
+        [&](const std::size_t c) {
+          return x == nullptr ? identity_matrix<double>()
+                                     : closest_rotation(gradient_of_cell(*x, c));
+        });
     std::vector<double> result(3 * n, 0.);
     for (std::size_t c = 0; c < cells.size(); ++c)
-    {
-      const Matrix3<double> R
-          = x == nullptr ? identity_matrix<double>() : closest_rotation(gradient_of_cell(*x, c));
       for (int a = 0; a < 4; ++a)
       {
-        const Vector3<double> force = R * rest[c].shape_gradient[a];
+        const Vector3<double> force = rotations[c] * rest[c].shape_gradient[a];
         for (int d = 0; d < 3; ++d)
           result[d * n + cells[c][a]] += 2. * rest[c].volume * force[d];
       }
-    }
     for (std::size_t i = 0; i < n; ++i)
       for (int d = 0; d < 3; ++d)
         result[d * n + i] += attachment.stiffness[i] * attachment.target[i][d];

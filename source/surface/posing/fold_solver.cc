@@ -70,7 +70,8 @@ namespace Exemplar
   } // namespace
 
   FoldSolver::FoldSolver(FoldPotential &potential)
-      : potential(potential), system(make_cholesky_operator()), pattern(potential.block_pattern())
+      : potential(potential), system(make_cholesky_operator(potential.get_n_threads())),
+        pattern(potential.block_pattern())
   {
     system->reinit(pattern);
   }
@@ -79,7 +80,7 @@ namespace Exemplar
   Points
   FoldSolver::nearest_rotations() const
   {
-    const auto laplacian = make_cholesky_operator();
+    const auto laplacian = make_cholesky_operator(potential.get_n_threads());
     laplacian->reinit(potential.node_pattern());
     potential.assemble_rotations(laplacian->values());
     laplacian->factorize({});

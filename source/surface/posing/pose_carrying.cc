@@ -32,12 +32,15 @@ namespace Exemplar
   }
 
   PoseTransfer
-  make_pose_transfer(const Mesh &mesh, const RestSurface &rest, const double attach)
+  make_pose_transfer(const Mesh        &mesh,
+                     const RestSurface &rest,
+                     const double       attach,
+                     const unsigned int n_threads)
   {
     const SurfaceAttachment attachment(mesh.get_nodes(), mesh.get_boundary_faces(),
                                        triangulate(rest.surface));
     check_attachment(attachment, mesh, rest.name);
-    PoseTransfer transfer(mesh.get_nodes(), mesh.get_cells(), attachment, attach);
+    PoseTransfer transfer(mesh.get_nodes(), mesh.get_cells(), attachment, attach, n_threads);
     transfer.measure_by(rest.surface, mesh);
     return transfer;
   }

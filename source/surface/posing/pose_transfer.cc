@@ -54,9 +54,10 @@ namespace Exemplar
   PoseTransfer::PoseTransfer(const Points               &nodes,
                              const FoldPotential::Cells &cells,
                              SurfaceAttachment           of_boundary,
-                             const double                attach)
+                             const double                attach,
+                             const unsigned int          n_threads)
       : nodes(nodes), attachment(std::move(of_boundary)),
-        potential(std::make_unique<FoldPotential>(nodes, cells)), solver(*potential)
+        potential(std::make_unique<FoldPotential>(nodes, cells, n_threads)), solver(*potential)
   {
     // volume over area is half the radius of a limb, and the moduli of the body are 2 to 4.5
     const auto  &areas  = attachment.get_areas();

@@ -124,5 +124,25 @@ namespace Exemplar::Testing
         for (int d = 0; d < 3; ++d)
           EXPECT_NEAR(columns[d * bar.n_nodes() + i], x[i][d], 1e-12);
     }
+
+    TEST(FoldPotentialThreadsTest, ResultsDoNotDependOnTheirNumber)
+    {
+      const Mesh                       bar = small_bar(5);
+      const Points                     x   = bent(bar.get_nodes(), 2.);
+      std::vector<std::vector<double>> results[2];
+      for (const unsigned int n_threads : { 1U, 3U })
+      {
+        const FoldPotential potential(bar.get_nodes(), bar.get_cells(), n_threads);
+        EXPECT_EQ(potential.get_n_threads(), n_threads);
+        std::vector<double> matrix(potential.block_pattern().row.size());
+        potential.assemble(x, 0.1, matrix);
+        results[n_threads / 2] = { { potential.value(x, 0.1) },
+                                   potential.gradient(x, 0.1),
+                                   potential.determinants(x),
+                                   potential.rotated_rest(&x),
+                                   matrix };
+      }
+      EXPECT_EQ(results[0], results[1]);
+    }
   } // namespace
 } // namespace Exemplar::Testing

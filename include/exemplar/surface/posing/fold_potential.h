@@ -27,8 +27,9 @@ namespace Exemplar
     using Points = std::vector<dealii::Point<3>>;
     using Cells  = std::vector<std::array<unsigned int, 4>>;
 
-    /// Nodes at rest [m], cells of positive volume. Without springs.
-    FoldPotential(const Points &nodes, const Cells &cells);
+    /// Nodes at rest [m], cells of positive volume. Without springs. Results do not depend on the number
+    /// of threads.
+    FoldPotential(const Points &nodes, const Cells &cells, unsigned int n_threads = 1);
 
     /// Both parts have an entry for each node.
     Attachment attachment;
@@ -80,6 +81,12 @@ namespace Exemplar
       return cells;
     }
 
+    unsigned int
+    get_n_threads() const
+    {
+      return n_threads;
+    }
+
     /// The rest volume of the body [m^3].
     double
     get_volume() const
@@ -88,16 +95,26 @@ namespace Exemplar
     }
 
   private:
+    /// Blocks of the stiffness of a cell for its pairs of nodes (a, b), a <= b; the later node in the body
+    /// has the rows.
+    using CellBlocks = std::array<Matrix3<double>, 10>;
+
     void
     build_pattern(std::size_t n_nodes);
+    template <typename Value, typename Function>
+    std::vector<Value>
+    of_cells(const Function &function) const;
     void
     add_to_block(int                    position,
                  int                    j,
                  const Matrix3<double> &block,
                  std::vector<double>   &values) const;
+    CellBlocks
+    blocks_of_cell(std::size_t c, const Points &x, double eps) const;
     void
-    add_cell_modes(std::size_t c, const Points &x, double eps, std::vector<double> &values) const;
+    add_cell(std::size_t c, const CellBlocks &blocks, std::vector<double> &values) const;
 
+    const unsigned int               n_threads;
     Cells                            cells;
     std::vector<Tetrahedron<double>> rest; ///< volumes as shares of the whole
     double                           volume = 0.;

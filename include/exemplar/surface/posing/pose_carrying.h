@@ -23,7 +23,10 @@ namespace Exemplar
   /// Carries poses of a surface onto a mesh of its inside; both stay where they are. Throws UserError
   /// if the mesh is not of the surface's inside.
   PoseTransfer
-  make_pose_transfer(const Mesh &mesh, const RestSurface &rest, double attach);
+  make_pose_transfer(const Mesh        &mesh,
+                     const RestSurface &rest,
+                     double             attach,
+                     unsigned int       n_threads);
 
   /// Whether the mesh is one of the inside of this surface.
   bool

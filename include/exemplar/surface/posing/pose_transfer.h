@@ -18,11 +18,12 @@ namespace Exemplar
     using Points = FoldPotential::Points;
 
     /// Nodes [m] and positive cells of the mesh, how its boundary hangs on the surface at rest, and
-    /// how strongly, over the stiffness of the body.
+    /// how strongly, over the stiffness of the body. Results do not depend on the number of threads.
     PoseTransfer(const Points               &nodes,
                  const FoldPotential::Cells &cells,
                  SurfaceAttachment           of_boundary,
-                 double                      attach);
+                 double                      attach,
+                 unsigned int                n_threads = 1);
 
     /// From now on errors are those of all vertices that faces of the surface use, as runs carry them
     /// (SurfaceSkin); before, of the boundary nodes.
