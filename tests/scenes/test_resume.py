@@ -96,7 +96,6 @@ class Resume(SceneTest):
                           "Solver/Method": method}, [(2, 0.), (25, 0.001)])
         rows = read_csv(self.directory / "whole")
         self.assertGreater(rows[-1]["energy_dissipated"], 1.)
-        self.assertTrue(any(a["weight_2"] == b["weight_2"] > 0 for a, b in zip(rows, rows[1:])), "none is ever stuck")
 
     def test_killed_scene_with_weights_that_remember(self):
         self.check_memory("quasi newton")
