@@ -75,7 +75,7 @@ namespace Exemplar
       }
 
       void
-      solve(BorderedVector &vector, const std::vector<double> &lower) override
+      solve(BorderedVector &vector, const WeightLimits &limits) override
       {
         const std::size_t n = vector.positions.size();
         if (inverse_columns.empty())
@@ -85,7 +85,7 @@ namespace Exemplar
           A->solve(vector.positions);
           std::copy(vector.positions.begin(), vector.positions.end(), inverse_columns.begin());
         }
-        solve_weights(vector, lower);
+        solve_weights(vector, limits);
         std::copy(inverse_columns.begin(), inverse_columns.begin() + n, vector.positions.begin());
         for (std::size_t j = 0; j < form.coupled.size(); ++j)
         {
@@ -126,7 +126,7 @@ namespace Exemplar
 
       /// The quadratic of the Schur complement over the weights, Eq. (11)
       void
-      solve_weights(BorderedVector &vector, const std::vector<double> &lower)
+      solve_weights(BorderedVector &vector, const WeightLimits &limits)
       {
         const std::size_t   n          = vector.positions.size();
         std::vector<double> right_side = vector.weights;
@@ -135,7 +135,7 @@ namespace Exemplar
               G.begin() + i * n, G.begin() + (i + 1) * n, inverse_columns.begin(), 0.));
         schur = make_schur_complement(form, G, inverse_columns.data() + n, n, exchange);
         const WeightQpSolution solution
-            = minimize_over_weights(schur, right_side, vector.multipliers, lower);
+            = minimize_over_weights(schur, right_side, vector.multipliers, limits);
         if (!solution.found)
           throw SolverFailure("The system for the example weights is not positive definite. Set "
                               "Examples/Weight penalty to auto, or remove an example that is a "

@@ -50,7 +50,7 @@ namespace Exemplar
       }
 
       void
-      solve(BorderedVector &vector, const std::vector<double> & /*lower*/) override
+      solve(BorderedVector &vector, const WeightLimits & /*limits*/) override
       {
         Vector all(sparse.m());
         auto   next = std::copy(vector.positions.begin(), vector.positions.end(), all.begin());

@@ -12,17 +12,26 @@ namespace Exemplar
 {
   namespace
   {
+    /// Two weights nearer to each other than this differ by rounding alone.
+    constexpr double rounding = 1e-14;
+
     class ActiveSet
     {
     public:
       ActiveSet(const dealii::FullMatrix<double> &H,
                 const std::vector<double>        &c,
                 const std::vector<double>        &sums,
-                const std::vector<double>        &lower,
+                const WeightLimits               &limits,
                 const std::vector<double>        &start)
-          : H(H), c(c), lower(lower), group_size(c.size() / sums.size()),
-            weights(start.empty() ? lower : start), at_bound(c.size(), !lower.empty())
+          : H(H), c(c), lower(limits.lower), limits(limits), group_size(c.size() / sums.size()),
+            weights(start.empty() ? lower : start), at_bound(c.size(), !lower.empty()),
+            side(c.size(), 0)
       {
+        if (!limits.kinks.empty())
+        {
+          begin_among_kinks(sums, start);
+          return;
+        }
         weights.resize(c.size());
         for (unsigned int group = 0; group < sums.size(); ++group)
         {
@@ -32,8 +41,11 @@ namespace Exemplar
           else
           {
             // of the simplex the start, or a corner
-            const auto   best = start.empty() ? best_of(group) : farthest_from_bound(group);
-            const double rest = sums[group] - std::accumulate(begin, end, 0.);
+            const auto   first = c.begin() + first_of(group);
+            const auto   best  = start.empty()
+                                     ? std::max_element(first, first + group_size) - c.begin()
+                                     : farthest_from_bound(group);
+            const double rest  = sums[group] - std::accumulate(begin, end, 0.);
             weights[best] += rest;
             for (std::size_t i = first_of(group); i < first_of(group + 1); ++i)
               at_bound[i] = i != best && !(weights[i] > lower[i]);
@@ -55,8 +67,8 @@ namespace Exemplar
           const std::vector<double> g = gradient();
           solution.multipliers.clear();
           for (unsigned int group = 0; group < c.size() / group_size; ++group)
-            solution.multipliers.push_back(-mean_of_free(g, group));
-          if (!release_a_bound(g, solution.multipliers))
+            solution.multipliers.push_back(multiplier(g, group));
+          if (!release(g, solution.multipliers))
           {
             solution.found   = true;
             solution.weights = weights;
@@ -67,6 +79,55 @@ namespace Exemplar
       }
 
     private:
+      /// From the start, or from the kinks.
+      void
+      begin_among_kinks(const std::vector<double> &sums, const std::vector<double> &start)
+      {
+        weights = start.empty() ? limits.kinks : start;
+        for (std::size_t i = 0; i < c.size(); ++i)
+        {
+          at_bound[i] = !(weights[i] > lower[i]);
+          side[i]     = side_of(i);
+        }
+        for (unsigned int group = 0; group < sums.size(); ++group)
+        {
+          const auto   begin = weights.begin() + first_of(group);
+          const double rest  = sums[group] - std::accumulate(begin, begin + group_size, 0.);
+          const auto   best  = farthest_from_bound(group);
+          if (!is_fixed(best))
+            weights[best] += rest;
+        }
+      }
+
+      /// Above (1) or below (-1) its kink, or stuck there (0). A weight at its bound and its kink
+      /// can only go up.
+      int
+      side_of(const std::size_t i) const
+      {
+        const double kink = limits.kinks[i];
+        if (at_bound[i])
+          return kink > lower[i] ? -1 : 1;
+        return weights[i] == kink ? 0 : weights[i] > kink ? 1 : -1;
+      }
+
+      bool
+      has_kinks() const
+      {
+        return !limits.kinks.empty();
+      }
+
+      bool
+      is_fixed(const std::size_t i) const
+      {
+        return at_bound[i] || is_stuck(i);
+      }
+
+      bool
+      is_stuck(const std::size_t i) const
+      {
+        return has_kinks() && side[i] == 0;
+      }
+
       std::size_t
       first_of(const unsigned int group) const
       {
@@ -74,22 +135,17 @@ namespace Exemplar
       }
 
       std::size_t
-      best_of(const unsigned int group) const
-      {
-        return std::max_element(c.begin() + first_of(group), c.begin() + first_of(group + 1))
-               - c.begin();
-      }
-
-      std::size_t
       farthest_from_bound(const unsigned int group) const
       {
         std::size_t farthest = first_of(group);
         for (std::size_t i = first_of(group); i < first_of(group + 1); ++i)
-          if (weights[i] - lower[i] > weights[farthest] - lower[farthest])
+          if (is_stuck(farthest)
+              || (!is_stuck(i) && weights[i] - lower[i] > weights[farthest] - lower[farthest]))
             farthest = i;
         return farthest;
       }
 
+      /// With the prices, but for weights that are stuck.
       std::vector<double>
       gradient() const
       {
@@ -99,22 +155,42 @@ namespace Exemplar
           g[i] = -c[i];
           for (unsigned int j = 0; j < c.size(); ++j)
             g[i] += H(i, j) * weights[j];
+          if (has_kinks())
+            g[i] += side[i] * limits.yields[i];
         }
         return g;
       }
 
+      /// In the middle of what the conditions of weights allow that are all fixed, or of what
+      /// those leave that contradict each other.
       double
-      mean_of_free(const std::vector<double> &g, const unsigned int group) const
+      multiplier_of_fixed(const std::vector<double> &g, const unsigned int group) const
+      {
+        double least    = -std::numeric_limits<double>::infinity();
+        double greatest = -least;
+        for (std::size_t i = first_of(group); i < first_of(group + 1); ++i)
+        {
+          const double yield = is_stuck(i) ? limits.yields[i] : 0.;
+          least              = std::max(least, -g[i] - yield);
+          if (is_stuck(i))
+            greatest = std::min(greatest, -g[i] + yield);
+        }
+        return std::isfinite(greatest) ? 0.5 * (least + greatest) : least;
+      }
+
+      /// Less the mean derivative by the free weights.
+      double
+      multiplier(const std::vector<double> &g, const unsigned int group) const
       {
         double       total = 0.;
         unsigned int n     = 0;
         for (std::size_t i = first_of(group); i < first_of(group + 1); ++i)
-          if (!at_bound[i])
+          if (!is_fixed(i))
           {
             total += g[i];
             ++n;
           }
-        return total / n;
+        return n == 0 ? multiplier_of_fixed(g, group) : -(total / n);
       }
 
       /// To the minimiser over the free weights, in coordinates e_i - e_r with the last
@@ -130,10 +206,10 @@ namespace Exemplar
         for (unsigned int group = 0; group < c.size() / group_size; ++group)
         {
           std::size_t r = first_of(group + 1) - 1;
-          while (at_bound[r]) // one is always free
+          while (r > first_of(group) && is_fixed(r)) // without kinks one is always free
             --r;
           for (std::size_t i = first_of(group); i < r; ++i)
-            if (!at_bound[i])
+            if (!is_fixed(i))
               coordinates.push_back({ i, r });
         }
         const std::size_t          n = coordinates.size();
@@ -161,53 +237,96 @@ namespace Exemplar
         return true;
       }
 
-      /// As far as the bounds allow; whether the whole step was.
+      /// As far as bounds and kinks allow; whether the whole step was.
       bool
       take(const std::vector<double> &step)
       {
         double       length  = 1.;
         unsigned int meeting = c.size();
         for (unsigned int i = 0; i < c.size() && !lower.empty(); ++i)
-          if (!at_bound[i] && step[i] < 0.)
-            if (const double until = (lower[i] - weights[i]) / step[i]; until < length)
+          if (const double *const end = end_of_way(i, step))
+            if (const double until = (*end - weights[i]) / step[i]; until < length)
             {
-              length  = until;
+              length  = has_kinks() ? std::max(until, 0.) : until;
               meeting = i;
             }
         for (unsigned int i = 0; i < c.size(); ++i)
           weights[i] += length * step[i];
         if (meeting == c.size())
           return true;
-        weights[meeting]  = lower[meeting];
-        at_bound[meeting] = true;
+        stop(meeting, step);
+        // all others that are there, too: one that is off its kink by rounding seems to be pulled
+        for (unsigned int i = 0; i < c.size() && has_kinks(); ++i)
+          if (const double *const end = end_of_way(i, step);
+              end != nullptr && std::abs(weights[i] - *end) <= rounding)
+            stop(i, step);
         return false;
       }
 
-      /// Let go the bound whose multiplier has the worst sign; whether there was one.
-      bool
-      release_a_bound(const std::vector<double> &g, const std::vector<double> &multipliers)
+      /// The bound or the kink that a free weight comes to in the direction of a step, or null.
+      const double *
+      end_of_way(const unsigned int i, const std::vector<double> &step) const
       {
-        double       worst   = -1e-13 * max_entry(g);
-        unsigned int release = c.size();
+        if (is_fixed(i))
+          return nullptr;
+        const bool meets_kink = has_kinks() && side[i] * step[i] < 0. && limits.kinks[i] > lower[i];
+        if (meets_kink)
+          return &limits.kinks[i];
+        return step[i] < 0. ? &lower[i] : nullptr;
+      }
+
+      /// Where it comes to.
+      void
+      stop(const unsigned int i, const std::vector<double> &step)
+      {
+        const double *const end = end_of_way(i, step);
+        weights[i]              = *end;
+        at_bound[i]             = end == &lower[i];
+        if (has_kinks())
+          side[i] = side_of(i);
+      }
+
+      /// Let go the weight whose multiplier is the most wrong; whether there was one.
+      bool
+      release(const std::vector<double> &g, const std::vector<double> &multipliers)
+      {
+        double       worst    = -1e-13 * max_entry(g);
+        unsigned int released = c.size();
+        int          to       = 0;
+        const auto   compare  = [&](const unsigned int i, const double slope, const int new_side)
+        {
+          if (!(slope < worst))
+            return;
+          worst    = slope;
+          released = i;
+          to       = new_side;
+        };
         for (unsigned int i = 0; i < c.size(); ++i)
-          if (const double excess = g[i] + multipliers[i / group_size];
-              at_bound[i] && excess < worst)
+        {
+          const double excess = g[i] + multipliers[i / group_size];
+          if (at_bound[i])
+            compare(i, excess, side[i]);
+          else if (is_stuck(i))
           {
-            worst   = excess;
-            release = i;
+            compare(i, excess + limits.yields[i], 1);
+            compare(i, -excess + limits.yields[i], -1);
           }
-        if (release == c.size())
+        }
+        if (released == c.size())
           return false;
-        at_bound[release] = false;
+        at_bound[released] = false;
+        side[released]     = to;
         return true;
       }
 
       const dealii::FullMatrix<double> &H;
       const std::vector<double>        &c;
       const std::vector<double>        &lower;
+      const WeightLimits               &limits;
       const std::size_t                 group_size;
       std::vector<double>               weights;
       std::vector<bool>                 at_bound;
+      std::vector<int>                  side; ///< of its kink, see side_of(); 0 without kinks
     };
   } // namespace
 
@@ -215,11 +334,11 @@ namespace Exemplar
   minimize_over_weights(const dealii::FullMatrix<double> &H,
                         const std::vector<double>        &c,
                         const std::vector<double>        &sums,
-                        const std::vector<double>        &lower,
+                        const WeightLimits               &limits,
                         const std::vector<double>        &start)
   {
     if (c.empty())
       return { true, {}, {} };
-    return ActiveSet(H, c, sums, lower, start).solve();
+    return ActiveSet(H, c, sums, limits, start).solve();
   }
 } // namespace Exemplar

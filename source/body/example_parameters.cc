@@ -87,6 +87,20 @@ namespace Exemplar
              "the same for all, or one such list a region, in ascending order of material "
              "ids, separated by |.",
              "; ");
+    keys.add(
+        "Yield", yield,
+        "How much energy [J/m^3] it costs to change simplex weights: a step adds s_i times the "
+        "change of each weight, with s_i = Yield times the volume on which it acts, so that a "
+        "weight stays where it is until the force on it is greater than s_i, and a body that is "
+        "let go stays bent. 0: examples let go at once. For a start take a hundredth of E times "
+        "the square of the examples' strains.",
+        Bounds{ 0. });
+    keys.add(
+        "Creep viscosity", creep_viscosity,
+        "How much simplex weights resist the rate of their change in a dynamic scene [J s/m^3]: "
+        "a force of c_i times the rate, with c_i = Creep viscosity times the volume on which "
+        "the weight acts. 0: they follow at once.",
+        Bounds{ 0. });
     keys.add("Weights per region", weights_per_region,
              "Whether the cells of each material id have weights of their own "
              "(statistics: weight_R_i for example i in region R).");
@@ -122,8 +136,25 @@ namespace Exemplar
   }
 
   void
+  ExampleParameters::check_memory() const
+  {
+    if (!in_use() || weights == WeightRule::simplex || (yield == 0. && creep_viscosity == 0.))
+      return;
+    const std::string key = yield > 0. ? "Yield" : "Creep viscosity";
+    throw UserError("Examples/" + key
+                    + " makes weights that are found remember where they were, but "
+                    + (weights == WeightRule::free
+                           ? "Examples/Weights = free has no bounds that would hold them. Set "
+                             "Examples/Weights = simplex"
+                           : std::string("the weights of this scene are prescribed. Set "
+                                         "Examples/Weights = simplex in a static or dynamic scene"))
+                    + ", or remove Examples/" + key + ".");
+  }
+
+  void
   ExampleParameters::check() const
   {
+    check_memory();
     if (weight_penalty != "auto" && weight_penalty != "paper"
         && !non_negative_number(weight_penalty))
       throw UserError("Examples/Weight penalty = '" + weight_penalty

@@ -274,6 +274,17 @@ namespace Exemplar
     return fraction;
   }
 
+  std::vector<double>
+  ExamplePoses::volumes_of_weights() const
+  {
+    const double              total      = fe_space.total_volume();
+    const std::vector<double> of_regions = volume_fractions();
+    std::vector<double>       volumes;
+    for (unsigned int weight = 0; weight < n_weights(); ++weight)
+      volumes.push_back(total * of_regions[weight / size()]);
+    return volumes;
+  }
+
   std::size_t
   ExamplePoses::memory_consumption() const
   {

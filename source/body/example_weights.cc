@@ -33,13 +33,27 @@ namespace Exemplar
         names += (example == 0 ? "" : " | ") + poses.name(example);
       return names;
     }
+    WeightMemory
+    make_memory(const ExampleParameters &parameters, const ExamplePoses &poses)
+    {
+      const auto per_weight = [&poses](const double density)
+      {
+        std::vector<double> values;
+        if (density > 0.)
+          for (const double volume : poses.volumes_of_weights())
+            values.push_back(density * volume);
+        return values;
+      };
+      return { per_weight(parameters.yield), per_weight(parameters.creep_viscosity) };
+    }
   } // namespace
 
   ExampleWeights::ExampleWeights(const ExampleParameters &parameters,
                                  const ExamplePoses      &poses,
                                  const double             unit_energy,
                                  const TimeAxis          &axis)
-      : poses(poses), bounded(parameters.weights == WeightRule::simplex)
+      : poses(poses), bounded(parameters.weights == WeightRule::simplex),
+        memory(make_memory(parameters, poses))
   {
     if (parameters.weights == WeightRule::prescribed && size() > 0)
     {
@@ -82,6 +96,15 @@ namespace Exemplar
       if (poses.is_strained(weight))
         form.coupled.push_back(weight);
     }
+  }
+
+  void
+  ExampleWeights::set_step(WeightStep step)
+  {
+    memory.set_step(std::move(step));
+    for (unsigned int weight = 0; memory.creeps() && weight < form.H.m(); ++weight)
+      form.H(weight, weight) = penalty(weight, weight) + poses.gram_matrix()(weight, weight)
+                               + memory.stiffness(weight);
   }
 
   void
@@ -149,21 +172,24 @@ namespace Exemplar
   std::vector<double>
   ExampleWeights::best(const std::vector<double> &c, const std::vector<double> &start) const
   {
-    const std::vector<double> lower(bounded ? size() : 0, 0.), sums(form.N.m(), 1.);
-    const WeightQpSolution    minimum = minimize_over_weights(form.H, c, sums, lower, start);
+    const std::vector<double> sums(form.N.m(), 1.);
+    WeightLimits              limits(std::vector<double>(bounded ? size() : 0, 0.));
+    memory.add_to(limits);
+    const WeightQpSolution minimum = minimize_over_weights(form.H, c, sums, limits, start);
     if (!minimum.found)
       throw SolverFailure("The example weights are not determined. Set Examples/Weight penalty "
                           "to auto.");
     return minimum.weights;
   }
 
-  std::vector<double>
-  ExampleWeights::lower_changes(const std::vector<double> &weights) const
+  WeightLimits
+  ExampleWeights::limits_of_changes(const std::vector<double> &weights) const
   {
-    std::vector<double> lower;
+    WeightLimits limits;
     for (std::size_t i = 0; bounded && i < weights.size(); ++i)
-      lower.push_back(-weights[i]);
-    return lower;
+      limits.lower.push_back(-weights[i]);
+    memory.add_to(limits, weights);
+    return limits;
   }
 
   std::vector<double>
@@ -184,38 +210,7 @@ namespace Exemplar
     if (bounded)
       for (double &weight : weights)
         weight = std::max(weight, 0.);
-  }
-
-  WeightResidual
-  ExampleWeights::residual(const std::vector<double> &weights,
-                           const std::vector<double> &gradient) const
-  {
-    // the derivatives by a region's weights off their bounds equal -multiplier, others
-    // exceed it
-    const unsigned int k = n_per_region();
-    const auto is_off = [&](const unsigned int weight) { return !bounded || weights[weight] > 0.; };
-    WeightResidual result;
-    MaxMagnitude   deviation;
-    for (unsigned int region = 0; region < form.N.m(); ++region)
-    {
-      double       sum = 0.;
-      unsigned int n   = 0;
-      for (unsigned int weight = region * k; weight < (region + 1) * k; ++weight)
-        if (is_off(weight))
-        {
-          sum += gradient[weight];
-          ++n;
-        }
-      const double multiplier = -sum / n;
-      result.multipliers.push_back(multiplier);
-      for (unsigned int weight = region * k; weight < (region + 1) * k; ++weight)
-      {
-        const double excess = gradient[weight] + multiplier;
-        deviation.add(is_off(weight) ? excess : std::max(-excess, 0.));
-      }
-    }
-    result.deviation = deviation.value();
-    return result;
+    memory.snap(weights);
   }
 
   std::string

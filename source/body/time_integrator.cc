@@ -47,6 +47,15 @@ namespace Exemplar
     return terms;
   }
 
+  WeightStep
+  TimeIntegrator::weight_step(const State &state) const
+  {
+    WeightStep step = { state.weights, state.weights, gamma, step_size };
+    for (std::size_t i = 0; c_previous != 0. && i < step.base.size(); ++i)
+      step.base[i] = c_last * state.weights[i] + c_previous * state.previous_weights[i];
+    return step;
+  }
+
   void
   TimeIntegrator::end_step(const State &old, State &state) const
   {
@@ -57,6 +66,7 @@ namespace Exemplar
     {
       state.previous_positions  = old.positions;
       state.previous_velocities = old.velocities;
+      state.previous_weights    = old.weights;
       state.previous_step       = step_size;
     }
   }

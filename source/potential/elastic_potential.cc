@@ -156,6 +156,7 @@ namespace Exemplar
   void
   ElasticPotential::add_penalty(const std::vector<double> &weights, ElasticEvaluation &result) const
   {
+    const WeightMemory               &memory      = parts.weights.get_memory();
     const double                      stress_norm = std::sqrt(result.stress_square);
     const ExamplePoses               &examples    = parts.examples;
     const dealii::FullMatrix<double> &form        = parts.weights.penalty_matrix();
@@ -165,10 +166,12 @@ namespace Exemplar
       for (unsigned int w = 0; w < form.m(); ++w)
         penalty += form(v, w) * weights[w];
       result.energy += 0.5 * penalty * weights[v];
-      result.weight_gradient[v] += penalty;
+      result.weight_gradient[v] += penalty + memory.force(v, weights[v]);
       result.weight_scale = max_or_nan(result.weight_scale,
-                                       stress_norm * examples.strain_norm(v) + std::abs(penalty));
+                                       stress_norm * examples.strain_norm(v) + std::abs(penalty)
+                                           + memory.force_scale(v, weights[v]));
     }
+    result.energy_memory = memory.energy(weights);
   }
 
   void
@@ -251,6 +254,7 @@ namespace Exemplar
     for (const auto &term : terms)
       term->add_weight_linear_term(positions, linear_term);
     parts.fe_space.exchange().sum(linear_term);
+    parts.weights.get_memory().add_linear_term(linear_term);
     return linear_term;
   }
 

@@ -147,6 +147,9 @@ namespace Exemplar
       in_dynamic_step = true;
       cells.set_damping(integrator->stiffness_damping_factor(), integrator->history(start));
     }
+    if (weights.get_memory().in_use())
+      weights.set_step(integrator != nullptr ? integrator->weight_step(start)
+                                             : WeightStep{ start.weights, {} });
     bool has_new_couplings = false;
     for (PotentialTerm *term : all_terms)
     {
@@ -161,6 +164,7 @@ namespace Exemplar
   IncrementalPotential::end_step(State &end)
   {
     end.history = cells.get_field().advance_history(end.positions);
+    end.dissipated += weights.get_memory().dissipation(end.weights).total();
     for (PotentialTerm *term : all_terms)
       term->end_step(end);
   }
@@ -171,6 +175,8 @@ namespace Exemplar
     in_dynamic_step = false;
     cells.get_field().set_history(at.history);
     cells.set_damping(0., {});
+    if (weights.get_memory().in_use())
+      weights.set_step({ at.weights, {} });
     for (PotentialTerm *term : all_terms)
       term->leave_step();
   }
@@ -242,7 +248,8 @@ namespace Exemplar
     evaluation.force_scale.swap(sums.force_scale);
     evaluation.gradient += evaluation.elastic.gradient;
     evaluation.force_scale += evaluation.elastic.force_scale;
-    evaluation.potential = evaluation.elastic.energy + evaluation.elastic.energy_damping;
+    evaluation.potential = evaluation.elastic.energy + evaluation.elastic.energy_damping
+                           + evaluation.elastic.energy_memory;
     for (const double energy : evaluation.term_energies)
       evaluation.potential += energy;
     held_back.add(exchange, positions, evaluation);

@@ -164,9 +164,9 @@ namespace Exemplar
     for (double &entry : step)
       entry = -entry;
     metric.rotate_back(step);
-    const std::vector<double> lower = potential.get_weights().lower_changes(trial.weights);
+    const WeightLimits limits = potential.get_weights().limits_of_changes(trial.weights);
     metric.add_example_forces(
-        metric.find_weight_changes(step, evaluation.elastic.weight_gradient, lower), step);
+        metric.find_weight_changes(step, evaluation.elastic.weight_gradient, limits), step);
     lbfgs.before(step);
     metric.apply(step);
     lbfgs.after(step);

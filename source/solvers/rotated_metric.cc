@@ -74,7 +74,7 @@ namespace Exemplar
   std::vector<double>
   RotatedMetric::find_weight_changes(const std::vector<double> &forces,
                                      const std::vector<double> &weight_gradient,
-                                     const std::vector<double> &lower) const
+                                     const WeightLimits        &limits) const
   {
     const std::size_t n = forces.size();
     // the derivatives stay in the linear term although they do not vanish at the minimum: they
@@ -84,7 +84,7 @@ namespace Exemplar
     for (std::size_t j = 0; j < form->coupled.size(); ++j)
       c[form->coupled[j]] += free_dofs.exchange().sum(dot(forces, &Z[j * n]));
     const std::vector<double> none(c.size(), 0.), sums(form->N.m(), 0.);
-    const WeightQpSolution    change = minimize_over_weights(schur, c, sums, lower, none);
+    const WeightQpSolution    change = minimize_over_weights(schur, c, sums, limits, none);
     return change.found ? change.weights : none;
   }
 

@@ -68,7 +68,7 @@ namespace Exemplar
       unknowns.weights.push_back(-derivative);
     const ExampleWeights &weights = potential.get_weights();
     unknowns.multipliers          = weights.missing_sums(at.weights);
-    system->solve(unknowns, weights.lower_changes(at.weights));
+    system->solve(unknowns, weights.limits_of_changes(at.weights));
     return unknowns;
   }
 

@@ -84,8 +84,15 @@ class LeftOut(SceneTest):
     def test_free_weights_need_the_weight_block(self):
         output = self.solve(EXAMPLE)
         self.check_parts(output, ["example poses", "weight block", "Schur complement"],
-                         ["mass matrix", "weights per region"])
+                         ["mass matrix", "weights per region", "memory of weights"])
         self.check_columns(output, COLUMNS_OF_ALL, ["energy_example"], WEIGHTS,
+                           ["multiplier", "kkt_residual", "min_det_F", "inverted_cells", "guarded_cells",
+                            "work_handles", "work_gravity"], REACTION, SECONDS)
+
+    def test_weights_that_remember_dissipate(self):
+        output = self.solve({**EXAMPLE, "Examples/Yield": "1"})
+        self.check_parts(output, ["memory of weights"], [])
+        self.check_columns(output, COLUMNS_OF_ALL, ["energy_example", "energy_dissipated"], WEIGHTS,
                            ["multiplier", "kkt_residual", "min_det_F", "inverted_cells", "guarded_cells",
                             "work_handles", "work_gravity"], REACTION, SECONDS)
 

@@ -91,6 +91,22 @@ class Resume(SceneTest):
         self.check_kills({**DYNAMIC, "Time/Scheme": "bdf2", "Time/Stiffness damping": "0.01",
                           "Time/Mass damping": "0.1"}, [(1, 0.), (20, 0.003)])
 
+    def check_memory(self, method):
+        self.check_kills({**DYNAMIC, "Examples/Yield": "30", "Examples/Creep viscosity": "10", "Time/Scheme": "bdf2",
+                          "Solver/Method": method}, [(2, 0.), (25, 0.001)])
+        rows = read_csv(self.directory / "whole")
+        self.assertGreater(rows[-1]["energy_dissipated"], 1.)
+
+    def test_killed_scene_with_weights_that_remember(self):
+        self.check_memory("quasi newton")
+
+    def test_killed_scene_of_newton_with_weights_that_remember(self):
+        self.check_memory("newton")
+
+    def test_killed_static_scene_with_weights_that_remember(self):
+        self.check_kills({**STATIC, "Examples/Yield": "30"}, [(20, 0.)])
+        self.assertGreater(read_csv(self.directory / "whole")[-1]["energy_dissipated"], 0.1)
+
     def test_killed_scene_with_predicted_rotations(self):
         self.check_kills({**DYNAMIC, "Solver/Method": "one pass", "Solver/Rotations": "predicted"}, [(7, 0.), (20, 0.003)])
 

@@ -3,6 +3,7 @@
 #define exemplar_bordered_system_h
 
 #include <exemplar/algebra/spd_operator.h>
+#include <exemplar/algebra/weight_limits.h>
 
 #include <deal.II/lac/full_matrix.h>
 
@@ -85,10 +86,10 @@ namespace Exemplar
       factorize(positions);
     }
 
-    /// Overwrite the right side by the solution, with changes of the weights not below `lower`
-    /// (empty: no bounds). Throws SolverFailure if the system is singular.
+    /// Overwrite the right side by the solution, with changes of the weights as these limits leave
+    /// them. Throws SolverFailure if the system is singular.
     virtual void
-    solve(BorderedVector &right_side, const std::vector<double> &lower)
+    solve(BorderedVector &right_side, const WeightLimits &limits)
         = 0;
 
     /// Overwrite columns by A^-1 times them; throws SolverFailure if there is no factor of A alone.

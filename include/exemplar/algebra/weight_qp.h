@@ -2,6 +2,8 @@
 #ifndef exemplar_weight_qp_h
 #define exemplar_weight_qp_h
 
+#include <exemplar/algebra/weight_limits.h>
+
 #include <deal.II/lac/full_matrix.h>
 
 #include <vector>
@@ -16,17 +18,20 @@ namespace Exemplar
     std::vector<double> multipliers; ///< l_g with (H w - c)_i + l_g = 0 on weights off their bounds
   };
 
-  /// Minimise 1/2 w^T H w - c^T w by a primal active set method (Nocedal and Wright,
-  /// Algorithm 16.3). The weights are groups of equal size, one after the other, of which
-  /// each has its sum in `sums`; unless `lower` is empty, w_i >= lower_i. H need be positive
-  /// definite only on differences of weights of a group. Requires that the bounds allow
-  /// the sums. From a `start` that is within the bounds and near the minimiser it takes fewer
-  /// operations; its sums need be right only up to rounding.
+  /// Minimise 1/2 w^T H w - c^T w and the prices of `limits` by a primal active set method (Nocedal
+  /// and Wright, Algorithm 16.3), in which a weight may also be stuck at its kink: exactly there, with
+  /// a derivative of the quadratic less its multiplier between -yield and yield. Off its kink the
+  /// derivative has +-yield in it. The weights are groups of equal size, one after the other, of which
+  /// each has its sum in `sums`. H need be positive definite only on differences of weights of a
+  /// group. Requires that the bounds allow the sums, and that kinks have them, up to rounding.
+  /// From a `start` that is within the bounds and near the minimiser it takes fewer
+  /// operations; its sums need be right only up to rounding. Without one it begins at the kinks, if
+  /// there are any.
   WeightQpSolution
   minimize_over_weights(const dealii::FullMatrix<double> &H,
                         const std::vector<double>        &c,
                         const std::vector<double>        &sums,
-                        const std::vector<double>        &lower,
+                        const WeightLimits               &limits,
                         const std::vector<double>        &start = {});
 } // namespace Exemplar
 

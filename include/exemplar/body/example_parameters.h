@@ -37,6 +37,8 @@ namespace Exemplar
     ExampleEnergy            energy            = ExampleEnergy::mixed;
     WeightRule               weights           = WeightRule::simplex;
     std::string              prescribed_weights;
+    double                   yield               = 0.; ///< [J/m^3]
+    double                   creep_viscosity     = 0.; ///< [J s/m^3]
     bool                     weights_per_region  = false;
     double                   region_blend_length = 0.; ///< [m]
     std::vector<std::string> weight_maps;              ///< FILE:ATTRIBUTE, one a region
@@ -67,6 +69,10 @@ namespace Exemplar
     /// Throws UserError for what no pattern can tell.
     void
     check() const;
+
+  private:
+    void
+    check_memory() const;
   };
 } // namespace Exemplar
 

@@ -77,6 +77,10 @@ namespace Exemplar
     std::vector<double>
     volume_fractions() const;
 
+    /// What each weight acts on [m^3].
+    std::vector<double>
+    volumes_of_weights() const;
+
     /// Of example i.
     const std::string &
     name(const unsigned int i) const

@@ -5,6 +5,7 @@
 #include <exemplar/algebra/bordered_system.h>
 #include <exemplar/body/example_poses.h>
 #include <exemplar/body/time_axis.h>
+#include <exemplar/body/weight_memory.h>
 #include <exemplar/prm/expression.h>
 
 #include <string>
@@ -57,6 +58,17 @@ namespace Exemplar
       return poses.size();
     }
 
+    /// What they remember; nothing unless a scene asks for it.
+    const WeightMemory &
+    get_memory() const
+    {
+      return memory;
+    }
+
+    /// From now on they are compared with those of this step.
+    void
+    set_step(WeightStep step);
+
     /// Those that steps have to find: none if they are prescribed.
     unsigned int
     n_unknown() const
@@ -107,19 +119,20 @@ namespace Exemplar
     std::vector<double>
     best(const std::vector<double> &c, const std::vector<double> &start) const;
 
-    /// What changes of the weights must not fall below; empty without bounds.
-    std::vector<double>
-    lower_changes(const std::vector<double> &weights) const;
+    /// Of changes of these weights.
+    WeightLimits
+    limits_of_changes(const std::vector<double> &weights) const;
 
     /// What the sums of each region's weights lack to one.
     std::vector<double>
     missing_sums(const std::vector<double> &weights) const;
 
-    /// Add changes, with exact zeros at bounds instead of their rounding.
+    /// Add changes, with exact zeros at bounds, and exactly what is remembered, instead of their
+    /// rounding.
     void
     add(const std::vector<double> &changes, std::vector<double> &weights) const;
 
-    /// From the energy's derivative by them [J].
+    /// From the energy's derivative by them, kinks aside [J].
     WeightResidual
     residual(const std::vector<double> &weights, const std::vector<double> &gradient) const;
 
@@ -158,6 +171,7 @@ namespace Exemplar
 
     const ExamplePoses        &poses;
     const bool                 bounded; ///< not below zero
+    WeightMemory               memory;
     WeightForm                 form;
     dealii::FullMatrix<double> penalty;
     std::vector<Expression>    prescribed; ///< one, or one a region

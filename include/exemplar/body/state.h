@@ -24,8 +24,10 @@ namespace Exemplar
     Vector              previous_velocities; ///< the time scheme has two steps
     double              previous_step = 0.;  ///< size of the last step [s]; 0: none
     std::vector<double> weights;             ///< of the examples; empty without examples
+    std::vector<double> previous_weights;    ///< as previous_positions
     std::vector<double> multipliers;         ///< of each region's sum of weights to find [J]
     std::vector<double> history; ///< what laws remember, equally many numbers a cell; may be empty
+    double              dissipated = 0.; ///< by what remembers, since the first step [J]
 
     std::array<Vector *, 4>
     nodal_fields()
@@ -39,7 +41,7 @@ namespace Exemplar
     serialize(Archive &archive, const unsigned int /*version*/)
     {
       archive &step &time &positions &velocities &previous_positions &previous_velocities
-          &previous_step &weights &multipliers &history;
+          &previous_step &weights &previous_weights &multipliers &history &dissipated;
     }
   };
 

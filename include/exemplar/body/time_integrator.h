@@ -5,6 +5,7 @@
 #include <exemplar/algebra/vector.h>
 #include <exemplar/body/state.h>
 #include <exemplar/body/time_axis.h>
+#include <exemplar/body/weight_memory.h>
 
 #include <vector>
 
@@ -64,6 +65,10 @@ namespace Exemplar
     /// The positions that make x_star in the step from `state`.
     std::vector<WeightedPositions>
     history(const State &state) const;
+
+    /// What makes rates of weights in the step from `state`, as of positions.
+    WeightStep
+    weight_step(const State &state) const;
 
     /// Whether half the square of x - x_hat, which a step minimises with the energy, is
     /// |v_(n+1) - v_n|^2_M/2: where the energy bound below Eq. (12) can hold.

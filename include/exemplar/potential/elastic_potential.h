@@ -26,14 +26,14 @@ namespace Exemplar
   /// none. All must outlive whoever holds this.
   struct ElasticParts
   {
-    LawsOfCells           laws;
-    const FESpace        &fe_space;
-    const Material       &material;      ///< of the body
-    const Material       &cell_material; ///< of the cells' own energies, beside those of terms
-    const ExamplePoses   &examples;
-    const ExampleWeights &weights;
-    const FreeDofs       &free_dofs;
-    unsigned int          n_threads = 1; ///< of the loops; no result depends on it
+    LawsOfCells         laws;
+    const FESpace      &fe_space;
+    const Material     &material;      ///< of the body
+    const Material     &cell_material; ///< of the cells' own energies, beside those of terms
+    const ExamplePoses &examples;
+    ExampleWeights     &weights;
+    const FreeDofs     &free_dofs;
+    unsigned int        n_threads = 1; ///< of the loops; no result depends on it
   };
 
   /// What the rounding of positions makes of the forces and stresses of the cells.

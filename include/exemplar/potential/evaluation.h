@@ -27,6 +27,7 @@ namespace Exemplar
     double              energy         = 0; ///< Psi [J], Eq. (5), ridge included
     double              energy_elastic = 0; ///< sum V/2 e:C:e of it [J]
     double              energy_damping = 0; ///< whose gradient is the stiffness damping [J]
+    double              energy_memory  = 0; ///< of weights that remember [J]; no part of Psi
     double              min_det_F      = 0;
     unsigned int        inverted_cells = 0;
     unsigned int        guarded_cells  = 0; ///< in which the guard of Eq. (16) acts

@@ -79,7 +79,7 @@ namespace Exemplar
     begin_step(const State &start, double step_size);
 
     /// The step that has begun is accepted, with this end, of which the rotations are. It gets what
-    /// the laws remember.
+    /// the laws remember, and what the step has dissipated.
     void
     end_step(State &end);
 
@@ -131,13 +131,14 @@ namespace Exemplar
       return in_dynamic_step ? &integrator->predicted_positions() : nullptr;
     }
 
-    /// Whether the cells' forces at the same positions differ from step to step: with prescribed
-    /// weights, with stiffness damping, and where laws remember.
+    /// Whether the forces at the same positions and weights differ from step to step: with prescribed
+    /// weights, with stiffness damping, with creep of the weights, and where laws remember.
     bool
     changes_between_steps() const
     {
       return cells.get_field().get_batches().remembers() || weights.are_prescribed()
-             || (in_dynamic_step && integrator->stiffness_damping_factor() > 0.);
+             || (in_dynamic_step
+                 && (integrator->stiffness_damping_factor() > 0. || weights.get_memory().creeps()));
     }
 
     /// gamma (gamma + a), which multiplies the mass matrix in the tangent [1/s^2]; 0 in statics.
@@ -151,6 +152,13 @@ namespace Exemplar
     /// allows, infinite where none asks.
     double
     max_step(const Vector &positions, const Vector &displacement) const;
+
+    /// Whether anything turns energy into heat within the body, beside damping.
+    bool
+    dissipates() const
+    {
+      return weights.get_memory().in_use();
+    }
 
     const ExampleWeights &
     get_weights() const
@@ -212,13 +220,13 @@ namespace Exemplar
                  std::vector<double>       &columns,
                  OuterProducts             *products);
 
-    const PotentialTerms  terms;
-    const FESpace        &fe_space;
-    SymmetricPattern      pattern; ///< of cells and terms
-    ElasticPotential      cells;
-    const ExampleWeights &weights;
-    TimeIntegrator       *integrator;
-    const FreeDofs       &free_dofs;
+    const PotentialTerms terms;
+    const FESpace       &fe_space;
+    SymmetricPattern     pattern; ///< of cells and terms
+    ElasticPotential     cells;
+    ExampleWeights      &weights;
+    TimeIntegrator      *integrator;
+    const FreeDofs      &free_dofs;
     /// Those of Psi first.
     const std::vector<PotentialTerm *> all_terms;
     HeldBackForces                     held_back;

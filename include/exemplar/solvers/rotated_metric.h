@@ -50,12 +50,11 @@ namespace Exemplar
     }
 
     /// What the weights will do if these forces, in the frame of the kept inverse, act on the body:
-    /// from where the energy has `weight_gradient`, with changes not below `lower` (empty: no
-    /// bounds).
+    /// from where the energy has `weight_gradient`, with changes as these limits leave them.
     std::vector<double>
     find_weight_changes(const std::vector<double> &forces,
                         const std::vector<double> &weight_gradient,
-                        const std::vector<double> &lower) const;
+                        const WeightLimits        &limits) const;
 
     /// Add the forces G w that go with changes of the weights.
     void

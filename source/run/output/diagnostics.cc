@@ -97,6 +97,8 @@ namespace Exemplar
     if (mass != nullptr)
       append(row, "energy_kinetic", sums.kinetic_energy);
     append_terms(row);
+    if (problem.potential.dissipates())
+      append(row, "energy_dissipated", shown.dissipated);
     append_weights(row, shown, report);
     append(row, "min_det_F", elastic.min_det_F);
     row.push_back({ "inverted_cells", elastic.inverted_cells });

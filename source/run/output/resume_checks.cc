@@ -181,6 +181,8 @@ namespace Exemplar
         entry("positions before", found.previous_positions, previous(found.previous_positions)),
         entry("velocities before", found.previous_velocities, previous(found.previous_velocities)),
         entry("weights", found.weights, initial.weights.size()),
+        entry("weights before", found.previous_weights,
+              found.previous_weights.empty() ? 0 : initial.weights.size()),
         entry("multipliers", found.multipliers, initial.multipliers.size()),
         entry("history", found.history,
               initial.history.size() / mesh.n_cells() * mesh.whole().n_cells)
@@ -291,6 +293,7 @@ namespace Exemplar
       {
         state.previous_positions.reinit(0);
         state.previous_velocities.reinit(0);
+        state.previous_weights.clear();
         state.previous_step = 0.;
       }
     }
@@ -301,7 +304,9 @@ namespace Exemplar
       result.notes.push_back(fmt::format("The example weights are others than those of step {}, so "
                                          "they begin anew, with those that the scene starts with.",
                                          state.step));
-      state.weights     = problem.state.weights;
+      state.weights = problem.state.weights;
+      if (!state.previous_weights.empty())
+        state.previous_weights = state.weights;
       state.multipliers = problem.state.multipliers;
     }
     check_state(state, problem, file);

@@ -68,6 +68,7 @@ namespace Exemplar
       { "weights per region",
         poses.size() > 0 && problem.parameters.examples.weights_per_region,
         {} },
+      { "memory of weights", problem.examples.weights.get_memory().in_use(), {} },
       { "Schur complement", finds_weights && !solver_is("umfpack"), {} },
       { "CHOLMOD", solver_is("cholesky"), {} },
       { "algebraic multigrid", solver_is("iterative"), {} },

@@ -175,7 +175,7 @@ namespace Exemplar
     at.positions = on_quadratic_nodes(fe_space, problem.state.positions);
     at.weights   = problem.state.weights;
     at.history   = on_quadratic_points(problem.state.history, fe_space.n_cells());
-    quadratic->potential.get_cells().get_field().set_history(at.history);
+    quadratic->potential.leave_step(at);
     quadratic->potential.set_time(problem.state.time, at);
     Vector inertia(fe_space.n_dofs());
     if (problem.actions.mass != nullptr)
@@ -233,7 +233,11 @@ namespace Exemplar
     const BorderedVector step  = direction(correction);
     double               slope = quadratic->system.slope(correction.at, step);
     for (std::size_t i = 0; i < step.weights.size(); ++i)
-      slope += correction.at.elastic.weight_gradient[i] * step.weights[i];
+    {
+      const WeightMemory::Slopes slopes = quadratic->examples.weights.get_memory().slopes(
+          i, correction.to.weights[i], correction.at.elastic.weight_gradient[i]);
+      slope += (step.weights[i] > 0. ? slopes.up : slopes.down) * step.weights[i];
+    }
     // frozen forces have no energy that could tell how long the step may be
     const bool has_energy = !quadratic->parameters.model.is_frozen();
     for (double length = 1.; length > 0.05; length *= 0.5)

@@ -40,6 +40,11 @@ namespace Exemplar
     model.check();
     material.check();
     examples.check();
+    if (examples.in_use() && examples.creep_viscosity > 0. && scene != SceneKind::dynamic)
+      throw UserError(
+          "Examples/Creep viscosity resists the rate at which weights change, but only a "
+          "dynamic scene has rates. Set Scene = dynamic, or hold weights with "
+          "Examples/Yield instead.");
     initial.check();
     if (loads.ramp == LoadRamp::increments && scene != SceneKind::statics)
       throw UserError(

@@ -33,8 +33,9 @@ namespace Exemplar::Testing
       EXPECT_EQ(free.weights->n_unknown(), 3u);
       EXPECT_TRUE(prescribed.weights->are_prescribed());
       EXPECT_EQ(prescribed.weights->n_unknown(), 0u);
-      EXPECT_EQ(simplex.weights->lower_changes(some), (std::vector<double>{ -0.5, -0.2, -0.3 }));
-      EXPECT_TRUE(free.weights->lower_changes(some).empty());
+      EXPECT_EQ(simplex.weights->limits_of_changes(some).lower,
+                (std::vector<double>{ -0.5, -0.2, -0.3 }));
+      EXPECT_TRUE(free.weights->limits_of_changes(some).lower.empty());
       EXPECT_EQ(simplex.weights->initial(), (std::vector<double>{ 1., 0., 0. }));
       EXPECT_EQ(prescribed.weights->at(0.25), (std::vector<double>{ 0.75, 0.25, 0. }));
       EXPECT_EQ(simplex.weights->weight_form().coupled, (std::vector<unsigned int>{ 1, 2 }));

@@ -44,7 +44,7 @@ namespace Exemplar::Testing
         metric.rotate_back(step);
         const std::vector<double> changes
             = metric.find_weight_changes(step, evaluation.elastic.weight_gradient,
-                                         p.examples.weights.lower_changes(state.weights));
+                                         p.examples.weights.limits_of_changes(state.weights));
         metric.add_example_forces(changes, step);
         metric.apply(step);
         metric.rotate_forth(step);
