@@ -128,7 +128,7 @@ namespace Exemplar
                       const Isotropic<Number> &material,
                       const Number            &factor,
                       const Matrix3<Number> & /*e*/,
-                      const Matrix3<Number>   &D)
+                      const Matrix3<Number> &D)
   {
     return combine(Number(1.), T, Number(2.) * material.mu * factor, deviator(D));
   }

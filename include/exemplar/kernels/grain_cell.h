@@ -25,13 +25,14 @@ namespace Exemplar
 
     static constexpr std::size_t n_numbers = 6;
 
-    static constexpr std::array<LawConstant, 1> own_constants
-        = { { { "Fibre stiffness",
-                "alpha [Pa]: what fibres along Fibre direction add to Young's modulus of a stretch along "
-                "them. The energy density has alpha/2 (a.e a)^2 more for a strain e and the "
-                "direction a, of the body and of its examples. For the corotational strain with "
-                "consistent forces.",
-                0. } } };
+    static constexpr std::array<LawConstant, 1> own_constants = {
+      { { "Fibre stiffness",
+          "alpha [Pa]: what fibres along Fibre direction add to Young's modulus of a stretch along "
+          "them. The energy density has alpha/2 (a.e a)^2 more for a strain e and the "
+          "direction a, of the body and of its examples. For the corotational strain with "
+          "consistent forces.",
+          0. } }
+    };
 
     Number          lambda;
     Number          mu;
@@ -63,11 +64,11 @@ namespace Exemplar
       return { lambda, mu, factor * alpha, a };
     }
 
-    /// As min_density_at_kink(), whatever phi is.
+    /// As min_density_at_kink(), whatever phi is; `undamped` is the isotropic part without damping.
     Number
-    min_density() const
+    min_density(const Isotropic<Number> &undamped) const
     {
-      return min_density_at_kink(isotropic_part());
+      return min_density_at_kink(undamped);
     }
   };
 
@@ -106,8 +107,8 @@ namespace Exemplar
 
     static constexpr std::array<LawConstant, 0> own_constants{};
 
-    Number lambda, mu; ///< of the isotropic material nearest to C, which is C_iso
-    Number least; ///< half the least eigenvalue of C, without damping
+    Number lambda, mu;       ///< of the isotropic material nearest to C, which is C_iso
+    Number least;            ///< half the least eigenvalue of C, without damping
     Number entry[n_entries]; ///< rows of the upper triangle of C, in the order of SymmetricEntries
 
     template <typename Load>
@@ -162,7 +163,7 @@ namespace Exemplar
 
     /// As min_density_at_kink(), whatever phi is.
     Number
-    min_density() const
+    min_density(const Isotropic<Number> & /*undamped*/) const
     {
       return Number(0.75) * least;
     }
@@ -270,7 +271,7 @@ namespace Exemplar
     bool
     may_be_stretched(const Number &elastic_density) const
     {
-      return any(elastic_density > this->material.min_density());
+      return any(elastic_density > this->own_material().min_density(this->elasticity));
     }
   };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
+#include <exemplar/mesh/selection.h>
 #include <exemplar/run/scene/scene_parameters.h>
 
 namespace Exemplar
@@ -23,6 +24,8 @@ namespace Exemplar
       if (model.dilatation == DilatationKind::automatic)
         model.dilatation = DilatationKind::cells;
     }
+    if (const std::optional<CellLaw> law = material.law_of_grain(); law)
+      model.strain = law_of_grain(*law);
     model.complete();
     if (solver.method != Method::automatic)
       return;
@@ -30,6 +33,22 @@ namespace Exemplar
       solver.method = Method::fixed_point;
     else
       solver.method = scene == SceneKind::dynamic ? Method::quasi_newton : Method::newton;
+  }
+
+  CellLaw
+  CompleteScene::law_of_grain(const CellLaw law) const
+  {
+    const std::string keys = "Material/Fibre stiffness and Material/Orthotropy";
+    if (model.is_frozen())
+      throw UserError(
+          keys
+          + " are not for Model/Gradient = frozen: the frozen force would turn a free body with "
+            "fibres, also without examples. Set Model/Gradient = consistent.");
+    if (model.strain != CellLaw::corotational && model.strain != law)
+      throw UserError(
+          keys + " are for Model/Strain = corotational, not for " + traits_of(model.strain).name
+          + ". Set that, or remove the fibres (Fibre stiffness = 0, Orthotropy empty).");
+    return law;
   }
 
   void
@@ -83,6 +102,9 @@ namespace Exemplar
     for (const LoadParameters &load : loads.named)
       if (load.select.is_of_surface())
         return "Loads/" + load.name + "/Select";
+    for (const auto &[selection, key] : material.selections())
+      if (selection.is_of_surface())
+        return key;
     if (material.is_painted())
       return "Material/... map";
     return examples.are_painted() ? "Examples/Weight maps" : "";

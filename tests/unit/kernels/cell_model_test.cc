@@ -48,9 +48,8 @@ namespace Exemplar::Testing
     Cell
     cell_at(const Matrix3<double> &F)
     {
-      const auto constants
-          = Cell::Constants::from_numbers(number_of<typename Cell::Constants>);
-      Cell cell(constants, rotation_of<Cell>(F), F, examples);
+      const auto constants = Cell::Constants::from_numbers(number_of<typename Cell::Constants>);
+      Cell       cell(constants, rotation_of<Cell>(F), F, examples);
       if constexpr (Cell::traits.n_history > 0)
         cell.remember([](const std::size_t k) { return remembered * std::sin(1. + k); });
       return cell;
