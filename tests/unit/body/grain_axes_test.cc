@@ -67,7 +67,7 @@ namespace Exemplar::Testing
       const Mesh mesh(contents, "arc");
       double     maximum = 0.;
       const auto all     = find_grain_axes(
-              fibres("from box -0.01 0 0 0.01 1 9 to box 0 0 -0.01 9 1 0.01"), mesh, {}, {});
+              fibres("from box -0.01 -1 0 0.01 1 9 to box 0 -1 -0.01 9 1 0.01"), mesh, {}, {});
       for (unsigned int cell = 0; cell < mesh.n_cells(); ++cell)
       {
         dealii::Point<3> x;
