@@ -53,6 +53,22 @@ namespace Exemplar
             values.poissons_ratio > -1. && values.poissons_ratio < 0.5);
     }
 
+    /// factor times a strain that these axes see without shear; 0 without axes.
+    Matrix3<double>
+    strain_in(const GrainAxes &axes, const std::array<double, 3> &entries, const double factor)
+    {
+      const auto           &a = axes.along, &b = axes.across;
+      const Vector3<double> c
+          = { { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] } };
+      Matrix3<double> strain = {};
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+          strain[i][j]
+              = factor
+                * (entries[0] * a[i] * a[j] + entries[1] * b[i] * b[j] + entries[2] * c[i] * c[j]);
+      return strain;
+    }
+
     /// What makes an energy of the strain along fibres: the constant of that law.
     const char *const alpha = Fibrous<double>::own_constants[0].name;
 
@@ -132,7 +148,7 @@ namespace Exemplar
     const double lambda_of_patches
         = values.has_grain() ? grain.lambda_of_patches() : elasticity.lambda;
     constants.push_back({ elasticity, values.density, youngs_modulus, values.own, lambda_of_patches,
-                          grain, is_orthotropic });
+                          grain, 0., is_orthotropic });
   }
 
   void
@@ -143,11 +159,35 @@ namespace Exemplar
     stiffnesses.resize(is_any ? constants_of_cell.size() : 0);
     for (unsigned int cell = 0; cell < stiffnesses.size(); ++cell)
     {
-      const Orthotropy &grain   = constants[constants_of_cell[cell]].grain;
-      const auto        entries = grain.entries(axes[cell]);
-      stiffnesses[cell][0]      = grain.least();
+      const Constants &of_cell = constants[constants_of_cell[cell]];
+      const Orthotropy grain   = of_cell.grain.without(of_cell.lambda_of_others);
+      const auto       entries = grain.entries(axes[cell]);
+      stiffnesses[cell][0]     = grain.least();
       std::copy(entries.begin(), entries.end(), stiffnesses[cell].begin() + 1);
     }
+  }
+
+  Matrix3<double>
+  Material::part_of_pressure(const unsigned int cell, const Matrix3<double> &strain) const
+  {
+    const Constants &of_cell = constants[constants_of_cell[cell]];
+    if (axes.empty() || axes[cell].along == GrainAxes().along)
+      return combine(trace(strain) / 3., identity_matrix<double>(), 0., strain);
+    return strain_in(axes[cell], of_cell.grain.strain_of_pressure(), trace(strain));
+  }
+
+  Matrix3<double>
+  Material::part_of_tension(const unsigned int cell, const Matrix3<double> &strain) const
+  {
+    if (axes.empty())
+      return {};
+    const auto &a       = axes[cell].along;
+    double      stretch = 0.;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        stretch += a[i] * strain[i][j] * a[j];
+    return strain_in(axes[cell], constants[constants_of_cell[cell]].grain.strain_of_tension(),
+                     stretch);
   }
 
   double
@@ -255,7 +295,7 @@ namespace Exemplar
         values.elasticity = values.elasticity.without_dilatation();
       else
         values.elasticity.lambda -= lambda;
-      values.grain = values.grain.without(lambda);
+      values.lambda_of_others = lambda;
     }
     rest.find_stiffnesses();
     return rest;

@@ -135,6 +135,24 @@ namespace Exemplar
     return maximum;
   }
 
+  std::array<double, 3>
+  Orthotropy::strain_of_pressure() const
+  {
+    const Matrix3<double> compliance = inverse(normal);
+    std::array<double, 3> strain;
+    for (int a = 0; a < 3; ++a)
+      strain[a]
+          = (compliance[a][0] + compliance[a][1] + compliance[a][2]) / sum_of_entries(compliance);
+    return strain;
+  }
+
+  std::array<double, 3>
+  Orthotropy::strain_of_tension() const
+  {
+    const Matrix3<double> compliance = inverse(normal);
+    return { { 1., compliance[1][0] / compliance[0][0], compliance[2][0] / compliance[0][0] } };
+  }
+
   Orthotropy
   Orthotropy::without(const double lambda) const
   {

@@ -124,6 +124,24 @@ class Grain(SceneTest):
                 places = nodes_of(self.solve({**scene, **other}) / "final.msh")
                 self.assertLess(greatest_distance(first, places), 1e-6)
 
+    def test_examples_act_on_a_part_of_the_strain(self):
+        """Without load and with importance 1 the block takes that part of its example's strain, 0.1 along x."""
+        pull = 0.1
+        for acts_on, stretches in (("all", (pull, 0, 0)), ("volume", (pull / 3,) * 3),
+                                   ("shape", (2 * pull / 3, -pull / 3, -pull / 3)),
+                                   ("along fibres", (pull, -NU * pull, -NU * pull)),
+                                   ("across fibres", (0, NU * pull, NU * pull))):
+            stiffness = str(ALPHA) if "fibres" in acts_on else "0"
+            scene = {**BLOCK, "Handles/Names": "x-, y-, z-", "Examples/Pose functions": f"{1 + pull}*x; y; z",
+                     **{f"Handles/x+/{key}": None for key in ("Select", "Components", "Motion")},
+                     "Examples/Importance": "1", "Examples/Weights": "prescribed", "Examples/Prescribed weights": "0; 1",
+                     "Examples/Acts on": acts_on, "Material/Fibre stiffness": stiffness, "Material/Fibre direction": "1; 0; 0"}
+            with self.subTest(acts_on):
+                places = nodes_of(self.solve(scene) / "final.msh").values()
+                for component, stretch in enumerate(stretches):
+                    extent = max(x[component] for x in places) - min(x[component] for x in places)
+                    self.assertAlmostEqual(extent, 1 + stretch, delta=1e-8)
+
     def test_refused_in_words(self):
         for changes, words in (
                 ({"Model/Gradient": "frozen", "Solver/Method": "fixed point"}, "frozen force would turn"),
@@ -131,6 +149,7 @@ class Grain(SceneTest):
                 ({"Material/Fibre direction": None}, "needs to know the direction of the fibres"),
                 ({"Material/Fibre direction": "0; 0; 0"}, "is 0 in"),
                 ({"Material/Fibre direction": "from boundary 1"}, "from SELECTION to SELECTION"),
+                ({"Material/Fibre stiffness": "0", "Examples/Acts on": "along fibres", **EXAMPLE}, "no material has any"),
                 ({"Material/Orthotropy": "1, 2, 3"}, "nine numbers"),
                 ({"Material/Orthotropy": "1e5, 1e5, 1e5, 0.6, 0.6, 0.6, 1e5, 1e5, 1e5",
                   "Material/Cross direction": "0; 0; 1"}, "makes no elastic material"),

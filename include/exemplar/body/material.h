@@ -71,6 +71,15 @@ namespace Exemplar
       return constants[constants_of_cell[cell]].lambda_of_patches;
     }
 
+    /// The part of a strain that a pressure makes; the rest changes no volume, and the two add up in
+    /// energy.
+    Matrix3<double>
+    part_of_pressure(unsigned int cell, const Matrix3<double> &strain) const;
+
+    /// The part that a tension along the fibres makes; the rest has no stretch along them. 0 without fibres.
+    Matrix3<double>
+    part_of_tension(unsigned int cell, const Matrix3<double> &strain) const;
+
     /// An estimate of the norm of C [Pa].
     double
     norm_estimate(unsigned int cell) const;
@@ -121,14 +130,15 @@ namespace Exemplar
       OwnConstants         own;
       double               lambda_of_patches; ///< [Pa]
       Orthotropy           grain;             ///< all of C, in the cell's axes
+      double               lambda_of_others;  ///< what of it patches have taken [Pa]
       bool                 is_orthotropic;    ///< by nine constants
 
       template <typename Archive>
       void
       serialize(Archive &archive, unsigned int /*version*/)
       {
-        archive &elasticity.lambda                                      &elasticity
-            .mu &density &youngs_modulus &own &lambda_of_patches &grain &is_orthotropic;
+        archive &elasticity.lambda   &elasticity.mu &density &youngs_modulus &own &lambda_of_patches
+            &grain &lambda_of_others &is_orthotropic;
       }
     };
 

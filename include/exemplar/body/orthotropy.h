@@ -58,6 +58,14 @@ namespace Exemplar
     double
     norm_of_grain() const;
 
+    /// The strain of a pressure, without shear, of trace 1.
+    std::array<double, 3>
+    strain_of_pressure() const;
+
+    /// The strain of a tension along the first axis, without shear, 1 along it.
+    std::array<double, 3>
+    strain_of_tension() const;
+
     /// C - lambda I (x) I.
     Orthotropy
     without(double lambda) const;

@@ -64,6 +64,10 @@ namespace Exemplar
       throw UserError(
           "Loads/Ramp = increments lets loads grow with the increments of a static scene, "
           "but this scene has none. Set Loads/Ramp = none, and a Force that grows with t.");
+    if (examples.need_fibres() && !material.law_of_grain())
+      throw UserError(
+          "Examples/Acts on speaks of fibres, but no material has any. Set Material/Fibre "
+          "stiffness and Material/Fibre direction, or Examples/Acts on = all.");
     check_solver();
     check_surface();
     if (output.final_pose == FinalTetrahedra::quadratic
