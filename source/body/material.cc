@@ -158,13 +158,19 @@ namespace Exemplar
                                     [](const Constants &values) { return values.is_orthotropic; });
     stiffnesses.resize(is_any ? constants_of_cell.size() : 0);
     for (unsigned int cell = 0; cell < stiffnesses.size(); ++cell)
-    {
-      const Constants &of_cell = constants[constants_of_cell[cell]];
-      const Orthotropy grain   = of_cell.grain.without(of_cell.lambda_of_others);
-      const auto       entries = grain.entries(axes[cell]);
-      stiffnesses[cell][0]     = grain.least();
-      std::copy(entries.begin(), entries.end(), stiffnesses[cell].begin() + 1);
-    }
+      stiffnesses[cell] = stiffness(cell);
+  }
+
+  std::array<double, 22>
+  Material::stiffness(const unsigned int cell) const
+  {
+    const Constants       &of_cell = constants[constants_of_cell[cell]];
+    const Orthotropy       grain   = of_cell.grain.without(of_cell.lambda_of_others);
+    const auto             entries = grain.entries(axes.empty() ? GrainAxes() : axes[cell]);
+    std::array<double, 22> numbers;
+    numbers[0] = grain.least();
+    std::copy(entries.begin(), entries.end(), numbers.begin() + 1);
+    return numbers;
   }
 
   Matrix3<double>
@@ -221,9 +227,9 @@ namespace Exemplar
     if (k < n)
       return of_cell.elasticity.number(k);
     if (law == CellLaw::anisotropic)
-      return stiffnesses[cell][k - n];
+      return (stiffnesses.empty() ? stiffness(cell) : stiffnesses[cell])[k - n];
     if (law == CellLaw::fibrous && k > n)
-      return axes[cell].along[k - n - 1];
+      return axes.empty() ? 0. : axes[cell].along[k - n - 1];
     return of_cell.own.at(own_constants(law)[k - n].name);
   }
 

@@ -166,7 +166,11 @@ namespace Exemplar
   std::array<double, 21>
   Orthotropy::entries(const GrainAxes &axes) const
   {
-    const std::array<Axis, 3> q = { { axes.along, axes.across, cross(axes.along, axes.across) } };
+    // isotropic cells have no axes, and need none
+    const bool                is_any = axes.along == GrainAxes().along;
+    const Axis                along  = is_any ? Axis{ { 1., 0., 0. } } : axes.along;
+    const Axis                across = is_any ? Axis{ { 0., 1., 0. } } : axes.across;
+    const std::array<Axis, 3> q      = { { along, across, cross(along, across) } };
     SymmetricEntries<double>  squares[3], shears[3];
     for (int a = 0; a < 3; ++a)
     {

@@ -83,6 +83,19 @@ class Grain(SceneTest):
                 with self.subTest(along=along, across=across, **{"m": str(model)}):
                     self.assertAlmostEqual(abs(self.last_row(scene)["reaction_x+_x"]) / (SMALL * modulus), 1, delta=1e-5)
 
+    def test_isotropic_regions_beside_orthotropic_ones(self):
+        """Where one region has nine constants that are isotropic, the others stay as they were."""
+        scene = {**BLOCK, "Material/Fibre stiffness": None}
+        shear = E / (2 * (1 + NU))
+        of_region = {"Material/region 1/Orthotropy": f"{E}, {E}, {E}, {NU}, {NU}, {NU}, {shear}, {shear}, {shear}",
+                     "Material/region 1/Fibre direction": "1; 2; 3"}
+        row = self.last_row({**scene, **of_region})
+        self.assertAlmostEqual(abs(row["reaction_x+_x"]) / (SMALL * E), 1, delta=1e-5)
+        elsewhere = {"Material/Orthotropy": of_region["Material/region 1/Orthotropy"], "Material/Fibre direction": "1; 2; 3",
+                     "Material/region 1/Orthotropy": ""}
+        row = self.last_row({**scene, **elsewhere})
+        self.assertAlmostEqual(abs(row["reaction_x+_x"]) / (SMALL * E), 1, delta=1e-5)
+
     def test_pulled_bar_twists(self):
         scene = {**BAR, "Scene": "static", "Time/Increments": "2", "Handles/Names": "left, right",
                  "Handles/right/Select": "boundary 2", "Handles/right/Motion": "0.8*t; 0; 0",

@@ -149,6 +149,9 @@ namespace Exemplar
     void
     find_stiffnesses();
 
+    std::array<double, 22>
+    stiffness(unsigned int cell) const;
+
     /// Give each cell constants of its own, from `bases`, those of each entry of `constants`.
     void
     paint(const PaintedMaterial &painted, const std::vector<ElasticConstants> &bases);
