@@ -13,12 +13,17 @@ namespace Exemplar
 {
   namespace
   {
-    const EnumTable<ExampleEnergy> energies     = { { ExampleEnergy::scaled, "scaled" },
-                                                    { ExampleEnergy::blended, "blended" },
-                                                    { ExampleEnergy::mixed, "mixed" } };
-    const EnumTable<WeightRule>    weight_kinds = { { WeightRule::simplex, "simplex" },
-                                                    { WeightRule::free, "free" },
-                                                    { WeightRule::prescribed, "prescribed" } };
+    const EnumTable<ExampleEnergy> energies        = { { ExampleEnergy::scaled, "scaled" },
+                                                       { ExampleEnergy::blended, "blended" },
+                                                       { ExampleEnergy::mixed, "mixed" } };
+    const EnumTable<ActsOn>        kinds_of_acting = { { ActsOn::all, "all" },
+                                                       { ActsOn::shape, "shape" },
+                                                       { ActsOn::volume, "volume" },
+                                                       { ActsOn::along_fibres, "along fibres" },
+                                                       { ActsOn::across_fibres, "across fibres" } };
+    const EnumTable<WeightRule>    weight_kinds    = { { WeightRule::simplex, "simplex" },
+                                                       { WeightRule::free, "free" },
+                                                       { WeightRule::prescribed, "prescribed" } };
 
     /// sigma for "auto" and "paper", in units of sum E V.
     double
@@ -76,6 +81,13 @@ namespace Exemplar
         "scaled: V/2 (strain - eta E(w)) : C : (strain - eta E(w)), as the paper; blended: (1 - "
         "eta) of the elastic energy and eta of the distance to E(w); mixed: four fifths of scaled "
         "and one of blended, with which every part of the range of Importance acts.");
+    keys.add(
+        "Acts on", acts_on, kinds_of_acting,
+        "Which strains examples draw to theirs, the others being those of a body without examples: "
+        "all; "
+        "shape: all but the change of volume; volume: that alone; along fibres: the stretch along "
+        "Material/Fibre direction, with what a tension along it does across; across fibres: all "
+        "but that.");
     keys.add(
         "Weights", weights, weight_kinds,
         "simplex: minimise the energy over weights that sum to one and are not negative; free: "

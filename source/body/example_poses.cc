@@ -47,6 +47,31 @@ namespace Exemplar
     }
   } // namespace
 
+  namespace
+  {
+    /// What of a strain examples act on, Eq. (31).
+    Matrix3<double>
+    acting_part(const ActsOn           acts_on,
+                const Material        &material,
+                const unsigned int     cell,
+                const Matrix3<double> &E)
+    {
+      switch (acts_on)
+      {
+      case ActsOn::shape:
+        return combine(1., E, -1., material.part_of_pressure(cell, E));
+      case ActsOn::volume:
+        return material.part_of_pressure(cell, E);
+      case ActsOn::along_fibres:
+        return material.part_of_tension(cell, E);
+      case ActsOn::across_fibres:
+        return combine(1., E, -1., material.part_of_tension(cell, E));
+      default:
+        return E;
+      }
+    }
+  } // namespace
+
   double
   unit_energy(const FESpace &fe_space, const Material &material)
   {
@@ -149,7 +174,7 @@ namespace Exemplar
         regions(make_regions(parameters, mesh, fe_space, painted)),
         poses(make_poses(parameters, mesh, fe_space, named_poses)),
         first_strained(parameters.in_use() && parameters.include_rest_pose ? 1 : 0),
-        is_single(parameters.in_single_precision),
+        acts_on(parameters.acts_on), is_single(parameters.in_single_precision),
         warnings(review(parameters, mesh, fe_space, poses))
   {
     set_parameters(example_constants.importance, cell_material, patches);
@@ -163,13 +188,13 @@ namespace Exemplar
     if (poses.empty())
       return;
     example_constants.importance = importance;
-    compute_strains();
+    compute_strains(cell_material);
     compute_patch_dilatations(patches);
     compute_gram_matrix(cell_material, patches);
   }
 
   void
-  ExamplePoses::compute_strains()
+  ExamplePoses::compute_strains(const Material &material)
   {
     strains.clear();
     strains.resize(batched_size(fe_space.n_points(), 6 * n_strained()), 0.);
@@ -183,7 +208,8 @@ namespace Exemplar
         const Matrix3<double> F = fe_space.deformation_gradient(point, poses[i].positions);
         const Matrix3<double> E = model_strain(law, model_rotation(law, F), F);
         add_to_stored(strains.data(), point, n_strained(), i - first_strained,
-                      example_constants.importance, E);
+                      example_constants.importance,
+                      acting_part(acts_on, material, fe_space.cell_of(point), E));
         if (traits_of(law).has_guard)
           p_0 = min_or_nan(p_0, 0.5 * guard_product(E));
       }

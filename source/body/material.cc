@@ -6,6 +6,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -54,29 +55,58 @@ namespace Exemplar
             values.poissons_ratio > -1. && values.poissons_ratio < 0.5);
     }
 
-    /// All regions by their material ids.
-    std::map<unsigned int, ElasticConstants>
-    regions_by_id(const MaterialParameters &parameters, const MshFile &names)
+    /// factor times a strain that these axes see without shear; 0 without axes.
+    Matrix3<double>
+    strain_in(const GrainAxes &axes, const std::array<double, 3> &entries, const double factor)
     {
-      auto regions = parameters.regions;
-      for (const auto &[name, constants] : parameters.named_regions)
-      {
-        const std::string  key = "Material/" + MaterialParameters::region_name(name);
-        const unsigned int id  = find_id(names, 3, name, key);
-        if (!regions.emplace(id, constants).second)
-          throw UserError(fmt::format("{}: the region of this name has material id {}, which "
-                                      "another subsection sets, too. Keep one of the two.",
-                                      key, id));
-      }
-      return regions;
+      const auto           &a = axes.along, &b = axes.across;
+      const Vector3<double> c
+          = { { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] } };
+      Matrix3<double> strain = {};
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+          strain[i][j]
+              = factor
+                * (entries[0] * a[i] * a[j] + entries[1] * b[i] * b[j] + entries[2] * c[i] * c[j]);
+      return strain;
+    }
+
+    /// What makes an energy of the strain along fibres: the constant of that law.
+    const char *const alpha = Fibrous<double>::own_constants[0].name;
+
+    Orthotropy
+    grain_of(const ElasticConstants &constants, const CellMaterial<double> &isotropic)
+    {
+      const double      fibres = constants.own.at(alpha);
+      const std::string key    = "Material/Orthotropy";
+      return constants.orthotropy.empty()
+                 ? Orthotropy(isotropic, fibres)
+                 : Orthotropy(parse_orthotropy(constants.orthotropy, key), fibres, key);
     }
   } // namespace
+
+  std::map<unsigned int, ElasticConstants>
+  regions_by_id(const MaterialParameters &parameters, const MshFile &names)
+  {
+    auto regions = parameters.regions;
+    for (const auto &[name, constants] : parameters.named_regions)
+    {
+      const std::string  key = "Material/" + MaterialParameters::region_name(name);
+      const unsigned int id  = find_id(names, 3, name, key);
+      if (!regions.emplace(id, constants).second)
+        throw UserError(fmt::format("{}: the region of this name has material id {}, which "
+                                    "another subsection sets, too. Keep one of the two.",
+                                    key, id));
+    }
+    return regions;
+  }
 
   Material::Material(const MaterialParameters        &parameters,
                      const std::vector<unsigned int> &material_ids,
                      const MshFile                   &names,
-                     const PaintedMaterial           &painted)
-      : constants_of_cell(material_ids.size(), 0)
+                     const PaintedMaterial           &painted,
+                     std::vector<GrainAxes>           axes_of_cells)
+      : constants_of_cell(material_ids.size(), 0), axes(std::move(axes_of_cells))
   {
     std::vector<ElasticConstants> bases{ parameters.everywhere };
     add(parameters.everywhere);
@@ -102,13 +132,78 @@ namespace Exemplar
     if (!painted.youngs_modulus.values.empty() || !painted.poissons_ratio.values.empty()
         || !painted.density.values.empty())
       paint(painted, bases);
+    find_stiffnesses();
   }
 
   void
   Material::add(const ElasticConstants &values)
   {
-    constants.push_back(
-        { elasticity_of(values), values.density, values.youngs_modulus, values.own });
+    CellMaterial<double> elasticity     = elasticity_of(values);
+    double               youngs_modulus = values.youngs_modulus;
+    const Orthotropy     grain          = grain_of(values, elasticity);
+    const bool           is_orthotropic = !values.orthotropy.empty();
+    if (is_orthotropic)
+    {
+      elasticity               = grain.isotropic_part();
+      const auto &[lambda, mu] = elasticity;
+      youngs_modulus           = mu * (3. * lambda + 2. * mu) / (lambda + mu);
+    }
+    const double lambda_of_patches
+        = values.has_grain() ? grain.lambda_of_patches() : elasticity.lambda;
+    constants.push_back({ elasticity, values.density, youngs_modulus, values.own, lambda_of_patches,
+                          grain, 0., is_orthotropic });
+  }
+
+  void
+  Material::find_stiffnesses()
+  {
+    const bool is_any = std::any_of(constants.begin(), constants.end(),
+                                    [](const Constants &values) { return values.is_orthotropic; });
+    stiffnesses.resize(is_any ? constants_of_cell.size() : 0);
+    for (unsigned int cell = 0; cell < stiffnesses.size(); ++cell)
+      stiffnesses[cell] = stiffness(cell);
+  }
+
+  std::array<double, 22>
+  Material::stiffness(const unsigned int cell) const
+  {
+    const Constants       &of_cell = constants[constants_of_cell[cell]];
+    const Orthotropy       grain   = of_cell.grain.without(of_cell.lambda_of_others);
+    const auto             entries = grain.entries(axes.empty() ? GrainAxes() : axes[cell]);
+    std::array<double, 22> numbers;
+    numbers[0] = grain.least();
+    std::copy(entries.begin(), entries.end(), numbers.begin() + 1);
+    return numbers;
+  }
+
+  Matrix3<double>
+  Material::part_of_pressure(const unsigned int cell, const Matrix3<double> &strain) const
+  {
+    const Constants &of_cell = constants[constants_of_cell[cell]];
+    if (axes.empty() || axes[cell].along == GrainAxes().along)
+      return combine(trace(strain) / 3., identity_matrix<double>(), 0., strain);
+    return strain_in(axes[cell], of_cell.grain.strain_of_pressure(), trace(strain));
+  }
+
+  Matrix3<double>
+  Material::part_of_tension(const unsigned int cell, const Matrix3<double> &strain) const
+  {
+    if (axes.empty())
+      return {};
+    const auto &a       = axes[cell].along;
+    double      stretch = 0.;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        stretch += a[i] * strain[i][j] * a[j];
+    return strain_in(axes[cell], constants[constants_of_cell[cell]].grain.strain_of_tension(),
+                     stretch);
+  }
+
+  double
+  Material::norm_estimate(const unsigned int cell) const
+  {
+    const Constants &of_cell = constants[constants_of_cell[cell]];
+    return of_cell.elasticity.norm_estimate() + of_cell.grain.norm_of_grain();
   }
 
   void
@@ -130,10 +225,15 @@ namespace Exemplar
   double
   Material::number(const CellLaw law, const unsigned int cell, const std::size_t k) const
   {
-    const Constants &of_cell = constants[constants_of_cell[cell]];
-    if (constexpr std::size_t n = CellMaterial<double>::n_numbers; k >= n)
-      return of_cell.own.at(own_constants(law)[k - n].name);
-    return of_cell.elasticity.number(k);
+    const Constants      &of_cell = constants[constants_of_cell[cell]];
+    constexpr std::size_t n       = CellMaterial<double>::n_numbers;
+    if (k < n)
+      return of_cell.elasticity.number(k);
+    if (law == CellLaw::anisotropic)
+      return (stiffnesses.empty() ? stiffness(cell) : stiffnesses[cell])[k - n];
+    if (law == CellLaw::fibrous && k > n)
+      return axes.empty() ? 0. : axes[cell].along[k - n - 1];
+    return of_cell.own.at(own_constants(law)[k - n].name);
   }
 
   namespace
@@ -164,6 +264,7 @@ namespace Exemplar
     check_number(changed.poissons_ratio, constants_of_cell.size(), "Material/Poisson's ratio");
     check_number(changed.density, constants_of_cell.size(), "Material/Density");
     Material result;
+    result.axes = axes;
     for (unsigned int cell = 0; cell < constants_of_cell.size(); ++cell)
     {
       const Constants       &before = constants[constants_of_cell[cell]];
@@ -172,13 +273,24 @@ namespace Exemplar
       const ElasticConstants values
           = { changed_to(changed.youngs_modulus, cell, before.youngs_modulus),
               changed_to(changed.poissons_ratio, cell, nu),
-              changed_to(changed.density, cell, before.density), before.own };
+              changed_to(changed.density, cell, before.density),
+              before.own,
+              "",
+              "",
+              "" };
       check_constants(values, cell, "");
       result.constants_of_cell.push_back(cell);
       result.add(values);
       if (changed.youngs_modulus.empty() && changed.poissons_ratio.empty())
-        result.constants.back().elasticity = before.elasticity; // to the last digit
+      {
+        result.constants.back()         = before; // to the last digit
+        result.constants.back().density = values.density;
+      }
+      else if (before.is_orthotropic)
+        throw UserError("Material/Orthotropy has nine constants of its own, so Young's modulus and "
+                        "Poisson's ratio of the body cannot change. Change its density alone.");
     }
+    result.find_stiffnesses();
     return result;
   }
 
@@ -187,7 +299,15 @@ namespace Exemplar
   {
     Material rest = *this;
     for (Constants &values : rest.constants)
-      values.elasticity = values.elasticity.without_dilatation();
+    {
+      const double lambda = values.lambda_of_patches;
+      if (values.elasticity.lambda == lambda)
+        values.elasticity = values.elasticity.without_dilatation();
+      else
+        values.elasticity.lambda -= lambda;
+      values.lambda_of_others = lambda;
+    }
+    rest.find_stiffnesses();
     return rest;
   }
 
@@ -202,6 +322,10 @@ namespace Exemplar
       if (number.emplace(here, result.constants.size()).second)
         result.constants.push_back(constants[here]);
       result.constants_of_cell.push_back(number[here]);
+      if (!axes.empty())
+        result.axes.push_back(axes[cell]);
+      if (!stiffnesses.empty())
+        result.stiffnesses.push_back(stiffnesses[cell]);
     }
     return result;
   }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
+#include <exemplar/body/grain_axes.h>
 #include <exemplar/body/material_parameters.h>
+#include <exemplar/body/orthotropy.h>
 #include <exemplar/kernels/cell_model.h>
 #include <exemplar/prm/key_table.h>
 
@@ -37,6 +39,46 @@ namespace Exemplar
       for (const auto &[name, constant] : constants_of_laws())
         keys.add(name, constants.own[name], constant.documentation,
                  Bounds{ constant.min, constant.max });
+      keys.add(
+          "Fibre direction", constants.fibre_direction,
+          "Along which fibres lie at rest, of any length: three numbers or formulas of x, y, z "
+          "[m], or "
+          "'from SELECTION to SELECTION' with selections as in Handles: along the gradient of the "
+          "harmonic function that is 0 on the one and 1 on the other, as the fibres of muscles are "
+          "drawn. It is the first axis of Orthotropy, too.",
+          "; ");
+      keys.add(
+          "Orthotropy", constants.orthotropy,
+          "E_1, E_2, E_3, nu_23, nu_13, nu_12, G_23, G_13, G_12 [Pa] and [-], separated by commas, "
+          "instead of Young's modulus and Poisson's ratio, with which the body must be stable: "
+          "the first axis along Fibre direction, the second along Cross direction. nu_ab is minus "
+          "the "
+          "strain along b over that along a of a tension along a. Empty: isotropic.");
+      keys.add(
+          "Cross direction", constants.cross_direction,
+          "The second axis of Orthotropy: three numbers or formulas of x, y, z, of which the part "
+          "across Fibre direction counts. Empty: any, for materials that are the same all around "
+          "their fibres.",
+          "; ");
+    }
+
+    /// Orthotropy, and what does not go with it.
+    void
+    check_orthotropy(const ElasticConstants &constants, const std::string &section)
+    {
+      if (constants.orthotropy.empty())
+        return;
+      const std::string           key = section + "/Orthotropy";
+      const std::array<double, 9> c   = parse_orthotropy(constants.orthotropy, key);
+      static_cast<void>(Orthotropy(c, 0., key));
+      const bool is_round = c[1] == c[2] && c[4] == c[5] && c[7] == c[8]
+                            && std::abs(2. * c[6] * (1. + c[3]) - c[1]) < 1e-6 * c[1];
+      if (!is_round && constants.cross_direction.empty())
+        throw UserError(
+            key + " differs across the fibres, but no " + section
+            + "/Cross direction says which way is which. Give it as three numbers, such as "
+              "0; 1; 0, or make E_2 = E_3, nu_12 = nu_13, G_12 = G_13 and G_23 = E_2 / (2 (1 + "
+              "nu_23)).");
     }
 
     void
@@ -48,6 +90,43 @@ namespace Exemplar
                           "incompressible material take 0.499; up to 0.4999 is tested.");
     }
   } // namespace
+
+  bool
+  ElasticConstants::has_grain() const
+  {
+    return own.at(Fibrous<double>::own_constants[0].name) > 0. || !orthotropy.empty();
+  }
+
+  std::optional<CellLaw>
+  MaterialParameters::law_of_grain() const
+  {
+    std::optional<CellLaw> law;
+    for_each_section(
+        [&](const ElasticConstants &constants, const std::string & /*section*/)
+        {
+          if (!constants.orthotropy.empty())
+            law = CellLaw::anisotropic;
+          else if (constants.has_grain() && !law)
+            law = CellLaw::fibrous;
+        });
+    return law;
+  }
+
+  std::vector<std::pair<Selection, std::string>>
+  MaterialParameters::selections() const
+  {
+    std::vector<std::pair<Selection, std::string>> all;
+    for_each_section(
+        [&](const ElasticConstants &constants, const std::string &section)
+        {
+          const std::string key = section + "/Fibre direction";
+          if (const auto ends = split_fibre_ends(constants.fibre_direction, key);
+              ends && constants.has_grain() && fibre_direction_maps.empty())
+            for (const Selection &end : { ends->from, ends->to })
+              all.emplace_back(end, key);
+        });
+    return all;
+  }
 
   OwnConstants
   default_own_constants()
@@ -88,6 +167,10 @@ namespace Exemplar
     keys.add_file("Young's modulus map", youngs_modulus_map, "E painted on the surface" + usage);
     keys.add_file("Poisson's ratio map", poissons_ratio_map, "nu painted on the surface" + usage);
     keys.add_file("Density map", density_map, "rho painted on the surface" + usage);
+    keys.add_files(
+        "Fibre direction maps", fibre_direction_maps,
+        "Fibre direction painted on the surface, instead of formulas: three maps, of its x, y "
+        "and z, each FILE.ply:ATTRIBUTE or FILE.csv[:COLUMN], separated by commas.");
     keys.leave_subsection();
   }
 
@@ -114,10 +197,32 @@ namespace Exemplar
   void
   MaterialParameters::check() const
   {
-    check_poissons_ratio(everywhere, "Material");
-    for (const auto &[id, constants] : regions)
-      check_poissons_ratio(constants, "Material/" + region_name(id));
-    for (const auto &[name, constants] : named_regions)
-      check_poissons_ratio(constants, "Material/" + region_name(name));
+    const bool has_maps = !fibre_direction_maps.empty();
+    if (has_maps && fibre_direction_maps.size() != 3)
+      throw UserError(
+          fmt::format("Material/Fibre direction maps has {} maps, but a direction has three "
+                      "components. Give three, of x, y and z.",
+                      fibre_direction_maps.size()));
+    for_each_section(
+        [&](const ElasticConstants &constants, const std::string &section)
+        {
+          check_poissons_ratio(constants, section);
+          check_orthotropy(constants, section);
+          if (constants.has_grain() && constants.fibre_direction.empty() && !has_maps)
+            throw UserError(section + "/"
+                            + (constants.orthotropy.empty() ? "Fibre stiffness" : "Orthotropy")
+                            + " needs to know the direction of the fibres. Set " + section
+                            + "/Fibre direction, such as 1; 0; 0.");
+          if (!constants.fibre_direction.empty() && has_maps)
+            throw UserError(
+                section
+                + "/Fibre direction and Material/Fibre direction maps are both given, but "
+                  "only one of them can say where fibres go. Remove one of them.");
+          if (!constants.orthotropy.empty()
+              && !(youngs_modulus_map.empty() && poissons_ratio_map.empty()))
+            throw UserError(section
+                            + "/Orthotropy has nine constants of its own, which no map of Young's "
+                              "modulus or Poisson's ratio can paint. Remove the map.");
+        });
   }
 } // namespace Exemplar

@@ -27,7 +27,7 @@ namespace Exemplar
       std::vector<Kind> kinds(material_ids.size());
       for (unsigned int cell = 0; cell < kinds.size(); ++cell)
       {
-        const double lambda = material.elasticity(cell).lambda;
+        const double lambda = material.lambda_of_patches(cell);
         int          octave = 0;
         std::frexp(lambda, &octave);
         kinds[cell] = { { static_cast<int>(material_ids[cell]), lambda < 0. ? -1 : 1, octave } };
@@ -259,7 +259,7 @@ namespace Exemplar
     lambdas.assign(size(), 0.);
     for (unsigned int point = 0; point < patch_of_point.size(); ++point)
       lambdas[patch_of_point[point]]
-          += fe_space.volume(point) * material.elasticity(fe_space.cell_of(point)).lambda;
+          += fe_space.volume(point) * material.lambda_of_patches(fe_space.cell_of(point));
     for (unsigned int patch = 0; patch < size(); ++patch)
       lambdas[patch] /= volumes[patch];
   }

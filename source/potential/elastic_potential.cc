@@ -71,7 +71,7 @@ namespace Exemplar
         for (const Vector3<double> &g : fe_space.gradients(point))
           norms.push_back(std::sqrt(dot(g, g)));
         const double strain = of_positions * *std::max_element(norms.begin(), norms.end());
-        const double stress = strain * parts.material.elasticity(cell).norm_estimate();
+        const double stress = strain * parts.material.norm_estimate(cell);
         rounding.stress_norm += fe_space.volume(point) * stress * stress;
         for (unsigned int a = 0; a < nodes.size(); ++a)
           force[nodes[a]] += std::pow(fe_space.volume(point) * stress * norms[a], 2);

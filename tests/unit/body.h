@@ -4,6 +4,7 @@
 
 #include <exemplar/body/example_poses.h>
 #include <exemplar/body/fe_space.h>
+#include <exemplar/body/grain_axes.h>
 #include <exemplar/body/material.h>
 #include <exemplar/body/model_parameters.h>
 #include <exemplar/mesh/mesh.h>
@@ -50,6 +51,22 @@ namespace Exemplar::Testing
     return contents;
   }
 
+  /// What makes cells of that law: fibres along a curve, or nine constants.
+  inline MaterialParameters
+  material_of_law(const CellLaw law)
+  {
+    MaterialParameters parameters;
+    parameters.everywhere.fibre_direction = "1; 0.3*x; 0.5-z";
+    if (law == CellLaw::fibrous || law == CellLaw::anisotropic)
+      parameters.everywhere.own["Fibre stiffness"] = 3e6;
+    if (law == CellLaw::anisotropic)
+    {
+      parameters.everywhere.cross_direction = "0; 1; x";
+      parameters.everywhere.orthotropy      = "3e6, 1e6, 5e5, 0.3, 0.4, 0.35, 2e5, 3e5, 4e5";
+    }
+    return parameters;
+  }
+
   /// Examples and their weights; none by default.
   struct Examples
   {
@@ -82,8 +99,15 @@ namespace Exemplar::Testing
     {
     }
 
-    explicit Body(const MshFile &contents, const Element element = Element::P1)
-        : mesh(contents, "test"), material(MaterialParameters(), mesh.get_material_ids()),
+    explicit Body(const MshFile            &contents,
+                  const Element             element    = Element::P1,
+                  const MaterialParameters &parameters = MaterialParameters(),
+                  const NamedNodes         &named      = {})
+        : mesh(contents, "test"), material(parameters,
+                                           mesh.get_material_ids(),
+                                           {},
+                                           {},
+                                           find_grain_axes(parameters, mesh, named, {})),
           fe_space(mesh, element), cell_material(material)
     {
     }

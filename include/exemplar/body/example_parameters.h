@@ -25,6 +25,16 @@ namespace Exemplar
     prescribed
   };
 
+  /// Which strains of the body are to be like those of the examples.
+  enum class ActsOn
+  {
+    all,
+    shape,        ///< without change of volume
+    volume,       ///< what a pressure makes
+    along_fibres, ///< what a tension along them makes
+    across_fibres ///< all but that
+  };
+
   /// Subsection Examples.
   struct ExampleParameters
   {
@@ -35,6 +45,7 @@ namespace Exemplar
     double                   importance        = 0.8; ///< eta
     std::string              weight_penalty    = "auto";
     ExampleEnergy            energy            = ExampleEnergy::mixed;
+    ActsOn                   acts_on           = ActsOn::all;
     WeightRule               weights           = WeightRule::simplex;
     std::string              prescribed_weights;
     double                   yield               = 0.; ///< [J/m^3]
@@ -53,6 +64,13 @@ namespace Exemplar
 
     void
     declare(KeyTable &keys);
+
+    /// Whether they need to know where fibres lie.
+    bool
+    need_fibres() const
+    {
+      return in_use() && (acts_on == ActsOn::along_fibres || acts_on == ActsOn::across_fibres);
+    }
 
     /// Whether any pose is given and its importance is not 0.
     bool

@@ -30,7 +30,7 @@ namespace Exemplar
   };
 
   /// The example poses and the strains that they ask for, eta E_i at every quadrature point, Eqs. (4)
-  /// and (5), computed once; eta is Examples/Importance.
+  /// and (5), computed once; eta is Examples/Importance. E_i is the part that examples act on, Eq. (31).
   /// Example 0 is the rest pose where it is included. Each example has one weight or,
   /// with Weights per region, one a region: weight r * size() + i is that of example i in
   /// region r. Of a scene without examples it is empty.
@@ -205,7 +205,7 @@ namespace Exemplar
     }
 
     void
-    compute_strains();
+    compute_strains(const Material &material);
 
     void
     round_strains();
@@ -222,7 +222,8 @@ namespace Exemplar
     const RegionShares             regions;
     const std::vector<ExamplePose> poses;
     const unsigned int             first_strained;
-    dealii::AlignedVector<double>  strains;   ///< eta E_i, as ExampleArrays has them
+    dealii::AlignedVector<double>  strains; ///< eta E_i, as ExampleArrays has them
+    const ActsOn                   acts_on;
     const bool                     is_single; ///< round them to single precision
     dealii::AlignedVector<float>   in_single; ///< then, once more
     std::vector<double>            strain_norms;

@@ -3,6 +3,7 @@
 #define exemplar_material_h
 
 #include <exemplar/body/material_parameters.h>
+#include <exemplar/body/orthotropy.h>
 #include <exemplar/kernels/cell_model.h>
 #include <exemplar/mesh/msh_file.h>
 
@@ -21,7 +22,14 @@ namespace Exemplar
   struct PaintedMaterial
   {
     PaintedConstant youngs_modulus, poissons_ratio, density;
+    /// Fibre direction, in x, y and z; empty: it is not painted.
+    std::vector<std::vector<double>> fibre_direction;
   };
+
+  /// All regions of a scene by their material ids. `names` is a mesh whose physical groups may give them
+  /// their names. Throws UserError for a region that is named by no name of the mesh, or twice.
+  std::map<unsigned int, ElasticConstants>
+  regions_by_id(const MaterialParameters &parameters, const MshFile &names);
 
   /// New constants, one for all cells or one a cell; empty: as they are.
   struct ChangedConstants
@@ -38,19 +46,43 @@ namespace Exemplar
     /// Of no cells.
     Material() = default;
 
-    /// `names` is a mesh whose physical groups may give regions their names. Throws UserError if
+    /// `names` is a mesh whose physical groups may give regions their names; `axes` are those of each cell
+    /// where a material has a grain. Throws UserError if
     /// a region is named by a material id that no cell has, by no name of the mesh, or twice, and for
     /// painted constants that are out of range.
     Material(const MaterialParameters        &parameters,
              const std::vector<unsigned int> &material_ids,
              const MshFile                   &names   = {},
-             const PaintedMaterial           &painted = {});
+             const PaintedMaterial           &painted = {},
+             std::vector<GrainAxes>           axes    = {});
 
+    /// Of a material with fibres that around them; of an orthotropic one the isotropic elasticity nearest
+    /// to it.
     const CellMaterial<double> &
     elasticity(const unsigned int cell) const
     {
       return constants[constants_of_cell[cell]].elasticity;
     }
+
+    /// What patches take of its elasticity: lambda of an isotropic one [Pa].
+    double
+    lambda_of_patches(const unsigned int cell) const
+    {
+      return constants[constants_of_cell[cell]].lambda_of_patches;
+    }
+
+    /// The part of a strain that a pressure makes; the rest changes no volume, and the two add up in
+    /// energy.
+    Matrix3<double>
+    part_of_pressure(unsigned int cell, const Matrix3<double> &strain) const;
+
+    /// The part that a tension along the fibres makes; the rest has no stretch along them. 0 without fibres.
+    Matrix3<double>
+    part_of_tension(unsigned int cell, const Matrix3<double> &strain) const;
+
+    /// An estimate of the norm of C [Pa].
+    double
+    norm_estimate(unsigned int cell) const;
 
     /// Number k of the Constants of a law.
     double
@@ -73,7 +105,7 @@ namespace Exemplar
     void
     serialize(Archive &archive, unsigned int /*version*/)
     {
-      archive &constants &constants_of_cell;
+      archive &constants &constants_of_cell &axes &stiffnesses;
     }
 
     double
@@ -96,24 +128,38 @@ namespace Exemplar
       double               density;
       double               youngs_modulus;
       OwnConstants         own;
+      double               lambda_of_patches; ///< [Pa]
+      Orthotropy           grain;             ///< all of C, in the cell's axes
+      double               lambda_of_others;  ///< what of it patches have taken [Pa]
+      bool                 is_orthotropic;    ///< by nine constants
 
       template <typename Archive>
       void
       serialize(Archive &archive, unsigned int /*version*/)
       {
-        archive &elasticity.lambda &elasticity.mu &density &youngs_modulus &own;
+        archive &elasticity.lambda   &elasticity.mu &density &youngs_modulus &own &lambda_of_patches
+            &grain &lambda_of_others &is_orthotropic;
       }
     };
 
     void
     add(const ElasticConstants &values);
 
+    /// Of the law that any C needs: its constants behind Lamé's.
+    void
+    find_stiffnesses();
+
+    std::array<double, 22>
+    stiffness(unsigned int cell) const;
+
     /// Give each cell constants of its own, from `bases`, those of each entry of `constants`.
     void
     paint(const PaintedMaterial &painted, const std::vector<ElasticConstants> &bases);
 
-    std::vector<Constants>    constants;
-    std::vector<unsigned int> constants_of_cell;
+    std::vector<Constants>              constants;
+    std::vector<unsigned int>           constants_of_cell;
+    std::vector<GrainAxes>              axes;        ///< by cell; empty: isotropic
+    std::vector<std::array<double, 22>> stiffnesses; ///< by cell; empty: none is orthotropic
   };
 } // namespace Exemplar
 

@@ -2,13 +2,18 @@
 #ifndef exemplar_material_parameters_h
 #define exemplar_material_parameters_h
 
+#include <exemplar/kernels/cell_model.h>
+
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace Exemplar
 {
   class KeyTable;
+  struct Selection;
 
   /// Values of the constants that laws add to those of elasticity.h, by their names.
   using OwnConstants = std::map<std::string, double>;
@@ -25,6 +30,14 @@ namespace Exemplar
     double density        = 1000; ///< rho [kg/m^3]
 
     OwnConstants own = default_own_constants();
+
+    std::string fibre_direction; ///< formulas of x, y, z, or from SELECTION to SELECTION
+    std::string cross_direction; ///< formulas; empty: any that is perpendicular
+    std::string orthotropy;      ///< nine numbers; empty: isotropic
+
+    /// Whether cells need axes.
+    bool
+    has_grain() const;
   };
 
   /// Whether the masses of neighbouring nodes are coupled, or lumped at the nodes.
@@ -42,12 +55,34 @@ namespace Exemplar
     std::map<unsigned int, ElasticConstants> regions;       ///< by material id
     std::map<std::string, ElasticConstants>  named_regions; ///< by name, as the scene has it
     /// Painted maps, each with how it is used; empty: there is none.
-    std::string youngs_modulus_map, poissons_ratio_map, density_map;
+    std::string              youngs_modulus_map, poissons_ratio_map, density_map;
+    std::vector<std::string> fibre_direction_maps; ///< of x, y and z; empty: none
 
     bool
     is_painted() const
     {
-      return !youngs_modulus_map.empty() || !poissons_ratio_map.empty() || !density_map.empty();
+      return !youngs_modulus_map.empty() || !poissons_ratio_map.empty() || !density_map.empty()
+             || !fibre_direction_maps.empty();
+    }
+
+    /// The law of corotational cells that the constants need; none: they are isotropic.
+    std::optional<CellLaw>
+    law_of_grain() const;
+
+    /// What fibre directions go from and to, anywhere, with the key.
+    std::vector<std::pair<Selection, std::string>>
+    selections() const;
+
+    /// Call function(constants, "Material/..." or the like) for each subsection.
+    template <typename Function>
+    void
+    for_each_section(const Function &function) const
+    {
+      function(everywhere, std::string("Material"));
+      for (const auto &[id, constants] : regions)
+        function(constants, "Material/" + region_name(id));
+      for (const auto &[name, constants] : named_regions)
+        function(constants, "Material/" + region_name(name));
     }
 
     void

@@ -3,6 +3,7 @@
 #define exemplar_cell_model_h
 
 #include <exemplar/kernels/corotational_cell.h>
+#include <exemplar/kernels/grain_cell.h>
 #include <exemplar/kernels/green_cell.h>
 #include <exemplar/kernels/linear_cell.h>
 #include <exemplar/kernels/polar_decomposition.h>
@@ -22,12 +23,18 @@ namespace Exemplar
     corotational,
     frozen,
     linear,
-    green
+    green,
+    fibrous,
+    anisotropic
   };
 
   template <typename Number>
-  using CellLaws = std::
-      tuple<CorotationalCell<Number>, FrozenCell<Number>, LinearCell<Number>, GreenCell<Number>>;
+  using CellLaws = std::tuple<CorotationalCell<Number>,
+                              FrozenCell<Number>,
+                              LinearCell<Number>,
+                              GreenCell<Number>,
+                              FibrousCell<Number>,
+                              AnisotropicCell<Number>>;
 
   /// Stands for a law in calls of templates; without data.
   template <typename Cell>

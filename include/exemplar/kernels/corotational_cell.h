@@ -11,8 +11,8 @@
 //   psi = 1/2 (e - D) : C : (e - D) + (1 - phi) S : dev(C:D),        Eq. (16)
 //
 // where the guard phi is 1 but in badly inverted cells; elasticity.h has dev(C:D), in an isotropic
-// material 2 mu dev D. No deal.II header here: see
-// matrix3.h.
+// material 2 mu dev D. Of other materials phi holds all that is not isotropic, see grain_cell.h. No
+// deal.II header here: see matrix3.h.
 
 namespace Exemplar
 {
@@ -75,10 +75,10 @@ namespace Exemplar
   }
 
   /// A deformed cell. The energy of QuadraticCell is joined by the guard of Eq. (16).
-  template <typename Number>
-  class CorotationalCell : public QuadraticCell<Number>
+  template <typename Number, typename OfLaw = CellMaterial<Number>>
+  class CorotationalCell : public QuadraticCell<Number, OfLaw>
   {
-    using Quadratic = QuadraticCell<Number>;
+    using Quadratic = QuadraticCell<Number, OfLaw>;
     using Quadratic::e;
     using Quadratic::elastic_stress;
     using Quadratic::material;
@@ -102,10 +102,10 @@ namespace Exemplar
       return corotated_strain(rotation, deformation_gradient);
     }
 
-    CorotationalCell(const CellMaterial<Number> &material,
-                     const Matrix3<Number>      &rotation,
-                     const Matrix3<Number>      &deformation_gradient,
-                     const ExampleConstants     &examples)
+    CorotationalCell(const OfLaw            &material,
+                     const Matrix3<Number>  &rotation,
+                     const Matrix3<Number>  &deformation_gradient,
+                     const ExampleConstants &examples)
         : CorotationalCell(material,
                            symmetric_part(transpose_times(rotation, deformation_gradient)),
                            examples.guard_bound)
@@ -140,6 +140,17 @@ namespace Exemplar
     force_factor() const
     {
       return Number(1.);
+    }
+
+    /// Of the elasticity alone [Pa].
+    Number
+    elastic_density() const
+    {
+      const Number density = Quadratic::elastic_density();
+      if constexpr (!OfLaw::is_isotropic)
+        if (any(is_guarded()))
+          return density + guard_energy(material, Number(1.) - phi, S, Matrix3<Number>{});
+      return density;
     }
 
     /// psi for the target strain D, Eq. (16).
@@ -196,7 +207,7 @@ namespace Exemplar
     Matrix3<Number>
     elastic_force() const
     {
-      if constexpr (CellMaterial<Number>::is_isotropic)
+      if constexpr (OfLaw::is_isotropic)
         return elastic_stress;
       CorotationalCell without_target = *this;
       without_target.set_target(Matrix3<Number>{});
@@ -207,7 +218,7 @@ namespace Exemplar
     void
     set_target(const Matrix3<Number> &D)
     {
-      T = add_guard_of_target(this->stress_towards(D), material, Number(1.) - phi, D);
+      T = add_guard_of_target(this->stress_towards(D), material, Number(1.) - phi, e, D);
       // W divides by s_i + s_j, but its numerator vanishes faster because of the guard, so that a
       // tiny bound suffices; responses need a greater one
       bound_inverse(Number(1e-8));
@@ -259,7 +270,7 @@ namespace Exemplar
     {
       const Matrix3<Number> Omega = turn(M);
       const Matrix3<Number> dS    = symmetric_part(combine(Number(1.), M, Number(-1.), Omega * S));
-      const Matrix3<Number> dT    = stress(material, dS);
+      const Matrix3<Number> dT    = stress(material.softened(phi), dS);
       const Matrix3<Number> right
           = combine(Number(1.), commutator(dS, T), Number(1.), commutator(S, dT));
       const Matrix3<Number> dS_W = dS * W, W_dS = W * dS;
@@ -282,17 +293,15 @@ namespace Exemplar
     Matrix3<Number>
     example_response(const Matrix3<Number> &E) const
     {
-      const Matrix3<Number> dT
-          = add_guard_of_target(stress(material, E), material, phi - Number(1.), E);
+      const Matrix3<Number> dT = add_guard_of_target(stress(material, E), material,
+                                                     phi - Number(1.), Matrix3<Number>{}, E);
       return combine(Number(1.), dT, Number(1.),
                      skew_matrix(B_inverse * axial_vector(commutator(S, dT))));
     }
 
   protected:
-    CorotationalCell(const CellMaterial<Number> &material,
-                     const Matrix3<Number>      &S,
-                     const double                p_0)
-        : Quadratic(material, minus_identity(S)), elasticity(material), S(S)
+    CorotationalCell(const OfLaw &material, const Matrix3<Number> &S, const double p_0)
+        : Quadratic(material, minus_identity(S)), elasticity(material.isotropic_part()), S(S)
     {
       B = combine(Number(-1.), S, Number(0.), S);
       for (int i = 0; i < 3; ++i)

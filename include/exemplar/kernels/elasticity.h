@@ -56,6 +56,20 @@ namespace Exemplar
       return { Number(0.), mu };
     }
 
+    /// What the guards know of it, which are those of isotropic elasticity.
+    const Isotropic &
+    isotropic_part() const
+    {
+      return *this;
+    }
+
+    /// With `factor` times all that is not isotropic.
+    const Isotropic &
+    softened(const Number & /*factor*/) const
+    {
+      return *this;
+    }
+
     /// An estimate of the norm of C [Pa]: how much the rounding of a strain can grow in its stress.
     Number
     norm_estimate() const
@@ -93,7 +107,8 @@ namespace Exemplar
 
   // The guard of Eq. (16) takes from the energy what would jump where the rotation is ambiguous:
   // with a factor 1 - phi it adds S : dev(C:D), for the stretch S and the target strain D. The
-  // three functions below are this and its derivatives; here dev(C:D) = 2 mu dev D.
+  // three functions below are this and its derivatives; here dev(C:D) = 2 mu dev D. Materials that
+  // are not isotropic have more in them.
 
   /// factor S : dev(C:D) [Pa].
   template <typename Number>
@@ -106,13 +121,14 @@ namespace Exemplar
     return Number(2.) * material.mu * factor * contract(S, deviator(D));
   }
 
-  /// T + factor dev(C:D), the derivative of the guard's energy by S added to a stress T [Pa].
+  /// T + factor dev(C:D), the derivative of the guard's energy by S added to a stress T [Pa]; e = S - I.
   template <typename Number>
   Matrix3<Number>
   add_guard_of_target(const Matrix3<Number>   &T,
                       const Isotropic<Number> &material,
                       const Number            &factor,
-                      const Matrix3<Number>   &D)
+                      const Matrix3<Number> & /*e*/,
+                      const Matrix3<Number> &D)
   {
     return combine(Number(1.), T, Number(2.) * material.mu * factor, deviator(D));
   }

@@ -82,7 +82,7 @@ namespace Exemplar::Loops
   }
 
   template <typename Cell, typename Number>
-  inline PatchCell<Number>
+  inline PatchCell<Number, Cell>
   patch_cell(const CellTask          &task,
              const LaneGroup<Number> &group,
              const Matrix3<Number>   &R,
@@ -97,7 +97,7 @@ namespace Exemplar::Loops
                 { load(stretch.elasticity, group, 2, 0), load(stretch.elasticity, group, 2, 1) } };
     Cell cell = make_cell<Cell>(task.cells, group, R, F);
     cell.set_target(Matrix3<Number>{});
-    return PatchCell<Number>(cell, patch);
+    return PatchCell<Number, Cell>(cell, patch);
   }
 
   template <typename Number, int n_nodes>

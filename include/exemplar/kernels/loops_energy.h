@@ -243,6 +243,8 @@ namespace Exemplar::Loops
       }
       else
         sums.energy += elastic;
+      if constexpr (Cell::traits.n_history == 0 && !Cell::Constants::is_isotropic)
+        sums.guarded.add(group, is_real & cell.is_guarded());
       if (task.damping.factors == nullptr)
         P = cell.elastic_force();
     }

@@ -117,12 +117,12 @@ namespace Exemplar::Loops
   }
 
   /// The response of a cell to what patches add, for cell_blocks().
-  template <typename Number>
+  template <typename Number, typename Cell>
   struct PatchCellResponse
   {
-    PatchCell<Number> cell;
-    Number            pressure;
-    bool              convex;
+    PatchCell<Number, Cell> cell;
+    Number                  pressure;
+    bool                    convex;
 
     Matrix3<Number>
     response(const Matrix3<Number> &M) const
@@ -153,7 +153,7 @@ namespace Exemplar::Loops
                     return;
                   const auto            tet = load_tetrahedron<n_nodes>(task.cells, group);
                   const Matrix3<Number> R   = load_rotation(task.cells, group);
-                  const PatchCellResponse<Number> response
+                  const PatchCellResponse<Number, Cell> response
                       = { patch_cell<Cell>(task, group, R, deformation_gradient(task, group, tet)),
                           load(task.dilatation.pressures, group, 1, 0), tangent.convex };
                   cell_blocks(response, R, tet, columns);

@@ -113,11 +113,11 @@ namespace Exemplar
 
   /// What patches add to the stress of a cell, beside their pressure, and to its tangent. The cell has
   /// no target.
-  template <typename Number>
+  template <typename Number, typename Cell = CorotationalCell<Number>>
   class PatchCell
   {
   public:
-    PatchCell(const CorotationalCell<Number> &cell, const StretchedPatch<Number> &patch)
+    PatchCell(const Cell &cell, const StretchedPatch<Number> &patch)
         : cell(cell), thin(cell.stretch_factor(), cell.product_of_sums()),
           guard(patch.elasticity, cell.stretch_factor(), cell.product_of_sums()), patch(patch)
     {
@@ -175,10 +175,10 @@ namespace Exemplar
     }
 
   private:
-    CorotationalCell<Number> cell;
-    ThinTrace<Number>        thin;
-    StretchGuard<Number>     guard;
-    StretchedPatch<Number>   patch;
+    Cell                   cell;
+    ThinTrace<Number>      thin;
+    StretchGuard<Number>   guard;
+    StretchedPatch<Number> patch;
   };
 } // namespace Exemplar
 

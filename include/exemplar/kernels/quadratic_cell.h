@@ -14,11 +14,11 @@ namespace Exemplar
   /// A deformed cell of energy density 1/2 (e - D) : C : (e - D) with a strain e that is a function
   /// of F alone, and a target strain D. A law adds the forces and their responses, in the frame of
   /// its rotation: R^T P for the first Piola-Kirchhoff stress P. CorotationalCell has them all.
-  template <typename Number>
+  template <typename Number, typename OfLaw = CellMaterial<Number>>
   class QuadraticCell
   {
   public:
-    using Constants = CellMaterial<Number>;
+    using Constants = OfLaw;
 
     /// The change of e with F, as the rotation sees it.
     static Matrix3<Number>
@@ -104,7 +104,7 @@ namespace Exemplar
     }
 
     /// C with damping; without the volume part if that is a patch's.
-    const CellMaterial<Number> &
+    const Constants &
     own_material() const
     {
       return material;
@@ -140,15 +140,15 @@ namespace Exemplar
     }
 
   protected:
-    QuadraticCell(const CellMaterial<Number> &material, const Matrix3<Number> &strain)
+    QuadraticCell(const Constants &material, const Matrix3<Number> &strain)
         : material(material), e(strain), elastic_stress(stress(material, strain)), T(strain)
     {
     }
 
-    CellMaterial<Number> material; ///< with damping
-    Matrix3<Number>      e;
-    Matrix3<Number>      elastic_stress; ///< C:e, without damping
-    Matrix3<Number>      T;              ///< C:(e - D), once the target is set
+    Constants       material; ///< with damping
+    Matrix3<Number> e;
+    Matrix3<Number> elastic_stress; ///< C:e, without damping
+    Matrix3<Number> T;              ///< C:(e - D), once the target is set
   };
 } // namespace Exemplar
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/body/grain_axes.h>
 #include <exemplar/body/patches.h>
 #include <exemplar/run/inputs/body_inputs.h>
 #include <exemplar/run/inputs/surface_readings.h>
@@ -34,16 +35,17 @@ namespace Exemplar
                 Inputs                &inputs,
                 const SurfaceReadings &readings)
     {
-      BodyFields fields;
-      fields.material = Material(scene.material, mesh.get_material_ids(), mesh.get_contents(),
-                                 readings.material);
-      if (scene.model.has_patches())
-        fields.patches = Patches::choose(mesh, fields.material, scene.model.element);
-      fields.shares    = readings.shares;
-      fields.poses     = std::move(inputs.poses);
       NamedNodes named = inputs.nodes;
       named.insert(readings.nodes.begin(), readings.nodes.end());
-      fields.nodes = choose_nodes(scene, mesh, named);
+      BodyFields fields;
+      fields.material = Material(
+          scene.material, mesh.get_material_ids(), mesh.get_contents(), readings.material,
+          find_grain_axes(scene.material, mesh, named, readings.material.fibre_direction));
+      if (scene.model.has_patches())
+        fields.patches = Patches::choose(mesh, fields.material, scene.model.element);
+      fields.shares = readings.shares;
+      fields.poses  = std::move(inputs.poses);
+      fields.nodes  = choose_nodes(scene, mesh, named);
       if (scene.scene == SceneKind::interpolation)
         fields.support = support_near_centroid(mesh.get_nodes(), mesh.get_cells());
       return fields;

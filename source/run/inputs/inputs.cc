@@ -58,6 +58,8 @@ namespace Exemplar
           add_nodes(handle.select, "Handles/" + handle.name);
         for (const LoadParameters &load : scene.loads.named)
           add_nodes(load.select, "Loads/" + load.name);
+        for (const auto &[selection, key] : scene.material.selections())
+          add_nodes(selection, key);
         for_each_pose([this](const std::string &file) { add(file); });
         inputs.made      = surfaces.get_made();
         inputs.geo_walls = inputs.mesh.geo_walls;
@@ -116,6 +118,10 @@ namespace Exemplar
         add_map(scene.material.youngs_modulus_map, "Material/Young's modulus map");
         add_map(scene.material.poissons_ratio_map, "Material/Poisson's ratio map");
         add_map(scene.material.density_map, "Material/Density map");
+        for (const std::string &map : scene.material.fibre_direction_maps)
+          add_map(map, "Material/Fibre direction maps");
+        for (const auto &[selection, key] : scene.material.selections())
+          add_map(selection.map(), key);
         if (scene.examples.are_painted())
           for (const std::string &map : scene.examples.weight_maps)
             add_map(map, "Examples/Weight maps");

@@ -169,6 +169,24 @@ namespace Exemplar
       return { from.selector.at_cells(values), use.is_factor };
     }
 
+    /// One component of the directions of fibres.
+    std::vector<double>
+    component(const SurfaceSources &from, const std::string &text)
+    {
+      const std::string key = "Material/Fibre direction maps";
+      const MapName     map = split_map_name(text, key);
+      if (!map.rest.empty())
+        throw UserError(key + ": " + in_quotes(text)
+                        + " is not understood. Give FILE.ply:ATTRIBUTE or FILE.csv[:COLUMN].");
+      const std::vector<double> &values = find_map(map, from.inputs, key);
+      for (std::size_t v = 0; v < values.size(); ++v)
+        if (!std::isfinite(values[v]))
+          throw UserError(
+              fmt::format("{}: in {} vertex {} has no number. Give one for each vertex.", key,
+                          map.name(), v + 1));
+      return from.selector.at_cells(values);
+    }
+
     std::vector<double>
     share(const SurfaceSources &from, const std::string &text)
     {
@@ -200,12 +218,16 @@ namespace Exemplar
   PaintedMaterial
   read_painted_material(const SurfaceSources &from)
   {
-    const MaterialParameters &m = from.scene.material;
+    const MaterialParameters        &m = from.scene.material;
+    std::vector<std::vector<double>> direction;
+    for (const std::string &map : m.fibre_direction_maps)
+      direction.push_back(component(from, map));
     return { painted(from, "Young's modulus", m.youngs_modulus_map,
                      &ElasticConstants::youngs_modulus, 0., 1e300),
              painted(from, "Poisson's ratio", m.poissons_ratio_map,
                      &ElasticConstants::poissons_ratio, -1., 0.5),
-             painted(from, "Density", m.density_map, &ElasticConstants::density, 0., 1e300) };
+             painted(from, "Density", m.density_map, &ElasticConstants::density, 0., 1e300),
+             direction };
   }
 
   std::vector<std::vector<double>>

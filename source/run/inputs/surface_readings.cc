@@ -55,6 +55,8 @@ namespace Exemplar
     }
     for (const LoadParameters &load : scene.loads.named)
       add_nodes(from, load.select, "Loads/" + load.name, readings.nodes);
+    for (const auto &[selection, key] : scene.material.selections())
+      add_nodes(from, selection, key, readings.nodes);
     return readings;
   }
 } // namespace Exemplar

@@ -124,6 +124,7 @@ namespace Exemplar
                      const Vector  &displacement)
     {
       const FESpace &fe_space = quadratic.body.fe_space;
+      const Material rest     = quadratic.body.material.without_dilatation();
       // dilatations that patches leave free within them are no error
       const Patches      &patches   = linear.body.patches;
       const bool          are_there = patches.size() > 0;
@@ -135,18 +136,19 @@ namespace Exemplar
       { return are_there ? patches.volume(patches.of_point(cell)) : fe_space.cell_volume(cell); };
       for (unsigned int point = 0; point < fe_space.n_points(); ++point)
       {
-        const unsigned int          cell = fe_space.cell_of(point);
-        const CellMaterial<double> &C    = quadratic.body.material.elasticity(cell);
-        const Matrix3<double>       F    = fe_space.deformation_gradient(point, positions);
-        const CellLaw               law  = quadratic.parameters.model.law();
-        const Matrix3<double>       e    = model_strain_change(
-                     law, model_rotation(law, F), F, fe_space.deformation_gradient(point, displacement));
-        densities[cell] += 0.5 * fe_space.volume(point) / fe_space.cell_volume(cell)
-                           * contract(stress(C.without_dilatation(), e), e);
+        const unsigned int    cell = fe_space.cell_of(point);
+        const Matrix3<double> F    = fe_space.deformation_gradient(point, positions);
+        const CellLaw         law  = quadratic.parameters.model.law();
+        const Matrix3<double> e    = model_strain_change(
+               law, model_rotation(law, F), F, fe_space.deformation_gradient(point, displacement));
+        const Matrix3<double> T = model_stress(
+            law, [&](const std::size_t k) { return rest.number(law, cell, k); }, e);
+        densities[cell]
+            += 0.5 * fe_space.volume(point) / fe_space.cell_volume(cell) * contract(T, e);
         traces[part_of(cell)] += fe_space.volume(point) / volume_of(cell) * trace(e);
       }
       for (unsigned int cell = 0; cell < densities.size(); ++cell)
-        densities[cell] += 0.5 * std::abs(quadratic.body.material.elasticity(cell).lambda)
+        densities[cell] += 0.5 * std::abs(quadratic.body.material.lambda_of_patches(cell))
                            * traces[part_of(cell)] * traces[part_of(cell)];
       return densities;
     }

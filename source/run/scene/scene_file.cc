@@ -2,6 +2,7 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/base/message_text.h>
 #include <exemplar/base/nearest_word.h>
+#include <exemplar/body/grain_axes.h>
 #include <exemplar/mesh/map_name.h>
 #include <exemplar/run/scene/ignored_keys.h>
 #include <exemplar/run/scene/named_subsections.h>
@@ -114,6 +115,18 @@ namespace Exemplar
       }
     }
 
+    /// The files that a selection names.
+    void
+    append_files(const Selection                    &selection,
+                 const std::string                  &key,
+                 std::vector<std::filesystem::path> &files)
+    {
+      if (!selection.file().empty())
+        files.emplace_back(selection.file());
+      if (!selection.map().empty())
+        files.emplace_back(split_map_name(selection.map(), key).file);
+    }
+
     /// The files that a key names.
     void
     append_files(const DeclaredKey &key, std::vector<std::filesystem::path> &files)
@@ -127,13 +140,14 @@ namespace Exemplar
             append_sequence(file, files);
           else
             files.emplace_back(file);
-      else if (const Selection selection{ key.value }; key.key == "Select")
+      else if (key.key == "Fibre direction")
       {
-        if (!selection.file().empty())
-          files.emplace_back(selection.file());
-        if (!selection.map().empty())
-          files.emplace_back(split_map_name(selection.map(), key.path()).file);
+        if (const auto ends = split_fibre_ends(key.value, key.path()))
+          for (const Selection &end : { ends->from, ends->to })
+            append_files(end, key.path(), files);
       }
+      else if (key.key == "Select")
+        append_files(Selection{ key.value }, key.path(), files);
     }
   } // namespace
 
@@ -251,8 +265,9 @@ namespace Exemplar
     // deal.II rounds the text of a default to six digits: take over the text that was set
     const auto take_over = [&](const std::string &subsection)
     {
-      for (const std::string key : { "Young's modulus", "Poisson's ratio", "Density" })
-        keys.set("Material/" + subsection + "/" + key, keys.get("Material/" + key));
+      for (const DeclaredKey &key : keys.keys())
+        if (key.subsections == std::vector<std::string>{ "Material", subsection })
+          keys.set(key.path(), keys.get("Material/" + key.key));
     };
     for (const unsigned int id : regions.ids)
       take_over(MaterialParameters::region_name(id));
@@ -285,6 +300,9 @@ namespace Exemplar
     for (const LoadParameters &load : parameters.loads.named)
       keys.set("Loads/" + load.name + "/Select",
                Selection::absolute(load.select.text, directory()));
+    for (const DeclaredKey &key : keys.keys())
+      if (key.key == "Fibre direction")
+        keys.set(key.path(), absolute_fibre_direction(key.value, directory()));
   }
 
   void

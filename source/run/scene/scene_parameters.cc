@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
+#include <exemplar/mesh/selection.h>
 #include <exemplar/run/scene/scene_parameters.h>
 
 namespace Exemplar
@@ -23,6 +24,8 @@ namespace Exemplar
       if (model.dilatation == DilatationKind::automatic)
         model.dilatation = DilatationKind::cells;
     }
+    if (const std::optional<CellLaw> law = material.law_of_grain(); law)
+      model.strain = law_of_grain(*law);
     model.complete();
     if (solver.method != Method::automatic)
       return;
@@ -30,6 +33,22 @@ namespace Exemplar
       solver.method = Method::fixed_point;
     else
       solver.method = scene == SceneKind::dynamic ? Method::quasi_newton : Method::newton;
+  }
+
+  CellLaw
+  CompleteScene::law_of_grain(const CellLaw law) const
+  {
+    const std::string keys = "Material/Fibre stiffness and Material/Orthotropy";
+    if (model.is_frozen())
+      throw UserError(
+          keys
+          + " are not for Model/Gradient = frozen: the frozen force would turn a free body with "
+            "fibres, also without examples. Set Model/Gradient = consistent.");
+    if (model.strain != CellLaw::corotational && model.strain != law)
+      throw UserError(
+          keys + " are for Model/Strain = corotational, not for " + traits_of(model.strain).name
+          + ". Set that, or remove the fibres (Fibre stiffness = 0, Orthotropy empty).");
+    return law;
   }
 
   void
@@ -50,6 +69,10 @@ namespace Exemplar
       throw UserError(
           "Loads/Ramp = increments lets loads grow with the increments of a static scene, "
           "but this scene has none. Set Loads/Ramp = none, and a Force that grows with t.");
+    if (examples.need_fibres() && !material.law_of_grain())
+      throw UserError(
+          "Examples/Acts on speaks of fibres, but no material has any. Set Material/Fibre "
+          "stiffness and Material/Fibre direction, or Examples/Acts on = all.");
     check_solver();
     check_surface();
     if (output.final_pose == FinalTetrahedra::quadratic
@@ -88,6 +111,9 @@ namespace Exemplar
     for (const LoadParameters &load : loads.named)
       if (load.select.is_of_surface())
         return "Loads/" + load.name + "/Select";
+    for (const auto &[selection, key] : material.selections())
+      if (selection.is_of_surface())
+        return key;
     if (material.is_painted())
       return "Material/... map";
     return examples.are_painted() ? "Examples/Weight maps" : "";

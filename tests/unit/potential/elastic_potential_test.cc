@@ -183,7 +183,8 @@ namespace Exemplar::Testing
     void
     expect_derivatives(const TangentCase &test_case)
     {
-      Body body(bar_of_two_regions(2., box_mesh(4., 4, 1)), test_case.discretisation.element);
+      Body body(bar_of_two_regions(2., box_mesh(4., 4, 1)), test_case.discretisation.element,
+                material_of_law(test_case.laws[0]));
       if (test_case.discretisation.has_patches)
         body.make_patches();
       ExampleParameters parameters   = two_examples();
@@ -260,6 +261,41 @@ namespace Exemplar::Testing
     {
       for (const CellLaw strain : strains_of(GetParam()))
         expect_derivatives({ GetParam(), strain, false, 0.7 });
+    }
+
+    TEST_P(ElasticPotentialTest, TangentsAreDerivativesWithGrain)
+    {
+      for (const CellLaw law : { CellLaw::fibrous, CellLaw::anisotropic })
+        for (const double damping : { 0., 0.7 })
+          expect_derivatives({ GetParam(), law, false, damping });
+    }
+
+    TEST_P(ElasticPotentialTest, AFreeBodyWithFibresFeelsNoTorque)
+    {
+      for (const CellLaw law : { CellLaw::fibrous, CellLaw::anisotropic })
+      {
+        Body body(bar_of_two_regions(2., box_mesh(4., 4, 1)), GetParam().element,
+                  material_of_law(law));
+        if (GetParam().has_patches)
+          body.make_patches();
+        const auto     examples = body.examples(two_examples(), law);
+        const FreeDofs free_dofs(body.fe_space.n_dofs(), {}, Exchange::serial());
+        BodyPotential  elastic(body, LawsOfCells(law), examples, free_dofs);
+        std::mt19937   generator(9);
+        const Vector   positions = body.random_positions(generator, 0.1);
+        const Vector   force     = elastic.evaluate_at(positions, { 0.2, 0.5, 0.3 }).gradient;
+        double         torque[3] = {}, scale = 0.;
+        for (unsigned int node = 0; node < body.fe_space.n_nodes(); ++node)
+          for (unsigned int i = 0; i < 3; ++i)
+          {
+            const unsigned int j = (i + 1) % 3, k = (i + 2) % 3;
+            torque[i] += positions[3 * node + j] * force[3 * node + k]
+                         - positions[3 * node + k] * force[3 * node + j];
+            scale += std::abs(positions[3 * node + j] * force[3 * node + k]);
+          }
+        for (const double component : torque)
+          EXPECT_NEAR(component, 0., 1e-12 * scale);
+      }
     }
 
     TEST_P(ElasticPotentialTest, TangentsAreDerivativesWithWeightsPerRegion)

@@ -83,6 +83,10 @@ namespace Exemplar
     void
     complete();
 
+    /// In place of the strain. Throws UserError for a model that has no fibres.
+    CellLaw
+    law_of_grain(CellLaw law) const;
+
     void
     check() const;
   };
