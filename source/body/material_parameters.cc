@@ -56,6 +56,15 @@ namespace Exemplar
     return values;
   }
 
+  bool
+  MaterialParameters::may_yield() const
+  {
+    bool may = false;
+    for_each_region([&](const ElasticConstants &constants, const std::string & /*section*/)
+                    { may |= constants.own.at("Yield stress") > 0.; });
+    return may;
+  }
+
   std::string
   MaterialParameters::region_name(const unsigned int id)
   {
@@ -112,10 +121,6 @@ namespace Exemplar
   void
   MaterialParameters::check() const
   {
-    check_poissons_ratio(everywhere, "Material");
-    for (const auto &[id, constants] : regions)
-      check_poissons_ratio(constants, "Material/" + region_name(id));
-    for (const auto &[name, constants] : named_regions)
-      check_poissons_ratio(constants, "Material/" + region_name(name));
+    for_each_region(check_poissons_ratio);
   }
 } // namespace Exemplar

@@ -141,6 +141,8 @@ namespace Exemplar
   IncrementalPotential::begin_step(const State &start, const double step_size)
   {
     cells.get_field().set_history(start.history);
+    cells.get_field().set_step_size(
+        integrator != nullptr ? step_size : std::numeric_limits<double>::infinity());
     if (integrator != nullptr)
     {
       integrator->begin_step(start, step_size);
@@ -170,6 +172,7 @@ namespace Exemplar
   {
     in_dynamic_step = false;
     cells.get_field().set_history(at.history);
+    cells.get_field().set_step_size(0.);
     cells.set_damping(0., {});
     for (PotentialTerm *term : all_terms)
       term->leave_step();

@@ -50,6 +50,10 @@ namespace Exemplar
       return !youngs_modulus_map.empty() || !poissons_ratio_map.empty() || !density_map.empty();
     }
 
+    /// Whether some cells have a yield stress.
+    bool
+    may_yield() const;
+
     void
     declare(KeyTable &keys);
 
@@ -58,6 +62,18 @@ namespace Exemplar
     declare_regions(KeyTable                     &keys,
                     const std::set<unsigned int> &ids,
                     const std::set<std::string>  &names);
+
+    /// Call function(constants, section) for what is everywhere and for each region.
+    template <typename Function>
+    void
+    for_each_region(const Function &function) const
+    {
+      function(everywhere, std::string("Material"));
+      for (const auto &[id, constants] : regions)
+        function(constants, "Material/" + region_name(id));
+      for (const auto &[name, constants] : named_regions)
+        function(constants, "Material/" + region_name(name));
+    }
 
     /// The subsection of a material id.
     static std::string

@@ -5,6 +5,7 @@
 #include <exemplar/kernels/corotational_cell.h>
 #include <exemplar/kernels/green_cell.h>
 #include <exemplar/kernels/linear_cell.h>
+#include <exemplar/kernels/plastic_cell.h>
 #include <exemplar/kernels/polar_decomposition.h>
 
 #include <tuple>
@@ -22,12 +23,16 @@ namespace Exemplar
     corotational,
     frozen,
     linear,
-    green
+    green,
+    plastic
   };
 
   template <typename Number>
-  using CellLaws = std::
-      tuple<CorotationalCell<Number>, FrozenCell<Number>, LinearCell<Number>, GreenCell<Number>>;
+  using CellLaws = std::tuple<CorotationalCell<Number>,
+                              FrozenCell<Number>,
+                              LinearCell<Number>,
+                              GreenCell<Number>,
+                              PlasticCell<Number>>;
 
   /// Stands for a law in calls of templates; without data.
   template <typename Cell>

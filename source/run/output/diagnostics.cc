@@ -94,6 +94,7 @@ namespace Exemplar
       append(row, "energy_example", elastic.energy_example());
     if (mass != nullptr)
       append(row, "energy_kinetic", sums.kinetic_energy);
+    append_dissipated(row);
     append_terms(row);
     append_weights(row, shown, report);
     append(row, "min_det_F", elastic.min_det_F);
@@ -110,6 +111,14 @@ namespace Exemplar
     for (unsigned int h = 0; h < handles.size(); ++h)
       append(row, "reaction_" + handles.name(h), handles.sum_over(h, problem.evaluation.gradient));
     return row;
+  }
+
+  void
+  Diagnostics::append_dissipated(StatisticsRow &row) const
+  {
+    const CellField &cells = problem.potential.get_cells().get_field();
+    if (cells.get_batches().has_trait(&ModelTraits::dissipated))
+      append(row, "energy_dissipated", problem.body.exchange().sum(cells.dissipated_energy()));
   }
 
   void

@@ -45,6 +45,7 @@ namespace Exemplar
       throw UserError(
           "Loads/Ramp = increments lets loads grow with the increments of a static scene, "
           "but this scene has none. Set Loads/Ramp = none, and a Force that grows with t.");
+    check_plasticity();
     check_solver();
     check_surface();
     if (output.final_pose == FinalTetrahedra::quadratic

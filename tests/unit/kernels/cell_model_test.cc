@@ -37,7 +37,7 @@ namespace Exemplar::Testing
       { return k < CellMaterial<double>::n_numbers ? material.number(k) : own_constant; };
       Cell cell(Cell::Constants::from_numbers(number), rotation_of<Cell>(F), F, examples);
       if constexpr (Cell::traits.n_history > 0)
-        cell.remember([](const std::size_t k) { return remembered * std::sin(1. + k); });
+        cell.remember([](const std::size_t k) { return remembered * std::sin(1. + k); }, 0.5);
       return cell;
     }
 
@@ -258,7 +258,7 @@ namespace Exemplar::Testing
     TEST(AllLaws, ForceTangentAndColumnsAreDerivatives)
     {
       for (const CellLaw law : all_laws())
-        for (const double scale : { 0., 0.1 })
+        for (const double scale : { 0., 0.05 })
         {
           SCOPED_TRACE(traits_of(law).name + (" " + std::to_string(scale)));
           remembered = scale;
