@@ -16,6 +16,7 @@
 
 namespace Exemplar
 {
+  /// Those of Eq. (27), beside Lamé's constants.
   template <typename Number>
   struct PlasticConstants : Isotropic<Number>
   {
@@ -55,6 +56,7 @@ namespace Exemplar
     }
   };
 
+  /// The plastic strain of a cell at the end of a step, and how it follows the strain.
   template <typename Number>
   class PlasticFlow
   {
