@@ -61,8 +61,9 @@ namespace Exemplar
       const Matrix3<Number> p = { { { xx, xy, xz }, { xy, yy, yz }, { xz, yz, -(xx + yy) } } };
       hardening_before        = hardening(p, load(n_of_strain));
       work_before             = load(n_of_strain + 1);
-      flow = PlasticFlow<Number>(constants, driving(this->strain()), p, load(n_of_strain),
+      flow       = PlasticFlow<Number>(constants, driving(this->strain()), p, load(n_of_strain),
                                  step_size);
+      is_elastic = !any(contract(flow.strain(), flow.strain()) > Number(0.));
     }
 
     Number
@@ -83,12 +84,16 @@ namespace Exemplar
     Number
     elastic_density() const
     {
+      if (is_elastic)
+        return Corotational::elastic_density();
       return Number(0.5) * contract(stress(constants, elastic_strain()), elastic_strain());
     }
 
     Number
     elastic_scale() const
     {
+      if (is_elastic)
+        return Corotational::elastic_scale();
       return norm(stress(constants, elastic_strain()));
     }
 
@@ -123,6 +128,8 @@ namespace Exemplar
     Number
     energy(const Matrix3<Number> &D) const
     {
+      if (is_elastic)
+        return Corotational::energy(D) + inelastic_density();
       const Matrix3<Number> &p   = flow.strain();
       const Matrix3<Number>  T_p = stress(constants, p);
       return Corotational::energy(with_plastic(D)) - of_body * contract(D, T_p)
@@ -133,6 +140,8 @@ namespace Exemplar
     Matrix3<Number>
     elastic_force() const
     {
+      if (is_elastic)
+        return Corotational::elastic_force();
       PlasticCell without_target = *this;
       without_target.set_target(Matrix3<Number>{});
       return without_target.force();
@@ -191,9 +200,10 @@ namespace Exemplar
       return combine(Number(1.), D, of_body / moved, flow.strain());
     }
 
-    Constants           constants;          ///< without damping
-    Number              of_body;            ///< 1 - eta
-    Number              moved = Number(1.); ///< 1 + s with damping
+    Constants           constants;               ///< without damping
+    Number              of_body;                 ///< 1 - eta
+    Number              moved      = Number(1.); ///< 1 + s with damping
+    bool                is_elastic = true;       ///< there is no plastic strain, as in most cells
     PlasticFlow<Number> flow;
     Number              hardening_before = Number(0.), work_before = Number(0.);
   };
