@@ -88,7 +88,7 @@ namespace Exemplar
     OfLaw &first = of_laws.front();
     return { n_points,         nodes.data(), gradients.data(),       volumes.data(),
              rotations.data(), first.law,    first.constants.data(), first.history.data(),
-             examples };
+             examples,         step_size };
   }
 
   std::size_t

@@ -137,6 +137,15 @@ namespace Exemplar
     return values;
   }
 
+  bool
+  MaterialParameters::may_yield() const
+  {
+    bool may = false;
+    for_each_section([&](const ElasticConstants &constants, const std::string & /*section*/)
+                     { may |= constants.own.at("Yield stress") > 0.; });
+    return may;
+  }
+
   std::string
   MaterialParameters::region_name(const unsigned int id)
   {

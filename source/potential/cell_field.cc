@@ -165,7 +165,18 @@ namespace Exemplar
     if (batches.remembers())
       for_each_law(task(positions, RotationUse::keep), [&](const CellTask &of_law)
                    { kernels.advance_history(of_law, 0, of_law.cells.n_batches()); });
+    batches.set_step_size(0.);
     return batches.history();
+  }
+
+  double
+  CellField::dissipated_energy() const
+  {
+    double sum = 0.;
+    for (unsigned int point = 0; point < fe_space.n_points(); ++point)
+      sum += fe_space.volume(point)
+             * batches.history_number(point, traits_of(batches.law(point)).dissipated);
+    return sum;
   }
 
   std::size_t

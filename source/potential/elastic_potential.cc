@@ -44,13 +44,14 @@ namespace Exemplar
     void
     copy_sums(const CellSums &sums, ElasticEvaluation &result)
     {
-      result.energy_elastic = sums.energy_elastic;
-      result.energy         = sums.energy;
-      result.energy_damping = sums.energy_damping;
-      result.min_det_F      = sums.min_det_F;
-      result.inverted_cells = sums.inverted_cells;
-      result.guarded_cells  = sums.guarded_cells;
-      result.stress_square  = sums.stress_square;
+      result.energy_elastic   = sums.energy_elastic;
+      result.energy           = sums.energy;
+      result.energy_damping   = sums.energy_damping;
+      result.energy_inelastic = sums.energy_inelastic;
+      result.min_det_F        = sums.min_det_F;
+      result.inverted_cells   = sums.inverted_cells;
+      result.guarded_cells    = sums.guarded_cells;
+      result.stress_square    = sums.stress_square;
     }
 
     CellRounding
@@ -269,7 +270,11 @@ namespace Exemplar
     std::vector<double> densities(n_points, 0.);
     for (const auto &term : terms)
       term->add_densities(densities);
-    CellResults results{ std::vector<double>(n), std::vector<double>(n), std::vector<double>(n) };
+    const CellBatches &batches = cells.get_batches();
+    CellResults results{ std::vector<double>(n), std::vector<double>(n), std::vector<double>(n),
+                         std::vector<double>() };
+    if (batches.has_trait(&ModelTraits::plastic_strain))
+      results.plastic_strain.resize(n);
     for (unsigned int point = 0; point < n_points; ++point)
     {
       const unsigned int    cell = parts.fe_space.cell_of(point);
@@ -277,14 +282,13 @@ namespace Exemplar
       const Matrix3<double> R    = cells.rotation(point);
       Matrix3<double>       T;
       double                energy = densities[point];
-      cells.get_batches().with_cell(
-          point, R, F,
-          [&](const auto &state)
-          {
-            energy += state.elastic_density();
-            energy += state.is_stretched() ? state.stretch().energy() : 0.;
-            T = state.stress_towards(parts.examples.strain(point, weights));
-          });
+      batches.with_cell(point, R, F,
+                        [&](const auto &state)
+                        {
+                          energy += state.elastic_density();
+                          energy += state.is_stretched() ? state.stretch().energy() : 0.;
+                          T = state.stress_towards(parts.examples.strain(point, weights));
+                        });
       const double third = trace(T) / 3.;
       for (int i = 0; i < 3; ++i)
         T[i][i] -= third;
@@ -293,6 +297,9 @@ namespace Exemplar
       const double part      = parts.fe_space.volume(point) / parts.fe_space.cell_volume(cell);
       results.strain_energy_density[cell] += part * energy;
       results.von_mises_stress[cell] += part * von_mises;
+      if (!results.plastic_strain.empty())
+        results.plastic_strain[cell]
+            += part * batches.history_number(point, traits_of(batches.law(point)).plastic_strain);
       const bool is_first = point == 0 || parts.fe_space.cell_of(point - 1) != cell;
       results.det_F[cell] = is_first ? det : min_or_nan(results.det_F[cell], det);
     }

@@ -141,6 +141,8 @@ namespace Exemplar
   IncrementalPotential::begin_step(const State &start, const double step_size)
   {
     cells.get_field().set_history(start.history);
+    cells.get_field().set_step_size(
+        integrator != nullptr ? step_size : std::numeric_limits<double>::infinity());
     if (integrator != nullptr)
     {
       integrator->begin_step(start, step_size);
@@ -174,6 +176,7 @@ namespace Exemplar
   {
     in_dynamic_step = false;
     cells.get_field().set_history(at.history);
+    cells.get_field().set_step_size(0.);
     cells.set_damping(0., {});
     if (weights.get_memory().in_use())
       weights.set_step({ at.weights, {} });

@@ -74,7 +74,8 @@ namespace Exemplar
       Cell state(constants<typename Cell::Constants>(point), R, F, examples);
       if constexpr (constexpr std::size_t n = Cell::traits.n_history; n > 0)
         state.remember([&, &of_law = of_law_at(point)](const std::size_t k)
-                       { return of_law.history[batch_index(point, n, k)]; });
+                       { return of_law.history[batch_index(point, n, k)]; },
+                       step_size);
       return state;
     }
 
@@ -105,6 +106,32 @@ namespace Exemplar
     /// From now on they remember this; empty: nothing has happened.
     void
     set_history(const std::vector<double> &history);
+
+    /// From now on they are in a step of that size [s], infinite in statics; 0: in none, so that what they
+    /// remember stays.
+    void
+    set_step_size(const double new_step_size)
+    {
+      step_size = new_step_size;
+    }
+
+    /// Number k of what the law of a point remembers; 0 if it does not know such a number.
+    double
+    history_number(const unsigned int point, const std::size_t k) const
+    {
+      const OfLaw      &of_law = of_law_at(point);
+      const std::size_t n      = traits_of(of_law.law).n_history;
+      return k < n ? of_law.history[batch_index(point, n, k)] : 0.;
+    }
+
+    /// Whether some law has that trait, the number of something that it remembers.
+    bool
+    has_trait(std::size_t ModelTraits::*number) const
+    {
+      return std::any_of(of_laws.begin(), of_laws.end(),
+                         [number](const OfLaw &of_law)
+                         { return traits_of(of_law.law).*number != ModelTraits::not_remembered; });
+    }
 
     Matrix3<double>
     rotation(const unsigned int point) const
@@ -163,6 +190,7 @@ namespace Exemplar
     const FESpace                &fe_space;
     const LawsOfCells             laws;
     ExampleConstants              examples;
+    double                        step_size = 0.;
     const std::size_t             n_points;
     const std::size_t             n_nodes; ///< of each
     std::vector<int>              nodes;

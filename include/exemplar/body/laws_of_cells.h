@@ -25,13 +25,21 @@ namespace Exemplar
       laws.erase(std::unique(laws.begin(), laws.end()), laws.end());
     }
 
+    /// Cells that are not here have this law, too.
+    void
+    add(const CellLaw law)
+    {
+      if (std::find(laws.begin(), laws.end(), law) == laws.end())
+        laws.insert(std::upper_bound(laws.begin(), laws.end(), law), law);
+    }
+
     CellLaw
     operator[](const unsigned int cell) const
     {
       return law_of_cell.empty() ? laws.front() : law_of_cell[cell];
     }
 
-    /// Those of some cell, each once.
+    /// Those of some cell, here or elsewhere, each once.
     const std::vector<CellLaw> &
     present() const
     {

@@ -88,6 +88,13 @@ namespace Exemplar
     double
     number(CellLaw law, unsigned int cell, std::size_t k) const;
 
+    /// A constant that some law adds to those of elasticity.h, by its name.
+    double
+    own_number(const std::string &name, const unsigned int cell) const
+    {
+      return constants[constants_of_cell[cell]].own.at(name);
+    }
+
     /// With other constants. Throws UserError for numbers that are not one for all or one a cell, or that
     /// are out of range.
     Material

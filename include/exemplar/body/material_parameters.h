@@ -85,6 +85,10 @@ namespace Exemplar
         function(constants, "Material/" + region_name(name));
     }
 
+    /// Whether some cells have a yield stress.
+    bool
+    may_yield() const;
+
     void
     declare(KeyTable &keys);
 

@@ -32,6 +32,7 @@ namespace Exemplar
     const double    *constants; ///< those of the law's Constants
     double          *history;   ///< what the law remembers
     ExampleConstants examples;
+    double           step_size;              ///< [s]: of the step that this is in; 0: of none
     bool             has_other_laws = false; ///< some cells are of another law
 
     std::size_t
@@ -164,13 +165,14 @@ namespace Exemplar
   /// What a loop sums over its cells.
   struct CellSums
   {
-    double       energy         = 0.; ///< without the penalty [J]
-    double       energy_elastic = 0.; ///< sum V/2 e:C:e [J]
-    double       energy_damping = 0.; ///< [J]
-    double       stress_square  = 0.; ///< sum V (|C:e| + eta |C:E(w)|)^2
-    double       min_det_F      = std::numeric_limits<double>::max();
-    unsigned int inverted_cells = 0;
-    unsigned int guarded_cells  = 0;
+    double       energy           = 0.; ///< without the penalty [J]
+    double       energy_elastic   = 0.; ///< sum V/2 e:C:e [J]
+    double       energy_damping   = 0.; ///< [J]
+    double       energy_inelastic = 0.; ///< that laws have beside it and the examples [J]
+    double       stress_square    = 0.; ///< sum V (|C:e| + eta |C:E(w)|)^2
+    double       min_det_F        = std::numeric_limits<double>::max();
+    unsigned int inverted_cells   = 0;
+    unsigned int guarded_cells    = 0;
 
     CellSums &
     operator+=(const CellSums &other)
@@ -178,6 +180,7 @@ namespace Exemplar
       energy += other.energy;
       energy_elastic += other.energy_elastic;
       energy_damping += other.energy_damping;
+      energy_inelastic += other.energy_inelastic;
       stress_square += other.stress_square;
       min_det_F = other.min_det_F >= min_det_F ? min_det_F : other.min_det_F; // NaN is the least
       inverted_cells += other.inverted_cells;

@@ -6,6 +6,7 @@
 #include <exemplar/kernels/grain_cell.h>
 #include <exemplar/kernels/green_cell.h>
 #include <exemplar/kernels/linear_cell.h>
+#include <exemplar/kernels/plastic_cell.h>
 #include <exemplar/kernels/polar_decomposition.h>
 
 #include <tuple>
@@ -25,7 +26,8 @@ namespace Exemplar
     linear,
     green,
     fibrous,
-    anisotropic
+    anisotropic,
+    plastic
   };
 
   template <typename Number>
@@ -34,7 +36,8 @@ namespace Exemplar
                               LinearCell<Number>,
                               GreenCell<Number>,
                               FibrousCell<Number>,
-                              AnisotropicCell<Number>>;
+                              AnisotropicCell<Number>,
+                              PlasticCell<Number>>;
 
   /// Stands for a law in calls of templates; without data.
   template <typename Cell>

@@ -58,6 +58,7 @@ namespace Exemplar::Loops
   struct LaneSums
   {
     Number energy = Number(0.), elastic = Number(0.), damping = Number(0.);
+    Number inelastic     = Number(0.);
     Number stress_square = Number(0.);
     Number min_det       = Number(std::numeric_limits<double>::max());
 
@@ -69,6 +70,7 @@ namespace Exemplar::Loops
       sums.energy += total(energy);
       sums.energy_elastic += total(elastic);
       sums.energy_damping += total(damping);
+      sums.energy_inelastic += total(inelastic);
       sums.stress_square += total(stress_square);
       sums.inverted_cells += static_cast<unsigned int>(inverted.total());
       sums.guarded_cells += static_cast<unsigned int>(guarded.total());
@@ -217,6 +219,8 @@ namespace Exemplar::Loops
     sums.min_det         = select(det >= sums.min_det, sums.min_det, det);
     sums.inverted.add(group, is_real & (det <= Number(0.)));
     sums.elastic += elastic;
+    if constexpr (Cell::traits.n_history > 0)
+      sums.inelastic += tet.volume * cell.inelastic_density();
 
     const Number patch_scale = has_patches ? load(task.dilatation.scales, group, 1, 0) : Number(0.);
     Matrix3<Number> P; // R^T P

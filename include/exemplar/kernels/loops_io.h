@@ -173,7 +173,8 @@ namespace Exemplar::Loops
   {
     Cell cell(load_constants<typename Cell::Constants>(cells, group), R, F, cells.examples);
     if constexpr (constexpr std::size_t n = Cell::traits.n_history; n > 0)
-      cell.remember([&](const std::size_t k) { return load(cells.history, group, n, k); });
+      cell.remember([&](const std::size_t k) { return load(cells.history, group, n, k); },
+                    cells.step_size);
     return cell;
   }
 

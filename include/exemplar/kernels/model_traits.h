@@ -32,7 +32,7 @@ namespace Exemplar
     const char *name;
 
     /// Its strain measure, for the documentation of Model/Strain; empty for a law that is chosen by
-    /// Model/Gradient.
+    /// Model/Gradient or Material.
     const char *strain;
 
     /// R is the rotation of F. In models without rotations it is I, and P = R (R^T P) holds, too.
@@ -59,9 +59,17 @@ namespace Exemplar
     bool turns_freely;
 
     /// Numbers that it remembers at each point from step to step; 0 at the beginning. Such a law has
-    /// the members remember() and new_history() as well, see make_cell() and advance_history() of
-    /// the loops.
+    /// the members remember(), new_history() and inelastic_density() as well, see make_cell(),
+    /// advance_history() and evaluate() of the loops.
     std::size_t n_history = 0;
+
+    static constexpr std::size_t not_remembered = std::numeric_limits<std::size_t>::max();
+
+    /// Which of these numbers is the equivalent plastic strain that frames show.
+    std::size_t plastic_strain = not_remembered;
+
+    /// And which the energy that has been spent on what stays [J/m^3].
+    std::size_t dissipated = not_remembered;
 
     /// Whether it is a value of Model/Strain.
     constexpr bool

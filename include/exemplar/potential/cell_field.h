@@ -211,9 +211,21 @@ namespace Exemplar
       batches.set_history(history);
     }
 
-    /// What they remember after a step that ends at these positions, from what they remembered.
+    /// As CellBatches::set_step_size().
+    void
+    set_step_size(const double step_size)
+    {
+      batches.set_step_size(step_size);
+    }
+
+    /// What they remember after a step that ends at these positions, from what they remembered. The
+    /// step is over then.
     std::vector<double>
     advance_history(const Vector &positions);
+
+    /// What the cells of this process have dissipated since the first step [J].
+    double
+    dissipated_energy() const;
 
     const CellKernels &
     loops() const

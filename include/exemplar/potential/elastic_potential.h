@@ -17,9 +17,10 @@ namespace Exemplar
   /// What frames show of a cell: means over its quadrature points, and the least det F.
   struct CellResults
   {
-    std::vector<double> strain_energy_density; ///< 1/2 e:C:e [J/m^3]
+    std::vector<double> strain_energy_density; ///< 1/2 e:C:e of the elastic strain [J/m^3]
     std::vector<double> det_F;
     std::vector<double> von_mises_stress; ///< of the corotated stress C:(e - eta E(w)) [Pa]
+    std::vector<double> plastic_strain;   ///< the equivalent one [-]; empty unless cells may yield
   };
 
   /// What the cells of a body are: their laws, geometry and material, and the examples, which may be

@@ -19,24 +19,25 @@ namespace Exemplar
   /// Psi and its derivatives at given positions and weights: what the cells find, and terms add.
   struct ElasticEvaluation
   {
-    Vector              gradient;           ///< internal forces dPsi/dx [N], Eq. (6)
-    Vector              force_scale;        ///< a node: sum V (|C:e| + eta |C:E(w)|) |g_a| [N]
-    std::vector<double> weight_gradient;    ///< dPsi/dw_i [J], Eq. (7)
-    double              weight_scale   = 0; ///< of the weight gradient [J]
-    double              stress_square  = 0; ///< sum V (|C:e| + eta |C:E(w)|)^2
-    double              energy         = 0; ///< Psi [J], Eq. (5), ridge included
-    double              energy_elastic = 0; ///< sum V/2 e:C:e of it [J]
-    double              energy_damping = 0; ///< whose gradient is the stiffness damping [J]
-    double              energy_memory  = 0; ///< of weights that remember [J]; no part of Psi
-    double              min_det_F      = 0;
-    unsigned int        inverted_cells = 0;
-    unsigned int        guarded_cells  = 0; ///< in which the guard of Eq. (16) acts
+    Vector              gradient;             ///< internal forces dPsi/dx [N], Eq. (6)
+    Vector              force_scale;          ///< a node: sum V (|C:e| + eta |C:E(w)|) |g_a| [N]
+    std::vector<double> weight_gradient;      ///< dPsi/dw_i [J], Eq. (7)
+    double              weight_scale     = 0; ///< of the weight gradient [J]
+    double              stress_square    = 0; ///< sum V (|C:e| + eta |C:E(w)|)^2
+    double              energy           = 0; ///< Psi [J], Eq. (5), ridge included
+    double              energy_elastic   = 0; ///< sum V/2 e:C:e of it [J]
+    double              energy_damping   = 0; ///< whose gradient is the stiffness damping [J]
+    double              energy_inelastic = 0; ///< of it: hardening, and potentials of flow [J]
+    double              energy_memory    = 0; ///< of weights that remember [J]; no part of Psi
+    double              min_det_F        = 0;
+    unsigned int        inverted_cells   = 0;
+    unsigned int        guarded_cells    = 0; ///< in which the guard of Eq. (16) acts
 
-    /// Psi - energy_elastic [J]; near an example the two almost cancel.
+    /// What else is in Psi [J]; near an example it almost cancels the elastic energy.
     double
     energy_example() const
     {
-      return energy - energy_elastic;
+      return energy - energy_elastic - energy_inelastic;
     }
   };
 

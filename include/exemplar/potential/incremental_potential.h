@@ -153,7 +153,7 @@ namespace Exemplar
     double
     max_step(const Vector &positions, const Vector &displacement) const;
 
-    /// Whether anything turns energy into heat within the body, beside damping.
+    /// Whether weights that remember turn energy into heat.
     bool
     dissipates() const
     {

@@ -165,6 +165,8 @@ namespace Exemplar
         write_scalars(out, "strain_energy_density", frame.cells.strain_energy_density);
         write_scalars(out, "det_F", frame.cells.det_F);
         write_scalars(out, "von_mises_stress", frame.cells.von_mises_stress);
+        if (!frame.cells.plastic_strain.empty())
+          write_scalars(out, "plastic_strain", frame.cells.plastic_strain);
         if (frame.space_error && frame.space_error->failure.empty())
           write_scalars(out, "space_error", frame.space_error->energy_density);
         out << regions << "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
@@ -216,6 +218,8 @@ namespace Exemplar
     out << "</PPointData>\n<PCellData>\n";
     for (const std::string name : { "strain_energy_density", "det_F", "von_mises_stress" })
       declare("Float64", name, 1);
+    if (!frame.cells.plastic_strain.empty())
+      declare("Float64", "plastic_strain", 1);
     declare("Int32", "region", 1);
     out << "</PCellData>\n";
     for (const std::string &piece : pieces)

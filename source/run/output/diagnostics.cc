@@ -96,9 +96,8 @@ namespace Exemplar
       append(row, "energy_example", elastic.energy_example());
     if (mass != nullptr)
       append(row, "energy_kinetic", sums.kinetic_energy);
+    append_dissipated(row, shown);
     append_terms(row);
-    if (problem.potential.dissipates())
-      append(row, "energy_dissipated", shown.dissipated);
     append_weights(row, shown, report);
     append(row, "min_det_F", elastic.min_det_F);
     row.push_back({ "inverted_cells", elastic.inverted_cells });
@@ -114,6 +113,17 @@ namespace Exemplar
     for (unsigned int h = 0; h < handles.size(); ++h)
       append(row, "reaction_" + handles.name(h), handles.sum_over(h, problem.evaluation.gradient));
     return row;
+  }
+
+  void
+  Diagnostics::append_dissipated(StatisticsRow &row, const State &shown) const
+  {
+    const CellField &cells      = problem.potential.get_cells().get_field();
+    const bool       some_yield = cells.get_batches().has_trait(&ModelTraits::dissipated);
+    if (problem.potential.dissipates() || some_yield)
+      append(row, "energy_dissipated",
+             shown.dissipated
+                 + (some_yield ? problem.body.exchange().sum(cells.dissipated_energy()) : 0.));
   }
 
   void

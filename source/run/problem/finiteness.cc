@@ -47,6 +47,8 @@ namespace Exemplar
       return "ratios of volumes";
     if (some_are_not(cells.von_mises_stress))
       return "stresses";
+    if (some_are_not(cells.plastic_strain))
+      return "plastic strains";
     return "";
   }
 } // namespace Exemplar

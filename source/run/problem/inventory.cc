@@ -62,6 +62,10 @@ namespace Exemplar
       { "gravity", has_gravity, has_gravity ? loads : 0 }, // one vector holds both
       { "loads", actions.loads != nullptr && actions.loads->has_named_loads(),
         has_gravity ? 0 : loads },
+      { "plastic cells",
+        problem.potential.get_cells().get_field().get_batches().has_trait(
+            &ModelTraits::plastic_strain),
+        {} },
       { "mean dilatation by patches", problem.body.patches.size() > 0, {} },
       { "example poses", poses.size() > 0, poses.size() > 0 ? poses.memory_consumption() : 0 },
       { "weight block", finds_weights, problem.system.memory_of_weights() },

@@ -270,6 +270,26 @@ namespace Exemplar
   {
   }
 
+  LawsOfCells
+  laws_of_cells(const SceneParameters &parameters, const Body &body)
+  {
+    const CellLaw law = parameters.model.law();
+    if (!parameters.material.may_yield())
+      return law;
+    std::vector<CellLaw> of_cells(body.fe_space.n_cells(), law);
+    for (unsigned int cell = 0; cell < of_cells.size(); ++cell)
+      if (body.material.own_number("Yield stress", cell) > 0.)
+        of_cells[cell] = CellLaw::plastic;
+    LawsOfCells laws(std::move(of_cells));
+    for (const CellLaw other : { law, CellLaw::plastic })
+    {
+      const auto &here = laws.present();
+      if (body.exchange().any(std::count(here.begin(), here.end(), other) > 0))
+        laws.add(other);
+    }
+    return laws;
+  }
+
   PotentialTerms
   make_elastic_terms(const Body &body, const Examples &examples)
   {

@@ -36,8 +36,9 @@ namespace Exemplar::Testing
         parameters.pose_functions     = twist(60.) + " | 1.1*x; 0.9*y; z";
         parameters.importance         = 0.7;
         parameters.weights_per_region = per_region;
-        const auto   examples         = body.examples(parameters);
-        CellBatches  batches(body.fe_space, body.material, law, ExampleConstants());
+        const auto  examples          = body.examples(parameters);
+        CellBatches batches(body.fe_space, body.material, law, ExampleConstants());
+        batches.set_step_size(0.5);
         std::mt19937 generator(5);
         auto         x = body.random_positions(generator, 0.8); // some cells invert
         if (is_pulled)

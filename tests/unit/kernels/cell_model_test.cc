@@ -51,7 +51,7 @@ namespace Exemplar::Testing
       const auto constants = Cell::Constants::from_numbers(number_of<typename Cell::Constants>);
       Cell       cell(constants, rotation_of<Cell>(F), F, examples);
       if constexpr (Cell::traits.n_history > 0)
-        cell.remember([](const std::size_t k) { return remembered * std::sin(1. + k); });
+        cell.remember([](const std::size_t k) { return remembered * std::sin(1. + k); }, 0.5);
       return cell;
     }
 
@@ -274,7 +274,7 @@ namespace Exemplar::Testing
     TEST(AllLaws, ForceTangentAndColumnsAreDerivatives)
     {
       for (const CellLaw law : all_laws())
-        for (const double scale : { 0., 0.1 })
+        for (const double scale : { 0., 0.05 })
         {
           SCOPED_TRACE(traits_of(law).name + (" " + std::to_string(scale)));
           remembered = scale;

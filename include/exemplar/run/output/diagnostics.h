@@ -78,6 +78,10 @@ namespace Exemplar
     void
     append_work(StatisticsRow &row) const;
 
+    /// energy_dissipated, what all that dissipates has done since the first step.
+    void
+    append_dissipated(StatisticsRow &row, const State &shown) const;
+
     const Problem &problem;
     Vector         last_positions; ///< before the next step [m]
     Work           work;

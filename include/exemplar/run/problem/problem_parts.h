@@ -107,6 +107,10 @@ namespace Exemplar
     ExampleWeights weights;
   };
 
+  /// The law of each cell: those with a yield stress are plastic. All processes must call this.
+  LawsOfCells
+  laws_of_cells(const SceneParameters &parameters, const Body &body);
+
   /// The terms of Psi, Eq. (5), beside the cells' own energies.
   PotentialTerms
   make_elastic_terms(const Body &body, const Examples &examples);

@@ -61,6 +61,10 @@ namespace Exemplar
     void
     check_interpolation() const;
 
+    /// What plastic cells ask of the rest of the scene.
+    void
+    check_plasticity() const;
+
     void
     check_solver() const;
 

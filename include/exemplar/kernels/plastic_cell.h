@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_plastic_cell_h
+#define exemplar_plastic_cell_h
+
+#include <exemplar/kernels/corotational_cell.h>
+#include <exemplar/kernels/plastic_flow.h>
+
+// Cells that yield by von Mises in the frame of their rotation. Examples see the whole strain e = S - I, and
+// the body, with all that it dissipates, has a share of 1 - eta, Eq. (33):
+//
+//   psi = (1 - eta) psi_b(e, p) + eta/2 (e - E(w)) : C : (e - E(w)),
+//   psi_b = 1/2 (e - p) : C : (e - p) + what PlasticFlow adds for hardening and flow,
+//
+// least over the plastic strain p, which is trace free. For this p it is the energy of CorotationalCell with the
+// target eta E(w) + (1 - eta) p, up to terms without e. So forces are those of CorotationalCell, and the guard of
+// Eq. (16) holds the plastic strain like that of examples: p sees the strain times phi. No deal.II header here:
+// see matrix3.h.
+
+namespace Exemplar
+{
+  /// A deformed cell; see CorotationalCell.
+  template <typename Number>
+  class PlasticCell : public CorotationalCell<Number>
+  {
+    using Corotational = CorotationalCell<Number>;
+
+  public:
+    using Constants = PlasticConstants<Number>;
+
+    /// p by xx, yy, yz, xz, xy; the accumulated plastic strain; the plastic work [J/m^3].
+    static constexpr std::size_t n_of_strain = 5;
+
+    static constexpr ModelTraits traits = { "plastic",
+                                            "",
+                                            /* has_rotations */ true,
+                                            /* has_guard */ true,
+                                            /* has_stretch_guard */ true,
+                                            /* exact_is_rotated */ false,
+                                            /* convex_is_rotated */ true,
+                                            /* trace_gradient_is_R */ true,
+                                            /* turns_freely */ true,
+                                            /* n_history */ n_of_strain + 2,
+                                            /* plastic_strain */ n_of_strain,
+                                            /* dissipated */ n_of_strain + 1 };
+
+    PlasticCell(const Constants        &constants,
+                const Matrix3<Number>  &rotation,
+                const Matrix3<Number>  &deformation_gradient,
+                const ExampleConstants &examples)
+        : Corotational(constants, rotation, deformation_gradient, examples), constants(constants),
+          of_body(1. - examples.importance)
+    {
+    }
+
+    /// What the last step left, of which load(k) is a number, and the size of this one [s].
+    template <typename Load>
+    void
+    remember(const Load &load, const double step_size)
+    {
+      const Number          xx = load(0), yy = load(1), yz = load(2), xz = load(3), xy = load(4);
+      const Matrix3<Number> p = { { { xx, xy, xz }, { xy, yy, yz }, { xz, yz, -(xx + yy) } } };
+      hardening_before        = hardening(p, load(n_of_strain));
+      work_before             = load(n_of_strain + 1);
+      flow       = PlasticFlow<Number>(constants, driving(this->strain()), p, load(n_of_strain),
+                                 step_size);
+      is_elastic = !any(contract(flow.strain(), flow.strain()) > Number(0.));
+    }
+
+    Number
+    new_history(const std::size_t k) const
+    {
+      const Matrix3<Number> &p     = flow.strain();
+      const Number           all[] = { p[0][0],
+                                       p[1][1],
+                                       p[1][2],
+                                       p[0][2],
+                                       p[0][1],
+                                       flow.accumulated(),
+                                       work_before + of_body * plastic_work() };
+      return all[k];
+    }
+
+    /// Of the elastic strain, 1/2 (e - p):C:(e - p) [Pa].
+    Number
+    elastic_density() const
+    {
+      if (is_elastic)
+        return Corotational::elastic_density();
+      return Number(0.5) * contract(stress(constants, elastic_strain()), elastic_strain());
+    }
+
+    Number
+    elastic_scale() const
+    {
+      if (is_elastic)
+        return Corotational::elastic_scale();
+      return norm(stress(constants, elastic_strain()));
+    }
+
+    /// What is neither elastic nor of the examples: hardening, and the potential of this step's flow [Pa].
+    Number
+    inelastic_density() const
+    {
+      return of_body
+             * (hardening(flow.strain(), flow.accumulated()) + flow.dissipation_potential());
+    }
+
+    Matrix3<Number>
+    damp(const Matrix3<Number> &D, const Number &s, const Matrix3<Number> &past)
+    {
+      moved = Number(1.) + s;
+      return Corotational::damp(D, s, past);
+    }
+
+    bool
+    may_be_stretched(const Number & /*elastic_density*/) const
+    {
+      return Corotational::may_be_stretched(Corotational::elastic_density());
+    }
+
+    Matrix3<Number>
+    stress_towards(const Matrix3<Number> &D) const
+    {
+      return Corotational::stress_towards(with_plastic(D));
+    }
+
+    /// Of all; without damping.
+    Number
+    energy(const Matrix3<Number> &D) const
+    {
+      if (is_elastic)
+        return Corotational::energy(D) + inelastic_density();
+      const Matrix3<Number> &p   = flow.strain();
+      const Matrix3<Number>  T_p = stress(constants, p);
+      return Corotational::energy(with_plastic(D)) - of_body * contract(D, T_p)
+             + Number(0.5) * of_body * (Number(1.) - of_body) * contract(p, T_p)
+             + inelastic_density();
+    }
+
+    Matrix3<Number>
+    elastic_force() const
+    {
+      if (is_elastic)
+        return Corotational::elastic_force();
+      PlasticCell without_target = *this;
+      without_target.set_target(Matrix3<Number>{});
+      return without_target.force();
+    }
+
+    void
+    set_target(const Matrix3<Number> &D)
+    {
+      Corotational::set_target(with_plastic(D));
+    }
+
+    /// With p following.
+    Matrix3<Number>
+    response(const Matrix3<Number> &M) const
+    {
+      const Matrix3<Number> dS = symmetric_part(
+          combine(Number(1.), M, Number(-1.), this->turn(M) * this->stretch_factor()));
+      return combine(Number(1.), Corotational::response(M), -of_body / moved,
+                     this->example_response(flow.response(driving(dS))));
+    }
+
+  private:
+    /// phi dev e.
+    Matrix3<Number>
+    driving(const Matrix3<Number> &strain) const
+    {
+      const Matrix3<Number> d = deviator(strain);
+      return combine(this->phi, d, Number(0.), d);
+    }
+
+    /// [Pa]
+    Number
+    hardening(const Matrix3<Number> &p, const Number &a) const
+    {
+      return Number(1. / 3.) * constants.kinematic * contract(p, p)
+             + Number(0.5) * constants.isotropic * a * a;
+    }
+
+    /// Of this step [Pa].
+    Number
+    plastic_work() const
+    {
+      return hardening(flow.strain(), flow.accumulated()) - hardening_before + flow.dissipation();
+    }
+
+    Matrix3<Number>
+    elastic_strain() const
+    {
+      return combine(Number(1.), this->strain(), Number(-1.), flow.strain());
+    }
+
+    /// A target D of C, or a damped one of C (1 + s), joined by p.
+    Matrix3<Number>
+    with_plastic(const Matrix3<Number> &D) const
+    {
+      return combine(Number(1.), D, of_body / moved, flow.strain());
+    }
+
+    Constants           constants;               ///< without damping
+    Number              of_body;                 ///< 1 - eta
+    Number              moved      = Number(1.); ///< 1 + s with damping
+    bool                is_elastic = true;       ///< there is no plastic strain, as in most cells
+    PlasticFlow<Number> flow;
+    Number              hardening_before = Number(0.), work_before = Number(0.);
+  };
+} // namespace Exemplar
+
+#endif
