@@ -23,7 +23,7 @@ namespace Exemplar
   {
     PaintedConstant youngs_modulus, poissons_ratio, density;
     /// Fibre direction, in x, y and z; empty: it is not painted.
-    std::vector<std::vector<double>> fibre_direction;
+    std::vector<std::vector<double>> fibre_direction = {};
   };
 
   /// All regions of a scene by their material ids. `names` is a mesh whose physical groups may give them

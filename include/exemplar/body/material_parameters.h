@@ -31,9 +31,9 @@ namespace Exemplar
 
     OwnConstants own = default_own_constants();
 
-    std::string fibre_direction; ///< formulas of x, y, z, or from SELECTION to SELECTION
-    std::string cross_direction; ///< formulas; empty: any that is perpendicular
-    std::string orthotropy;      ///< nine numbers; empty: isotropic
+    std::string fibre_direction = {}; ///< formulas of x, y, z, or from SELECTION to SELECTION
+    std::string cross_direction = {}; ///< formulas; empty: any that is perpendicular
+    std::string orthotropy      = {}; ///< nine numbers; empty: isotropic
 
     /// Whether cells need axes.
     bool

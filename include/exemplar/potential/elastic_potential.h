@@ -20,7 +20,8 @@ namespace Exemplar
     std::vector<double> strain_energy_density; ///< 1/2 e:C:e of the elastic strain [J/m^3]
     std::vector<double> det_F;
     std::vector<double> von_mises_stress; ///< of the corotated stress C:(e - eta E(w)) [Pa]
-    std::vector<double> plastic_strain;   ///< the equivalent one [-]; empty unless cells may yield
+    std::vector<double> plastic_strain
+        = {}; ///< the equivalent one [-]; empty unless cells may yield
   };
 
   /// What the cells of a body are: their laws, geometry and material, and the examples, which may be

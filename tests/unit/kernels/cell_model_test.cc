@@ -34,7 +34,7 @@ namespace Exemplar::Testing
         for (const std::size_t diagonal : { 3, 9, 14, 18, 21, 23 })
           if (k == diagonal)
             return 1.5;
-      return own_constant * std::cos(0.3 * k);
+      return Constants::is_isotropic ? own_constant : own_constant * std::cos(0.3 * k);
     }
 
     template <typename Cell>
