@@ -208,7 +208,7 @@ namespace Exemplar
         const Matrix3<double> F = fe_space.deformation_gradient(point, poses[i].positions);
         const Matrix3<double> E = model_strain(law, model_rotation(law, F), F);
         add_to_stored(strains.data(), point, n_strained(), i - first_strained,
-                      example_constants.importance,
+                      example_constants.importance * material.importance(fe_space.cell_of(point)),
                       acting_part(acts_on, material, fe_space.cell_of(point), E));
         if (traits_of(law).has_guard)
           p_0 = min_or_nan(p_0, 0.5 * guard_product(E));
@@ -261,6 +261,9 @@ namespace Exemplar
   ExamplePoses::compute_gram_matrix(const Material &cell_material, const Patches &patches)
   {
     gram.reinit(n_weights(), n_weights());
+    const bool         varies = fe_space.exchange().any(cell_material.importance_varies());
+    const unsigned int n      = varies ? n_weights() : 0;
+    blended.reinit(n, n);
     for (unsigned int point = 0; point < fe_space.n_points(); ++point)
       for_each_weight(
           point,
@@ -271,19 +274,72 @@ namespace Exemplar
                    laws[cell],
                    [&](const std::size_t k) { return cell_material.number(laws[cell], cell, k); },
                    strain(point, i));
+            const double more = varies ? blended_share(cell_material.importance(cell)) : 0.;
             for_each_weight(point,
-                            [&](const unsigned int w, const unsigned int j, const double share_w) {
-                              gram(v, w) += fe_space.volume(point) * share_v * share_w
-                                            * contract(T, strain(point, j));
+                            [&](const unsigned int w, const unsigned int j, const double share_w)
+                            {
+                              const double energy = fe_space.volume(point) * share_v * share_w
+                                                    * contract(T, strain(point, j));
+                              gram(v, w) += energy;
+                              if (varies)
+                                blended(v, w) += more * energy;
                             });
           });
+    add_patches_to_gram_matrix(cell_material, patches);
+    for (auto *const matrix : { &gram, &blended })
+      if (matrix->m() > 0)
+        fe_space.exchange().sum(&(*matrix)(0, 0), matrix->m() * matrix->n());
+  }
+
+  void
+  ExamplePoses::add_patches_to_gram_matrix(const Material &cell_material, const Patches &patches)
+  {
+    const std::vector<double> more = blended.m() > 0 ? blended_shares(cell_material, patches)
+                                                     : std::vector<double>(patches.size(), 0.);
     for (unsigned int patch = 0; patch < patch_dilatations.m(); ++patch)
       for (unsigned int v = 0; v < n_weights(); ++v)
         for (unsigned int w = 0; w < n_weights(); ++w)
-          gram(v, w) += patches.stiffness(patch) * patch_dilatations(patch, v)
-                        * patch_dilatations(patch, w);
-    if (gram.m() > 0)
-      fe_space.exchange().sum(&gram(0, 0), gram.m() * gram.n());
+        {
+          const double energy = patches.stiffness(patch) * patch_dilatations(patch, v)
+                                * patch_dilatations(patch, w);
+          gram(v, w) += energy;
+          if (blended.m() > 0)
+            blended(v, w) += more[patch] * energy;
+        }
+  }
+
+  std::vector<double>
+  ExamplePoses::blended_shares(const Material &cell_material, const Patches &patches) const
+  {
+    std::vector<double> factors(patches.size(), 0.);
+    for (unsigned int point = 0; patches.size() > 0 && point < fe_space.n_points(); ++point)
+    {
+      const unsigned int patch = patches.of_point(point);
+      factors[patch] += fe_space.volume(point) / patches.volume(patch)
+                        * cell_material.importance(fe_space.cell_of(point));
+    }
+    for (double &factor : factors)
+      factor = blended_share(factor);
+    return factors;
+  }
+
+  double
+  ExamplePoses::blended_share(const double factor) const
+  {
+    const double eta = factor * example_constants.importance;
+    return eta > 0. ? (1. - eta) / eta : 0.;
+  }
+
+  void
+  ExamplePoses::add_blended(const double factor, dealii::FullMatrix<double> &sum) const
+  {
+    if (blended.m() > 0)
+      sum.add(factor, blended);
+    else
+    {
+      const double eta = example_constants.importance;
+      sum.add(factor * (1. - eta) / eta, gram);
+    }
   }
 
   std::vector<double>
@@ -320,6 +376,6 @@ namespace Exemplar
       of_poses += pose.positions.memory_consumption();
     return of_poses + strains.memory_consumption() + in_single.memory_consumption()
            + memory_consumption(strain_norms) + patch_dilatations.memory_consumption()
-           + gram.memory_consumption();
+           + gram.memory_consumption() + blended.memory_consumption();
   }
 } // namespace Exemplar

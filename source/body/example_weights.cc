@@ -85,9 +85,8 @@ namespace Exemplar
     const std::vector<double> fraction = poses.volume_fractions();
     for (unsigned int weight = 0; weight < n; ++weight)
       penalty(weight, weight) = sigma * fraction[weight / poses.size()];
-    const double eta = poses.constants().importance;
     if (parameters.energy != ExampleEnergy::scaled)
-      penalty.add(blended_part(parameters.energy) * (1. - eta) / eta, poses.gram_matrix());
+      poses.add_blended(blended_part(parameters.energy), penalty);
     form.H = penalty;
     form.H.add(1., poses.gram_matrix());
     for (unsigned int weight = 0; weight < n; ++weight)

@@ -130,7 +130,7 @@ namespace Exemplar
       bases.push_back(region);
     }
     if (!painted.youngs_modulus.values.empty() || !painted.poissons_ratio.values.empty()
-        || !painted.density.values.empty())
+        || !painted.density.values.empty() || !painted.importance.values.empty())
       paint(painted, bases);
     find_stiffnesses();
   }
@@ -150,8 +150,8 @@ namespace Exemplar
     }
     const double lambda_of_patches
         = values.has_grain() ? grain.lambda_of_patches() : elasticity.lambda;
-    constants.push_back({ elasticity, values.density, youngs_modulus, values.own, lambda_of_patches,
-                          grain, 0., is_orthotropic });
+    constants.push_back({ elasticity, values.density, youngs_modulus, values.importance, values.own,
+                          lambda_of_patches, grain, 0., is_orthotropic });
   }
 
   void
@@ -199,6 +199,13 @@ namespace Exemplar
                      stretch);
   }
 
+  bool
+  Material::importance_varies() const
+  {
+    return std::any_of(constants.begin(), constants.end(),
+                       [](const Constants &values) { return values.importance != 1.; });
+  }
+
   double
   Material::norm_estimate(const unsigned int cell) const
   {
@@ -216,6 +223,7 @@ namespace Exemplar
       apply(painted.youngs_modulus, cell, values.youngs_modulus);
       apply(painted.poissons_ratio, cell, values.poissons_ratio);
       apply(painted.density, cell, values.density);
+      apply(painted.importance, cell, values.importance);
       check_constants(values, cell, " map");
       add(values);
       constants_of_cell[cell] = cell;
@@ -275,6 +283,7 @@ namespace Exemplar
               changed_to(changed.poissons_ratio, cell, nu),
               changed_to(changed.density, cell, before.density),
               before.own,
+              before.importance,
               "",
               "",
               "" };

@@ -36,6 +36,9 @@ namespace Exemplar
                "nu [-], greater than -1 and less than 0.5.", Bounds{ -1., 0.5 });
       keys.add("Density", constants.density,
                "rho [kg/m^3], greater than 0. Used by dynamics and gravity.", positive);
+      keys.add("Importance", constants.importance,
+               "Factor of Examples/Importance [-]: 0 is plain elasticity in these cells.",
+               Bounds{ 0., 1. });
       for (const auto &[name, constant] : constants_of_laws())
         keys.add(name, constants.own[name], constant.documentation,
                  Bounds{ constant.min, constant.max });
@@ -146,6 +149,15 @@ namespace Exemplar
     return may;
   }
 
+  bool
+  MaterialParameters::importance_varies() const
+  {
+    bool varies = !importance_map.empty();
+    for_each_section([&](const ElasticConstants &constants, const std::string & /*section*/)
+                     { varies |= constants.importance != 1.; });
+    return varies;
+  }
+
   std::string
   MaterialParameters::region_name(const unsigned int id)
   {
@@ -176,6 +188,11 @@ namespace Exemplar
     keys.add_file("Young's modulus map", youngs_modulus_map, "E painted on the surface" + usage);
     keys.add_file("Poisson's ratio map", poissons_ratio_map, "nu painted on the surface" + usage);
     keys.add_file("Density map", density_map, "rho painted on the surface" + usage);
+    keys.add_file(
+        "Importance map", importance_map,
+        "Importance painted on the surface: FILE.ply:ATTRIBUTE or FILE.csv[:COLUMN] with a "
+        "value from 0 to 1 for each vertex of Mesh/Surface, a factor of what this section "
+        "and those of regions say.");
     keys.add_files(
         "Fibre direction maps", fibre_direction_maps,
         "Fibre direction painted on the surface, instead of formulas: three maps, of its x, y "

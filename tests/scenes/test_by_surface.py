@@ -257,6 +257,16 @@ class Painted(BySurface):
         run = self.attempt({**hold, "Material/Young's modulus map": "bytes.csv from 1 to 20"})
         self.assertRegex(run.stderr, "the map has 255, of which 4846 is made. Divide its values by 255")
 
+    def test_painted_importance(self):
+        twisted = {"Examples/Pose functions": "1.2*x; y; z", "Examples/Importance": "0.8", "Examples/Weights": "prescribed",
+                   "Examples/Prescribed weights": "1-t; t", "Handles/Names": "left", "Handles/left/Select": "boundary 1"}
+        self.write("half.csv", table({v: .5 for v in range(len(VERTICES))}))
+        self.same({**twisted, "Material/Importance map": "half.csv"}, {**twisted, "Examples/Importance": "0.4"})
+        self.write("much.csv", table({v: 2. for v in range(len(VERTICES))}))
+        run = self.attempt({**BAR, **twisted, "Material/Importance map": "much.csv"})
+        self.assertEqual(run.status, 1)
+        self.assertRegex(run.stderr, "Material/Importance map: in .*much.csv vertex 1 has the value 2, but shares lie between 0 and 1")
+
     def test_shares_of_weights(self):
         n = len(VERTICES)
         examples = {"Examples/Pose functions": "1.2*x; y; z", "Handles/Names": "left", "Handles/left/Select": "boundary 1",

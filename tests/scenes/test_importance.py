@@ -3,7 +3,7 @@
 
 import unittest
 
-from exemplar_runner import SceneTest, bend, nodes_of
+from exemplar_runner import SceneTest, bend, nodes_of, read_csv, read_msh, write_msh
 
 BAR = {
     "Scene": "static",
@@ -48,6 +48,41 @@ class Importance(SceneTest):
         """Otherwise the drags would prove nothing."""
         self.assertLess(min(self.quarters("a part", **{"Examples/Energy": "scaled"})), LEAST)
         self.assertLess(min(self.quarters("all", **{"Examples/Energy": "blended"})), LEAST)
+
+    def mesh_of_two_halves(self):
+        """The bar, with material 2 beyond its middle."""
+        box = {key: value for key, value in BAR.items() if not key.startswith(("Examples", "Handles/dragged"))}
+        msh = read_msh(self.solve({**box, "Handles/Names": "left", "Time/Increments": "1"}, output="mesh") / "final.msh")
+        elements = []
+        for element in msh.elements:
+            number, kind, n_tags, *rest = (int(word) for word in element)
+            tags, nodes = rest[:n_tags], rest[n_tags:]
+            if kind == 4 and sum(msh.nodes[node][0] for node in nodes) / 4 > 2:
+                tags = [2] * n_tags
+            elements.append([number, kind, n_tags, *tags, *nodes])
+        write_msh(self.directory / "halves.msh", msh._replace(elements=elements))
+
+    def test_of_a_half(self):
+        """Stretched by m in the mean, with the stretch s as example: the halves have one stress, so that their strains are m and, more
+        and less, half the difference of their importances times w s. The least energy over w gives the weight."""
+        self.mesh_of_two_halves()
+        bar = {"Scene": "static", "Mesh/File": "halves.msh", "Material/Poisson's ratio": "0",
+               "Examples/Pose functions": "1.2*x; y; z", "Handles/Names": "left, right", "Handles/left/Components": "x",
+               "Handles/left/Select": "box -0.1 -1 -1 0.1 1 1", "Handles/right/Select": "box 3.9 -1 -1 4.1 1 1",
+               "Handles/right/Motion": "0.2*t; 0; 0", "Time/Increments": "1", "Output/Every": "0",
+               "Examples/Weight penalty": "0", "Solver/Tolerance": "1e-11"}
+        mean, stretch = 0.05, 0.2
+        for dilatation in ("cells", "patches"):
+            for energy, part in (("scaled", 0), ("blended", 1), ("mixed", 0.2)):
+                for factor in (0, 0.5):
+                    with self.subTest(f"{dilatation}, {energy}, factor {factor}"):
+                        output = self.solve({**bar, "Model/Dilatation": dilatation, "Examples/Importance": "0.6",
+                                             "Examples/Energy": energy, "Material/region 2/Importance": str(factor)},
+                                            output=f"half {dilatation} {energy} {factor}")
+                        etas = (0.6, 0.6 * factor)
+                        of_weights = sum(eta**2 + part * eta * (1 - eta) for eta in etas) - (etas[0] - etas[1])**2 / 2
+                        self.assertAlmostEqual(read_csv(output)[-1]["weight_1"], mean * sum(etas) / (stretch * of_weights),
+                                               delta=1e-6)
 
 
 if __name__ == "__main__":

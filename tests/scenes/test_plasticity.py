@@ -172,6 +172,9 @@ class Plasticity(SceneTest):
                 ({**EXAMPLES, "Examples/Energy": "scaled"}, ["Examples/Energy = blended"]),
                 ({"Material/Flow viscosity": "10"}, ["Flow viscosity", "Scene = dynamic"]),
                 ({"Material/Greatest plastic strain": "2"}, ["Greatest plastic strain", "0.95"]),
+                ({**EXAMPLES, "Material/Importance": "0.5"}, ["Material/Yield stress", "Material/Importance = 1"]),
+                ({"Material/Fibre stiffness": "1e5", "Material/Fibre direction": "1; 0; 0"},
+                 ["Material/Yield stress", "without fibres", "different regions"]),
                 ({"Material/Yield stress": "-1"}, ["Yield stress"])):
             with self.subTest(**change):
                 run = self.attempt({**BENT, **change})

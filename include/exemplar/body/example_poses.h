@@ -187,6 +187,11 @@ namespace Exemplar
       return gram;
     }
 
+    /// Add to `sum` so many times what H of the blended energy has beyond it, sum V eta (1 - eta)
+    /// E_i : C : E_j with the importance of each cell, of patches its mean [J].
+    void
+    add_blended(double factor, dealii::FullMatrix<double> &sum) const;
+
     const std::vector<std::string> &
     get_warnings() const
     {
@@ -214,6 +219,17 @@ namespace Exemplar
     compute_gram_matrix(const Material &cell_material, const Patches &patches);
 
     void
+    add_patches_to_gram_matrix(const Material &cell_material, const Patches &patches);
+
+    /// blended_share() of each patch, for the mean factor over its volume.
+    std::vector<double>
+    blended_shares(const Material &cell_material, const Patches &patches) const;
+
+    /// (1 - eta) / eta for this factor of the importance, 0 where eta is 0.
+    double
+    blended_share(double factor) const;
+
+    void
     compute_patch_dilatations(const Patches &patches);
 
     const FESpace                 &fe_space;
@@ -229,6 +245,8 @@ namespace Exemplar
     std::vector<double>            strain_norms;
     dealii::FullMatrix<double>     patch_dilatations; ///< patch, weight; empty without patches
     dealii::FullMatrix<double>     gram;
+    dealii::FullMatrix<double>
+        blended; ///< see add_blended(), where the importance varies; else empty
     const std::vector<std::string> warnings;
   };
 } // namespace Exemplar

@@ -21,7 +21,7 @@ namespace Exemplar
   /// The constants that a scene paints on its surface; one without values is not painted.
   struct PaintedMaterial
   {
-    PaintedConstant youngs_modulus, poissons_ratio, density;
+    PaintedConstant youngs_modulus, poissons_ratio, density, importance;
     /// Fibre direction, in x, y and z; empty: it is not painted.
     std::vector<std::vector<double>> fibre_direction = {};
   };
@@ -121,6 +121,17 @@ namespace Exemplar
       return constants[constants_of_cell[cell]].density;
     }
 
+    /// Whether cells differ in it from 1.
+    bool
+    importance_varies() const;
+
+    /// Factor of Examples/Importance.
+    double
+    importance(const unsigned int cell) const
+    {
+      return constants[constants_of_cell[cell]].importance;
+    }
+
     double
     youngs_modulus(const unsigned int cell) const
     {
@@ -134,6 +145,7 @@ namespace Exemplar
       CellMaterial<double> elasticity;
       double               density;
       double               youngs_modulus;
+      double               importance; ///< factor of Examples/Importance
       OwnConstants         own;
       double               lambda_of_patches; ///< [Pa]
       Orthotropy           grain;             ///< all of C, in the cell's axes
@@ -144,8 +156,8 @@ namespace Exemplar
       void
       serialize(Archive &archive, unsigned int /*version*/)
       {
-        archive &elasticity.lambda   &elasticity.mu &density &youngs_modulus &own &lambda_of_patches
-            &grain &lambda_of_others &is_orthotropic;
+        archive &elasticity.lambda &elasticity.mu &density &youngs_modulus &importance &own
+            &lambda_of_patches &grain &lambda_of_others &is_orthotropic;
       }
     };
 

@@ -31,6 +31,8 @@ namespace Exemplar
 
     OwnConstants own = default_own_constants();
 
+    double importance = 1; ///< factor of Examples/Importance [-]
+
     std::string fibre_direction = {}; ///< formulas of x, y, z, or from SELECTION to SELECTION
     std::string cross_direction = {}; ///< formulas; empty: any that is perpendicular
     std::string orthotropy      = {}; ///< nine numbers; empty: isotropic
@@ -55,15 +57,19 @@ namespace Exemplar
     std::map<unsigned int, ElasticConstants> regions;       ///< by material id
     std::map<std::string, ElasticConstants>  named_regions; ///< by name, as the scene has it
     /// Painted maps, each with how it is used; empty: there is none.
-    std::string              youngs_modulus_map, poissons_ratio_map, density_map;
+    std::string              youngs_modulus_map, poissons_ratio_map, density_map, importance_map;
     std::vector<std::string> fibre_direction_maps; ///< of x, y and z; empty: none
 
     bool
     is_painted() const
     {
       return !youngs_modulus_map.empty() || !poissons_ratio_map.empty() || !density_map.empty()
-             || !fibre_direction_maps.empty();
+             || !fibre_direction_maps.empty() || !importance_map.empty();
     }
+
+    /// Whether cells differ in how important examples are to them.
+    bool
+    importance_varies() const;
 
     /// The law of corotational cells that the constants need; none: they are isotropic.
     std::optional<CellLaw>

@@ -188,10 +188,9 @@ namespace Exemplar
     }
 
     std::vector<double>
-    share(const SurfaceSources &from, const std::string &text)
+    share(const SurfaceSources &from, const std::string &text, const std::string &key)
     {
-      const std::string key = "Examples/Weight maps";
-      const MapName     map = split_map_name(text, key);
+      const MapName map = split_map_name(text, key);
       if (!map.rest.empty())
         throw UserError(key + ": " + in_quotes(text)
                         + " is not understood. Give FILE.ply:ATTRIBUTE or FILE.csv[:COLUMN].");
@@ -222,11 +221,15 @@ namespace Exemplar
     std::vector<std::vector<double>> direction;
     for (const std::string &map : m.fibre_direction_maps)
       direction.push_back(component(from, map));
+    std::vector<double> importance;
+    if (!m.importance_map.empty())
+      importance = share(from, m.importance_map, "Material/Importance map");
     return { painted(from, "Young's modulus", m.youngs_modulus_map,
                      &ElasticConstants::youngs_modulus, 0., 1e300),
              painted(from, "Poisson's ratio", m.poissons_ratio_map,
                      &ElasticConstants::poissons_ratio, -1., 0.5),
              painted(from, "Density", m.density_map, &ElasticConstants::density, 0., 1e300),
+             { importance },
              direction };
   }
 
@@ -236,7 +239,7 @@ namespace Exemplar
     std::vector<std::vector<double>> shares;
     if (from.scene.examples.are_painted())
       for (const std::string &map : from.scene.examples.weight_maps)
-        shares.push_back(share(from, map));
+        shares.push_back(share(from, map, "Examples/Weight maps"));
     return shares;
   }
 } // namespace Exemplar

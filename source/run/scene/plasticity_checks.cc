@@ -59,6 +59,12 @@ namespace Exemplar
             "its own beside the wish to be like the examples, so that yielding does not depend "
             "on Examples/Importance. Set Examples/Energy = blended, or "
           + key + " = 0.");
+    if (examples.in_use() && material.importance_varies())
+      throw UserError(
+          key
+          + " is for bodies in which examples are equally important everywhere, as they "
+            "share the energy with what yields. Set Material/Importance = 1, or "
+          + key + " = 0.");
     if (scene == SceneKind::statics)
       material.for_each_section(check_viscosity);
   }
