@@ -74,6 +74,10 @@ namespace Exemplar::Python
                         "A list, one residual an iteration.")
           .def_readonly("step_length", &SolveReport::step_length,
                         "Of the last iteration, as the line search left it; 1 is all of it.")
+          .def_readonly("factorizations", &SolveReport::factorizations, "In this step.")
+          .def_readonly(
+              "newton_decrement", &SolveReport::newton_decrement,
+              "Half of what the energy would fall by along the slope of the last step [J].")
           .def("__repr__",
                [](const SolveReport &report)
                {
@@ -271,9 +275,9 @@ namespace Exemplar::Python
     void
     add_problem(py::module_ &module)
     {
-      Class problem(module, "Problem",
-                    "An elastic body with example poses, as a scene describes it.",
-                    py::custom_type_setup(support_garbage_collection));
+      Class       problem(module, "Problem",
+                          "An elastic body with example poses, as a scene describes it.",
+                          py::custom_type_setup(support_garbage_collection));
       py::options options;
       options.disable_function_signatures(); // which would show what refuses other arguments
       problem.def(

@@ -126,6 +126,7 @@ namespace Exemplar
       potential.get_cells().get_field().update_rotations(linearization.positions);
       system.factorize(linearization.positions, linearization.weights, 0.);
       system.prepare();
+      system.count_as_remade();
       linearization.factor = system.n_factorizations();
     }
     return true;

@@ -58,7 +58,8 @@ namespace Exemplar
     const double longest           = potential.max_step(state.positions, displacement);
     const double longest_of_convex = std::min(max_step_length, longest);
     double      &length            = report.step_length;
-    const auto   try_length        = [&](const double new_length)
+    report.newton_decrement        = -0.5 * slope;
+    const auto try_length          = [&](const double new_length)
     {
       length = new_length;
       state  = start;

@@ -151,6 +151,7 @@ namespace Exemplar
       potential.begin_step(history.start, history.step_size);
     potential.get_cells().get_field().update_rotations(history.positions);
     make_metric(history.positions, history.weights);
+    system.count_as_remade();
     if (history.start.positions.size() > 0)
       potential.begin_step(accepted, step_size);
   }
@@ -184,8 +185,9 @@ namespace Exemplar
   {
     const FreeDofs &free_dofs = potential.get_free_dofs();
     const Merit     before(potential, evaluation);
-    double         &length = report.step_length;
-    Vector          displacement(trial.positions.size());
+    double         &length  = report.step_length;
+    report.newton_decrement = -0.5 * slope;
+    Vector displacement(trial.positions.size());
     free_dofs.add(1., iteration.direct, displacement);
     length = std::min(1., potential.max_step(trial.positions, displacement));
     free_dofs.add(length, iteration.direct, trial.positions);

@@ -10,7 +10,7 @@ DYNAMIC = {**BAR, "Scene": "dynamic", "Time/Increments": None, "Time/Step": "0.0
 # the paper's method, as far as a linear solver is concerned
 PAPER = {"Solver/Method": "fixed point", "Examples/Weights": "free",
          "Solver/Maximum iterations": "500"}
-COLUMNS_OF_ALL = ["step", "time", "status", "iterations", "residual", "energy_elastic"]
+COLUMNS_OF_ALL = ["step", "time", "status", "iterations", "residual", "factorizations", "newton_decrement", "energy_elastic"]
 SECONDS = ["seconds_step", "seconds_evaluate", "seconds_assemble", "seconds_factorize",
            "seconds_solve", "seconds_output"]
 WEIGHTS = ["weight_0", "weight_1"]

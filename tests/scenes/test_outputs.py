@@ -138,6 +138,10 @@ class Outputs(SceneTest):
                           "status": "converged", "scene": "scene.prm"})
         rows = read_csv(output)
         self.assertEqual(summary["iterations"], sum(row["iterations"] for row in rows))
+        self.assertEqual(summary["factorizations"], sum(row["factorizations"] for row in rows))
+        for row in rows:  # small beside the energy, as the step ends near the minimum
+            self.assertGreaterEqual(row["newton_decrement"], 0.)
+            self.assertLess(row["newton_decrement"], 1e-2 * max(row["energy_elastic"] + row["energy_kinetic"], 1e-3))
         self.assertEqual(summary["worst_residual"], max(row["residual"] for row in rows))
         seconds = summary["seconds"]
         self.assertEqual(summary["blas_threads"], 1)

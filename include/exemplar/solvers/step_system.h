@@ -81,6 +81,20 @@ namespace Exemplar
       return factorizations;
     }
 
+    /// The same without those that were remade after a resume.
+    unsigned int
+    n_new_factorizations() const
+    {
+      return factorizations - remade;
+    }
+
+    /// The last factorisation was one that the run had made before it was resumed.
+    void
+    count_as_remade()
+    {
+      ++remade;
+    }
+
     BorderedSystem &
     bordered()
     {
@@ -107,8 +121,8 @@ namespace Exemplar
     unsigned int                    pattern_version; ///< of the system
     StepClock                      &clock;
     const bool                      turns_freely;
-    unsigned int                    factorizations = 0;
-    unsigned int                    factor_of      = 0; ///< FreeDofs::version(); 0: none was made
+    unsigned int                    factorizations = 0, remade = 0;
+    unsigned int                    factor_of = 0; ///< FreeDofs::version(); 0: none was made
   };
 } // namespace Exemplar
 

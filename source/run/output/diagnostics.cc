@@ -91,6 +91,10 @@ namespace Exemplar
                                       { "residual", report.residual, true } };
     if (report.status == SolveStatus::failed)
       row.back().value = std::monostate();
+    row.push_back({ "factorizations", report.factorizations, true });
+    if (const Method method = problem.parameters.solver.method;
+        method == Method::newton || method == Method::quasi_newton)
+      append(row, "newton_decrement", report.newton_decrement);
     append(row, "energy_elastic", elastic.energy_elastic);
     if (is_with_examples)
       append(row, "energy_example", elastic.energy_example());

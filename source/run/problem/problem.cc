@@ -134,8 +134,10 @@ namespace Exemplar
       solver->forget(); // what it remembers has not turned with the body
       start(next);
     }
-    SolveReport report
+    const unsigned int factorizations_before = system.n_new_factorizations();
+    SolveReport        report
         = solver->solve(next, evaluation, time_axis.time(step), time_axis.step_size(step));
+    report.factorizations = system.n_new_factorizations() - factorizations_before;
     if (is_success(report.status))
     {
       if (actions.integrator != nullptr)
