@@ -60,6 +60,13 @@ namespace Exemplar
           { "Material/Kinematic hardening", "Material/Isotropic hardening",
             "Material/Flow viscosity", "Material/Greatest plastic strain" },
           "without a Material/Yield stress. Set that, or remove it." },
+        { !scene.material.law_of_grain(),
+          { "Material/Fibre direction", "Material/Fibre direction maps" },
+          "without a Material/Fibre stiffness or Material/Orthotropy. Set one of these, or remove "
+          "it." },
+        { scene.material.law_of_grain() != CellLaw::anisotropic,
+          { "Material/Cross direction" },
+          "without a Material/Orthotropy. Set that, or remove it." },
         { scene.mesh.generator != MeshGenerator::box,
           { "Mesh/Box size", "Mesh/Box cells" },
           "without Mesh/Generator = box. Remove it, or set that instead of Mesh/File." },
