@@ -10,6 +10,7 @@ namespace Exemplar
   CellKernels
   cell_kernels_avx2(const ElementConstant<Element::P2> element)
   {
-    return Loops::make_kernels<xsimd::batch<double, xsimd::fma3<xsimd::avx2>>>(element, "avx2");
+    return Loops::make_kernels<xsimd::batch<double, xsimd::fma3<xsimd::avx2>>>(
+        element, "avx2", rare_law_kernels_avx2(element));
   }
 } // namespace Exemplar

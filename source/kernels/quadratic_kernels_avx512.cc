@@ -10,6 +10,7 @@ namespace Exemplar
   CellKernels
   cell_kernels_avx512(const ElementConstant<Element::P2> element)
   {
-    return Loops::make_kernels<xsimd::batch<double, xsimd::avx512dq>>(element, "avx512");
+    return Loops::make_kernels<xsimd::batch<double, xsimd::avx512dq>>(
+        element, "avx512", rare_law_kernels_avx512(element));
   }
 } // namespace Exemplar

@@ -11,13 +11,14 @@ namespace Exemplar
   CellKernels
   cell_kernels_scalar(const ElementConstant<Element::P2> element)
   {
-    return Loops::make_kernels<double>(element, "scalar");
+    return Loops::make_kernels<double>(element, "scalar", rare_law_kernels_scalar(element));
   }
 
   template <>
   CellKernels
   cell_kernels_baseline(const ElementConstant<Element::P2> element)
   {
-    return Loops::make_kernels<xsimd::batch<double, xsimd::default_arch>>(element, "baseline");
+    return Loops::make_kernels<xsimd::batch<double, xsimd::default_arch>>(
+        element, "baseline", rare_law_kernels_baseline(element));
   }
 } // namespace Exemplar

@@ -94,31 +94,34 @@ namespace Exemplar
   }
 
   void
-  CellField::for_each_law_in_stripes(const CellTask &task,
-                                     void (*loop)(const CellTask &, std::size_t, std::size_t))
+  CellField::for_each_law_in_stripes(
+      const CellTask &task, void (*LawKernels::*loop)(const CellTask &, std::size_t, std::size_t))
   {
     nodal_sums.for_each_stripe(
         [&](std::size_t /*stripe*/, const std::size_t begin, const std::size_t end, double *)
-        { for_each_law(task, [&](const CellTask &of_law) { loop(of_law, begin, end); }); });
+        {
+          for_each_law(task, [&](const CellTask &of_law)
+                       { (kernels.of(of_law.cells.law).*loop)(of_law, begin, end); });
+        });
   }
 
   void
   CellField::update_dilatations(const Vector &positions, const RotationUse rotations)
   {
     clear_cell_flags();
-    for_each_law_in_stripes(task(positions, rotations), kernels.dilatations);
+    for_each_law_in_stripes(task(positions, rotations), &LawKernels::dilatations);
   }
 
   void
   CellField::update_stretch_energies(const Vector &positions)
   {
-    for_each_law_in_stripes(task(positions, RotationUse::keep), kernels.stretch_energies);
+    for_each_law_in_stripes(task(positions, RotationUse::keep), &LawKernels::stretch_energies);
   }
 
   void
   CellField::update_rotations(const Vector &positions)
   {
-    for_each_law_in_stripes(task(positions, RotationUse::update), kernels.update_rotations);
+    for_each_law_in_stripes(task(positions, RotationUse::update), &LawKernels::update_rotations);
   }
 
   void
@@ -129,7 +132,7 @@ namespace Exemplar
     CellTask last;
     last.cells     = batches.arrays();
     last.positions = node_positions.data();
-    for_each_law_in_stripes(last, kernels.update_rotations);
+    for_each_law_in_stripes(last, &LawKernels::update_rotations);
     rotations_are_forgotten = false;
   }
 
@@ -163,8 +166,9 @@ namespace Exemplar
   CellField::advance_history(const Vector &positions)
   {
     if (batches.remembers())
-      for_each_law(task(positions, RotationUse::keep), [&](const CellTask &of_law)
-                   { kernels.advance_history(of_law, 0, of_law.cells.n_batches()); });
+      for_each_law(
+          task(positions, RotationUse::keep), [&](const CellTask &of_law)
+          { kernels.of(of_law.cells.law).advance_history(of_law, 0, of_law.cells.n_batches()); });
     batches.set_step_size(0.);
     return batches.history();
   }

@@ -211,9 +211,10 @@ namespace Exemplar
           cells.for_each_law(cell_task,
                              [&](const CellTask &of_law)
                              {
-                               cells.loops().evaluate(of_law, begin, end, sums,
-                                                      weight_sums.of_stripe(stripe),
-                                                      stripes[stripe]);
+                               cells.loops()
+                                   .of(of_law.cells.law)
+                                   .evaluate(of_law, begin, end, sums,
+                                             weight_sums.of_stripe(stripe), stripes[stripe]);
                              });
         });
     CellSums sums;
@@ -244,9 +245,12 @@ namespace Exemplar
         [&](const std::size_t stripe, const std::size_t begin, const std::size_t end, double *)
         {
           cells.for_each_law(cell_task,
-                             [&](const CellTask &of_law) {
-                               cells.loops().weight_linear_term(of_law, begin, end,
-                                                                weight_sums.of_stripe(stripe));
+                             [&](const CellTask &of_law)
+                             {
+                               cells.loops()
+                                   .of(of_law.cells.law)
+                                   .weight_linear_term(of_law, begin, end,
+                                                       weight_sums.of_stripe(stripe));
                              });
         });
     std::vector<double> linear_term = weight_sums.total();

@@ -138,13 +138,13 @@ namespace Exemplar
                                        const std::size_t  begin,
                                        const std::size_t  end) const
   {
-    const Tangent kind    = tangent.convex ? Tangent::convex : Tangent::exact;
-    const bool    rotated = is_rotated_stiffness(task.cells.law, kind);
-    (rotated ? cells.loops().add_rotated_stiffness : cells.loops().add_tangent)(task, tangent,
-                                                                                begin, end);
+    const Tangent     kind    = tangent.convex ? Tangent::convex : Tangent::exact;
+    const bool        rotated = is_rotated_stiffness(task.cells.law, kind);
+    const LawKernels &loops   = cells.loops().of(task.cells.law);
+    (rotated ? loops.add_rotated_stiffness : loops.add_tangent)(task, tangent, begin, end);
     if (task.dilatation.traces != nullptr
         && (cells.get_dilatation().stretch.acts || cells.get_dilatation().has(thin_cells)))
-      cells.loops().add_patch_tangent(task, tangent, begin, end);
+      loops.add_patch_tangent(task, tangent, begin, end);
   }
 
   void
@@ -192,8 +192,10 @@ namespace Exemplar
                            [&](const CellTask &of_law)
                            {
                              const bool rotated = is_rotated_stiffness(of_law.cells.law, kind);
-                             cells.loops().coupling(of_law, tangent, rotated, point / batch_size,
-                                                    forces.data());
+                             cells.loops()
+                                 .of(of_law.cells.law)
+                                 .coupling(of_law, tangent, rotated, point / batch_size,
+                                           forces.data());
                            });
       for (unsigned int p = 0; p < n_rows && point % points_per_cell(element) == 0; ++p)
         dof[p] = parts.free_dofs.free_index(3 * cells.node(point, p / 3) + p % 3);

@@ -79,9 +79,32 @@ namespace Exemplar
     handles.move(trial.state.time, trial.state.positions);
     Vector displacement = trial.state.positions;
     displacement -= start.state.positions;
-    if (!add_tangent_step(start, displacement, Tangent::exact, trial, evaluation))
+    const State moved      = trial.state;
+    const bool  has_factor = start.linearization.positions.size() > 0;
+    const bool  is_made = add_tangent_step(start, displacement, Tangent::exact, trial, evaluation);
+    if (is_made && has_factor && !is_descent_of_flow(moved, trial.state, evaluation))
+    {
+      trial.state         = moved;
+      start.linearization = {};
+      predict_along_tangent(start, trial, evaluation);
+      return;
+    }
+    if (!is_made)
       add_tangent_step(start, displacement, Tangent::convex, trial, evaluation);
     trial.linearization = start.linearization; // of which the factor may have been made
+  }
+
+  bool
+  Newton::is_descent_of_flow(const State &from, const State &to, Evaluation &evaluation)
+  {
+    if (!potential.get_cells().get_field().get_batches().remembers())
+      return true;
+    const auto potential_of = [&](State state)
+    {
+      evaluate(state, evaluation);
+      return evaluation.potential;
+    };
+    return potential_of(to) < potential_of(from);
   }
 
   bool
@@ -95,7 +118,7 @@ namespace Exemplar
     from.weights = trial.state.weights; // prescribed ones are those of the new time
     try
     {
-      const bool has_factor = tangent == Tangent::exact && find_factor(start.linearization);
+      const bool has_factor = tangent == Tangent::exact && find_factor(start);
       potential.get_cells().get_field().update_rotations(from.positions);
       potential.get_cells().evaluate(from.positions, from.weights, evaluation.elastic);
       potential.get_cells().add_response(tangent, displacement, from.positions, from.weights,
@@ -106,7 +129,8 @@ namespace Exemplar
       system.add(system.solve(from, evaluation), trial.state);
       keep_within_max_step(potential, from.positions, trial.state.positions);
       if (tangent == Tangent::exact && !has_factor && predicts_with_factors())
-        start.linearization = { from.positions, from.weights, system.n_factorizations() };
+        start.linearization
+            = { from.positions, from.weights, from.history, system.n_factorizations() };
       return true;
     }
     catch (const SolverFailure &)
@@ -116,17 +140,21 @@ namespace Exemplar
   }
 
   bool
-  Newton::find_factor(Linearization &linearization)
+  Newton::find_factor(Trial &start)
   {
+    Linearization &linearization = start.linearization;
     if (linearization.positions.size() == 0)
       return false;
     if (linearization.factor != system.n_factorizations())
     {
       // after a resume
-      potential.get_cells().get_field().update_rotations(linearization.positions);
+      CellField &cells = potential.get_cells().get_field();
+      cells.set_history(linearization.history);
+      cells.update_rotations(linearization.positions);
       system.factorize(linearization.positions, linearization.weights, 0.);
       system.prepare();
       system.count_as_remade();
+      cells.set_history(start.state.history);
       linearization.factor = system.n_factorizations();
     }
     return true;
@@ -198,7 +226,8 @@ namespace Exemplar
   void
   Newton::take_step(Trial &trial, Evaluation &evaluation, SolveReport &report)
   {
-    Linearization  here = { trial.state.positions, trial.state.weights, Linearization::not_made };
+    Linearization  here = { trial.state.positions, trial.state.weights, trial.state.history,
+                            Linearization::not_made };
     BorderedVector step;
     if (!find_step(trial.state, evaluation, step, report)
         || !search_along(step, trial.state, evaluation, report))
@@ -214,22 +243,23 @@ namespace Exemplar
   bool
   Newton::predicts_with_factors() const
   {
-    return potential.inertial_positions() == nullptr
-           && !potential.get_cells().get_field().get_batches().remembers();
+    return potential.inertial_positions() == nullptr;
   }
 
   void
   Newton::save(boost::archive::binary_oarchive &archive) const
   {
-    const Vector        positions = whole(potential.get_free_dofs().exchange(), accepted.positions);
-    archive &positions &accepted.weights;
+    const Vector positions = whole(potential.get_free_dofs().exchange(), accepted.positions);
+    const std::vector<double> history = potential.cell_order().whole(accepted.history);
+    archive &positions &accepted.weights &history;
   }
 
   void
   Newton::load(boost::archive::binary_iarchive &archive)
   {
     accepted = {};
-    archive &accepted.positions &accepted.weights;
+    archive &accepted.positions &accepted.weights &accepted.history;
+    accepted.history   = potential.cell_order().part(accepted.history);
     accepted.positions = part(potential.get_free_dofs().exchange(), accepted.positions);
   }
 
@@ -237,6 +267,7 @@ namespace Exemplar
   Newton::memory_consumption() const
   {
     using dealii::MemoryConsumption::memory_consumption;
-    return accepted.positions.memory_consumption() + memory_consumption(accepted.weights);
+    return accepted.positions.memory_consumption() + memory_consumption(accepted.weights)
+           + memory_consumption(accepted.history);
   }
 } // namespace Exemplar

@@ -66,7 +66,8 @@ namespace Exemplar
     rotations(benchmark::State &state, const CellKernels *kernels)
     {
       for (auto _ : state)
-        kernels->update_rotations(scene->task, 0, scene->task.cells.n_batches());
+        kernels->of(scene->task.cells.law)
+            .update_rotations(scene->task, 0, scene->task.cells.n_batches());
       report_cells(state);
     }
 
@@ -78,7 +79,8 @@ namespace Exemplar
       for (auto _ : state)
       {
         CellSums sums;
-        kernels->evaluate(task, 0, task.cells.n_batches(), scene->forces.data(), nullptr, sums);
+        kernels->of(task.cells.law)
+            .evaluate(task, 0, task.cells.n_batches(), scene->forces.data(), nullptr, sums);
         benchmark::DoNotOptimize(sums);
       }
       report_cells(state);

@@ -70,6 +70,8 @@ SCENES = {
     "quasi newton, examples": {**QUASI_NEWTON, **BENT, "Examples/Weights": "free"},
     "newton, free body": {**DYNAMIC, "Handles/Names": "", "Handles/left/Select": None, "Handles/left/Motion": None,
                           "Initial/Velocity": "-y; x; 0.1*x"},
+    "static, yields": {**STATIC, "Material/Yield stress": "2e4", "Material/Kinematic hardening": "2e5"},
+    "newton, yields": {**DYNAMIC, "Material/Yield stress": "2e4", "Material/Isotropic hardening": "2e5"},
     "one pass": {**DYNAMIC, "Solver/Method": "one pass", "Solver/Tolerance": None, **BENT,
                  "Model/Gradient": "frozen", "Examples/Weights": "free"},
     "fixed point": {**DYNAMIC, "Solver/Method": "fixed point", "Model/Gradient": "frozen", "Solver/Rotations": "predicted",
@@ -239,6 +241,17 @@ class SeveralProcesses(SceneTest):
                 resumed = self.run_on(after, scene, "--resume", output=output)
                 self.compare(whole, resumed, 1., 1e-8)
                 self.assertEqual(len(read_pvd(resumed)), 6)
+
+    def test_what_has_yielded_goes_on_with_another_number_of_processes(self):
+        states = {"Output/Every": "1", "Output/Keep states": "true"}
+        scenes = {"static": {**SCENES["static, yields"], "Time/Increments": "4", **states},
+                  "dynamic": {**QUASI_NEWTON, "Material/Yield stress": "2e4", "Material/Isotropic hardening": "2e5", **states}}
+        for (name, scene), (before, after) in zip(scenes.items(), ((2, 1), (1, 2))):
+            with self.subTest(scene=name):
+                whole = self.solve(scene, "--quiet", output=f"whole_{name}")
+                self.assertGreater(read_csv(whole)[-1]["energy_dissipated"], 0)
+                self.run_on(before, scene, output=name)
+                self.compare(whole, self.run_on(after, scene, "--resume-from", "2", output=name), 1., 1e-8)
 
     def test_a_quasi_newton_step_of_the_cat_is_that_of_one_process(self):
         cat = REPOSITORY / "tests/benchmark/scenes/cat_mid60_examples.prm"

@@ -4,7 +4,7 @@
 import unittest
 from math import cos, log, pi, sin, sqrt
 
-from exemplar_runner import SceneTest, read_csv, read_msh, read_summary, read_vtu, results
+from exemplar_runner import SceneTest, read_csv, read_msh, read_summary, read_vtu, results, write_msh
 
 E, YIELD, KINEMATIC, ISOTROPIC = 1e6, 1e3, 5e4, 3e4
 BOX = {"Mesh/Generator": "box", "Mesh/Box size": "4, 1, 1", "Mesh/Box cells": "4, 1, 1"}
@@ -132,6 +132,29 @@ class Plasticity(SceneTest):
                 "Handles/sides/Select": "box 0 0 -1 3 3 1", "Handles/sides/Components": "z", **change})
             pressure = read_csv(output)[-1]["reaction_wall_x"] / (a * height)
             self.assertAlmostEqual(pressure, limit, delta=tolerance * limit)
+
+    def test_a_region_that_yields_beside_one_that_does_not(self):
+        box = self.write_box(BENT, "box.msh")
+        cells = [element for element in box.elements if element[1] == 4]
+        left = [sum(box.nodes[node][0] for node in cell[-4:]) < 8 for cell in cells]
+        regions = iter(2 if is_left else 1 for is_left in left)
+        write_msh(self.directory / "two.msh", box._replace(elements=[
+            (*element[:3], next(regions), *element[4:]) if element[1] == 4 else element for element in box.elements]))
+        names = "Yield stress", "Kinematic hardening", "Isotropic hardening"
+        scene = {**BENT, "Mesh/Generator": None, "Mesh/Box size": None, "Mesh/Box cells": None, "Mesh/File": "two.msh",
+                 **{f"Material/{name}": None for name in names},
+                 **{f"Material/region 2/{name}": BENT[f"Material/{name}"] for name in names}}
+        for change in {}, {"Model/Dilatation": "cells"}, {"Model/Element": "P2"}:
+            with self.subTest(**change):
+                output = self.solve({**scene, **change})
+                strains = plastic_strains(output, 20)
+                self.assertEqual(max(strain for strain, is_left in zip(strains, left) if not is_left), 0)
+                self.assertGreater(max(strains), 5e-4)
+                # the rest of the bar would not have yielded, either
+                everywhere = self.solve({**BENT, **change}, output="everywhere")
+                self.assertAlmostEqual(read_csv(output)[-1]["energy_dissipated"],
+                                       read_csv(everywhere)[-1]["energy_dissipated"],
+                                       delta=0.2 * read_csv(everywhere)[-1]["energy_dissipated"])
 
     def check_resumed(self, scene, state):
         whole = results(self.solve(scene, output="whole"))

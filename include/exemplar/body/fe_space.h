@@ -40,6 +40,12 @@ namespace Exemplar
       return mesh.exchange();
     }
 
+    const CellOrder &
+    cell_order() const
+    {
+      return mesh.cell_order();
+    }
+
     const NodeNumbering &
     numbering() const
     {

@@ -216,19 +216,10 @@ namespace Exemplar
     const double       *values;
   };
 
-  /// The loops, over batches begin to end - 1.
-  struct CellKernels
+  /// The loops over the cells of a group of laws, over batches begin to end - 1.
+  struct LawKernels
   {
-    const char *name; ///< of the instruction set
-
     void (*update_rotations)(const CellTask &, std::size_t begin, std::size_t end);
-
-    /// Add the rotations of the cells to the sums of their nodes, twelve numbers a node of
-    /// which nine count.
-    void (*add_rotations)(const CellTask &, std::size_t begin, std::size_t end, float *nodal_sums);
-
-    /// The rotations closest to n such sums, nine numbers each.
-    void (*closest_rotations)(std::size_t n, const float *sums, float *rotations);
 
     /// Energies; the forces and force scales [N] are added to `nodal_sums`, four numbers a node
     /// of the mesh, and -dPsi/dw_i to the batch of lanes `weight_sums` + 8 i.
@@ -270,6 +261,33 @@ namespace Exemplar
                               std::size_t begin,
                               std::size_t end);
 
+    /// By how much a unit of each example's weight reduces the nodal forces of the cells of one
+    /// batch: three entries a node and example, each for all cells of the batch. `rotated`: with
+    /// rotations held fixed, as in R K R^T; else by the exact or convex tangent.
+    void (*coupling)(
+        const CellTask &, const TangentTask &, bool rotated, std::size_t batch, double *forces);
+  };
+
+  /// The loops, over batches begin to end - 1.
+  struct CellKernels
+  {
+    const char *name; ///< of the instruction set
+
+    LawKernels of_usual_laws, of_rare_laws;
+
+    const LawKernels &
+    of(const CellLaw law) const
+    {
+      return law < first_rare_law ? of_usual_laws : of_rare_laws;
+    }
+
+    /// Add the rotations of the cells to the sums of their nodes, twelve numbers a node of
+    /// which nine count.
+    void (*add_rotations)(const CellTask &, std::size_t begin, std::size_t end, float *nodal_sums);
+
+    /// The rotations closest to n such sums, nine numbers each.
+    void (*closest_rotations)(std::size_t n, const float *sums, float *rotations);
+
     /// b of the patches begin to end - 1.
     void (*patch_gradients)(const CellArrays &,
                             const PatchArrays &,
@@ -285,12 +303,6 @@ namespace Exemplar
 
     /// Add the product of a symmetric matrix of n rows with four numbers a node.
     void (*multiply_nodes)(const NodalMatrix &, std::size_t n, const double *x, double *product);
-
-    /// By how much a unit of each example's weight reduces the nodal forces of the cells of one
-    /// batch: three entries a node and example, each for all cells of the batch. `rotated`: with
-    /// rotations held fixed, as in R K R^T; else by the exact or convex tangent.
-    void (*coupling)(
-        const CellTask &, const TangentTask &, bool rotated, std::size_t batch, double *forces);
   };
 
   // Those of one instruction set; the scalar ones are for comparison.
@@ -306,6 +318,18 @@ namespace Exemplar
 
   template <Element element>
   CellKernels cell_kernels_avx512(ElementConstant<element>);
+
+  template <Element element>
+  LawKernels rare_law_kernels_scalar(ElementConstant<element>);
+
+  template <Element element>
+  LawKernels rare_law_kernels_baseline(ElementConstant<element>);
+
+  template <Element element>
+  LawKernels rare_law_kernels_avx2(ElementConstant<element>);
+
+  template <Element element>
+  LawKernels rare_law_kernels_avx512(ElementConstant<element>);
 
   /// The kernels of an element for the best instruction set that this CPU has.
   const CellKernels &

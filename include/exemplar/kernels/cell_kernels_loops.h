@@ -13,30 +13,36 @@
 
 namespace Exemplar::Loops
 {
-  /// The loops of loops_*.h for a number type and an element; see loops_io.h for which files may
-  /// call this. Each element has files of its own, because how much a compiler inlines depends on
-  /// all that it sees.
+  // See loops_io.h for which files may call these. Each element, and each group of laws, has files of
+  // its own, because how much a compiler inlines depends on all that it sees.
+
+  /// The loops of loops_*.h for a number type, an element and a group of laws.
+  template <typename Laws, typename Number, Element element>
+  LawKernels
+  make_law_kernels(ElementConstant<element>)
+  {
+    constexpr int n_nodes = nodes_per_cell(element);
+    return { update_rotations<Laws, Number, n_nodes>,      evaluate<Laws, Number, n_nodes>,
+             weight_linear_term<Laws, Number, n_nodes>,    dilatations<Laws, Number, n_nodes>,
+             stretch_energies<Laws, Number, n_nodes>,      advance_history<Laws, Number, n_nodes>,
+             add_rotated_stiffness<Laws, Number, n_nodes>, add_tangent<Laws, Number, n_nodes>,
+             add_patch_tangent<Laws, Number, n_nodes>,     coupling<Laws, Number, n_nodes> };
+  }
+
+  /// All loops, with those for rare laws.
   template <typename Number, Element element>
   CellKernels
-  make_kernels(ElementConstant<element>, const char *name)
+  make_kernels(const ElementConstant<element> of, const char *name, const LawKernels &of_rare_laws)
   {
     constexpr int n_nodes = nodes_per_cell(element);
     return { name,
-             update_rotations<Number, n_nodes>,
+             make_law_kernels<UsualLaws, Number>(of),
+             of_rare_laws,
              add_rotations<Number, n_nodes>,
              closest_rotations<Number>,
-             evaluate<Number, n_nodes>,
-             weight_linear_term<Number, n_nodes>,
-             dilatations<Number, n_nodes>,
-             stretch_energies<Number, n_nodes>,
-             advance_history<Number, n_nodes>,
-             add_rotated_stiffness<Number, n_nodes>,
-             add_tangent<Number, n_nodes>,
-             add_patch_tangent<Number, n_nodes>,
              patch_gradients<Number, n_nodes>,
              add_patch_products<Number>,
-             multiply_nodes<Number>,
-             coupling<Number, n_nodes> };
+             multiply_nodes<Number> };
   }
 } // namespace Exemplar::Loops
 

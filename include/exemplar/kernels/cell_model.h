@@ -46,15 +46,39 @@ namespace Exemplar
     using type = Cell;
   };
 
-  /// Call `function` with the CellModel of a law.
-  template <typename Number, std::size_t i = 0, typename Function>
+  /// Laws `begin` to `end` - 1 of CellLaws.
+  template <std::size_t begin, std::size_t end>
+  struct LawRange
+  {
+  };
+
+  using AllLaws = LawRange<0, std::tuple_size_v<CellLaws<double>>>;
+
+  // Each group has loops of its own, see cell_kernels_loops.h.
+
+  inline constexpr CellLaw first_rare_law = CellLaw::fibrous;
+
+  using UsualLaws = LawRange<0, static_cast<std::size_t>(first_rare_law)>;
+  using RareLaws
+      = LawRange<static_cast<std::size_t>(first_rare_law), std::tuple_size_v<CellLaws<double>>>;
+
+  /// Call `function` with the CellModel of a law, which is one of these.
+  template <typename Number, std::size_t i, std::size_t end, typename Function>
+  auto
+  with_cell_model(const LawRange<i, end> /*laws*/, const CellLaw law, const Function &function)
+  {
+    if constexpr (i + 1 < end)
+      if (law != static_cast<CellLaw>(i))
+        return with_cell_model<Number>(LawRange<i + 1, end>(), law, function);
+    return function(CellModel<std::tuple_element_t<i, CellLaws<Number>>>());
+  }
+
+  /// The same of all laws.
+  template <typename Number, typename Function>
   auto
   with_cell_model(const CellLaw law, const Function &function)
   {
-    if constexpr (i + 1 < std::tuple_size_v<CellLaws<Number>>)
-      if (law != static_cast<CellLaw>(i))
-        return with_cell_model<Number, i + 1>(law, function);
-    return function(CellModel<std::tuple_element_t<i, CellLaws<Number>>>());
+    return with_cell_model<Number>(AllLaws(), law, function);
   }
 
   inline ModelTraits

@@ -71,7 +71,7 @@ namespace Exemplar::Loops
           forces);
   }
 
-  template <typename Number, int n_nodes>
+  template <typename Laws, typename Number, int n_nodes>
   inline void
   coupling(const CellTask    &task,
            const TangentTask &tangent,
@@ -79,22 +79,21 @@ namespace Exemplar::Loops
            const std::size_t  batch,
            double            *forces)
   {
-    with_cell_model<Number>(task.cells.law,
-                            [&](auto model)
-                            {
-                              using Cell = typename decltype(model)::type;
-                              for_each_group_of_law<Number>(
-                                  task.cells, batch, batch + 1,
-                                  [&](const LaneGroup<Number> &group)
-                                  {
-                                    if constexpr (!Cell::traits.exact_is_rotated)
-                                      if (!rotated)
-                                        return couple_exactly<Cell, n_nodes>(task, tangent, group,
-                                                                             forces);
-                                    couple_rotated<typename Cell::Constants, n_nodes>(task, group,
-                                                                                      forces);
-                                  });
-                            });
+    with_cell_model<Number>(
+        Laws(), task.cells.law,
+        [&](auto model)
+        {
+          using Cell = typename decltype(model)::type;
+          for_each_group_of_law<Number>(
+              task.cells, batch, batch + 1,
+              [&](const LaneGroup<Number> &group)
+              {
+                if constexpr (!Cell::traits.exact_is_rotated)
+                  if (!rotated)
+                    return couple_exactly<Cell, n_nodes>(task, tangent, group, forces);
+                couple_rotated<typename Cell::Constants, n_nodes>(task, group, forces);
+              });
+        });
   }
 } // namespace Exemplar::Loops
 

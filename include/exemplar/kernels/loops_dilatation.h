@@ -42,12 +42,12 @@ namespace Exemplar::Loops
     store(task.cells, group, of_strain, task.dilatation.traces);
   }
 
-  template <typename Number, int n_nodes>
+  template <typename Laws, typename Number, int n_nodes>
   inline void
   dilatations(const CellTask &task, const std::size_t begin, const std::size_t end)
   {
     with_cell_model<Number>(
-        task.cells.law,
+        Laws(), task.cells.law,
         [&](auto model)
         {
           using Cell = typename decltype(model)::type;
@@ -100,12 +100,12 @@ namespace Exemplar::Loops
     return PatchCell<Number, Cell>(cell, patch);
   }
 
-  template <typename Number, int n_nodes>
+  template <typename Laws, typename Number, int n_nodes>
   inline void
   stretch_energies(const CellTask &task, const std::size_t begin, const std::size_t end)
   {
     with_cell_model<Number>(
-        task.cells.law,
+        Laws(), task.cells.law,
         [&](auto model)
         {
           using Cell = typename decltype(model)::type;

@@ -281,7 +281,7 @@ namespace Exemplar::Loops
       add_stretch_guard<Cell, n_nodes>(task, group, nodal_sums, sums);
   }
 
-  template <typename Number, int n_nodes>
+  template <typename Laws, typename Number, int n_nodes>
   inline void
   evaluate(const CellTask   &task,
            const std::size_t begin,
@@ -292,7 +292,7 @@ namespace Exemplar::Loops
   {
     LaneSums<Number, n_nodes> sums;
     with_cell_model<Number>(
-        task.cells.law,
+        Laws(), task.cells.law,
         [&](auto model)
         {
           using Cell = typename decltype(model)::type;
@@ -304,7 +304,7 @@ namespace Exemplar::Loops
     sums.add_to(result);
   }
 
-  template <typename Number, int n_nodes>
+  template <typename Laws, typename Number, int n_nodes>
   inline void
   weight_linear_term(const CellTask   &task,
                      const std::size_t begin,
@@ -312,7 +312,7 @@ namespace Exemplar::Loops
                      double           *weight_sums)
   {
     with_cell_model<Number>(
-        task.cells.law,
+        Laws(), task.cells.law,
         [&](auto model)
         {
           using Cell = typename decltype(model)::type;

@@ -131,7 +131,7 @@ namespace Exemplar::Loops
     }
   };
 
-  template <typename Number, int n_nodes>
+  template <typename Laws, typename Number, int n_nodes>
   inline void
   add_patch_tangent(const CellTask    &task,
                     const TangentTask &tangent,
@@ -140,7 +140,7 @@ namespace Exemplar::Loops
   {
     alignas(64) BlockColumns<Number, n_nodes> columns = {};
     with_cell_model<Number>(
-        task.cells.law,
+        Laws(), task.cells.law,
         [&](auto model)
         {
           using Cell = typename decltype(model)::type;

@@ -22,14 +22,14 @@ namespace Exemplar::Loops
     return R;
   }
 
-  template <typename Number, int n_nodes>
+  template <typename Laws, typename Number, int n_nodes>
   inline void
   update_rotations(const CellTask &task, const std::size_t begin, const std::size_t end)
   {
     CellTask updating     = task;
     updating.rotation_use = RotationUse::update;
     with_cell_model<Number>(
-        task.cells.law,
+        Laws(), task.cells.law,
         [&](auto model)
         {
           using Cell = typename decltype(model)::type;

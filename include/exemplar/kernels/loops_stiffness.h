@@ -32,7 +32,7 @@ namespace Exemplar::Loops
     if (task.damping.factors != nullptr)
       factor *= Number(1.) + load(task.damping.factors, group, 1, 0);
     const CellMaterial<Number> C = load_constants<Constants>(task.cells, group).scaled(factor);
-    Vector3<Number> g[n];
+    Vector3<Number>            g[n];
     rotate_gradients(tet, R, g);
     for (int a = 0; a < n; ++a)
     {
@@ -176,7 +176,7 @@ namespace Exemplar::Loops
         });
   }
 
-  template <typename Number, int n>
+  template <typename Laws, typename Number, int n>
   inline void
   add_rotated_stiffness(const CellTask    &task,
                         const TangentTask &tangent,
@@ -184,7 +184,7 @@ namespace Exemplar::Loops
                         const std::size_t  end)
   {
     with_cell_model<Number>(
-        task.cells.law,
+        Laws(), task.cells.law,
         [&](auto model)
         {
           using Constants = typename decltype(model)::type::Constants;

@@ -35,7 +35,7 @@ namespace Exemplar::Loops
     return cell;
   }
 
-  template <typename Number, int n_nodes>
+  template <typename Laws, typename Number, int n_nodes>
   inline void
   add_tangent(const CellTask    &task,
               const TangentTask &tangent,
@@ -44,7 +44,7 @@ namespace Exemplar::Loops
   {
     alignas(64) BlockColumns<Number, n_nodes> columns = {};
     with_cell_model<Number>(
-        task.cells.law,
+        Laws(), task.cells.law,
         [&](auto model)
         {
           using Cell = typename decltype(model)::type;
@@ -61,12 +61,12 @@ namespace Exemplar::Loops
         });
   }
 
-  template <typename Number, int n_nodes>
+  template <typename Laws, typename Number, int n_nodes>
   inline void
   advance_history(const CellTask &task, const std::size_t begin, const std::size_t end)
   {
     with_cell_model<Number>(
-        task.cells.law,
+        Laws(), task.cells.law,
         [&](auto model)
         {
           using Cell = typename decltype(model)::type;

@@ -36,7 +36,7 @@ namespace Exemplar
                                             /* has_guard */ true,
                                             /* has_stretch_guard */ true,
                                             /* exact_is_rotated */ false,
-                                            /* convex_is_rotated */ true,
+                                            /* convex_is_rotated */ false,
                                             /* trace_gradient_is_R */ true,
                                             /* turns_freely */ true,
                                             /* n_history */ n_of_strain + 2,
@@ -61,8 +61,7 @@ namespace Exemplar
       const Matrix3<Number> p = { { { xx, xy, xz }, { xy, yy, yz }, { xz, yz, -(xx + yy) } } };
       hardening_before        = hardening(p, load(n_of_strain));
       work_before             = load(n_of_strain + 1);
-      flow       = PlasticFlow<Number>(constants, driving(this->strain()), p, load(n_of_strain),
-                                 step_size);
+      flow.begin(constants, driving(this->strain()), p, load(n_of_strain), step_size);
       is_elastic = !any(contract(flow.strain(), flow.strain()) > Number(0.));
     }
 
@@ -138,13 +137,12 @@ namespace Exemplar
     }
 
     Matrix3<Number>
-    elastic_force() const
+    elastic_force()
     {
       if (is_elastic)
         return Corotational::elastic_force();
-      PlasticCell without_target = *this;
-      without_target.set_target(Matrix3<Number>{});
-      return without_target.force();
+      set_target(Matrix3<Number>{});
+      return this->force();
     }
 
     void
@@ -153,17 +151,44 @@ namespace Exemplar
       Corotational::set_target(with_plastic(D));
     }
 
+    /// Let the rotation stay and p follow, nearly: the second derivative of a convex function, and definite
+    /// where there is no hardening, too.
+    void
+    make_convex()
+    {
+      is_convex = true;
+    }
+
     /// With p following.
     Matrix3<Number>
     response(const Matrix3<Number> &M) const
     {
+      if (is_convex)
+        return convex_response(symmetric_part(M));
       const Matrix3<Number> dS = symmetric_part(
           combine(Number(1.), M, Number(-1.), this->turn(M) * this->stretch_factor()));
       return combine(Number(1.), Corotational::response(M), -of_body / moved,
                      this->example_response(flow.response(driving(dS))));
     }
 
+    Matrix3<Number>
+    example_response(const Matrix3<Number> &E) const
+    {
+      return is_convex ? stress(this->own_material(), E) : Corotational::example_response(E);
+    }
+
   private:
+    /// Of that, how much p follows.
+    static constexpr double convex_share = 0.9;
+
+    Matrix3<Number>
+    convex_response(const Matrix3<Number> &dS) const
+    {
+      const Matrix3<Number> dp = flow.response(driving(dS));
+      return combine(Number(1.), stress(this->own_material(), dS),
+                     Number(-2. * convex_share) * of_body * constants.mu, driving(dp));
+    }
+
     /// phi dev e.
     Matrix3<Number>
     driving(const Matrix3<Number> &strain) const
@@ -204,6 +229,7 @@ namespace Exemplar
     Number              of_body;                 ///< 1 - eta
     Number              moved      = Number(1.); ///< 1 + s with damping
     bool                is_elastic = true;       ///< there is no plastic strain, as in most cells
+    bool                is_convex  = false;
     PlasticFlow<Number> flow;
     Number              hardening_before = Number(0.), work_before = Number(0.);
   };

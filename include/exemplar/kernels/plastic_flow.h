@@ -71,8 +71,21 @@ namespace Exemplar
                 const Matrix3<Number>          &p_n,
                 const Number                   &a_n,
                 const double                    step_size)
-        : p(p_n), a(a_n), two_mu(Number(2.) * constants.mu)
     {
+      begin(constants, d, p_n, a_n, step_size);
+    }
+
+    /// As the constructor, where nothing has flown.
+    void
+    begin(const PlasticConstants<Number> &constants,
+          const Matrix3<Number>          &d,
+          const Matrix3<Number>          &p_n,
+          const Number                   &a_n,
+          const double                    step_size)
+    {
+      p      = p_n;
+      a      = a_n;
+      two_mu = Number(2.) * constants.mu;
       if (!(step_size > 0.))
         return;
       v                 = constants.viscosity * Number(1. / step_size);
@@ -127,6 +140,8 @@ namespace Exemplar
     Matrix3<Number>
     response(const Matrix3<Number> &dd) const
     {
+      if (!is_flowing)
+        return Matrix3<Number>{};
       const Matrix3<Number> dp = inverse_times(combine(two_mu, dd, Number(0.), dd));
       if (!any(multiplier > Number(0.)))
         return dp;
@@ -150,6 +165,7 @@ namespace Exemplar
     void
     flow_along(const Matrix3<Number> &xi)
     {
+      is_flowing       = true;
       const auto flows = size > threshold;
       n                = combine(Number(1.) / size, xi, Number(0.), xi);
       g                = max(size - threshold, Number(0.)) / (modulus + multiplier);
@@ -234,7 +250,8 @@ namespace Exemplar
     Number          size       = Number(1.); ///< |xi|
     Number          multiplier = Number(0.);
     Number          g          = Number(0.);
-    Matrix3<Number> n{};                     ///< direction of the flow
+    bool            is_flowing = false;      ///< some lane
+    Matrix3<Number> n;                       ///< direction of the flow, if there is one
     Number          turning    = Number(0.); ///< eigenvalues of inverse_times() across n
     Number          stretching = Number(0.); ///< and along it
   };

@@ -261,7 +261,7 @@ namespace Exemplar
     /// Run a loop of the kernels that leaves no sums.
     void
     for_each_law_in_stripes(const CellTask &task,
-                            void (*loop)(const CellTask &, std::size_t, std::size_t));
+                            void (*LawKernels::*loop)(const CellTask &, std::size_t, std::size_t));
 
     const FESpace                &fe_space;
     const CellKernels            &kernels;

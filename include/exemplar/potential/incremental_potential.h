@@ -172,6 +172,13 @@ namespace Exemplar
       return free_dofs;
     }
 
+    /// Of State::history.
+    const CellOrder &
+    cell_order() const
+    {
+      return fe_space.cell_order();
+    }
+
     ElasticPotential &
     get_cells()
     {

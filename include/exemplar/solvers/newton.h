@@ -61,6 +61,7 @@ namespace Exemplar
 
       Vector              positions; ///< empty: there is none
       std::vector<double> weights;
+      std::vector<double> history;           ///< State::history at the beginning of its step
       unsigned int        factor = not_made; ///< its number in StepSystem
     };
 
@@ -109,9 +110,14 @@ namespace Exemplar
                      Trial        &trial,
                      Evaluation   &evaluation);
 
-    /// Have the factor of this linearization in the system; false if there is none.
+    /// Whether the potential falls on the way, if cells remember what they have done: where they stop to yield, the
+    /// factor of the last step, in which they yielded, takes a body much too far.
     bool
-    find_factor(Linearization &linearization);
+    is_descent_of_flow(const State &from, const State &to, Evaluation &evaluation);
+
+    /// Have the factor of its linearization in the system; false if there is none.
+    bool
+    find_factor(Trial &start);
 
     void
     iterate(unsigned int max_iterations, Trial &trial, Evaluation &evaluation, SolveReport &report);

@@ -64,9 +64,9 @@ namespace Exemplar::Testing
 
         nodal_sums.resize(4 * n_nodes);
         weight_sums.resize(batch_size * weights.size());
-        kernels.evaluate(task, 0, n_batches, nodal_sums.data(), weight_sums.data(), sums);
+        kernels.of(law).evaluate(task, 0, n_batches, nodal_sums.data(), weight_sums.data(), sums);
         weight_linear_term.resize(weight_sums.size());
-        kernels.weight_linear_term(task, 0, n_batches, weight_linear_term.data());
+        kernels.of(law).weight_linear_term(task, 0, n_batches, weight_linear_term.data());
         rotations.assign(task.cells.rotations, task.cells.rotations + 9 * n);
 
         std::vector<int> matrix_positions(n_block_columns(nodes_per_cell(element))
@@ -75,13 +75,14 @@ namespace Exemplar::Testing
           matrix_positions[i] = static_cast<int>(3 * i); // each cell's matrix by itself
         for (std::vector<double> *matrix : { &rotated, &exact })
           matrix->assign(3 * matrix_positions.size() + SymmetricPattern::padding, 0.);
-        kernels.add_rotated_stiffness(task, { false, matrix_positions.data(), rotated.data() }, 0,
-                                      n_batches);
+        kernels.of(law).add_rotated_stiffness(
+            task, { false, matrix_positions.data(), rotated.data() }, 0, n_batches);
         const bool is_rotated = traits_of(law).exact_is_rotated;
         if (!is_rotated)
-          kernels.add_tangent(task, { true, matrix_positions.data(), exact.data() }, 0, n_batches);
+          kernels.of(law).add_tangent(task, { true, matrix_positions.data(), exact.data() }, 0,
+                                      n_batches);
         coupling.resize(3 * nodes_per_cell(element) * batch_size * task.examples.n);
-        kernels.coupling(task, {}, is_rotated, 1, coupling.data());
+        kernels.of(law).coupling(task, {}, is_rotated, 1, coupling.data());
 
         dealii::AlignedVector<float> rotation_sums(12 * n_nodes);
         kernels.add_rotations(task, 0, n_batches, rotation_sums.data());

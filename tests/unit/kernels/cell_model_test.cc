@@ -311,6 +311,35 @@ namespace Exemplar::Testing
       EXPECT_LT(least_exact, -0.1); // else it proves nothing
     }
 
+    TEST(Plastic, ConvexTangentIsNeverNegativeTogetherWithTheWeightsAndSofterWhereItFlows)
+    {
+      // the quadratic of (dF, dw): dF:convex(dF) - 2 eta dF:C:E dw + eta E:C:E dw^2
+      using Plastic = PlasticCell<double>;
+      std::mt19937 generator(12);
+      const double eta      = examples.importance;
+      double       softened = 0.;
+      for (const auto &[name, F] : states())
+        for (int sample = 0; sample < 50; ++sample)
+        {
+          Plastic cell = cell_at<Plastic>(F);
+          cell.set_target(targets()[1]);
+          cell.make_convex();
+          const Matrix3<double> M       = random_matrix(generator);
+          const Matrix3<double> E       = symmetric_part(random_matrix(generator));
+          const double          convex  = contract(M, cell.response(M));
+          const double          elastic = contract(M, stress(material, symmetric_part(M)));
+          EXPECT_GE(convex - 2. * eta * contract(M, cell.example_response(E))
+                        + eta * contract(E, stress(material, E)),
+                    -1e-12)
+              << name;
+          EXPECT_LE(convex, elastic + 1e-12) << name;
+          EXPECT_GE(convex, (1. - 0.9 * (1. - eta)) * elastic - 1e-12) << name;
+          EXPECT_NEAR(contract(E, cell.response(M)), contract(M, cell.response(E)), 1e-12) << name;
+          softened = std::max(softened, (elastic - convex) / elastic);
+        }
+      EXPECT_GT(softened, 0.1); // else it proves nothing
+    }
+
     TEST(Green, EnergyOfUniformScaleAndOfRotation)
     {
       const double          s = 1.4, e = 0.5 * (s * s - 1.);

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The loops over quadratic cells of rare laws for CPUs with AVX2.
+#include <exemplar/kernels/cell_kernels_loops.h>
+
+#include <xsimd/xsimd.hpp>
+
+namespace Exemplar
+{
+  template <>
+  LawKernels
+  rare_law_kernels_avx2(const ElementConstant<Element::P2> element)
+  {
+    return Loops::make_law_kernels<RareLaws, xsimd::batch<double, xsimd::fma3<xsimd::avx2>>>(
+        element);
+  }
+} // namespace Exemplar

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The loops over linear cells of rare laws for the instruction set that every CPU of the kind has, one by one
+// and as many at once as its registers hold.
+#include <exemplar/kernels/cell_kernels_loops.h>
+
+#include <xsimd/xsimd.hpp>
+
+namespace Exemplar
+{
+  template <>
+  LawKernels
+  rare_law_kernels_scalar(const ElementConstant<Element::P1> element)
+  {
+    return Loops::make_law_kernels<RareLaws, double>(element);
+  }
+
+  template <>
+  LawKernels
+  rare_law_kernels_baseline(const ElementConstant<Element::P1> element)
+  {
+    return Loops::make_law_kernels<RareLaws, xsimd::batch<double, xsimd::default_arch>>(element);
+  }
+} // namespace Exemplar
