@@ -58,6 +58,9 @@ namespace Exemplar
                                                          { DilatationKind::cells, "cells" },
                                                          { DilatationKind::patches, "patches" } };
     const EnumTable<Element>        elements         = make_elements();
+    const EnumTable<Background>     backgrounds
+        = { { Background::corotational, "corotational" },
+            { Background::neo_hookean, traits_of(CellLaw::neo_hookean).name } };
   } // namespace
 
   void
@@ -87,6 +90,14 @@ namespace Exemplar
         "which may bend and are far more accurate on the same mesh, where Poisson's ratio is "
         "near 1/2 above all. Strains, rotations and example strains are at four points of each "
         "cell then.");
+    keys.add(
+        "Background", background, backgrounds,
+        "The energy that the body has of its own, beside its examples: corotational: that of the "
+        "strain; neo-hookean: the stable neo-Hookean one of Smith, de Goes and Kim (2018), with "
+        "the "
+        "same resistance to small strains, for large stretches (doc/model.md). It is for the "
+        "corotational strain with consistent forces and, where there are examples, "
+        "Examples/Energy = blended; examples act on the corotational strain.");
     keys.leave_subsection();
   }
 
@@ -101,9 +112,26 @@ namespace Exemplar
   void
   ModelParameters::check() const
   {
+    if (is_neo_hookean())
+      check_neo_hookean();
     if (has_patches() && !traits_of(law()).trace_gradient_is_R)
       throw UserError("Model/Dilatation = patches: is for the " + strains_with_patches()
                       + " strains, not for Model/Strain = " + traits_of(law()).name
                       + ". Leave it at auto, or take another strain.");
+  }
+
+  void
+  ModelParameters::check_neo_hookean() const
+  {
+    const std::string key = "Model/Background = neo-hookean";
+    if (law() != CellLaw::neo_hookean && traits_of(strain).is_strain())
+      throw UserError(key
+                      + " is for Model/Strain = corotational with Model/Gradient = consistent. Set "
+                        "these two, or Model/Background = corotational.");
+    if (law() == CellLaw::neo_hookean && has_patches())
+      throw UserError("Model/Dilatation = patches is not for " + key
+                      + ", with which each cell resists the change of its own volume. Set "
+                        "Model/Dilatation = auto, or Model/Background = corotational. "
+                        "Model/Element = P2 helps near Poisson's ratio 0.5.");
   }
 } // namespace Exemplar

@@ -23,6 +23,13 @@ namespace Exemplar
     patches ///< its mean, Eq. (25)
   };
 
+  /// What energy the body has of its own, beside its examples.
+  enum class Background
+  {
+    corotational, ///< that of the strain
+    neo_hookean   ///< Eq. (34)
+  };
+
   /// Subsection Model.
   struct ModelParameters
   {
@@ -30,6 +37,7 @@ namespace Exemplar
     GradientKind   gradient   = GradientKind::consistent;
     DilatationKind dilatation = DilatationKind::automatic;
     Element        element    = Element::P1;
+    Background     background = Background::corotational;
 
     void
     declare(KeyTable &keys);
@@ -49,12 +57,22 @@ namespace Exemplar
     void
     check() const;
 
-    /// The law of the cells. Only the corotational strain has rotations that a force may hold fixed.
+    /// The law of the cells. Only the corotational strain has rotations that a force may hold fixed,
+    /// and only with consistent forces another background.
     CellLaw
     law() const
     {
-      return strain == CellLaw::corotational && gradient == GradientKind::frozen ? CellLaw::frozen
-                                                                                 : strain;
+      if (strain != CellLaw::corotational)
+        return strain;
+      if (gradient == GradientKind::frozen)
+        return CellLaw::frozen;
+      return is_neo_hookean() ? CellLaw::neo_hookean : CellLaw::corotational;
+    }
+
+    bool
+    is_neo_hookean() const
+    {
+      return background == Background::neo_hookean;
     }
 
     /// Whether forces are the paper's, which hold the rotations fixed.
@@ -63,6 +81,10 @@ namespace Exemplar
     {
       return law() == CellLaw::frozen;
     }
+
+  private:
+    void
+    check_neo_hookean() const;
   };
 } // namespace Exemplar
 

@@ -6,6 +6,7 @@
 #include <exemplar/kernels/grain_cell.h>
 #include <exemplar/kernels/green_cell.h>
 #include <exemplar/kernels/linear_cell.h>
+#include <exemplar/kernels/neo_hookean_cell.h>
 #include <exemplar/kernels/plastic_cell.h>
 #include <exemplar/kernels/polar_decomposition.h>
 
@@ -27,7 +28,8 @@ namespace Exemplar
     green,
     fibrous,
     anisotropic,
-    plastic
+    plastic,
+    neo_hookean
   };
 
   template <typename Number>
@@ -37,7 +39,8 @@ namespace Exemplar
                               GreenCell<Number>,
                               FibrousCell<Number>,
                               AnisotropicCell<Number>,
-                              PlasticCell<Number>>;
+                              PlasticCell<Number>,
+                              NeoHookeanCell<Number>>;
 
   /// Stands for a law in calls of templates; without data.
   template <typename Cell>

@@ -73,6 +73,7 @@ namespace Exemplar
       throw UserError(
           "Examples/Acts on speaks of fibres, but no material has any. Set Material/Fibre "
           "stiffness and Material/Fibre direction, or Examples/Acts on = all.");
+    check_background();
     check_plasticity();
     check_solver();
     check_surface();

@@ -65,6 +65,10 @@ namespace Exemplar
     void
     check_plasticity() const;
 
+    /// What a neo-Hookean background asks of it.
+    void
+    check_background() const;
+
     void
     check_solver() const;
 
