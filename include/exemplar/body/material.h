@@ -21,7 +21,7 @@ namespace Exemplar
   /// The constants that a scene paints on its surface; one without values is not painted.
   struct PaintedMaterial
   {
-    PaintedConstant youngs_modulus, poissons_ratio, density, importance;
+    PaintedConstant youngs_modulus = {}, poissons_ratio = {}, density = {}, importance = {};
     /// Fibre direction, in x, y and z; empty: it is not painted.
     std::vector<std::vector<double>> fibre_direction = {};
   };

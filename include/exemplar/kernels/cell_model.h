@@ -15,7 +15,8 @@
 
 // The laws of a cell: what its energy, forces and tangents are as functions of F, R and its constants.
 // All have the members of CorotationalCell, so that a further law is a header like corotational_cell.h
-// and its entries here, with what it remembers and the constants that it adds to the keys of Material. No deal.II header here: see matrix3.h.
+// and its entries here, with what it remembers and the constants that it adds to the keys of Material.
+// No deal.II header here: see matrix3.h.
 
 namespace Exemplar
 {

@@ -33,5 +33,10 @@ namespace Exemplar
                       + " with examples needs Examples/Energy = blended, in which the body has an "
                         "energy of its own beside the wish to be like the examples. Set that"
                       + or_corotational);
+    if (examples.in_use() && material.importance_varies())
+      throw UserError(key
+                      + " is for bodies in which examples are equally important everywhere. Set "
+                        "Material/Importance = 1"
+                      + or_corotational);
   }
 } // namespace Exemplar
