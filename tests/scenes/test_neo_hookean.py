@@ -109,9 +109,9 @@ class NeoHookean(SceneTest):
                 ({**EXAMPLES, "Examples/Energy": "scaled"}, ["Model/Background", "Examples/Energy = blended"]),
                 ({"Material/Yield stress": "1"}, ["Model/Background", "Yield stress = 0"]),
                 ({"Material/Fibre stiffness": "1", "Material/Fibre direction": "1, 0, 0"}, ["Model/Background", "Fibre stiffness"]),
-                ({**EXAMPLES, "Scene": "interpolation", "Handles/Names": None}, ["Model/Background", "interpolation"])):
+                ({**EXAMPLES, "Scene": "interpolation", "Examples/Prescribed weights": "1-t; t; 0"}, ["Model/Background", "interpolation"])):
             with self.subTest(**change):
-                run = self.attempt({**LIFTED, **change})
+                run = self.attempt({**(BOX if "Scene" in change else LIFTED), **change})
                 self.assertEqual(run.status, 1)
                 for word in words:
                     self.assertIn(word, run.stderr)
