@@ -273,6 +273,35 @@ def step6(program):
     plot("step6_weights.svg", "set xlabel 't [s]'\nset ylabel 'weight'\nset yrange [0:1]", *lines)
 
 
+def step7(program):
+    """A cat of clay and an elastic one, pulled and let go; a bar that twists as it is pulled; a wire bent twice."""
+    scene, view = "prm/materials/clay_cat.prm", ((-0.12, 0, 0.55), (0.35, -1, 0.32), 0.87)
+    rows = [("Yield 800", WITH, run(program, scene, "step7_clay")),
+            ("Yield 0", WITHOUT, run(program, scene, "step7_elastic", "Examples/Yield=0"))]
+    picture = Picture(1640, 720)
+    for r, (word, colour, frames) in enumerate(rows):
+        for c, step in enumerate((0, 14, 20, 40)):
+            picture.panel((410 * c, 360 * r, 410, 360), [body(surface_of(frames[step]), colour if step else PLAIN, 60)], view,
+                          "%s, t = %g s" % (word, 0.05 * step), 22)
+    picture.write("step7_clay_cat.png")
+
+    scene, view = "prm/materials/twisting_bar.prm", ((2.4, 0, 0), (-0.5, -1, 0.4), 1.85)
+    frames = run(program, scene, "step7_fibres")
+    plain = run(program, scene, "step7_plain", "Material/Fibre stiffness=0")
+    picture = Picture(1560, 360)
+    for c, (frame, colour, text) in enumerate(((frames[0], PLAIN, "at rest"), (frames[-1], WITH, "with fibres, pulled"),
+                                               (plain[-1], WITHOUT, "without fibres, pulled"))):
+        picture.panel((520 * c, 0, 520, 360), [body(surface_of(frame), colour, 30)], view, text, 22)
+    picture.write("step7_twisting_bar.png")
+
+    frames = run(program, "prm/materials/paper_clip.prm", "step7_paper_clip")
+    picture = Picture(1640, 280)
+    for c, (step, text) in enumerate(((10, "bent up"), (20, "let go"), (30, "bent down"), (40, "let go"))):
+        picture.panel((410 * c, 0, 410, 280), [body(surface_of(frames[step]), WITH, 30)], ((0.0145, 0, 0), (0, -1, 0.1), 0.0115),
+                      "t = %g, %s" % (step / 40, text), 22)
+    picture.write("step7_paper_clip.png")
+
+
 def main():
     if len(sys.argv) < 2:
         sys.exit(__doc__)

@@ -126,6 +126,14 @@ class SeveralProcesses(SceneTest):
                     self.compare(one, self.run_on(n, scene, output=f"on_{n}_{name}"),
                                  self.displacement(one, scene), 1e-8)
 
+    def test_a_bar_that_was_bent_stays_bent(self):
+        """Weights that have moved and are remembered when the force is gone."""
+        scene = {**STATIC, **BENT, "Examples/Energy": "blended", "Examples/Yield": "1000", "Time/Increments": "4", "Loads/Gravity": None,
+                 "Loads/Names": "pull", "Loads/pull/Select": "boundary 2", "Loads/pull/Force": "0; 0; 20000*(1-abs(2*t-1))"}
+        one, two = self.solve(scene, "--quiet", output="one"), self.run_on(2, scene)
+        self.assertGreater(read_csv(two)[-1]["weight_1"], 0.1)
+        self.compare(one, two, self.displacement(one, scene), 1e-8)
+
     def test_verify(self):
         """Cases of one process by the root alone, and bodies that all share."""
         status, own, done = launch(2, "verify", "uniform-scale", "shared-stretch", "shared-static", "shared-dynamics")
