@@ -36,7 +36,7 @@ namespace Exemplar
                "nu [-], greater than -1 and less than 0.5.", Bounds{ -1., 0.5 });
       keys.add("Density", constants.density,
                "rho [kg/m^3], greater than 0. Used by dynamics and gravity.", positive);
-      keys.add("Importance", constants.importance,
+      keys.add("Importance factor", constants.importance,
                "Factor of Examples/Importance [-]: 0 is plain elasticity in these cells.",
                Bounds{ 0., 1. });
       for (const auto &[name, constant] : constants_of_laws())

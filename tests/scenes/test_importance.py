@@ -77,7 +77,7 @@ class Importance(SceneTest):
                 for factor in (0, 0.5):
                     with self.subTest(f"{dilatation}, {energy}, factor {factor}"):
                         output = self.solve({**bar, "Model/Dilatation": dilatation, "Examples/Importance": "0.6",
-                                             "Examples/Energy": energy, "Material/region 2/Importance": str(factor)},
+                                             "Examples/Energy": energy, "Material/region 2/Importance factor": str(factor)},
                                             output=f"half {dilatation} {energy} {factor}")
                         etas = (0.6, 0.6 * factor)
                         of_weights = sum(eta**2 + part * eta * (1 - eta) for eta in etas) - (etas[0] - etas[1])**2 / 2

@@ -195,7 +195,7 @@ class Plasticity(SceneTest):
                 ({**EXAMPLES, "Examples/Energy": "scaled"}, ["Examples/Energy = blended"]),
                 ({"Material/Flow viscosity": "10"}, ["Flow viscosity", "Scene = dynamic"]),
                 ({"Material/Greatest plastic strain": "2"}, ["Greatest plastic strain", "0.95"]),
-                ({**EXAMPLES, "Material/Importance": "0.5"}, ["Material/Yield stress", "Material/Importance = 1"]),
+                ({**EXAMPLES, "Material/Importance factor": "0.5"}, ["Material/Yield stress", "Material/Importance factor = 1"]),
                 ({"Material/Fibre stiffness": "1e5", "Material/Fibre direction": "1; 0; 0"},
                  ["Material/Yield stress", "without fibres", "different regions"]),
                 ({"Material/Yield stress": "-1"}, ["Yield stress"])):

@@ -20,11 +20,13 @@ namespace Exemplar
       return key == "Time/End" || key.compare(0, 7, "Output/") == 0;
     }
 
+    const std::string absent = "(absent)";
+
     std::string
     value_in(const std::map<std::string, std::string> &values, const std::string &key)
     {
       const auto entry = values.find(key);
-      return entry == values.end() ? "(absent)" : entry->second;
+      return entry == values.end() ? absent : entry->second;
     }
 
     struct ChangedKey
@@ -60,10 +62,11 @@ namespace Exemplar
       std::vector<ChangedKey> changed;
       for (const auto &entry : both)
       {
-        const std::string &key    = entry.first;
-        const std::string  before = value_in(checkpoint.parameters, key);
-        const std::string  after  = value_in(now, key);
-        if (before != after && !may_change(key))
+        const std::string &key      = entry.first;
+        const std::string  before   = value_in(checkpoint.parameters, key);
+        const std::string  after    = value_in(now, key);
+        const bool         is_unset = before == absent && after.empty(); // of a region that is new
+        if (before != after && !is_unset && !may_change(key))
           changed.push_back({ key, before, after });
       }
       return changed;

@@ -36,7 +36,7 @@ namespace Exemplar
     if (examples.in_use() && material.importance_varies())
       throw UserError(key
                       + " is for bodies in which examples are equally important everywhere. Set "
-                        "Material/Importance = 1"
+                        "Material/Importance factor = 1"
                       + or_corotational);
   }
 } // namespace Exemplar

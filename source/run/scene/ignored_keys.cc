@@ -46,8 +46,8 @@ namespace Exemplar
           "in a dynamic scene, whose steps come from Time/Step and Time/End. Remove it, or "
           "set Scene = static." },
         { !has_examples && scene.examples.importance > 0.,
-          { "Examples/Importance", "Examples/Weights", "Examples/Energy", "Material/Importance",
-            "Material/Importance map" },
+          { "Examples/Importance", "Examples/Weights", "Examples/Energy",
+            "Material/Importance factor", "Material/Importance map" },
           "without examples. Give Examples/Poses or Examples/Pose functions, or remove it." },
         { !is_dynamic,
           { "Solver/Step tolerance" },

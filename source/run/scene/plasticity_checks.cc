@@ -63,7 +63,7 @@ namespace Exemplar
       throw UserError(
           key
           + " is for bodies in which examples are equally important everywhere, as they "
-            "share the energy with what yields. Set Material/Importance = 1, or "
+            "share the energy with what yields. Set Material/Importance factor = 1, or "
           + key + " = 0.");
     if (scene == SceneKind::statics)
       material.for_each_section(check_viscosity);
