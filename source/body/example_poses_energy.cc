@@ -5,6 +5,35 @@
 
 namespace Exemplar
 {
+  namespace
+  {
+    /// 0 where eta is 0.
+    double
+    blended_share(const double eta)
+    {
+      return eta > 0. ? (1. - eta) / eta : 0.;
+    }
+
+    /// Of each patch, with the mean of eta over its volume.
+    std::vector<double>
+    blended_shares(const double    importance,
+                   const FESpace  &fe_space,
+                   const Material &material,
+                   const Patches  &patches)
+    {
+      std::vector<double> etas(patches.size(), 0.);
+      for (unsigned int point = 0; patches.size() > 0 && point < fe_space.n_points(); ++point)
+      {
+        const unsigned int patch    = patches.of_point(point);
+        const double       fraction = fe_space.volume(point) / patches.volume(patch);
+        etas[patch] += fraction * importance * material.importance(fe_space.cell_of(point));
+      }
+      for (double &eta : etas)
+        eta = blended_share(eta);
+      return etas;
+    }
+  } // namespace
+
   void
   ExamplePoses::compute_gram_matrix(const Material &cell_material, const Patches &patches)
   {
@@ -22,7 +51,10 @@ namespace Exemplar
                    laws[cell],
                    [&](const std::size_t k) { return cell_material.number(laws[cell], cell, k); },
                    strain(point, i));
-            const double more = varies ? blended_share(cell_material.importance(cell)) : 0.;
+            const double more
+                = varies
+                      ? blended_share(example_constants.importance * cell_material.importance(cell))
+                      : 0.;
             for_each_weight(point,
                             [&](const unsigned int w, const unsigned int j, const double share_w)
                             {
@@ -42,8 +74,10 @@ namespace Exemplar
   void
   ExamplePoses::add_patches_to_gram_matrix(const Material &cell_material, const Patches &patches)
   {
-    const std::vector<double> more = blended.m() > 0 ? blended_shares(cell_material, patches)
-                                                     : std::vector<double>(patches.size(), 0.);
+    const std::vector<double> more
+        = blended.m() > 0
+              ? blended_shares(example_constants.importance, fe_space, cell_material, patches)
+              : std::vector<double>(patches.size(), 0.);
     for (unsigned int patch = 0; patch < patch_dilatations.m(); ++patch)
       for (unsigned int v = 0; v < n_weights(); ++v)
         for (unsigned int w = 0; w < n_weights(); ++w)
@@ -54,28 +88,6 @@ namespace Exemplar
           if (blended.m() > 0)
             blended(v, w) += more[patch] * energy;
         }
-  }
-
-  std::vector<double>
-  ExamplePoses::blended_shares(const Material &cell_material, const Patches &patches) const
-  {
-    std::vector<double> factors(patches.size(), 0.);
-    for (unsigned int point = 0; patches.size() > 0 && point < fe_space.n_points(); ++point)
-    {
-      const unsigned int patch = patches.of_point(point);
-      factors[patch] += fe_space.volume(point) / patches.volume(patch)
-                        * cell_material.importance(fe_space.cell_of(point));
-    }
-    for (double &factor : factors)
-      factor = blended_share(factor);
-    return factors;
-  }
-
-  double
-  ExamplePoses::blended_share(const double factor) const
-  {
-    const double eta = factor * example_constants.importance;
-    return eta > 0. ? (1. - eta) / eta : 0.;
   }
 
   void

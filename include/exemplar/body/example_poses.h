@@ -221,14 +221,6 @@ namespace Exemplar
     void
     add_patches_to_gram_matrix(const Material &cell_material, const Patches &patches);
 
-    /// blended_share() of each patch, for the mean factor over its volume.
-    std::vector<double>
-    blended_shares(const Material &cell_material, const Patches &patches) const;
-
-    /// (1 - eta) / eta for this factor of the importance, 0 where eta is 0.
-    double
-    blended_share(double factor) const;
-
     void
     compute_patch_dilatations(const Patches &patches);
 
