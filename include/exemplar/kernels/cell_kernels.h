@@ -273,12 +273,12 @@ namespace Exemplar
   {
     const char *name; ///< of the instruction set
 
-    LawKernels of_usual_laws, of_rare_laws;
+    LawKernels of_usual_laws, of_rare_laws, of_sums;
 
     const LawKernels &
     of(const CellLaw law) const
     {
-      return law < first_rare_law ? of_usual_laws : of_rare_laws;
+      return law < first_rare_law ? of_usual_laws : law < first_sum ? of_rare_laws : of_sums;
     }
 
     /// Add the rotations of the cells to the sums of their nodes, twelve numbers a node of
@@ -330,6 +330,18 @@ namespace Exemplar
 
   template <Element element>
   LawKernels rare_law_kernels_avx512(ElementConstant<element>);
+
+  template <Element element>
+  LawKernels sum_kernels_scalar(ElementConstant<element>);
+
+  template <Element element>
+  LawKernels sum_kernels_baseline(ElementConstant<element>);
+
+  template <Element element>
+  LawKernels sum_kernels_avx2(ElementConstant<element>);
+
+  template <Element element>
+  LawKernels sum_kernels_avx512(ElementConstant<element>);
 
   /// The kernels of an element for the best instruction set that this CPU has.
   const CellKernels &

@@ -177,6 +177,14 @@ namespace Exemplar
       return is_convex ? stress(this->own_material(), E) : Corotational::example_response(E);
     }
 
+  protected:
+    /// Whether make_convex() was called.
+    bool
+    has_convex_tangent() const
+    {
+      return is_convex;
+    }
+
   private:
     /// Of that, how much p follows.
     static constexpr double convex_share = 0.9;

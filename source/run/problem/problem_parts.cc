@@ -279,9 +279,11 @@ namespace Exemplar
     std::vector<CellLaw> of_cells(body.fe_space.n_cells(), law);
     for (unsigned int cell = 0; cell < of_cells.size(); ++cell)
       if (body.material.own_number("Yield stress", cell) > 0.)
-        of_cells[cell] = CellLaw::plastic;
+        of_cells[cell] = body.material.own_number("Fibre stiffness", cell) > 0.
+                             ? CellLaw::fibrous_plastic
+                             : CellLaw::plastic;
     LawsOfCells laws(std::move(of_cells));
-    for (const CellLaw other : { law, CellLaw::plastic })
+    for (const CellLaw other : { law, CellLaw::plastic, CellLaw::fibrous_plastic })
     {
       const auto &here = laws.present();
       if (body.exchange().any(std::count(here.begin(), here.end(), other) > 0))
