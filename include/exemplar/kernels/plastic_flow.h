@@ -26,7 +26,7 @@ namespace Exemplar
       { { "Yield stress",
           "sigma_y [Pa], in tension: cells in which the stress of von Mises reaches it keep a part "
           "of their "
-          "strain. 0: they never do.",
+          "strain. 0: they never do. Fibres do not yield, and see the whole strain.",
           0. },
         { "Kinematic hardening",
           "H_k [Pa]: with the plastic strain the stress around which a cell yields moves; in "
