@@ -136,6 +136,12 @@ namespace Exemplar
       return Plastic::energy(D) + fibres.energy(D);
     }
 
+    Number
+    energy() const
+    {
+      return Plastic::energy() + fibres.elastic_density();
+    }
+
     Matrix3<Number>
     weight_stress(const Matrix3<Number> &D) const
     {

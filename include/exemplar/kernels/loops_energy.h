@@ -242,7 +242,7 @@ namespace Exemplar::Loops
       // what a law remembers costs energy that is no longer elastic, and acts like a target
       if constexpr (Cell::traits.n_history > 0)
       {
-        sums.energy += tet.volume * cell.energy(Matrix3<Number>{});
+        sums.energy += tet.volume * cell.energy();
         sums.guarded.add(group, is_real & cell.is_guarded());
       }
       else

@@ -59,7 +59,7 @@ namespace Exemplar
     bool turns_freely;
 
     /// Numbers that it remembers at each point from step to step; 0 at the beginning. Such a law has
-    /// the members remember(), new_history() and inelastic_density() as well, see make_cell(),
+    /// the members remember(), new_history(), inelastic_density() and energy() as well, see make_cell(),
     /// advance_history() and evaluate() of the loops.
     std::size_t n_history = 0;
 

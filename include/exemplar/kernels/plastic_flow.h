@@ -75,6 +75,15 @@ namespace Exemplar
       begin(constants, d, p_n, a_n, step_size);
     }
 
+    /// Whether d lets something flow where nothing has flown before, for each lane.
+    static auto
+    begins(const PlasticConstants<Number> &constants, const Matrix3<Number> &d)
+    {
+      const Number two_mu = Number(2.) * constants.mu,
+                   yield  = Number(root) * constants.yield_stress;
+      return two_mu * two_mu * contract(d, d) > yield * yield;
+    }
+
     /// As the constructor, where nothing has flown.
     void
     begin(const PlasticConstants<Number> &constants,
