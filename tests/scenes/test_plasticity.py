@@ -137,7 +137,7 @@ class Plasticity(SceneTest):
                 work += 0.5 * (before["reaction_right_y"] + row["reaction_right_y"]) * y
                 work += 0.5 * (before["reaction_right_z"] + row["reaction_right_z"]) * z
             spent = rows[-1]["energy_elastic"] + rows[-1]["energy_dissipated"]
-            self.assertGreater(rows[-1]["energy_dissipated"], 0.1 * rows[-1]["energy_elastic"])
+            self.assertGreater(rows[-1]["energy_dissipated"], (0.1 if fibres else 1) * rows[-1]["energy_elastic"])
             errors.append(abs(work - spent) / work)
         self.assertLess(errors[2], 1e-3)
         self.assertLess(errors[2], 0.7 * errors[0])
