@@ -15,14 +15,13 @@ namespace Exemplar::Verification
 {
   namespace
   {
-    /// A bar of which one end is moved to a place and back, in so many increments.
+    /// A bar of which one end is moved to a place, in so many increments; `pull` are keys of its handle.
     std::string
-    pulled_bar(const std::string &motion, const unsigned int increments)
+    pulled_bar(const std::string &pull, const unsigned int increments)
     {
       return set("Scene", "static") + box({ { 4., 1., 1. } }, { { 4, 1, 1 } })
-             + named_sections("Handles",
-                              { { "left", set("Select", "boundary 1") },
-                                { "right", set("Select", "boundary 2") + set("Motion", motion) } })
+             + named_sections("Handles", { { "left", set("Select", "boundary 1") },
+                                           { "right", set("Select", "boundary 2") + pull } })
              + section("Time", set("Increments", fmt::format("{}", increments)))
              + section("Solver", set("Tolerance", 1e-11));
     }
@@ -64,28 +63,26 @@ namespace Exemplar::Verification
     }
 
     std::vector<Measurement>
-    balance(const std::string &motion, const std::string &more)
+    balance(const std::string &pull, const std::string &more)
     {
       const auto error = [&](const unsigned int increments)
-      { return imbalance(pulled_bar(motion, increments) + more); };
+      { return imbalance(pulled_bar(pull, increments) + more); };
       const double coarse = error(50), fine = error(200);
       return { { "of 200 increments", 1e-3, fine, Comparison::at_most },
                { "order, from 50 to 200 increments", 0.9, std::log2(coarse / fine) / 2.,
                  Comparison::at_least } };
     }
 
-    const std::string there_and_back = "0.6*min(t,1-t); 0; 1.2*min(t,1-t)";
-
     std::vector<Measurement>
     balance_of_elasticity()
     {
-      return balance("0.6*t; 0; 1.2*t", "");
+      return balance(set("Motion", "0.6*t; 0; 1.2*t"), "");
     }
 
     std::vector<Measurement>
     balance_of_memory()
     {
-      return balance(there_and_back,
+      return balance(set("Motion", "0; 0; 3*min(t,1-t)") + set("Components", "z"),
                      section("Examples", set("Pose functions", bend(60., 4.))
                                              + set("Energy", "blended") + set("Yield", "500")));
     }
@@ -93,7 +90,7 @@ namespace Exemplar::Verification
     std::vector<Measurement>
     balance_of_plasticity()
     {
-      return balance(there_and_back,
+      return balance(set("Motion", "0.6*min(t,1-t); 0; 1.2*min(t,1-t)"),
                      section("Material", set("Young's modulus", 1e6) + set("Yield stress", 2e4)
                                              + set("Kinematic hardening", 5e4)
                                              + set("Isotropic hardening", 3e4)));
