@@ -259,6 +259,67 @@ namespace Exemplar::Verification
       return all;
     }
 
+    /// The energy of Eq. (38) as its left side has it, cell by cell; fibres lie along x.
+    double
+    energy_of_two_elasticities(const Problem                &p,
+                               const dealii::Vector<double> &x,
+                               const double                  alpha)
+    {
+      const double      eta = 0.7;
+      Isotropic<double> body{ 0.3 / (1.3 * 0.4), 0.5 / 1.3 },
+          wish{ 3. * 0.1 / (1.1 * 0.8), 1.5 / 1.1 };
+      const auto strain_at = [&](const unsigned int point, const dealii::Vector<double> &positions)
+      {
+        const auto F = p.body.fe_space.deformation_gradient(point, positions);
+        return model_strain(CellLaw::corotational, model_rotation(CellLaw::corotational, F), F);
+      };
+      double sum = 0.;
+      for (unsigned int point = 0; point < p.body.fe_space.n_points(); ++point)
+      {
+        const Matrix3<double> strain  = strain_at(point, x);
+        Matrix3<double>       missing = strain;
+        for (unsigned int i = 0; i < weights.size(); ++i)
+          missing = combine(1., missing, -weights[i], strain_at(point, p.examples.poses.pose(i)));
+        sum += 0.5 * p.body.fe_space.volume(point)
+               * ((1. - eta)
+                      * (contract(stress(body, strain), strain)
+                         + alpha * strain[0][0] * strain[0][0])
+                  + eta * contract(stress(wish, missing), missing));
+      }
+      return sum;
+    }
+
+    std::vector<Measurement>
+    derivatives_of_two_elasticities()
+    {
+      const std::string examples = section(
+          "Examples", set("Pose functions", twist(60., 3.) + " | 1.1*x; 0.9*y; z")
+                          + set("Importance", 0.7) + set("Weights", "free")
+                          + set("Energy", "blended") + set("Weight penalty", 0.)
+                          + set("Example modulus", 3.) + set("Example Poisson ratio", 0.1));
+      const std::string fibres
+          = section("Material", set("Fibre stiffness", 0.8) + set("Fibre direction", "1; 0; 0"));
+      std::vector<Measurement> all;
+      for (const std::string dilatation : { "cells", "patches" })
+        for (const std::string &grain : { std::string(), fibres })
+        {
+          Scene             scene(short_bar + examples + grain
+                                  + section("Model", set("Dilatation", dilatation)));
+          const auto        x    = perturbed(scene.problem.body.fe_space.rest_positions(), 0.1);
+          const std::string with = ", " + dilatation + (grain.empty() ? "" : ", fibres");
+          const Differences differences(scene.problem, x, Rotations::followed);
+          measure(differences, with, all);
+          all.push_back(
+              { "weights" + with, 0., differences.of_weights(), Comparison::absolute, tolerance });
+          if (dilatation == "cells")
+            all.push_back({ "energy" + with,
+                            energy_of_two_elasticities(scene.problem, x, grain.empty() ? 0. : 0.8),
+                            evaluate(scene.problem, x, weights).energy, Comparison::relative,
+                            1e-12 });
+        }
+      return all;
+    }
+
     Matrix3<double>
     diagonal(const double a, const double b, const double c)
     {
@@ -308,6 +369,11 @@ namespace Exemplar::Verification
         { "derivatives-frozen",
           "central differences with kept rotations, at random; doc/model.md, Eqs. (6) to (9)",
           frozen_derivatives });
+    all.push_back(
+        { "derivatives-two-elasticities",
+          "central differences, and the energy summed up cell by cell, of examples with an "
+          "elasticity of their own; doc/model.md, Eq. (38)",
+          derivatives_of_two_elasticities });
     return all;
   }
 } // namespace Exemplar::Verification

@@ -40,6 +40,8 @@ namespace Exemplar
       throw UserError("Examples/Importance: it is " + shortest_text(importance)
                       + ", but must be above 0 and at most 1.");
     parameters.examples.importance = importance;
+    if (body.material.has_examples())
+      body.material = body.material.with_examples(parameters.examples.elasticity(), importance);
     follow_parameters();
   }
 
@@ -74,7 +76,8 @@ namespace Exemplar
   {
     body.follow_material();
     examples.poses.set_parameters(parameters.examples.importance, body.cell_material, body.patches);
-    examples.weights.set_parameters(parameters.examples, unit_energy(body.fe_space, body.material));
+    examples.weights.set_parameters(parameters.examples,
+                                    unit_energy_of_examples(body.fe_space, body.material));
     potential.follow_parameters();
     solver->forget(); // its factors are of other values
     start(state);

@@ -116,8 +116,20 @@ namespace Exemplar
                                   : TimeAxis::of_increments(parameters.time);
   }
 
+  namespace
+  {
+    Material
+    make_material(const ExampleParameters &examples, Material of_body)
+    {
+      if (!examples.in_use() || !examples.elasticity().is_own())
+        return of_body;
+      return of_body.with_examples(examples.elasticity(), examples.importance);
+    }
+  } // namespace
+
   Body::Body(const SceneParameters &parameters, BodyInputs &inputs)
-      : mesh(std::move(inputs.mesh)), material(std::move(inputs.fields.material)),
+      : mesh(std::move(inputs.mesh)),
+        material(make_material(parameters.examples, std::move(inputs.fields.material))),
         fe_space(mesh, parameters.model.element),
         patches(inputs.fields.patches, fe_space, material),
         cell_material(patches.rest_of(material)), made(inputs.undivided.made),
@@ -254,7 +266,8 @@ namespace Exemplar
               body.patches,
               inputs.fields.poses,
               inputs.fields.shares),
-        weights(parameters.examples, poses, unit_energy(body.fe_space, body.material), axis)
+        weights(
+            parameters.examples, poses, unit_energy_of_examples(body.fe_space, body.material), axis)
   {
   }
 

@@ -59,6 +59,12 @@ namespace Exemplar
             "its own beside the wish to be like the examples, so that yielding does not depend "
             "on Examples/Importance. Set Examples/Energy = blended, or "
           + key + " = 0.");
+    if (examples.in_use() && examples.elasticity().is_own())
+      throw UserError(
+          key
+          + " is for examples with the elasticity of the material. Remove Examples/Example "
+            "modulus and Example Poisson ratio, or set "
+          + key + " = 0.");
     if (examples.in_use() && material.importance_varies())
       throw UserError(
           key
