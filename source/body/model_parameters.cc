@@ -128,10 +128,5 @@ namespace Exemplar
       throw UserError(key
                       + " is for Model/Strain = corotational with Model/Gradient = consistent. Set "
                         "these two, or Model/Background = corotational.");
-    if (law() == CellLaw::neo_hookean && has_patches())
-      throw UserError("Model/Dilatation = patches is not for " + key
-                      + ", with which each cell resists the change of its own volume. Set "
-                        "Model/Dilatation = auto, or Model/Background = corotational. "
-                        "Model/Element = P2 helps near Poisson's ratio 0.5.");
   }
 } // namespace Exemplar

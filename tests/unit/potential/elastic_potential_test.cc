@@ -270,9 +270,15 @@ namespace Exemplar::Testing
           expect_derivatives({ GetParam(), law, false, damping });
     }
 
-    TEST_P(ElasticPotentialTest, AFreeBodyWithFibresFeelsNoTorque)
+    TEST_P(ElasticPotentialTest, TangentsAreDerivativesWithANeoHookeanBackground)
     {
-      for (const CellLaw law : { CellLaw::fibrous, CellLaw::anisotropic })
+      for (const double damping : { 0., 0.7 })
+        expect_derivatives({ GetParam(), CellLaw::neo_hookean, false, damping });
+    }
+
+    TEST_P(ElasticPotentialTest, AFreeBodyOfOtherLawsFeelsNoTorque)
+    {
+      for (const CellLaw law : { CellLaw::fibrous, CellLaw::anisotropic, CellLaw::neo_hookean })
       {
         Body body(bar_of_two_regions(2., box_mesh(4., 4, 1)), GetParam().element,
                   material_of_law(law));
