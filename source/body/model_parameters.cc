@@ -80,9 +80,9 @@ namespace Exemplar
         "they should also near Poisson's ratio 0.5, at 1.6 times the operations of a "
         "factorisation and 1.4 to 1.6 times the time of a step (doc/space.md), for the "
             + strains_with_patches()
-            + " strains; auto: patches with these in statics and dynamics, cells with other "
-              "strains and "
-              "in interpolations.");
+            + " strains; with a neo-Hookean background they resist the mean of J = det F; auto: "
+              "patches with these in statics and dynamics, cells with other strains and in "
+              "interpolations.");
     keys.add(
         "Element", element, elements,
         "P1: linear tetrahedra, the cells of the mesh with their nodes; P2: quadratic "

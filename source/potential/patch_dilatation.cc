@@ -109,8 +109,8 @@ namespace Exemplar
       const double lambda = patches.lambda(patch), mean = means[patch];
       const double D  = target(patch, at.weights);
       Told        &to = of_patches[patch];
-      to = { lambda * (share() * mean - D),
-             root * std::abs(lambda) * (share() * std::abs(mean) + std::abs(D)) };
+      to              = { lambda * (share() * mean - D),
+                          root * std::abs(lambda) * (share() * std::abs(mean) + std::abs(D)) };
       if (volumes)
         to.scale += root * std::abs(volumes->pressure(patch));
       if (const double s = damping.factor(patch); s > 0.)

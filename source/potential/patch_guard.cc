@@ -54,8 +54,7 @@ namespace Exemplar
   bool
   PatchGuard::has_guard(const CellField &cells, const unsigned int patch) const
   {
-    return traits_of(cells.get_batches().law(patches.points(patch).front()))
-        .has_guard_of_patches();
+    return traits_of(cells.get_batches().law(patches.points(patch).front())).has_guard_of_patches();
   }
 
   void
@@ -91,9 +90,8 @@ namespace Exemplar
     for (const Stretched &of_patch : stretched)
       for (const unsigned int point : patches.points(of_patch.patch))
       {
-        const CellMaterial<double> C
-            = material.elasticity(fe_space.cell_of(point)).scaled(share);
-        const double lambda                     = of_patch.lambda;
+        const CellMaterial<double> C = material.elasticity(fe_space.cell_of(point)).scaled(share);
+        const double               lambda       = of_patch.lambda;
         to.transitions[point]                   = of_patch.beta;
         to.stiffnesses[point]                   = of_patch.beta * lambda;
         to.elasticity[batch_index(point, 2, 0)] = C.lambda;
@@ -122,8 +120,7 @@ namespace Exemplar
                       const unsigned int     point) const
   {
     const double excess = dilatation.traces[point] - of_patch.mean;
-    return 0.5 * of_patch.lambda * excess * excess
-           + dilatation.stretch.energies[point];
+    return 0.5 * of_patch.lambda * excess * excess + dilatation.stretch.energies[point];
   }
 
   void

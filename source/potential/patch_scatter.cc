@@ -169,7 +169,7 @@ namespace Exemplar
             of_points.fractions.data(), of_points.places.data(), b.data() };
     CellArrays points = cells.arrays();
     points.rotations  = matrices;
-    const int n      = cells.n_threads();
+    const int n       = cells.n_threads();
     for_each_part(n, node_starts.size() - 1, n,
                   [&](std::size_t /*part*/, const std::size_t begin, const std::size_t end)
                   { cells.loops().patch_gradients(points, arrays, begin, end); });

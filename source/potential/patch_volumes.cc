@@ -58,11 +58,10 @@ namespace Exemplar
                               const PatchScatter &scatter) const
   {
     PatchProducts products;
-    const double lowest = kind == Tangent::convex ? 0. : std::numeric_limits<double>::lowest();
+    const double  lowest = kind == Tangent::convex ? 0. : std::numeric_limits<double>::lowest();
     for (unsigned int patch = 0; patch < patches.size(); ++patch)
       products.factors.push_back(std::max(share * patches.stiffness(patch), lowest));
-    scatter.find_gradients(cells, cells.get_dilatation().volume.cofactors.data(),
-                           products.vectors);
+    scatter.find_gradients(cells, cells.get_dilatation().volume.cofactors.data(), products.vectors);
     return products;
   }
 

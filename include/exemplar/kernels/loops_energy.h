@@ -217,7 +217,7 @@ namespace Exemplar::Loops
     const Number elastic = tet.volume * density;
     Number       scale   = cell.elastic_scale();
     add_volume_pressure(task, group, cell);
-    sums.min_det         = select(det >= sums.min_det, sums.min_det, det);
+    sums.min_det = select(det >= sums.min_det, sums.min_det, det);
     sums.inverted.add(group, is_real & (det <= Number(0.)));
     sums.elastic += elastic;
     if constexpr (Cell::traits.n_history > 0)

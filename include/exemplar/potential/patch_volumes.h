@@ -48,10 +48,7 @@ namespace Exemplar
     /// `share` lambda_p V_p b b^T with b = dJ_p/dx [N/m]. A convex tangent lacks that of lambda_p < 0, which
     /// the cells do not outweigh where they are long.
     PatchProducts
-    find_products(double              share,
-                  Tangent             kind,
-                  CellField          &cells,
-                  const PatchScatter &scatter) const;
+    find_products(double share, Tangent kind, CellField &cells, const PatchScatter &scatter) const;
 
     /// In bytes.
     std::size_t

@@ -29,13 +29,14 @@ namespace Exemplar::Testing
           {
             const Matrix3<double> F   = body.fe_space.deformation_gradient(point, x);
             const double          I_C = contract(F, F), J = determinant(F);
-            const double mu  = body.material.elasticity(body.fe_space.cell_of(point)).mu;
-            const double psi = 2. / 3. * mu * (I_C - 3. - std::log(0.25 * (I_C + 1.)))
+            const double          mu  = body.material.elasticity(body.fe_space.cell_of(point)).mu;
+            const double          psi = 2. / 3. * mu * (I_C - 3. - std::log(0.25 * (I_C + 1.)))
                                + 5. / 12. * mu * ((J - 2.2) * (J - 2.2) - 1.44);
             sum += body.fe_space.volume(point) * psi;
             of_patch += body.fe_space.volume(point) * (J - 1.);
           }
-          sum += 0.5 * body.patches.lambda(patch) * of_patch * of_patch / body.patches.volume(patch);
+          sum += 0.5 * body.patches.lambda(patch) * of_patch * of_patch
+                 / body.patches.volume(patch);
         }
         return sum;
       }
@@ -67,11 +68,11 @@ namespace Exemplar::Testing
 
     TEST_P(NeoHookeanPatchesTest, TheSameStrainEverywhereHasTheEnergyAndForcesOfCells)
     {
-      const Body     of_cells(box_mesh(4., 4, 1), MaterialParameters(), GetParam());
-      const FreeDofs free_dofs(body.fe_space.n_dofs(), {}, Exchange::serial());
+      const Body        of_cells(box_mesh(4., 4, 1), MaterialParameters(), GetParam());
+      const FreeDofs    free_dofs(body.fe_space.n_dofs(), {}, Exchange::serial());
       const LawsOfCells law(CellLaw::neo_hookean);
-      BodyPotential     elastic(body, law, none, free_dofs), cellwise(of_cells, law, none, free_dofs);
-      std::mt19937      generator(3);
+      BodyPotential elastic(body, law, none, free_dofs), cellwise(of_cells, law, none, free_dofs);
+      std::mt19937  generator(3);
       const Matrix3<double> F
           = combine(1., identity_matrix<double>(), 0.3, random_matrix(generator));
       Vector x = body.fe_space.rest_positions();
@@ -99,7 +100,10 @@ namespace Exemplar::Testing
 
     /// What `displacement` changes of the forces, by a tangent.
     Vector
-    response(BodyPotential &elastic, const Tangent kind, const Vector &x, const Vector &displacement)
+    response(BodyPotential &elastic,
+             const Tangent  kind,
+             const Vector  &x,
+             const Vector  &displacement)
     {
       const ElasticEvaluation at     = elastic.evaluate_at(x);
       ElasticEvaluation       change = at;
@@ -140,8 +144,8 @@ namespace Exemplar::Testing
         held.push_back(dof);
       const FreeDofs    free_dofs(body.fe_space.n_dofs(), held, Exchange::serial());
       ExampleParameters parameters;
-      parameters.pose_functions        = twist(60.) + " | 1.1*x; 0.9*y; z";
-      const Vector              past   = body.drawn(1.1, 0.9, 5);
+      parameters.pose_functions = twist(60.) + " | 1.1*x; 0.9*y; z";
+      const Vector past         = body.drawn(1.1, 0.9, 5);
       for (const double importance : { 0., 0.6 })
         for (const double damping : { 0., 0.7 })
         {
@@ -166,7 +170,7 @@ namespace Exemplar::Testing
             };
             const double            h     = 1e-6;
             const ElasticEvaluation above = at(h), below = at(-h), here = at(0.);
-            const double slope = here.gradient * displacement;
+            const double            slope = here.gradient * displacement;
             EXPECT_NEAR((above.energy + above.energy_damping - below.energy - below.energy_damping)
                             / (2. * h),
                         slope, 1e-6 * std::abs(slope));
