@@ -48,6 +48,8 @@ SCENES = {
     "static, quadratic": {**STATIC, "Model/Element": "P2", "Mesh/Box cells": "4, 2, 1"},
     "static, quadratic patches of points": {**STATIC, "Model/Element": "P2", "Mesh/Box cells": "4, 1, 1",
                                             "Model/Dilatation": "patches", "Output/Final pose": "quadratic"},
+    "static, neo-Hookean patches": {**STATIC, "Model/Background": "neo-hookean", "Examples/Pose functions": bend("pi/2"),
+                                    "Examples/Importance": "0.4", "Examples/Energy": "blended", "Examples/Weights": "free"},
     "static, Green": {**STATIC, "Model/Strain": "green"},
     "static, linear": {**STATIC, "Model/Strain": "linear"},
     "static, examples": {**STATIC, **BENT, "Examples/Weights": "free"},

@@ -87,6 +87,14 @@ namespace Exemplar
     long_cells = 2  ///< |F|^2 is beyond min_stretched_square
   };
 
+  /// Mean of J by patches, Eq. (37): what cells tell and are told.
+  struct VolumeArrays
+  {
+    double       *changes   = nullptr; ///< 1: J - 1; null: nobody asks
+    double       *cofactors = nullptr; ///< 9: cof F by rows
+    const double *pressures = nullptr; ///< 1: of the cell's patch, along cof F [Pa]
+  };
+
   /// Mean dilatation by patches, Eq. (25): what the cells tell of their volume and what they are
   /// told.
   struct DilatationArrays
@@ -97,6 +105,7 @@ namespace Exemplar
     const double  *pressures = nullptr; ///< 1: of the cell's patch [Pa]
     const double  *scales    = nullptr; ///< 1: |C:e| + eta |C:E(w)| of the volume part alone [Pa]
     StretchArrays  stretch;
+    VolumeArrays   volume;
   };
 
   /// Where the derivatives b = dtheta_p/dx of the mean dilatations of patches, Eq. (25), are: patch by

@@ -71,6 +71,17 @@ namespace Exemplar
     /// And which the energy that has been spent on what stays [J/m^3].
     std::size_t dissipated = not_remembered;
 
+    /// It has an energy of J = det F beside that of the strain. Then the volume part of that energy may be
+    /// one of the mean of J, Eq. (37), in patches. Such a law has the member add_volume_pressure().
+    bool knows_volume = false;
+
+    /// Whether patches have its part of Eq. (26): what is stretched far of the trace of the strain.
+    constexpr bool
+    has_guard_of_patches() const
+    {
+      return has_stretch_guard || knows_volume;
+    }
+
     /// Whether it is a value of Model/Strain.
     constexpr bool
     is_strain() const
