@@ -203,8 +203,15 @@ namespace Exemplar
   }
 
   void
+  ExamplePoses::set_pose(const unsigned int i, const std::vector<dealii::Point<3>> &places)
+  {
+    poses[i] = make_pose(poses[i].name, places, fe_space);
+  }
+
+  void
   ExamplePoses::compute_strains(const Material &material)
   {
+    example_constants.guard_bound = ExampleConstants().guard_bound;
     strains.clear();
     strains.resize(batched_size(fe_space.n_points(), 6 * n_strained()), 0.);
     strain_norms.assign(n_weights(), 0.);

@@ -78,6 +78,11 @@ namespace Exemplar
     void
     set_parameters(double importance, const Material &cell_material, const Patches &patches);
 
+    /// From now on example i is at these places of the nodes [m], of the vertices alone or of all. What
+    /// depends on it is made anew by set_parameters(). Throws UserError for curved edges.
+    void
+    set_pose(unsigned int i, const std::vector<dealii::Point<3>> &places);
+
     /// Volume of each region over that of the body, with shares counted; they sum to one.
     std::vector<double>
     volume_fractions() const;
@@ -237,7 +242,7 @@ namespace Exemplar
     const LawsOfCells              laws;
     ExampleConstants               example_constants;
     const RegionShares             regions;
-    const std::vector<ExamplePose> poses;
+    std::vector<ExamplePose>       poses;
     const unsigned int             first_strained;
     dealii::AlignedVector<double>  strains; ///< eta E_i, as ExampleArrays has them
     const ActsOn                   acts_on;

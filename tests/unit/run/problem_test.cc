@@ -239,7 +239,6 @@ namespace Exemplar::Testing
       refuse([&] { problem.set_material({ {}, { 0.5 }, {} }); }, "Poisson's ratio");
       refuse([&] { problem.set_material({ {}, {}, { 1., 2. } }); }, "2 numbers for");
       refuse([&] { problem.set_importance(0.5); }, "with examples");
-      refuse([&] { problem.set_gravity({ { 0., 0., -1. } }); }, "there are no loads");
       refuse([&] { problem.set_damping(1., 0.); }, "Scene = dynamic");
       advance(problem, 2);
       advance(same.problem, 2);
