@@ -37,7 +37,7 @@ namespace Exemplar
                     body.cell_material, examples.poses, examples.weights, constraints.free_dofs,
                     parameters.solver.n_threads },
                   make_elastic_terms(body, examples),
-                  actions.make_terms(body),
+                  actions.make_terms(body, actions.integrator.get()),
                   actions.integrator.get(),
                   is_assembled_in_parts(parameters.solver, body.exchange())),
         system(

@@ -79,6 +79,31 @@ namespace Exemplar
         = std::make_unique<Loads>(parameters.loads, body.mesh, body.fe_space, body.material,
                                   NamedNodes(), parameters.material.mass_matrix);
     potential.add_term(std::make_unique<LoadTerm>(*actions.loads, body.fe_space));
+    lab.reset(); // which has no such term
+  }
+
+  void
+  Problem::add_term(const MakeTerm &make)
+  {
+    if (parameters.scene == SceneKind::interpolation)
+      throw UserError(parameters.name
+                      + ": an interpolation has no terms of one's own. Set Scene = static or "
+                        "dynamic.");
+    std::unique_ptr<PotentialTerm> term = make();
+    own_terms.push_back({ make, term.get() });
+    potential.add_term(std::move(term));
+    potential.renew_pattern();
+    solver->forget(); // its factors are of another matrix
+    lab.reset();
+    start(state);
+  }
+
+  Laboratory &
+  Problem::laboratory()
+  {
+    if (lab == nullptr)
+      lab = std::make_unique<Laboratory>(*this);
+    return *lab;
   }
 
   void
@@ -131,6 +156,8 @@ namespace Exemplar
     examples.weights.set_parameters(parameters.examples,
                                     unit_energy_of_examples(body.fe_space, body.material));
     potential.follow_parameters();
+    if (lab != nullptr)
+      lab->follow_parameters();
     solver->forget(); // its factors are of other values
     start(state);
   }

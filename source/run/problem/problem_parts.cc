@@ -316,11 +316,11 @@ namespace Exemplar
   }
 
   PotentialTerms
-  Actions::make_terms(const Body &body) const
+  Actions::make_terms(const Body &body, const TimeIntegrator *integrator_of_terms) const
   {
     PotentialTerms terms;
     if (mass != nullptr)
-      terms.push_back(std::make_unique<InertiaTerm>(*mass, *integrator, energy_is_bounded));
+      terms.push_back(std::make_unique<InertiaTerm>(*mass, *integrator_of_terms, energy_is_bounded));
     if (loads != nullptr)
       terms.push_back(std::make_unique<LoadTerm>(*loads, body.fe_space));
     return terms;

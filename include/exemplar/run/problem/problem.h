@@ -4,6 +4,7 @@
 
 #include <exemplar/algebra/conditioning.h>
 #include <exemplar/base/step_clock.h>
+#include <exemplar/run/problem/laboratory.h>
 #include <exemplar/run/problem/problem_parts.h>
 #include <exemplar/run/problem/step_interval.h>
 #include <exemplar/solvers/step_solver.h>
@@ -77,6 +78,29 @@ namespace Exemplar
     void
     set_damping(double mass_damping, double stiffness_damping);
 
+    /// Between steps, let Phi have one more term, which is none of Psi. Throws whatever `make` throws,
+    /// and UserError for an interpolation, with nothing changed. All processes must call this.
+    void
+    add_term(const MakeTerm &make);
+
+    /// One's own terms, in the order in which they came.
+    struct OwnTerm
+    {
+      MakeTerm             make;
+      const PotentialTerm *term; ///< that of the steps
+    };
+
+    const std::vector<OwnTerm> &
+    get_own_terms() const
+    {
+      return own_terms;
+    }
+
+    /// Where the potential is evaluated anywhere, between steps. Made when first asked for. Throws
+    /// UserError where several processes share the body.
+    Laboratory &
+    laboratory();
+
     /// Go on from a state of an earlier run.
     void
     resume_from(const State &earlier, const std::string &solver_memory = "");
@@ -145,6 +169,9 @@ namespace Exemplar
     /// Evaluate at a state that no step has led to.
     void
     start(State &at);
+
+    std::vector<OwnTerm>        own_terms;
+    std::unique_ptr<Laboratory> lab; ///< null until it is asked for
   };
 
   /// Gives the body of a problem.

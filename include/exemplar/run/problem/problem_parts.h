@@ -120,9 +120,10 @@ namespace Exemplar
   {
     Actions(const SceneParameters &parameters, const Body &body, const BodyInputs &inputs);
 
-    /// The terms of the potential that stand for them.
+    /// The terms of the potential that stand for them, by this time integrator, which is null unless the
+    /// scene is dynamic.
     PotentialTerms
-    make_terms(const Body &body) const;
+    make_terms(const Body &body, const TimeIntegrator *integrator_of_terms) const;
 
     std::unique_ptr<Loads>                loads;
     const std::unique_ptr<Mass>           mass;       ///< in dynamic scenes
