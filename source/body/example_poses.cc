@@ -203,6 +203,15 @@ namespace Exemplar
   }
 
   void
+  ExamplePoses::set_material(const Material &cell_material, const Patches &patches)
+  {
+    if (acts_on != ActsOn::all) // the part that they act on depends on it
+      set_parameters(example_constants.importance, cell_material, patches);
+    else if (!poses.empty())
+      compute_gram_matrix(cell_material, patches);
+  }
+
+  void
   ExamplePoses::set_pose(const unsigned int i, const std::vector<dealii::Point<3>> &places)
   {
     poses[i] = make_pose(poses[i].name, places, fe_space);

@@ -26,10 +26,13 @@ namespace Exemplar
   Problem::set_material(const ChangedConstants &changed)
   {
     body.material = body.material.with(changed);
-    if (actions.mass != nullptr)
+    body.follow_material();
+    if (actions.mass != nullptr && !changed.density.empty())
       actions.mass->set_material(body.fe_space, body.material);
-    if (actions.loads != nullptr)
+    if (actions.loads != nullptr && !changed.density.empty())
       actions.loads->set_gravity(parameters.loads.gravity, body.fe_space, body.material);
+    if (!changed.youngs_modulus.empty() || !changed.poissons_ratio.empty())
+      examples.poses.set_material(body.cell_material, body.patches);
     follow_parameters();
   }
 
@@ -47,6 +50,8 @@ namespace Exemplar
     parameters.examples.importance = importance;
     if (body.material.has_examples())
       body.material = body.material.with_examples(parameters.examples.elasticity(), importance);
+    body.follow_material();
+    examples.poses.set_parameters(importance, body.cell_material, body.patches);
     follow_parameters();
   }
 
@@ -122,15 +127,20 @@ namespace Exemplar
     std::vector<dealii::Point<3>> back;
     for (unsigned int node = 0; node < body.fe_space.n_nodes(); ++node)
       back.emplace_back(before[3 * node], before[3 * node + 1], before[3 * node + 2]);
-    examples.poses.set_pose(i, places);
+    const auto change_to = [&](const std::vector<dealii::Point<3>> &pose)
+    {
+      examples.poses.set_pose(i, pose);
+      examples.poses.set_parameters(parameters.examples.importance, body.cell_material,
+                                    body.patches);
+      follow_parameters();
+    };
     try
     {
-      follow_parameters();
+      change_to(places);
     }
     catch (const UserError &)
     {
-      examples.poses.set_pose(i, back);
-      follow_parameters();
+      change_to(back);
       throw;
     }
   }
@@ -151,8 +161,6 @@ namespace Exemplar
   void
   Problem::follow_parameters()
   {
-    body.follow_material();
-    examples.poses.set_parameters(parameters.examples.importance, body.cell_material, body.patches);
     examples.weights.set_parameters(parameters.examples,
                                     unit_energy_of_examples(body.fe_space, body.material));
     potential.follow_parameters();
