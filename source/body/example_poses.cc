@@ -205,7 +205,7 @@ namespace Exemplar
   void
   ExamplePoses::set_material(const Material &cell_material, const Patches &patches)
   {
-    if (acts_on != ActsOn::all) // the part that they act on depends on it
+    if (acts_on != ActsOn::all || cell_material.has_examples()) // their strains depend on it
       set_parameters(example_constants.importance, cell_material, patches);
     else if (!poses.empty())
       compute_gram_matrix(cell_material, patches);

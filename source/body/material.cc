@@ -252,16 +252,10 @@ namespace Exemplar
       return of_cell.elasticity.number(k);
     if (law == CellLaw::anisotropic)
       return (stiffnesses.empty() ? stiffness(cell) : stiffnesses[cell])[k - n];
-<<<<<<< HEAD
     const std::vector<LawConstant> own = own_constants(law);
     if (k < n + own.size())
-      return of_cell.own.at(own[k - n].name);
+      return of_cell.own->at(own[k - n].name);
     return axes.empty() ? 0. : axes[cell].along[k - n - own.size()];
-=======
-    if (law == CellLaw::fibrous && k > n)
-      return axes.empty() ? 0. : axes[cell].along[k - n - 1];
-    return of_cell.own->at(own_constants(law)[k - n].name);
->>>>>>> 94038b98a5d249bd48a055498a275f3a44711aa2
   }
 
   namespace

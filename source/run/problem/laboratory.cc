@@ -64,9 +64,13 @@ namespace Exemplar
   } // namespace
 
   Laboratory::Laboratory(Problem &problem)
-      : problem(problem), weights(problem.examples.weights),
+      : problem(problem),
+        weights(problem.parameters.examples,
+                problem.examples.poses,
+                unit_energy_of_examples(undivided(problem).fe_space, problem.body.material),
+                problem.time_axis),
         integrator(copy_of(problem.actions.integrator)),
-        free_dofs(undivided(problem).fe_space.n_dofs(), {}, problem.body.exchange()),
+        free_dofs(problem.body.fe_space.n_dofs(), {}, problem.body.exchange()),
         potential({ laws_of_cells(problem.parameters, problem.body), problem.body.fe_space,
                     problem.body.material, problem.body.cell_material, problem.examples.poses,
                     weights, free_dofs, problem.parameters.solver.n_threads },
