@@ -297,6 +297,8 @@ namespace Exemplar::Python
     Py_VISIT(callback.ptr());
     for (const auto &[handle, function] : motions)
       Py_VISIT(function.ptr());
+    for (const py::object &function : terms)
+      Py_VISIT(function.ptr());
     return 0;
   }
 
@@ -305,6 +307,8 @@ namespace Exemplar::Python
   {
     callback = py::none();
     for (auto &[handle, function] : motions)
+      function = py::none();
+    for (py::object &function : terms)
       function = py::none();
   }
 

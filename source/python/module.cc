@@ -3,7 +3,9 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/base/nearest_word.h>
 #include <exemplar/base/version.h>
+#include <exemplar/python/evaluation.h>
 #include <exemplar/python/from_python.h>
+#include <exemplar/python/function_term.h>
 #include <exemplar/python/problem_changes.h>
 #include <exemplar/python/problem_state.h>
 #include <exemplar/python/unlocked_work.h>
@@ -284,6 +286,8 @@ namespace Exemplar::Python
       add_state(problem);
       add_saved_states(module, problem);
       add_changes(problem);
+      add_evaluation(problem);
+      add_terms(problem);
       const py::object measures = make_measures_type();
       module.attr("Measures")   = measures; // where pickle looks for it
       add_measures(problem, measures);

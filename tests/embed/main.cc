@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/run/problem.h>
+#include <exemplar/exemplar.h>
 
 #include <cmath>
 #include <cstdio>

@@ -11,6 +11,7 @@
 #include <pybind11/pybind11.h>
 
 #include <functional>
+#include <list>
 #include <map>
 #include <memory>
 #include <optional>
@@ -57,11 +58,15 @@ namespace Exemplar::Python
     set_motion(const pybind11::object &name, const pybind11::object &function);
 
     /// None: nothing is called.
+    /// Let Phi have a term that calls a function, see make_function_term().
+    void
+    add_term(const pybind11::object &function);
+
     void
     on_iteration(const pybind11::object &function);
 
-    /// For Python's garbage collector: call visit(function, arg) for all of set_motion() and
-    /// on_iteration().
+    /// For Python's garbage collector: call visit(function, arg) for all of set_motion(), add_term()
+    /// and on_iteration().
     int
     visit_functions(visitproc visit, void *arg) const;
 
@@ -141,6 +146,7 @@ namespace Exemplar::Python
     advance(const StepInterval &interval);
 
     std::map<std::string, pybind11::object> motions;  ///< functions, by handle
+    std::list<pybind11::object>             terms;    ///< functions; they keep their places
     pybind11::object                        callback; ///< None or a function
     const std::shared_ptr<Problem>          problem;  ///< its memory is shared with arrays
     std::vector<std::string>                warnings;

@@ -108,10 +108,7 @@ namespace Exemplar
     const auto &originals = problem.get_own_terms();
     for (std::size_t i = 0; i < own_terms.size(); ++i)
       copy_memory(*originals[i].term, *own_terms[i]);
-    const std::size_t n_values = potential.matrix_pattern().n_values();
     potential.begin_step(problem.state, step.size);
-    if (potential.matrix_pattern().n_values() != n_values || !own_terms.empty())
-      rows = {}; // contacts couple others
     State at   = {};
     at.weights = problem.state.weights;
     potential.set_time(step.end, at);
@@ -140,19 +137,22 @@ namespace Exemplar
   void
   Laboratory::make_row_pattern()
   {
-    const SymmetricPattern &lower = potential.matrix_pattern();
-    const auto              n     = static_cast<int>(lower.n());
+    const SymmetricPattern &lower          = potential.matrix_pattern();
+    const auto              n              = static_cast<int>(lower.n());
     const auto              for_each_entry = [&](const auto &function)
     {
       // entries left of the diagonal ascend by the columns of `lower`, then those from it on do
       for (int column = 0; column < n; ++column)
-        for (int entry = lower.column_start[column]; entry < lower.column_start[column + 1]; ++entry)
+        for (int entry = lower.column_start[column]; entry < lower.column_start[column + 1];
+             ++entry)
           if (lower.row[entry] != column)
             function(lower.row[entry], column, entry);
       for (int column = 0; column < n; ++column)
-        for (int entry = lower.column_start[column]; entry < lower.column_start[column + 1]; ++entry)
+        for (int entry = lower.column_start[column]; entry < lower.column_start[column + 1];
+             ++entry)
           function(column, lower.row[entry], entry);
     };
+    rows_version = lower.version;
     rows.row_start.assign(n + 1, 0);
     for_each_entry([&](const int row, int, int) { ++rows.row_start[row + 1]; });
     std::partial_sum(rows.row_start.begin(), rows.row_start.end(), rows.row_start.begin());
@@ -167,31 +167,16 @@ namespace Exemplar
         });
   }
 
-  const RowMatrix &
-  Laboratory::hessian_pattern()
-  {
-    stand();
-    if (rows.row_start.empty())
-      make_row_pattern();
-    return rows;
-  }
-
-  void
-  Laboratory::hessian_values(const Place &at, const Tangent kind, double *result)
-  {
-    assemble(at, kind);
-    if (rows.row_start.empty())
-      make_row_pattern();
-    for (std::size_t i = 0; i < source.size(); ++i)
-      result[i] = values[source[i]];
-  }
-
   RowMatrix
   Laboratory::hessian(const Place &at, const Tangent kind)
   {
-    RowMatrix matrix = hessian_pattern();
-    matrix.value.resize(matrix.column.size());
-    hessian_values(at, kind, matrix.value.data());
+    assemble(at, kind);
+    if (rows.row_start.empty() || rows_version != potential.matrix_pattern().version)
+      make_row_pattern();
+    RowMatrix matrix = rows;
+    matrix.value.resize(source.size());
+    for (std::size_t i = 0; i < source.size(); ++i)
+      matrix.value[i] = values[source[i]];
     return matrix;
   }
 
@@ -205,6 +190,13 @@ namespace Exemplar
                 "derivative by them. Take Examples/Weights = simplex or free."
               : "The scene has no examples, hence no weights. Give Examples/Poses and an "
                 "Importance above 0.");
+  }
+
+  std::vector<double>
+  Laboratory::weight_gradient(const Place &at)
+  {
+    require_unknown_weights();
+    return evaluate(at).elastic.weight_gradient;
   }
 
   std::vector<double>
@@ -242,9 +234,9 @@ namespace Exemplar
     std::vector<unsigned int> active;
     for (unsigned int i = 0; i < n; ++i)
     {
-      const auto slopes = weights.get_memory().slopes(i, at.weights[i], slope[i]);
-      const double l    = lambda.empty() ? 0. : lambda[i / weights.n_per_region()];
-      const bool sticks = slopes.up > slopes.down && slopes.up + l > 0. && slopes.down + l < 0.;
+      const auto   slopes = weights.get_memory().slopes(i, at.weights[i], slope[i]);
+      const double l      = lambda.empty() ? 0. : lambda[i / weights.n_per_region()];
+      const bool   sticks = slopes.up > slopes.down && slopes.up + l > 0. && slopes.down + l < 0.;
       if (!(bounded && at.weights[i] <= 0.) && !sticks)
         active.push_back(i);
     }
@@ -253,7 +245,7 @@ namespace Exemplar
       if (std::any_of(active.begin(), active.end(),
                       [&](const unsigned int i) { return form.N(r, i) != 0.; }))
         sums.push_back(r);
-    const unsigned int         m = active.size(), size = m + sums.size();
+    const unsigned int m = active.size(), size = m + sums.size();
     if (m == 0)
       return compliance;
     const double               unit = form.H.frobenius_norm(); // rows of sums as large as others
@@ -284,9 +276,9 @@ namespace Exemplar
   Laboratory::cell_means(const Place &at)
   {
     evaluate(at);
-    ElasticPotential   &elastic  = potential.get_cells();
-    const FESpace      &fe_space = problem.body.fe_space;
-    CellMeans           means;
+    ElasticPotential &elastic  = potential.get_cells();
+    const FESpace    &fe_space = problem.body.fe_space;
+    CellMeans         means;
     means.det_F = elastic.cell_results(at.positions, at.weights).det_F; // tells the cells all
     means.strains.resize(fe_space.n_cells());
     means.stresses.resize(fe_space.n_cells());
@@ -309,8 +301,8 @@ namespace Exemplar
             for (int i = 0; i < 3; ++i)
               T[i][i] += cells.pressure(point);
             const Matrix3<double> turned = R * transposed(R * T); // T is symmetric
-            means.strains[cell]  = combine(1., means.strains[cell], part, state.strain());
-            means.stresses[cell] = combine(1., means.stresses[cell], part, turned);
+            means.strains[cell]          = combine(1., means.strains[cell], part, state.strain());
+            means.stresses[cell]         = combine(1., means.stresses[cell], part, turned);
           });
     }
     return means;

@@ -320,7 +320,8 @@ namespace Exemplar
   {
     PotentialTerms terms;
     if (mass != nullptr)
-      terms.push_back(std::make_unique<InertiaTerm>(*mass, *integrator_of_terms, energy_is_bounded));
+      terms.push_back(
+          std::make_unique<InertiaTerm>(*mass, *integrator_of_terms, energy_is_bounded));
     if (loads != nullptr)
       terms.push_back(std::make_unique<LoadTerm>(*loads, body.fe_space));
     return terms;

@@ -60,23 +60,17 @@ namespace Exemplar
     Place
     here() const;
 
-    /// Phi, its gradient by all degrees of freedom and by the weights (of the elastic part), in
-    /// `elastic`; valid until the next call of any function here. The gradient by the weights is empty
-    /// where none is unknown.
+    /// Phi and its gradient by all degrees of freedom; valid until the next call of any function here.
     const Evaluation &
     evaluate(const Place &at);
+
+    /// d Phi/dw [J], kinks of weights that yield aside. Throws UserError where no weight is unknown.
+    std::vector<double>
+    weight_gradient(const Place &at);
 
     /// d2 Phi/dx2 [N/m], or for Tangent::convex what takes its place.
     RowMatrix
     hessian(const Place &at, Tangent kind);
-
-    /// Its sparsity, with values to be filled by hessian_values(); made once.
-    const RowMatrix &
-    hessian_pattern();
-
-    /// Write the Hessian's values in the order of hessian_pattern().
-    void
-    hessian_values(const Place &at, Tangent kind, double *values);
 
     /// G = -d2 Phi/dx dw of Eq. (10), one column a weight after the other [N]: n entries each.
     /// Throws UserError where no weight is unknown.
@@ -115,16 +109,17 @@ namespace Exemplar
     void
     make_row_pattern();
 
-    Problem                             &problem;
-    ExampleWeights                       weights;
+    Problem                              &problem;
+    ExampleWeights                        weights;
     const std::unique_ptr<TimeIntegrator> integrator; ///< in dynamic scenes
-    FreeDofs                             free_dofs;  ///< all
-    std::vector<PotentialTerm *>         own_terms;
-    IncrementalPotential                 potential;
-    Evaluation                           evaluation;
-    std::vector<double>                  values, columns; ///< of the last assembly
-    RowMatrix                            rows;            ///< of the pattern
-    std::vector<int>                     source;          ///< of the rows' values among `values`
+    FreeDofs                              free_dofs;  ///< all
+    std::vector<PotentialTerm *>          own_terms;
+    IncrementalPotential                  potential;
+    Evaluation                            evaluation;
+    std::vector<double>                   values, columns; ///< of the last assembly
+    RowMatrix                             rows; ///< of the pattern of this version, and no values
+    unsigned int                          rows_version = 0;
+    std::vector<int>                      source; ///< of the rows' values among `values`
   };
 
   /// The mass matrix [kg] of a problem, as its scene has it; in a static scene, too.
