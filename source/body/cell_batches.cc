@@ -105,9 +105,12 @@ namespace Exemplar
   {
     const std::size_t   n = n_history();
     std::vector<double> history(n * n_points, 0.);
-    for (unsigned int point = 0; n > 0 && point < n_points; ++point)
-      for (std::size_t k = 0, m = traits_of(law(point)).n_history; k < m; ++k)
-        history[n * point + k] = of_law_at(point).history[batch_index(point, m, k)];
+    for (const OfLaw &of_law : of_laws)
+      for (std::size_t point = 0, m = traits_of(of_law.law).n_history; m > 0 && point < n_points;
+           ++point)
+        if (law(point) == of_law.law)
+          for (std::size_t k = 0; k < m; ++k)
+            history[n * point + k] = of_law.history[batch_index(point, m, k)];
     return history;
   }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
+#include <exemplar/base/number_text.h>
 #include <exemplar/body/example_parameters.h>
 #include <exemplar/mesh/map_name.h>
 #include <exemplar/prm/assignments.h>
@@ -89,6 +90,15 @@ namespace Exemplar
         "Material/Fibre direction, with what a tension along it does across; across fibres: all "
         "but that.");
     keys.add(
+        "Example modulus", modulus,
+        "Young's modulus [Pa] of the wish to be like the examples, where it is not the "
+        "material's: with Energy = blended the energy density is (1 - eta)/2 strain : C : strain "
+        "+ eta/2 (strain - E(w)) : C_e : (strain - E(w)) with this isotropic C_e, whatever the "
+        "material is. Empty: the material's.");
+    keys.add("Example Poisson ratio", poisson_ratio,
+             "Poisson's ratio of C_e, see Example modulus, greater than -1 and less than 0.5. "
+             "Empty: the material's.");
+    keys.add(
         "Weights", weights, weight_kinds,
         "simplex: minimise the energy over weights that sum to one and are not negative; free: "
         "that sum to one, as the paper; prescribed: as Prescribed weights gives them.");
@@ -163,10 +173,52 @@ namespace Exemplar
                     + ", or remove Examples/" + key + ".");
   }
 
+  namespace
+  {
+    /// Of a constant between bounds, which it must not reach; none if `text` is empty.
+    std::optional<double>
+    constant_in(const std::string &key,
+                const std::string &text,
+                const double       lower,
+                const double       upper,
+                const std::string &allowed)
+    {
+      if (text.empty())
+        return {};
+      const double value = parse_number(text);
+      if (!(value > lower && value < upper))
+        throw UserError("Examples/" + key + " = '" + text + "' is not allowed. Allowed: " + allowed
+                        + ", or nothing, which takes the material's.");
+      return value;
+    }
+  } // namespace
+
+  ExampleElasticity
+  ExampleParameters::elasticity() const
+  {
+    return { constant_in("Example modulus", modulus, 1e-300, 1e300, "a number greater than 0 [Pa]"),
+             constant_in("Example Poisson ratio", poisson_ratio, -1., 0.5,
+                         "a number greater than -1 and less than 0.5") };
+  }
+
+  void
+  ExampleParameters::check_elasticity() const
+  {
+    if (!elasticity().is_own() || !in_use() || energy == ExampleEnergy::blended)
+      return;
+    const std::string key = modulus.empty() ? "Example Poisson ratio" : "Example modulus";
+    throw UserError("Examples/" + key
+                    + " gives the wish to be like the examples an elasticity of its own, beside "
+                      "that of the body, which only Examples/Energy = blended tells apart. Set "
+                      "that, or remove Examples/"
+                    + key + ".");
+  }
+
   void
   ExampleParameters::check() const
   {
     check_memory();
+    check_elasticity();
     if (weight_penalty != "auto" && weight_penalty != "paper"
         && !non_negative_number(weight_penalty))
       throw UserError("Examples/Weight penalty = '" + weight_penalty

@@ -81,6 +81,15 @@ namespace Exemplar
     return fe_space.exchange().sum(sum);
   }
 
+  double
+  unit_energy_of_examples(const FESpace &fe_space, const Material &material)
+  {
+    double sum = 0.;
+    for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
+      sum += material.youngs_modulus_of_examples(cell) * fe_space.cell_volume(cell);
+    return fe_space.exchange().sum(sum);
+  }
+
   namespace
   {
     /// What a pose function makes of the nodes.
@@ -196,7 +205,7 @@ namespace Exemplar
   void
   ExamplePoses::set_material(const Material &cell_material, const Patches &patches)
   {
-    if (acts_on != ActsOn::all) // the part that they act on depends on it
+    if (acts_on != ActsOn::all || cell_material.has_examples()) // their strains depend on it
       set_parameters(example_constants.importance, cell_material, patches);
     else if (!poses.empty())
       compute_gram_matrix(cell_material, patches);
@@ -221,11 +230,14 @@ namespace Exemplar
       const CellLaw law = laws[fe_space.cell_of(point)];
       for (unsigned int i = first_strained; i < size(); ++i)
       {
-        const Matrix3<double> F = fe_space.deformation_gradient(point, poses[i].positions);
-        const Matrix3<double> E = model_strain(law, model_rotation(law, F), F);
+        const Matrix3<double> F    = fe_space.deformation_gradient(point, poses[i].positions);
+        const Matrix3<double> E    = model_strain(law, model_rotation(law, F), F);
+        const unsigned int    cell = fe_space.cell_of(point);
+        const Matrix3<double> part = acting_part(acts_on, material, cell, E);
+        const bool            own  = material.has_examples();
         add_to_stored(strains.data(), point, n_strained(), i - first_strained,
-                      example_constants.importance * material.importance(fe_space.cell_of(point)),
-                      acting_part(acts_on, material, fe_space.cell_of(point), E));
+                      own ? 1. : example_constants.importance * material.importance(cell),
+                      own ? material.drawn_strain(cell, part) : part);
         if (traits_of(law).has_guard)
           p_0 = min_or_nan(p_0, 0.5 * guard_product(E));
       }

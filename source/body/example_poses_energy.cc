@@ -38,8 +38,9 @@ namespace Exemplar
   ExamplePoses::compute_gram_matrix(const Material &cell_material, const Patches &patches)
   {
     gram.reinit(n_weights(), n_weights());
-    const bool         varies = fe_space.exchange().any(cell_material.importance_varies());
-    const unsigned int n      = varies ? n_weights() : 0;
+    const bool varies = fe_space.exchange().any(cell_material.importance_varies())
+                        && !cell_material.has_examples();
+    const unsigned int n = varies ? n_weights() : 0;
     blended.reinit(n, n);
     for (unsigned int point = 0; point < fe_space.n_points(); ++point)
       for_each_weight(
@@ -66,9 +67,43 @@ namespace Exemplar
                             });
           });
     add_patches_to_gram_matrix(cell_material, patches);
+    if (cell_material.has_examples())
+      compute_excess(cell_material, patches);
     for (auto *const matrix : { &gram, &blended })
       if (matrix->m() > 0)
         fe_space.exchange().sum(&(*matrix)(0, 0), matrix->m() * matrix->n());
+  }
+
+  void
+  ExamplePoses::compute_excess(const Material &cell_material, const Patches &patches)
+  {
+    blended.reinit(n_weights(), n_weights());
+    std::vector<double> of_patches(patches.size(), 0.); // lambda times volume
+    for (unsigned int point = 0; point < fe_space.n_points(); ++point)
+    {
+      const unsigned int cell   = fe_space.cell_of(point);
+      const double       lambda = patches.size() > 0 ? cell_material.excess_of_patches(cell) : 0.;
+      if (patches.size() > 0)
+        of_patches[patches.of_point(point)] += lambda * fe_space.volume(point);
+      for_each_weight(
+          point,
+          [&](const unsigned int v, const unsigned int i, const double share_v)
+          {
+            const Matrix3<double> D = strain(point, i);
+            const Matrix3<double> T = combine(1., cell_material.excess_stress(cell, D),
+                                              -lambda * trace(D), identity_matrix<double>());
+            for_each_weight(point,
+                            [&](const unsigned int w, const unsigned int j, const double share_w) {
+                              blended(v, w) += fe_space.volume(point) * share_v * share_w
+                                               * contract(T, strain(point, j));
+                            });
+          });
+    }
+    for (unsigned int patch = 0; patch < patch_dilatations.m(); ++patch)
+      for (unsigned int v = 0; v < n_weights(); ++v)
+        for (unsigned int w = 0; w < n_weights(); ++w)
+          blended(v, w)
+              += of_patches[patch] * patch_dilatations(patch, v) * patch_dilatations(patch, w);
   }
 
   void

@@ -189,7 +189,7 @@ namespace Exemplar
   Material::part_of_pressure(const unsigned int cell, const Matrix3<double> &strain) const
   {
     const Constants &of_cell = constants[constants_of_cell[cell]];
-    if (axes.empty() || axes[cell].along == GrainAxes().along)
+    if (has_examples() || axes.empty() || axes[cell].along == GrainAxes().along)
       return combine(trace(strain) / 3., identity_matrix<double>(), 0., strain);
     return strain_in(axes[cell], of_cell.grain.strain_of_pressure(), trace(strain));
   }
@@ -204,8 +204,9 @@ namespace Exemplar
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
         stretch += a[i] * strain[i][j] * a[j];
-    return strain_in(axes[cell], constants[constants_of_cell[cell]].grain.strain_of_tension(),
-                     stretch);
+    const Orthotropy grain
+        = has_examples() ? parts(cell).examples : constants[constants_of_cell[cell]].grain;
+    return strain_in(axes[cell], grain.strain_of_tension(), stretch);
   }
 
   bool
@@ -251,9 +252,10 @@ namespace Exemplar
       return of_cell.elasticity.number(k);
     if (law == CellLaw::anisotropic)
       return (stiffnesses.empty() ? stiffness(cell) : stiffnesses[cell])[k - n];
-    if (law == CellLaw::fibrous && k > n)
-      return axes.empty() ? 0. : axes[cell].along[k - n - 1];
-    return of_cell.own->at(own_constants(law)[k - n].name);
+    const std::vector<LawConstant> own = own_constants(law);
+    if (k < n + own.size())
+      return of_cell.own->at(own[k - n].name);
+    return axes.empty() ? 0. : axes[cell].along[k - n - own.size()];
   }
 
   namespace
@@ -280,6 +282,13 @@ namespace Exemplar
   Material
   Material::with(const ChangedConstants &changed) const
   {
+    if (has_examples())
+    {
+      Material body    = *this;
+      body.constants   = of_body;
+      body.of_examples = {};
+      return body.with(changed).with_examples(of_examples, importance_there);
+    }
     check_number(changed.youngs_modulus, constants_of_cell.size(), "Material/Young's modulus");
     check_number(changed.poissons_ratio, constants_of_cell.size(), "Material/Poisson's ratio");
     check_number(changed.density, constants_of_cell.size(), "Material/Density");

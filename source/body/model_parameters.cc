@@ -80,9 +80,9 @@ namespace Exemplar
         "they should also near Poisson's ratio 0.5, at 1.6 times the operations of a "
         "factorisation and 1.4 to 1.6 times the time of a step (doc/space.md), for the "
             + strains_with_patches()
-            + " strains; auto: patches with these in statics and dynamics, cells with other "
-              "strains and "
-              "in interpolations.");
+            + " strains; with a neo-Hookean background they resist the mean of J = det F; auto: "
+              "patches with these in statics and dynamics, cells with other strains and in "
+              "interpolations.");
     keys.add(
         "Element", element, elements,
         "P1: linear tetrahedra, the cells of the mesh with their nodes; P2: quadratic "
@@ -128,10 +128,5 @@ namespace Exemplar
       throw UserError(key
                       + " is for Model/Strain = corotational with Model/Gradient = consistent. Set "
                         "these two, or Model/Background = corotational.");
-    if (law() == CellLaw::neo_hookean && has_patches())
-      throw UserError("Model/Dilatation = patches is not for " + key
-                      + ", with which each cell resists the change of its own volume. Set "
-                        "Model/Dilatation = auto, or Model/Background = corotational. "
-                        "Model/Element = P2 helps near Poisson's ratio 0.5.");
   }
 } // namespace Exemplar

@@ -166,14 +166,70 @@ namespace Exemplar
     return rest;
   }
 
+  namespace
+  {
+    /// All three; isotropic cells have none, and need none.
+    std::array<Axis, 3>
+    complete(const GrainAxes &axes)
+    {
+      const bool is_any = axes.along == GrainAxes().along;
+      const Axis along  = is_any ? Axis{ { 1., 0., 0. } } : axes.along;
+      const Axis across = is_any ? Axis{ { 0., 1., 0. } } : axes.across;
+      return { { along, across, cross(along, across) } };
+    }
+
+    /// The product of a symmetric matrix with the tensor that has these blocks in these axes.
+    Matrix3<double>
+    product(const Matrix3<double>       &normal,
+            const std::array<double, 3> &twice_shear,
+            const GrainAxes             &axes,
+            const Matrix3<double>       &E)
+    {
+      const std::array<Axis, 3> all = complete(axes);
+      Matrix3<double>           Q, P; // rows and columns are the axes
+      for (int a = 0; a < 3; ++a)
+        for (int i = 0; i < 3; ++i)
+          P[i][a] = Q[a][i] = all[a][i];
+      const Matrix3<double> of_axes = Q * E * P;
+      Matrix3<double>       T{};
+      for (int a = 0; a < 3; ++a)
+        for (int b = 0; b < 3; ++b)
+        {
+          T[a][a] += normal[a][b] * of_axes[b][b];
+          if (a != b)
+            T[a][b] = twice_shear[3 - a - b] * of_axes[a][b];
+        }
+      return P * T * Q;
+    }
+  } // namespace
+
+  Orthotropy
+  Orthotropy::sum(const double a, const double b, const Orthotropy &other) const
+  {
+    Orthotropy result;
+    result.normal = combine(a, normal, b, other.normal);
+    for (int i = 0; i < 3; ++i)
+      result.shear[i] = a * shear[i] + b * other.shear[i];
+    return result;
+  }
+
+  Matrix3<double>
+  Orthotropy::stress(const GrainAxes &axes, const Matrix3<double> &E) const
+  {
+    return product(normal, { { 2. * shear[0], 2. * shear[1], 2. * shear[2] } }, axes, E);
+  }
+
+  Matrix3<double>
+  Orthotropy::strain(const GrainAxes &axes, const Matrix3<double> &T) const
+  {
+    return product(inverse(normal), { { 0.5 / shear[0], 0.5 / shear[1], 0.5 / shear[2] } }, axes,
+                   T);
+  }
+
   std::array<double, 21>
   Orthotropy::entries(const GrainAxes &axes) const
   {
-    // isotropic cells have no axes, and need none
-    const bool                is_any = axes.along == GrainAxes().along;
-    const Axis                along  = is_any ? Axis{ { 1., 0., 0. } } : axes.along;
-    const Axis                across = is_any ? Axis{ { 0., 1., 0. } } : axes.across;
-    const std::array<Axis, 3> q      = { { along, across, cross(along, across) } };
+    const std::array<Axis, 3> q = complete(axes);
     SymmetricEntries<double>  squares[3], shears[3];
     for (int a = 0; a < 3; ++a)
     {

@@ -11,6 +11,6 @@ namespace Exemplar
   cell_kernels_avx2(const ElementConstant<Element::P1> element)
   {
     return Loops::make_kernels<xsimd::batch<double, xsimd::fma3<xsimd::avx2>>>(
-        element, "avx2", rare_law_kernels_avx2(element));
+        element, "avx2", rare_law_kernels_avx2(element), sum_kernels_avx2(element));
   }
 } // namespace Exemplar

@@ -11,6 +11,6 @@ namespace Exemplar
   cell_kernels_avx512(const ElementConstant<Element::P1> element)
   {
     return Loops::make_kernels<xsimd::batch<double, xsimd::avx512dq>>(
-        element, "avx512", rare_law_kernels_avx512(element));
+        element, "avx512", rare_law_kernels_avx512(element), sum_kernels_avx512(element));
   }
 } // namespace Exemplar

@@ -11,7 +11,8 @@ namespace Exemplar
   CellKernels
   cell_kernels_scalar(const ElementConstant<Element::P1> element)
   {
-    return Loops::make_kernels<double>(element, "scalar", rare_law_kernels_scalar(element));
+    return Loops::make_kernels<double>(element, "scalar", rare_law_kernels_scalar(element),
+                                       sum_kernels_scalar(element));
   }
 
   template <>
@@ -19,6 +20,6 @@ namespace Exemplar
   cell_kernels_baseline(const ElementConstant<Element::P1> element)
   {
     return Loops::make_kernels<xsimd::batch<double, xsimd::default_arch>>(
-        element, "baseline", rare_law_kernels_baseline(element));
+        element, "baseline", rare_law_kernels_baseline(element), sum_kernels_baseline(element));
   }
 } // namespace Exemplar

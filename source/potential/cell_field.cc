@@ -34,6 +34,29 @@ namespace Exemplar
   }
 
   void
+  VolumeField::resize(const unsigned int n_points)
+  {
+    changes.resize(batched_size(n_points, 1));
+    cofactors.resize(batched_size(n_points, 9));
+    pressures.resize(batched_size(n_points, 1));
+  }
+
+  VolumeArrays
+  VolumeField::arrays()
+  {
+    if (changes.empty())
+      return {};
+    return { changes.data(), cofactors.data(), pressures.data() };
+  }
+
+  std::size_t
+  VolumeField::memory_consumption() const
+  {
+    return changes.memory_consumption() + cofactors.memory_consumption()
+           + pressures.memory_consumption();
+  }
+
+  void
   DilatationField::resize(const unsigned int n_points)
   {
     for (dealii::AlignedVector<double> *values : { &traces, &squares, &pressures, &scales })
@@ -46,8 +69,8 @@ namespace Exemplar
   {
     if (traces.empty())
       return {};
-    return { traces.data(),    squares.data(), flags.data(),
-             pressures.data(), scales.data(),  stretch.arrays() };
+    return { traces.data(), squares.data(),   flags.data(),   pressures.data(),
+             scales.data(), stretch.arrays(), volume.arrays() };
   }
 
   std::size_t
@@ -55,7 +78,7 @@ namespace Exemplar
   {
     return traces.memory_consumption() + squares.memory_consumption()
            + pressures.memory_consumption() + scales.memory_consumption() + flags.capacity()
-           + stretch.memory_consumption();
+           + stretch.memory_consumption() + volume.memory_consumption();
   }
 
   CellField::CellField(LawsOfCells             laws,

@@ -287,8 +287,11 @@ namespace Exemplar
       Matrix3<double>       T;
       double                energy = densities[point];
       batches.with_cell(point, R, F,
-                        [&](const auto &state)
+                        [&](auto state)
                         {
+                          using Cell = std::decay_t<decltype(state)>;
+                          if constexpr (Cell::traits.knows_volume)
+                            state.add_volume_pressure(cells.volume_pressure(point));
                           energy += state.elastic_density();
                           energy += state.is_stretched() ? state.stretch().energy() : 0.;
                           T = state.stress_towards(parts.examples.strain(point, weights));

@@ -87,6 +87,8 @@ namespace Exemplar
         state.set_target(D);
         if constexpr (Cell::traits.trace_gradient_is_R)
           state.add_pressure(cells.pressure(point));
+        if constexpr (Cell::traits.knows_volume)
+          state.add_volume_pressure(cells.volume_pressure(point));
         if constexpr (!Cell::traits.convex_is_rotated)
           if (tangent == Tangent::convex)
             state.make_convex();

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/potential/patch_dilatation.h>
-#include <exemplar/potential/stretch_stiffness.h>
 
 #include <deal.II/base/memory_consumption.h>
 
@@ -39,6 +38,8 @@ namespace Exemplar
     scatter.emplace(patches, fe_space, pattern, all_free_dofs, field,
                     !(pattern.products_are_apart && couples_by_products()));
     field.get_dilatation().resize(fe_space.n_points());
+    if (field.get_batches().knows_volume())
+      volumes.emplace(patches, field);
   }
 
   void
@@ -68,7 +69,9 @@ namespace Exemplar
     std::vector<double> mean_squares(patches.size(), 0.);
     if (dilatation.has(long_cells))
       find_means(dilatation.squares.data(), mean_squares);
-    guard.find(*cells, positions, means, mean_squares);
+    guard.find(*cells, positions, means, mean_squares, share());
+    if (volumes)
+      volumes->find(*cells, *scatter);
   }
 
   void
@@ -105,7 +108,10 @@ namespace Exemplar
       const double lambda = patches.lambda(patch), mean = means[patch];
       const double D  = target(patch, at.weights);
       Told        &to = of_patches[patch];
-      to = { lambda * (mean - D), root * std::abs(lambda) * (std::abs(mean) + std::abs(D)) };
+      to              = { lambda * (share() * mean - D),
+                          root * std::abs(lambda) * (share() * std::abs(mean) + std::abs(D)) };
+      if (volumes)
+        to.scale += root * std::abs(volumes->pressure(patch));
       if (const double s = damping.factor(patch); s > 0.)
       {
         const double past = damping.past_means[patch];
@@ -125,6 +131,8 @@ namespace Exemplar
                     }
                   });
     guard.add_pressures(dilatation);
+    if (volumes)
+      volumes->tell_cells(*cells);
   }
 
   void
@@ -150,9 +158,23 @@ namespace Exemplar
         sums->energy_damping += 0.5 * s * patches.stiffness(patch) * change * change;
       }
     }
+    if (volumes)
+      add_energies_of_volumes(sums);
     const double of_guard = guard.energy();
     sums->energy_elastic += of_guard;
     sums->energy += of_guard;
+  }
+
+  void
+  PatchDilatation::add_energies_of_volumes(ElasticSums &sums) const
+  {
+    for (unsigned int patch = 0; patch < patches.size(); ++patch)
+    {
+      const double of_trace  = 0.5 * patches.stiffness(patch) * means[patch] * means[patch];
+      const double of_volume = patches.volume(patch) * volumes->density(patch);
+      sums->energy_elastic += of_volume - of_trace;
+      sums->energy += (1. - share()) * (of_volume - of_trace);
+    }
   }
 
   void
@@ -169,7 +191,7 @@ namespace Exemplar
   {
     const double s
         = kind == Tangent::convex ? cells->get_damping().factor() : damping.factor(patch);
-    return (1. + s) * patches.stiffness(patch);
+    return (share() + s) * patches.stiffness(patch);
   }
 
   bool
@@ -178,7 +200,7 @@ namespace Exemplar
     const DilatationField &dilatation = cells->get_dilatation();
     return ((dilatation.flags[point / batch_size] & thin_cells) != 0
             || (dilatation.stretch.acts && dilatation.stretch.transitions[point] > 0.))
-           && traits_of(cells->get_batches().law(point)).has_stretch_guard;
+           && traits_of(cells->get_batches().law(point)).has_guard_of_patches();
   }
 
   void
@@ -227,10 +249,18 @@ namespace Exemplar
                                std::vector<double> &values,
                                std::vector<double> &columns)
   {
-    PatchProducts products = find_products(at.positions, kind);
-    if (!columns.empty())
-      add_columns(products.vectors, columns);
-    scatter->add_products(*cells, products, values);
+    if (has_traces())
+    {
+      PatchProducts products = find_products(at.positions, kind);
+      if (!columns.empty())
+        add_columns(products.vectors, columns);
+      scatter->add_products(*cells, products, values);
+    }
+    if (volumes)
+    {
+      PatchProducts products = find_products_of_volumes(kind);
+      scatter->add_products(*cells, products, values);
+    }
   }
 
   void
@@ -240,77 +270,15 @@ namespace Exemplar
                                         std::vector<double> &columns,
                                         OuterProducts       &products)
   {
-    const PatchProducts of_patches = find_products(at.positions, kind);
-    if (!columns.empty())
-      add_columns(of_patches.vectors, columns);
-    scatter->add_products(of_patches, products);
-  }
-
-  void
-  PatchDilatation::add_response(const TermPoint &at,
-                                const Tangent    kind,
-                                const Vector    &displacement,
-                                ElasticSums     &sums)
-  {
-    const PatchProducts products = find_products(at.positions, kind);
-    for (unsigned int patch = 0; patch < patches.size(); ++patch)
-      if (scatter->is_beside_held(patch))
-      {
-        add_response_of(patch, products, displacement, sums);
-        add_response_of_points(patch, kind, at, displacement, sums);
-      }
-  }
-
-  void
-  PatchDilatation::add_response_of(const unsigned int   patch,
-                                   const PatchProducts &products,
-                                   const Vector        &displacement,
-                                   ElasticSums         &sums) const
-  {
-    const double change = scatter->product(patch, products.vectors, displacement);
-    scatter->add(patch, products.factors[patch] * change, products.vectors, sums->gradient);
-    for (unsigned int weight = 0; weight < sums->weight_gradient.size(); ++weight)
-      sums->weight_gradient[weight]
-          -= patches.stiffness(patch) * change * examples.patch_dilatation(patch, weight);
-    if (products.squares.empty())
-      return;
-    const double of_square = scatter->product(patch, products.squares, displacement);
-    const double of_sum    = scatter->product(patch, products.sums, displacement);
-    const double a = products.of_squares[patch], b = products.of_products[patch];
-    scatter->add(patch, a * of_square + b * of_sum, products.squares, sums->gradient);
-    scatter->add(patch, b * of_square, products.sums, sums->gradient);
-  }
-
-  void
-  PatchDilatation::add_response_of_points(const unsigned int patch,
-                                          const Tangent      kind,
-                                          const TermPoint   &at,
-                                          const Vector      &displacement,
-                                          ElasticSums       &sums) const
-  {
-    std::vector<double> forces;
-    for (const unsigned int point : patches.points(patch))
+    if (has_traces())
     {
-      if (!is_special(point))
-        continue;
-      const Matrix3<double> F = fe_space.deformation_gradient(point, at.positions);
-      const Matrix3<double> R = cells->rotation(point);
-      const Matrix3<double> M
-          = transpose_times(R, fe_space.deformation_gradient(point, displacement));
-      Matrix3<double> dP = patch_cell(*cells, point, F)
-                               .response(M, cells->pressure(point), kind == Tangent::convex);
-      if (kind == Tangent::convex && is_strongly_stretched(*cells, point, F))
-      {
-        const StretchModes modes = stretch_modes(*cells, point, R, F);
-        for (std::size_t m = 0; m < modes.stiffness.size(); ++m)
-          dP = combine(1., dP, modes.stiffness[m] * contract(modes.direction[m], M),
-                       modes.direction[m]);
-      }
-      fe_space.nodal_forces(point, R * dP, forces);
-      const auto nodes = fe_space.nodes(fe_space.cell_of(point));
-      for (std::size_t i = 0; i < forces.size(); ++i)
-        sums->gradient[3 * nodes[i / 3] + i % 3] += forces[i];
+      const PatchProducts of_patches = find_products(at.positions, kind);
+      if (!columns.empty())
+        add_columns(of_patches.vectors, columns);
+      scatter->add_products(of_patches, products);
     }
+    if (volumes)
+      scatter->add_products(find_products_of_volumes(kind), products);
   }
 
   void
@@ -319,7 +287,8 @@ namespace Exemplar
     for (unsigned int point = 0; point < of_points.size(); ++point)
     {
       const unsigned int patch = patches.of_point(point);
-      of_points[point] += 0.5 * patches.lambda(patch) * means[patch] * means[patch];
+      of_points[point] += volumes ? volumes->density(patch)
+                                  : 0.5 * patches.lambda(patch) * means[patch] * means[patch];
     }
     guard.add_densities(*cells, of_points);
   }
@@ -329,6 +298,7 @@ namespace Exemplar
   {
     using dealii::MemoryConsumption::memory_consumption;
     return patches.memory_consumption() + scatter->memory_consumption() + memory_consumption(means)
-           + memory_consumption(damping.past_means) + memory_consumption(damping.factors);
+           + memory_consumption(damping.past_means) + memory_consumption(damping.factors)
+           + (volumes ? volumes->memory_consumption() : 0);
   }
 } // namespace Exemplar

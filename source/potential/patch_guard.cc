@@ -54,42 +54,44 @@ namespace Exemplar
   bool
   PatchGuard::has_guard(const CellField &cells, const unsigned int patch) const
   {
-    return traits_of(cells.get_batches().law(patches.points(patch).front())).has_stretch_guard;
+    return traits_of(cells.get_batches().law(patches.points(patch).front())).has_guard_of_patches();
   }
 
   void
   PatchGuard::find(CellField                 &cells,
                    const Vector              &positions,
                    const std::vector<double> &means,
-                   const std::vector<double> &mean_squares)
+                   const std::vector<double> &mean_squares,
+                   const double               share)
   {
     stretched.clear();
     for (unsigned int patch = 0; patch < patches.size(); ++patch)
-      if (mean_squares[patch] > bounds[patch] && patches.lambda(patch) > 0.
+      if (mean_squares[patch] > bounds[patch] && share * patches.lambda(patch) > 0.
           && has_guard(cells, patch))
       {
         const auto [beta, first, second] = transition(mean_squares[patch], bounds[patch]);
-        stretched.push_back({ patch, means[patch], beta, first, second });
+        stretched.push_back(
+            { patch, share * patches.lambda(patch), means[patch], beta, first, second });
       }
     DilatationField &dilatation = cells.get_dilatation();
     dilatation.stretch.acts     = acts();
     if (!acts())
       return;
-    tell_cells(dilatation);
+    tell_cells(dilatation, share);
     cells.update_stretch_energies(positions);
     find_sums(dilatation);
   }
 
   void
-  PatchGuard::tell_cells(DilatationField &dilatation) const
+  PatchGuard::tell_cells(DilatationField &dilatation, const double share) const
   {
     StretchField &to = dilatation.stretch;
     to.reinit(fe_space.n_points());
     for (const Stretched &of_patch : stretched)
       for (const unsigned int point : patches.points(of_patch.patch))
       {
-        const CellMaterial<double> &C           = material.elasticity(fe_space.cell_of(point));
-        const double                lambda      = patches.lambda(of_patch.patch);
+        const CellMaterial<double> C = material.elasticity(fe_space.cell_of(point)).scaled(share);
+        const double               lambda       = of_patch.lambda;
         to.transitions[point]                   = of_patch.beta;
         to.stiffnesses[point]                   = of_patch.beta * lambda;
         to.elasticity[batch_index(point, 2, 0)] = C.lambda;
@@ -118,8 +120,7 @@ namespace Exemplar
                       const unsigned int     point) const
   {
     const double excess = dilatation.traces[point] - of_patch.mean;
-    return 0.5 * patches.lambda(of_patch.patch) * excess * excess
-           + dilatation.stretch.energies[point];
+    return 0.5 * of_patch.lambda * excess * excess + dilatation.stretch.energies[point];
   }
 
   void
@@ -166,7 +167,7 @@ namespace Exemplar
     for (const Stretched &of_patch : stretched)
     {
       const unsigned int patch = of_patch.patch;
-      products.factors[patch] -= of_patch.beta * patches.stiffness(patch);
+      products.factors[patch] -= of_patch.beta * (of_patch.lambda * patches.volume(patch));
       products.of_squares[patch]
           = of_patch.sum * (is_exact ? of_patch.second : std::max(of_patch.second, 0.));
       products.of_products[patch] = is_exact ? of_patch.first : 0.;
@@ -185,7 +186,7 @@ namespace Exemplar
         fe_space.nodal_forces(
             point,
             cells.rotation(point)
-                * combine(1., cell.guard_force(), patches.lambda(patch) * excess, of_trace),
+                * combine(1., cell.guard_force(), of_patch.lambda * excess, of_trace),
             forces);
         scatter.add_at_cell(patch, point, 1., forces, products.sums);
       }

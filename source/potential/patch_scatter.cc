@@ -157,12 +157,19 @@ namespace Exemplar
   void
   PatchScatter::find_gradients(CellField &cells, PatchVectors &b) const
   {
+    find_gradients(cells, cells.arrays().rotations, b);
+  }
+
+  void
+  PatchScatter::find_gradients(CellField &cells, double *matrices, PatchVectors &b) const
+  {
     b.resize(4 * n_nodes());
     const PatchArrays arrays
         = { node_starts.data(),         of_points.starts.data(), of_points.points.data(),
             of_points.fractions.data(), of_points.places.data(), b.data() };
-    const CellArrays points = cells.arrays();
-    const int        n      = cells.n_threads();
+    CellArrays points = cells.arrays();
+    points.rotations  = matrices;
+    const int n       = cells.n_threads();
     for_each_part(n, node_starts.size() - 1, n,
                   [&](std::size_t /*part*/, const std::size_t begin, const std::size_t end)
                   { cells.loops().patch_gradients(points, arrays, begin, end); });

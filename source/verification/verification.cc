@@ -39,7 +39,7 @@ namespace Exemplar
       {
         std::vector<Case> all;
         for (const auto &subject : { kernel_cases, derivative_cases, static_cases, beam_cases,
-                                     space_cases, dynamic_cases, example_cases })
+                                     space_cases, dynamic_cases, balance_cases, example_cases })
           for (Case &one : subject())
             all.push_back(std::move(one));
         if (n_processes > 1)

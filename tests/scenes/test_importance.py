@@ -84,6 +84,69 @@ class Importance(SceneTest):
                         self.assertAlmostEqual(read_csv(output)[-1]["weight_1"], mean * sum(etas) / (stretch * of_weights),
                                                delta=1e-6)
 
+    def test_of_examples_with_an_elasticity_of_their_own(self):
+        """As above, but examples have twice the modulus: a half of the stiffness C' = (1 - eta) C + eta C_e wants D = eta C_e w s / C', and
+        the weights' form has (1 - eta) / eta C' C D^2 / C_e more. The springs in a row take the mean strain with one stress."""
+        self.mesh_of_two_halves()
+        bar = {"Scene": "static", "Mesh/File": "halves.msh", "Material/Poisson's ratio": "0", "Material/Young's modulus": "1e5",
+               "Examples/Pose functions": "1.2*x; y; z", "Handles/Names": "left, right", "Handles/left/Components": "x",
+               "Handles/left/Select": "box -0.1 -1 -1 0.1 1 1", "Handles/right/Select": "box 3.9 -1 -1 4.1 1 1",
+               "Handles/right/Motion": "0.2*t; 0; 0", "Time/Increments": "1", "Output/Every": "0",
+               "Examples/Weight penalty": "0", "Solver/Tolerance": "1e-11", "Examples/Energy": "blended",
+               "Examples/Importance": "0.6", "Material/region 2/Importance factor": "0.5"}
+        mean, stretch = 0.05, 0.2
+        for modulus in (2, 0.25):
+            stiff = [1 - eta + eta * modulus for eta in (0.6, 0.3)]
+            # least energy over w: d/dw of (1/2) K (mean - sum D / 2)^2 + excess, K the stiffness of both in a row per half
+            drawn = [eta * modulus * stretch / c for eta, c in zip((0.6, 0.3), stiff)]
+            row = 2 * stiff[0] * stiff[1] / (stiff[0] + stiff[1])
+            excess = sum((1 - eta) / eta * c * d * d / modulus for eta, c, d in zip((0.6, 0.3), stiff, drawn)) / 2
+            share = sum(drawn) / 2
+            weight = row * mean * share / (row * share**2 + excess)
+            for dilatation in ("cells", "patches"):
+                for material in ({}, {"Material/Fibre stiffness": "1e-9", "Material/Fibre direction": "1; 1; 0"}):
+                    with self.subTest(f"{dilatation}, modulus {modulus}, {material}"):
+                        output = self.solve({**bar, **material, "Model/Dilatation": dilatation,
+                                             "Examples/Example modulus": str(1e5 * modulus)},
+                                            output=f"own {dilatation} {modulus} {len(material)}")
+                        self.assertAlmostEqual(read_csv(output)[-1]["weight_1"], weight, delta=1e-6)
+
+    def test_an_elasticity_of_their_own_that_is_the_bodys(self):
+        """Keys that say what the material says change nothing but roundings, also where nothing is uniform."""
+        bar = {**BAR, **DRAGS["all"], "Examples/Energy": "blended", "Examples/Importance": "0.4", "Material/Young's modulus": "1e5",
+               "Solver/Tolerance": "1e-11"}
+        own = {"Examples/Example modulus": "1e5", "Examples/Example Poisson ratio": "0.45"}
+        grain = {"Material/Fibre stiffness": "1e-6", "Material/Fibre direction": "1; 0.5; z"}
+        for acts_on in ("all", "shape", "volume"):
+            for dilatation in ("cells", "patches"):
+                for strain in ("corotational", "linear"):
+                    keys = {**bar, "Model/Dilatation": dilatation, "Examples/Acts on": acts_on, "Model/Strain": strain}
+                    places = [nodes_of(self.solve({**keys, **more}, output=name) / "final.msh")
+                              for name, more in (("usual", {}), ("own", own))]
+                    with self.subTest(f"{acts_on}, {dilatation}, {strain}"):
+                        for a, b in zip(*(p.values() for p in places)):
+                            for x, y in zip(a, b):
+                                self.assertAlmostEqual(x, y, delta=1e-8)
+        keys = {**bar, "Model/Dilatation": "cells", "Examples/Acts on": "across fibres", **grain}
+        first, second = (nodes_of(self.solve({**keys, **more}, output="grain") / "final.msh") for more in ({}, own))
+        for a, b in zip(first.values(), second.values()):
+            for x, y in zip(a, b):
+                self.assertAlmostEqual(x, y, delta=1e-7)
+
+    def test_an_elasticity_of_their_own_is_refused_in_words(self):
+        own = {**BAR, **DRAGS["all"], "Examples/Example modulus": "1e5"}
+        blended = {"Examples/Energy": "blended"}
+        for changes, words in (({}, "Set that, or remove Examples/Example modulus"),
+                               ({**blended, "Examples/Example modulus": "-1"}, "a number greater than 0 [Pa]"),
+                               ({**blended, "Examples/Example Poisson ratio": "0.5"}, "less than 0.5"),
+                               ({**blended, "Material/Yield stress": "1e3"}, "with the elasticity of the material"),
+                               ({**blended, "Model/Background": "neo-hookean", "Model/Dilatation": "cells"},
+                                "with the elasticity of the material")):
+            with self.subTest(words):
+                run = self.attempt({**own, **changes})
+                self.assertEqual(run.status, 1)
+                self.assertIn(words, " ".join(run.stderr.split()))
+
 
 if __name__ == "__main__":
     unittest.main()

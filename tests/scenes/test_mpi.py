@@ -36,6 +36,7 @@ DYNAMIC = {**BODY, "Scene": "dynamic", "Time/Increments": None, "Time/Step": "0.
            "Solver/Tolerance": "1e-11", "Handles/left/Motion": "0; 0; 0.3*sin(4*t)"}
 # in one process with a factor, in several with a multigrid hierarchy
 QUASI_NEWTON = {**DYNAMIC, "Solver/Method": "quasi newton", "Solver/Step tolerance": "1e-11"}
+FIBRES = {"Material/Fibre stiffness": "1e6", "Material/Fibre direction": "1; 0.3*y; 0.2"}
 BENT = {"Examples/Pose functions": bend("pi/2"), "Examples/Importance": "0.8"}
 TWISTED = {"Scene": "interpolation", "Mesh/Generator": "box", "Mesh/Box size": "4, 1, 1", "Mesh/Box cells": "8, 2, 2",
            "Examples/Pose functions": twist("pi/2"), "Examples/Include rest pose": "true",
@@ -47,6 +48,8 @@ SCENES = {
     "static, quadratic": {**STATIC, "Model/Element": "P2", "Mesh/Box cells": "4, 2, 1"},
     "static, quadratic patches of points": {**STATIC, "Model/Element": "P2", "Mesh/Box cells": "4, 1, 1",
                                             "Model/Dilatation": "patches", "Output/Final pose": "quadratic"},
+    "static, neo-Hookean patches": {**STATIC, "Model/Background": "neo-hookean", "Examples/Pose functions": bend("pi/2"),
+                                    "Examples/Importance": "0.4", "Examples/Energy": "blended", "Examples/Weights": "free"},
     "static, Green": {**STATIC, "Model/Strain": "green"},
     "static, linear": {**STATIC, "Model/Strain": "linear"},
     "static, examples": {**STATIC, **BENT, "Examples/Weights": "free"},
@@ -72,6 +75,9 @@ SCENES = {
                           "Initial/Velocity": "-y; x; 0.1*x"},
     "static, yields": {**STATIC, "Material/Yield stress": "2e4", "Material/Kinematic hardening": "2e5"},
     "newton, yields": {**DYNAMIC, "Material/Yield stress": "2e4", "Material/Isotropic hardening": "2e5"},
+    "static, yields between fibres": {**STATIC, **FIBRES, "Material/Yield stress": "2e4", "Material/Kinematic hardening": "2e5"},
+    "newton, yields between fibres": {**DYNAMIC, **BENT, **FIBRES, "Examples/Energy": "blended", "Material/Yield stress": "2e4",
+                                      "Material/Isotropic hardening": "2e5"},
     "one pass": {**DYNAMIC, "Solver/Method": "one pass", "Solver/Tolerance": None, **BENT,
                  "Model/Gradient": "frozen", "Examples/Weights": "free"},
     "fixed point": {**DYNAMIC, "Solver/Method": "fixed point", "Model/Gradient": "frozen", "Solver/Rotations": "predicted",

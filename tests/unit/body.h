@@ -51,13 +51,15 @@ namespace Exemplar::Testing
     return contents;
   }
 
-  /// What makes cells of that law: fibres along a curve, or nine constants.
+  /// What makes cells of that law: fibres along a curve, nine constants, a yield stress.
   inline MaterialParameters
   material_of_law(const CellLaw law)
   {
     MaterialParameters parameters;
     parameters.everywhere.fibre_direction = "1; 0.3*x; 0.5-z";
-    if (law == CellLaw::fibrous || law == CellLaw::anisotropic)
+    if (law == CellLaw::fibrous_plastic)
+      parameters.everywhere.own["Yield stress"] = 2e4;
+    if (law == CellLaw::fibrous || law == CellLaw::anisotropic || law == CellLaw::fibrous_plastic)
       parameters.everywhere.own["Fibre stiffness"] = 3e6;
     if (law == CellLaw::anisotropic)
     {

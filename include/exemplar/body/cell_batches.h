@@ -133,6 +133,14 @@ namespace Exemplar
                          { return traits_of(of_law.law).*number != ModelTraits::not_remembered; });
     }
 
+    /// Whether all cells have an energy of J = det F, which patches may have the mean of.
+    bool
+    knows_volume() const
+    {
+      return std::all_of(of_laws.begin(), of_laws.end(),
+                         [](const OfLaw &of_law) { return traits_of(of_law.law).knows_volume; });
+    }
+
     Matrix3<double>
     rotation(const unsigned int point) const
     {

@@ -2,6 +2,7 @@
 #ifndef exemplar_example_parameters_h
 #define exemplar_example_parameters_h
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,19 @@ namespace Exemplar
     across_fibres ///< all but that
   };
 
+  /// The isotropic elasticity of the wish to be like the examples; a constant that is absent is the
+  /// material's.
+  struct ExampleElasticity
+  {
+    std::optional<double> youngs_modulus, poissons_ratio; ///< [Pa], [-]
+
+    bool
+    is_own() const
+    {
+      return youngs_modulus || poissons_ratio;
+    }
+  };
+
   /// Subsection Examples.
   struct ExampleParameters
   {
@@ -46,7 +60,9 @@ namespace Exemplar
     std::string              weight_penalty    = "auto";
     ExampleEnergy            energy            = ExampleEnergy::mixed;
     ActsOn                   acts_on           = ActsOn::all;
-    WeightRule               weights           = WeightRule::simplex;
+    std::string              modulus;       ///< Example modulus [Pa]; empty: the material's
+    std::string              poisson_ratio; ///< Example Poisson ratio; empty: the material's
+    WeightRule               weights = WeightRule::simplex;
     std::string              prescribed_weights;
     double                   yield               = 0.; ///< [J/m^3]
     double                   creep_viscosity     = 0.; ///< [J s/m^3]
@@ -72,6 +88,10 @@ namespace Exemplar
       return in_use() && (acts_on == ActsOn::along_fibres || acts_on == ActsOn::across_fibres);
     }
 
+    /// C_e of Eq. (38). Throws UserError for what is no such constant.
+    ExampleElasticity
+    elasticity() const;
+
     /// Whether any pose is given and its importance is not 0.
     bool
     in_use() const;
@@ -91,6 +111,9 @@ namespace Exemplar
   private:
     void
     check_memory() const;
+
+    void
+    check_elasticity() const;
   };
 } // namespace Exemplar
 

@@ -22,6 +22,10 @@ namespace Exemplar
   double
   unit_energy(const FESpace &fe_space, const Material &material);
 
+  /// The same with the moduli of the wish to be like the examples: the scale of the weights' form.
+  double
+  unit_energy_of_examples(const FESpace &fe_space, const Material &material);
+
   /// A pose that the body likes.
   struct ExamplePose
   {
@@ -31,6 +35,7 @@ namespace Exemplar
 
   /// The example poses and the strains that they ask for, eta E_i at every quadrature point, Eqs. (4)
   /// and (5), computed once; eta is Examples/Importance. E_i is the part that examples act on, Eq. (31).
+  /// Where examples have an elasticity of their own, D_i of Eq. (38) stands for eta E_i.
   /// Example 0 is the rest pose where it is included. Each example has one weight or,
   /// with Weights per region, one a region: weight r * size() + i is that of example i in
   /// region r. Of a scene without examples it is empty.
@@ -227,6 +232,10 @@ namespace Exemplar
     void
     compute_gram_matrix(const Material &cell_material, const Patches &patches);
 
+    /// What H has beyond the Gram matrix where examples have an elasticity of their own.
+    void
+    compute_excess(const Material &cell_material, const Patches &patches);
+
     void
     add_patches_to_gram_matrix(const Material &cell_material, const Patches &patches);
 
@@ -247,7 +256,7 @@ namespace Exemplar
     dealii::FullMatrix<double>    patch_dilatations; ///< patch, weight; empty without patches
     dealii::FullMatrix<double>    gram;
     dealii::FullMatrix<double>
-        blended; ///< see add_blended(), where the importance varies; else empty
+        blended; ///< see add_blended(), where the importance varies or examples have C_e; else empty
     const std::vector<std::string> warnings;
   };
 } // namespace Exemplar

@@ -2,6 +2,7 @@
 #ifndef exemplar_material_h
 #define exemplar_material_h
 
+#include <exemplar/body/example_parameters.h>
 #include <exemplar/body/material_parameters.h>
 #include <exemplar/body/orthotropy.h>
 #include <exemplar/kernels/cell_model.h>
@@ -102,6 +103,32 @@ namespace Exemplar
     Material
     with(const ChangedConstants &changed) const;
 
+    /// The sum (1 - eta) C + eta C_e of this body's and its examples' elasticity, where these have one
+    /// of their own, which must be; eta is `importance` times that of the cell. Another call replaces C_e and
+    /// eta. Young's moduli and densities stay those of the body.
+    Material
+    with_examples(const ExampleElasticity &own, double importance) const;
+
+    /// Whether with_examples() has made it.
+    bool
+    has_examples() const
+    {
+      return of_examples.is_own();
+    }
+
+    /// Of such a sum C': the strain C'^-1:eta C_e:E to which the strain E of an example draws a cell.
+    Matrix3<double>
+    drawn_strain(unsigned int cell, const Matrix3<double> &E) const;
+
+    /// Of such a sum and such a strain D = C'^-1:eta C_e:E, by how much the energy of the examples is greater
+    /// than that of D: (1 - eta) / eta C':C_e^-1:C:D [Pa], where C is that of the body; 0 where eta is 0.
+    Matrix3<double>
+    excess_stress(unsigned int cell, const Matrix3<double> &D) const;
+
+    /// What patches take of that: lambda of an isotropic material, 0 of another one [Pa].
+    double
+    excess_of_patches(unsigned int cell) const;
+
     /// What is left of it in cells of which the volume part of the energy is that of patches.
     Material
     without_dilatation() const;
@@ -140,6 +167,13 @@ namespace Exemplar
       return constants[constants_of_cell[cell]].youngs_modulus;
     }
 
+    /// Of the wish to be like the examples [Pa].
+    double
+    youngs_modulus_of_examples(const unsigned int cell) const
+    {
+      return of_examples.youngs_modulus.value_or(youngs_modulus(cell));
+    }
+
   private:
     /// The constants of a region, or of a cell where they are painted.
     struct Constants
@@ -172,6 +206,21 @@ namespace Exemplar
     void
     add(const ElasticConstants &values, std::shared_ptr<const OwnConstants> own);
 
+    /// C and C_e of a cell, and the eta with which they are summed up.
+    struct Parts
+    {
+      Orthotropy body, examples;
+      double     eta;
+      GrainAxes  axes;
+    };
+
+    Parts
+    parts(unsigned int cell) const;
+
+    /// Of these constants of the body.
+    Orthotropy
+    elasticity_of_examples(const Constants &body) const;
+
     /// Of the law that any C needs: its constants behind Lamé's.
     void
     find_stiffnesses();
@@ -184,6 +233,9 @@ namespace Exemplar
     paint(const PaintedMaterial &painted, const std::vector<ElasticConstants> &bases);
 
     std::vector<Constants>              constants;
+    ExampleElasticity                   of_examples;           ///< where it is their own
+    double                              importance_there = 0.; ///< then
+    std::vector<Constants>              of_body; ///< then, without the examples; else empty
     std::vector<unsigned int>           constants_of_cell;
     std::vector<GrainAxes>              axes;        ///< by cell; empty: isotropic
     std::vector<std::array<double, 22>> stiffnesses; ///< by cell; empty: none is orthotropic

@@ -20,7 +20,7 @@ namespace Exemplar
   {
     automatic, ///< patches for the strains that have them, cells for others and in interpolations
     cells,
-    patches ///< its mean, Eq. (25)
+    patches ///< its mean, Eqs. (25) and (37)
   };
 
   /// What energy the body has of its own, beside its examples.

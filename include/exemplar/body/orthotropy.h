@@ -70,6 +70,18 @@ namespace Exemplar
     Orthotropy
     without(double lambda) const;
 
+    /// a times this and b times another one, of the same axes.
+    Orthotropy
+    sum(double a, double b, const Orthotropy &other) const;
+
+    /// C:E, of a strain in the axes of the rest pose [Pa].
+    Matrix3<double>
+    stress(const GrainAxes &axes, const Matrix3<double> &E) const;
+
+    /// Its inverse: the strain C^-1:T of a stress [Pa].
+    Matrix3<double>
+    strain(const GrainAxes &axes, const Matrix3<double> &T) const;
+
     /// C in the axes of the rest pose, as Anisotropic has it [Pa].
     std::array<double, 21>
     entries(const GrainAxes &axes) const;

@@ -87,6 +87,14 @@ namespace Exemplar
     long_cells = 2  ///< |F|^2 is beyond min_stretched_square
   };
 
+  /// Mean of J by patches, Eq. (37): what cells tell and are told.
+  struct VolumeArrays
+  {
+    double       *changes   = nullptr; ///< 1: J - 1; null: nobody asks
+    double       *cofactors = nullptr; ///< 9: cof F by rows
+    const double *pressures = nullptr; ///< 1: of the cell's patch, along cof F [Pa]
+  };
+
   /// Mean dilatation by patches, Eq. (25): what the cells tell of their volume and what they are
   /// told.
   struct DilatationArrays
@@ -97,6 +105,7 @@ namespace Exemplar
     const double  *pressures = nullptr; ///< 1: of the cell's patch [Pa]
     const double  *scales    = nullptr; ///< 1: |C:e| + eta |C:E(w)| of the volume part alone [Pa]
     StretchArrays  stretch;
+    VolumeArrays   volume;
   };
 
   /// Where the derivatives b = dtheta_p/dx of the mean dilatations of patches, Eq. (25), are: patch by
@@ -273,12 +282,12 @@ namespace Exemplar
   {
     const char *name; ///< of the instruction set
 
-    LawKernels of_usual_laws, of_rare_laws;
+    LawKernels of_usual_laws, of_rare_laws, of_sums;
 
     const LawKernels &
     of(const CellLaw law) const
     {
-      return law < first_rare_law ? of_usual_laws : of_rare_laws;
+      return law < first_rare_law ? of_usual_laws : law < first_sum ? of_rare_laws : of_sums;
     }
 
     /// Add the rotations of the cells to the sums of their nodes, twelve numbers a node of
@@ -330,6 +339,18 @@ namespace Exemplar
 
   template <Element element>
   LawKernels rare_law_kernels_avx512(ElementConstant<element>);
+
+  template <Element element>
+  LawKernels sum_kernels_scalar(ElementConstant<element>);
+
+  template <Element element>
+  LawKernels sum_kernels_baseline(ElementConstant<element>);
+
+  template <Element element>
+  LawKernels sum_kernels_avx2(ElementConstant<element>);
+
+  template <Element element>
+  LawKernels sum_kernels_avx512(ElementConstant<element>);
 
   /// The kernels of an element for the best instruction set that this CPU has.
   const CellKernels &

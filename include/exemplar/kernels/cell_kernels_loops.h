@@ -29,15 +29,19 @@ namespace Exemplar::Loops
              add_patch_tangent<Laws, Number, n_nodes>,     coupling<Laws, Number, n_nodes> };
   }
 
-  /// All loops, with those for rare laws.
+  /// All loops, with those for rare laws and for sums of laws.
   template <typename Number, Element element>
   CellKernels
-  make_kernels(const ElementConstant<element> of, const char *name, const LawKernels &of_rare_laws)
+  make_kernels(const ElementConstant<element> of,
+               const char                    *name,
+               const LawKernels              &of_rare_laws,
+               const LawKernels              &of_sums)
   {
     constexpr int n_nodes = nodes_per_cell(element);
     return { name,
              make_law_kernels<UsualLaws, Number>(of),
              of_rare_laws,
+             of_sums,
              add_rotations<Number, n_nodes>,
              closest_rotations<Number>,
              patch_gradients<Number, n_nodes>,

@@ -3,6 +3,7 @@
 #define exemplar_cell_model_h
 
 #include <exemplar/kernels/corotational_cell.h>
+#include <exemplar/kernels/fibrous_plastic_cell.h>
 #include <exemplar/kernels/grain_cell.h>
 #include <exemplar/kernels/green_cell.h>
 #include <exemplar/kernels/linear_cell.h>
@@ -30,7 +31,8 @@ namespace Exemplar
     fibrous,
     anisotropic,
     plastic,
-    neo_hookean
+    neo_hookean,
+    fibrous_plastic
   };
 
   template <typename Number>
@@ -41,7 +43,8 @@ namespace Exemplar
                               FibrousCell<Number>,
                               AnisotropicCell<Number>,
                               PlasticCell<Number>,
-                              NeoHookeanCell<Number>>;
+                              NeoHookeanCell<Number>,
+                              FibrousPlasticCell<Number>>;
 
   /// Stands for a law in calls of templates; without data.
   template <typename Cell>
@@ -60,11 +63,13 @@ namespace Exemplar
 
   // Each group has loops of its own, see cell_kernels_loops.h.
 
-  inline constexpr CellLaw first_rare_law = CellLaw::fibrous;
+  inline constexpr CellLaw first_rare_law = CellLaw::fibrous, first_sum = CellLaw::fibrous_plastic;
 
   using UsualLaws = LawRange<0, static_cast<std::size_t>(first_rare_law)>;
   using RareLaws
-      = LawRange<static_cast<std::size_t>(first_rare_law), std::tuple_size_v<CellLaws<double>>>;
+      = LawRange<static_cast<std::size_t>(first_rare_law), static_cast<std::size_t>(first_sum)>;
+  using SumsOfLaws
+      = LawRange<static_cast<std::size_t>(first_sum), std::tuple_size_v<CellLaws<double>>>;
 
   /// Call `function` with the CellModel of a law, which is one of these.
   template <typename Number, std::size_t i, std::size_t end, typename Function>

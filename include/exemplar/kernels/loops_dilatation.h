@@ -22,6 +22,32 @@ namespace Exemplar::Loops
     return thin.supplement();
   }
 
+  template <typename Number>
+  inline void
+  store_volume(const CellTask          &task,
+               const LaneGroup<Number> &group,
+               const Matrix3<Number>   &strain,
+               const Matrix3<Number>   &F)
+  {
+    const VolumeArrays &to = task.dilatation.volume;
+    if (to.changes == nullptr)
+      return;
+    store(task.cells, group, volume_change(strain), to.changes);
+    const Matrix3<Number> cof = cofactors(F);
+    for (int k = 0; k < 9; ++k)
+      store(task.cells, group, cof[k / 3][k % 3], to.cofactors, 9, k);
+  }
+
+  /// Let the pressure of its patch act in a cell that has one along cof F.
+  template <typename Cell, typename Number>
+  [[gnu::always_inline]] inline void
+  add_volume_pressure(const CellTask &task, const LaneGroup<Number> &group, Cell &cell)
+  {
+    if constexpr (Cell::traits.knows_volume)
+      if (task.dilatation.volume.pressures != nullptr)
+        cell.add_volume_pressure(load(task.dilatation.volume.pressures, group, 1, 0));
+  }
+
   template <typename Cell, typename Number>
   [[gnu::always_inline]] inline void
   store_dilatation(const CellTask          &task,
@@ -32,7 +58,9 @@ namespace Exemplar::Loops
     Number       of_strain = trace(strain);
     const Number square    = contract(F, F);
     store(task.cells, group, square, task.dilatation.squares);
-    if constexpr (Cell::traits.has_stretch_guard)
+    if constexpr (Cell::traits.knows_volume)
+      store_volume(task, group, strain, F);
+    if constexpr (Cell::traits.has_guard_of_patches())
     {
       if (any(square > Number(min_stretched_square)))
         task.dilatation.flags[group.batch] |= long_cells;
@@ -109,7 +137,7 @@ namespace Exemplar::Loops
         [&](auto model)
         {
           using Cell = typename decltype(model)::type;
-          if constexpr (Cell::traits.has_stretch_guard)
+          if constexpr (Cell::traits.has_guard_of_patches())
             for_each_group_of_law<Number>(
                 task.cells, begin, end,
                 [&](const LaneGroup<Number> &group)

@@ -187,7 +187,7 @@ namespace Exemplar::Loops
   inline void
   add_patch_stress(const CellTask &task, const LaneGroup<Number> &group, double *nodal_sums)
   {
-    if constexpr (Cell::traits.has_stretch_guard)
+    if constexpr (Cell::traits.has_guard_of_patches())
       if (is_special(task.dilatation, group))
         add_stress_of_special<Cell, n_nodes>(task, group, nodal_sums);
   }
@@ -216,7 +216,8 @@ namespace Exemplar::Loops
     const Number density = cell.elastic_density();
     const Number elastic = tet.volume * density;
     Number       scale   = cell.elastic_scale();
-    sums.min_det         = select(det >= sums.min_det, sums.min_det, det);
+    add_volume_pressure(task, group, cell);
+    sums.min_det = select(det >= sums.min_det, sums.min_det, det);
     sums.inverted.add(group, is_real & (det <= Number(0.)));
     sums.elastic += elastic;
     if constexpr (Cell::traits.n_history > 0)
@@ -242,7 +243,7 @@ namespace Exemplar::Loops
       // what a law remembers costs energy that is no longer elastic, and acts like a target
       if constexpr (Cell::traits.n_history > 0)
       {
-        sums.energy += tet.volume * cell.energy(Matrix3<Number>{});
+        sums.energy += tet.volume * cell.energy();
         sums.guarded.add(group, is_real & cell.is_guarded());
       }
       else

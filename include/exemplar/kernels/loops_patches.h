@@ -144,7 +144,7 @@ namespace Exemplar::Loops
         [&](auto model)
         {
           using Cell = typename decltype(model)::type;
-          if constexpr (Cell::traits.has_stretch_guard)
+          if constexpr (Cell::traits.has_guard_of_patches())
             for_each_group_of_law<Number>(
                 task.cells, begin, end,
                 [&](const LaneGroup<Number> &group)

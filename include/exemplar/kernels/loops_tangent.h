@@ -29,6 +29,7 @@ namespace Exemplar::Loops
     if constexpr (Cell::traits.trace_gradient_is_R)
       if (task.dilatation.pressures != nullptr)
         cell.add_pressure(load(task.dilatation.pressures, group, 1, 0));
+    add_volume_pressure(task, group, cell);
     if constexpr (!Cell::traits.convex_is_rotated)
       if (tangent.convex)
         cell.make_convex();

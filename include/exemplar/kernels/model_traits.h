@@ -59,7 +59,7 @@ namespace Exemplar
     bool turns_freely;
 
     /// Numbers that it remembers at each point from step to step; 0 at the beginning. Such a law has
-    /// the members remember(), new_history() and inelastic_density() as well, see make_cell(),
+    /// the members remember(), new_history(), inelastic_density() and energy() as well, see make_cell(),
     /// advance_history() and evaluate() of the loops.
     std::size_t n_history = 0;
 
@@ -70,6 +70,17 @@ namespace Exemplar
 
     /// And which the energy that has been spent on what stays [J/m^3].
     std::size_t dissipated = not_remembered;
+
+    /// It has an energy of J = det F beside that of the strain. Then the volume part of that energy may be
+    /// one of the mean of J, Eq. (37), in patches. Such a law has the member add_volume_pressure().
+    bool knows_volume = false;
+
+    /// Whether patches have its part of Eq. (26): what is stretched far of the trace of the strain.
+    constexpr bool
+    has_guard_of_patches() const
+    {
+      return has_stretch_guard || knows_volume;
+    }
 
     /// Whether it is a value of Model/Strain.
     constexpr bool

@@ -14,7 +14,8 @@
 //   psi_b = mu_S/2 (I_C - 3) + lambda_S/2 (J - alpha)^2 - mu_S/2 log(I_C + 1) + const,
 //
 // mu_S = 4/3 mu, lambda_S = lambda + 5/6 mu, alpha = 1 + mu / lambda_S, so that psi_b is 1/2 e:C:e near the
-// rest pose. The convex tangent is that of CorotationalCell. No deal.II header here: see matrix3.h.
+// rest pose. The convex tangent is that of CorotationalCell. In patches, Eq. (37), cells have the same psi_b of
+// lambda = 0 and a pressure along cof F. No deal.II header here: see matrix3.h.
 
 namespace Exemplar
 {
@@ -30,6 +31,15 @@ namespace Exemplar
     return Lanes<Number>::load(lane);
   }
 
+  /// J - 1 for the strain e = S - I, without loss of digits near 0.
+  template <typename Number>
+  Number
+  volume_change(const Matrix3<Number> &e)
+  {
+    const Number tr = trace(e);
+    return tr + Number(0.5) * (tr * tr - contract(e, e)) + determinant(e);
+  }
+
   /// psi_b and its derivatives in the frame of the rotation, where F is S.
   template <typename Number>
   class NeoHookean
@@ -42,6 +52,13 @@ namespace Exemplar
           cof(cofactors(S)), square(contract(e, e)), tr(trace(e)), det(determinant(e)),
           i(Number(2.) * tr + square), j(tr + Number(0.5) * (tr * tr - square) + det)
     {
+    }
+
+    /// p cof F joins P, but no energy the density() [Pa].
+    void
+    add_pressure(const Number &p)
+    {
+      pressure += p;
     }
 
     /// psi_b, 0 at rest: in terms of e, as the sum as written above would lose its digits there [Pa].
@@ -88,13 +105,14 @@ namespace Exemplar
     Number
     of_cof() const
     {
-      return lambda_S * j - mu;
+      return lambda_S * j - mu + pressure;
     }
 
     Number          mu, lambda_S;
     Matrix3<Number> S, cof;
     Number          square, tr, det; ///< of e
     Number          i, j;            ///< I_C - 3, J - 1
+    Number          pressure = Number(0.);
   };
 
   /// A deformed cell; see CorotationalCell, of which it has all that depends on the weights.
@@ -111,8 +129,12 @@ namespace Exemplar
                                             /* has_stretch_guard */ false,
                                             /* exact_is_rotated */ false,
                                             /* convex_is_rotated */ true,
-                                            /* trace_gradient_is_R */ false,
-                                            /* turns_freely */ true };
+                                            /* trace_gradient_is_R */ true,
+                                            /* turns_freely */ true,
+                                            /* n_history */ 0,
+                                            ModelTraits::not_remembered,
+                                            ModelTraits::not_remembered,
+                                            /* knows_volume */ true };
 
     NeoHookeanCell(const CellMaterial<Number> &material,
                    const Matrix3<Number>      &rotation,
@@ -122,6 +144,26 @@ namespace Exemplar
           body(material, this->stretch_factor(), this->strain()),
           attractor(attractor_of(Number(examples.importance)))
     {
+    }
+
+    /// What the mean of J of its patch adds to the stress psi_b makes, Eq. (37): p cof F [Pa].
+    void
+    add_volume_pressure(const Number &p)
+    {
+      body.add_pressure(p);
+    }
+
+    /// That of the mean of the strain acts in the examples' part.
+    void
+    add_pressure(const Number &p)
+    {
+      attractor.add_pressure(p);
+    }
+
+    Matrix3<Number>
+    turn(const Matrix3<Number> &M) const
+    {
+      return attractor.turn(M);
     }
 
     /// psi_b [Pa].

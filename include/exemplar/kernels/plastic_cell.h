@@ -57,12 +57,16 @@ namespace Exemplar
     void
     remember(const Load &load, const double step_size)
     {
+      const Matrix3<Number> d = driving(this->strain());
+      const Number          a = load(n_of_strain);
+      is_elastic = !any((abs(a) > Number(0.)) | PlasticFlow<Number>::begins(constants, d));
+      if (is_elastic)
+        return;
       const Number          xx = load(0), yy = load(1), yz = load(2), xz = load(3), xy = load(4);
       const Matrix3<Number> p = { { { xx, xy, xz }, { xy, yy, yz }, { xz, yz, -(xx + yy) } } };
-      hardening_before        = hardening(p, load(n_of_strain));
+      hardening_before        = hardening(p, a);
       work_before             = load(n_of_strain + 1);
-      flow.begin(constants, driving(this->strain()), p, load(n_of_strain), step_size);
-      is_elastic = !any(contract(flow.strain(), flow.strain()) > Number(0.));
+      flow.begin(constants, d, p, a, step_size);
     }
 
     Number
@@ -100,6 +104,8 @@ namespace Exemplar
     Number
     inelastic_density() const
     {
+      if (is_elastic)
+        return Number(0.);
       return of_body
              * (hardening(flow.strain(), flow.accumulated()) + flow.dissipation_potential());
     }
@@ -128,12 +134,19 @@ namespace Exemplar
     energy(const Matrix3<Number> &D) const
     {
       if (is_elastic)
-        return Corotational::energy(D) + inelastic_density();
+        return Corotational::energy(D);
       const Matrix3<Number> &p   = flow.strain();
       const Matrix3<Number>  T_p = stress(constants, p);
       return Corotational::energy(with_plastic(D)) - of_body * contract(D, T_p)
              + Number(0.5) * of_body * (Number(1.) - of_body) * contract(p, T_p)
              + inelastic_density();
+    }
+
+    /// The same for no target.
+    Number
+    energy() const
+    {
+      return is_elastic ? Corotational::elastic_density() : energy(Matrix3<Number>{});
     }
 
     Matrix3<Number>
@@ -175,6 +188,14 @@ namespace Exemplar
     example_response(const Matrix3<Number> &E) const
     {
       return is_convex ? stress(this->own_material(), E) : Corotational::example_response(E);
+    }
+
+  protected:
+    /// Whether make_convex() was called.
+    bool
+    has_convex_tangent() const
+    {
+      return is_convex;
     }
 
   private:
@@ -228,7 +249,7 @@ namespace Exemplar
     Constants           constants;               ///< without damping
     Number              of_body;                 ///< 1 - eta
     Number              moved      = Number(1.); ///< 1 + s with damping
-    bool                is_elastic = true;       ///< there is no plastic strain, as in most cells
+    bool                is_elastic = true;       ///< nothing has flown, as in most cells
     bool                is_convex  = false;
     PlasticFlow<Number> flow;
     Number              hardening_before = Number(0.), work_before = Number(0.);

@@ -26,7 +26,7 @@ namespace Exemplar
       { { "Yield stress",
           "sigma_y [Pa], in tension: cells in which the stress of von Mises reaches it keep a part "
           "of their "
-          "strain. 0: they never do.",
+          "strain. 0: they never do. Fibres do not yield, and see the whole strain.",
           0. },
         { "Kinematic hardening",
           "H_k [Pa]: with the plastic strain the stress around which a cell yields moves; in "
@@ -73,6 +73,15 @@ namespace Exemplar
                 const double                    step_size)
     {
       begin(constants, d, p_n, a_n, step_size);
+    }
+
+    /// Whether d lets something flow where nothing has flown before, for each lane.
+    static auto
+    begins(const PlasticConstants<Number> &constants, const Matrix3<Number> &d)
+    {
+      const Number two_mu = Number(2.) * constants.mu,
+                   yield  = Number(root) * constants.yield_stress;
+      return two_mu * two_mu * contract(d, d) > yield * yield;
     }
 
     /// As the constructor, where nothing has flown.

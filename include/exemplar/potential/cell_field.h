@@ -36,6 +36,24 @@ namespace Exemplar
     memory_consumption() const;
   };
 
+  /// What loops and terms tell each other of J, in batches; see VolumeArrays. Empty unless a term asks
+  /// for it.
+  struct VolumeField
+  {
+    dealii::AlignedVector<double> changes, cofactors, pressures;
+
+    /// From now on loops fill it.
+    void
+    resize(unsigned int n_points);
+
+    VolumeArrays
+    arrays();
+
+    /// In bytes.
+    std::size_t
+    memory_consumption() const;
+  };
+
   /// What loops over the cells and terms tell each other of the dilatation, in batches; see
   /// DilatationArrays. Empty unless a term asks for it.
   struct DilatationField
@@ -43,6 +61,7 @@ namespace Exemplar
     dealii::AlignedVector<double> traces, squares, pressures, scales;
     std::vector<unsigned char>    flags; ///< CellFlags of each batch
     StretchField                  stretch;
+    VolumeField                   volume;
 
     /// From now on loops fill it.
     void
@@ -137,6 +156,13 @@ namespace Exemplar
     pressure(const unsigned int point) const
     {
       return dilatation.pressures.empty() ? 0. : dilatation.pressures[point];
+    }
+
+    /// The same along cof F [Pa].
+    double
+    volume_pressure(const unsigned int point) const
+    {
+      return dilatation.volume.pressures.empty() ? 0. : dilatation.volume.pressures[point];
     }
 
     /// Node a at a point in the order of the loops.

@@ -6,6 +6,7 @@
 #include <exemplar/body/patches.h>
 #include <exemplar/potential/patch_guard.h>
 #include <exemplar/potential/patch_scatter.h>
+#include <exemplar/potential/patch_volumes.h>
 #include <exemplar/potential/potential_term.h>
 
 #include <optional>
@@ -29,7 +30,8 @@ namespace Exemplar
   /// The volume part of Psi by patches, Eq. (25): sum lambda_p/2 V_p (theta_p - eta
   /// theta_p(E(w)))^2 with the mean theta_p of tr(e) over a patch, and its guard. The points' own energy is then
   /// that of a material without lambda, and the patch adds to their stress the pressure lambda_p
-  /// (theta_p - eta theta_p(E(w))) I.
+  /// (theta_p - eta theta_p(E(w))) I. A neo-Hookean background has its share in the mean of J, see PatchVolumes,
+  /// and theta_p^2 the factor eta alone, Eq. (37).
   class PatchDilatation : public PotentialTerm
   {
   public:
@@ -104,7 +106,7 @@ namespace Exemplar
                  const Vector    &displacement,
                  ElasticSums     &sums) override;
 
-    /// lambda_p theta_p^2 / 2 and what the guard adds.
+    /// lambda_p theta_p^2 / 2, or that of J_p - 1, and what the guard adds.
     void
     add_densities(std::vector<double> &of_points) const override;
 
@@ -147,6 +149,31 @@ namespace Exemplar
     bool
     is_special(unsigned int point) const;
 
+    /// Of theta_p^2 in the energy: 1, or eta beside a background that knows J.
+    double
+    share() const
+    {
+      return volumes ? examples.constants().importance : 1.;
+    }
+
+    /// Whether theta_p acts at all beside J_p.
+    bool
+    has_traces() const
+    {
+      return share() > 0. || cells->get_damping().factor() > 0.;
+    }
+
+    /// What the tangent has by J_p.
+    PatchProducts
+    find_products_of_volumes(const Tangent kind) const
+    {
+      return volumes->find_products(1. - share(), kind, *cells, *scatter);
+    }
+
+    /// What the energies have by J_p, and less by theta_p.
+    void
+    add_energies_of_volumes(ElasticSums &sums) const;
+
     /// lambda_p V_p (1 + s), the factor of b b^T in A.
     double
     tangent_factor(unsigned int patch, Tangent kind) const;
@@ -162,7 +189,8 @@ namespace Exemplar
     const FreeDofs             *free_dofs = nullptr; ///< since attach()
     std::optional<PatchScatter> scatter;             ///< since attach()
     PatchGuard                  guard;
-    std::vector<double>         means; ///< theta_p
+    std::optional<PatchVolumes> volumes; ///< of a law that knows J, since attach()
+    std::vector<double>         means;   ///< theta_p
     PatchDamping                damping;
   };
 } // namespace Exemplar

@@ -31,12 +31,13 @@ namespace Exemplar
                const ExamplePoses &examples);
 
     /// Anew for these positions, and theta_p and m_p of the patches, from the dilatations of the
-    /// cells, whose stretch field is written.
+    /// cells, whose stretch field is written, for this share of the elasticity.
     void
     find(CellField                 &cells,
          const Vector              &positions,
          const std::vector<double> &means,
-         const std::vector<double> &mean_squares);
+         const std::vector<double> &mean_squares,
+         double                     share);
 
     /// Whether it adds to the energy of some patch.
     bool
@@ -67,10 +68,11 @@ namespace Exemplar
                   PatchProducts      &products) const;
 
   private:
-    /// theta_p, beta of a patch with its derivatives by m_p, and sum V W [J].
+    /// Its lambda_p [Pa], theta_p, beta of a patch with its derivatives by m_p, and sum V W [J].
     struct Stretched
     {
       unsigned int patch;
+      double       lambda;
       double       mean;
       double       beta, first, second;
       double       sum = 0.;
@@ -81,7 +83,7 @@ namespace Exemplar
 
     /// The cells' part of the stretch field.
     void
-    tell_cells(DilatationField &dilatation) const;
+    tell_cells(DilatationField &dilatation, double share) const;
 
     /// sum V W, of the energies G.
     void

@@ -49,6 +49,10 @@ namespace Exemplar
     void
     find_gradients(CellField &cells, PatchVectors &b) const;
 
+    /// The same by other matrices than rotations, nine numbers a point in batches.
+    void
+    find_gradients(CellField &cells, double *matrices, PatchVectors &b) const;
+
     /// Of all patches together.
     std::size_t
     n_nodes() const

@@ -73,6 +73,8 @@ namespace Exemplar
     std::vector<Case>
     dynamic_cases();
     std::vector<Case>
+    balance_cases();
+    std::vector<Case>
     example_cases();
 
     /// Of several processes alone.

@@ -48,6 +48,9 @@ namespace Exemplar
       throw UserError("Examples/Importance: it is " + shortest_text(importance)
                       + ", but must be above 0 and at most 1.");
     parameters.examples.importance = importance;
+    if (body.material.has_examples())
+      body.material = body.material.with_examples(parameters.examples.elasticity(), importance);
+    body.follow_material();
     examples.poses.set_parameters(importance, body.cell_material, body.patches);
     follow_parameters();
   }
@@ -133,7 +136,8 @@ namespace Exemplar
   void
   Problem::follow_parameters()
   {
-    examples.weights.set_parameters(parameters.examples, unit_energy(body.fe_space, body.material));
+    examples.weights.set_parameters(parameters.examples,
+                                    unit_energy_of_examples(body.fe_space, body.material));
     potential.follow_parameters();
     solver->forget(); // its factors are of other values
     start(state);

@@ -116,8 +116,20 @@ namespace Exemplar
                                   : TimeAxis::of_increments(parameters.time);
   }
 
+  namespace
+  {
+    Material
+    make_material(const ExampleParameters &examples, Material of_body)
+    {
+      if (!examples.in_use() || !examples.elasticity().is_own())
+        return of_body;
+      return of_body.with_examples(examples.elasticity(), examples.importance);
+    }
+  } // namespace
+
   Body::Body(const SceneParameters &parameters, BodyInputs &inputs)
-      : mesh(std::move(inputs.mesh)), material(std::move(inputs.fields.material)),
+      : mesh(std::move(inputs.mesh)),
+        material(make_material(parameters.examples, std::move(inputs.fields.material))),
         fe_space(mesh, parameters.model.element),
         patches(inputs.fields.patches, fe_space, material),
         cell_material(patches.rest_of(material)), made(inputs.undivided.made),
@@ -254,7 +266,8 @@ namespace Exemplar
               body.patches,
               inputs.fields.poses,
               inputs.fields.shares),
-        weights(parameters.examples, poses, unit_energy(body.fe_space, body.material), axis)
+        weights(
+            parameters.examples, poses, unit_energy_of_examples(body.fe_space, body.material), axis)
   {
   }
 
@@ -279,9 +292,11 @@ namespace Exemplar
     std::vector<CellLaw> of_cells(body.fe_space.n_cells(), law);
     for (unsigned int cell = 0; cell < of_cells.size(); ++cell)
       if (body.material.own_number("Yield stress", cell) > 0.)
-        of_cells[cell] = CellLaw::plastic;
+        of_cells[cell] = body.material.own_number("Fibre stiffness", cell) > 0.
+                             ? CellLaw::fibrous_plastic
+                             : CellLaw::plastic;
     LawsOfCells laws(std::move(of_cells));
-    for (const CellLaw other : { law, CellLaw::plastic })
+    for (const CellLaw other : { law, CellLaw::plastic, CellLaw::fibrous_plastic })
     {
       const auto &here = laws.present();
       if (body.exchange().any(std::count(here.begin(), here.end(), other) > 0))

@@ -50,6 +50,27 @@ namespace Exemplar
       return {};
     }
 
+    // Of the stable neo-Hookean energy, Eq. (34), the rest pose is the lowest state from here on.
+    constexpr double least_neo_hookean_ratio = -0.88;
+
+    Warning
+    review_background(const Problem &problem)
+    {
+      const MaterialParameters &material = problem.parameters.material;
+      double                    minimum  = material.everywhere.poissons_ratio;
+      for (const auto &[id, constants] : material.regions)
+        minimum = std::min(minimum, constants.poissons_ratio);
+      for (const auto &[name, constants] : material.named_regions)
+        minimum = std::min(minimum, constants.poissons_ratio);
+      if (!problem.parameters.model.is_neo_hookean() || minimum >= least_neo_hookean_ratio)
+        return {};
+      return "With a Poisson's ratio of " + shortest_text(minimum)
+             + " a neo-Hookean cell of half its size and turned inside out has less energy than at "
+               "rest, so that cells may stay like that. Take "
+             + shortest_text(least_neo_hookean_ratio)
+             + " at least, or Model/Background = corotational.";
+    }
+
     Warning
     review_mass_damping(const Problem &problem)
     {
@@ -158,10 +179,10 @@ namespace Exemplar
   std::vector<std::string>
   scene_warnings(const Problem &problem)
   {
-    std::vector<Warning> found
-        = { review_poissons_ratio(problem), review_mass_damping(problem),
-            review_tolerance(problem),      review_prescribed_weights(problem),
-            review_lone_example(problem),   review_box(problem.parameters.mesh) };
+    std::vector<Warning> found = { review_poissons_ratio(problem),     review_background(problem),
+                                   review_mass_damping(problem),       review_tolerance(problem),
+                                   review_prescribed_weights(problem), review_lone_example(problem),
+                                   review_box(problem.parameters.mesh) };
     for (const HandleParameters &handle : problem.parameters.handles)
       found.push_back(review_components(handle));
     std::vector<std::string> warnings;

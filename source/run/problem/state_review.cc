@@ -242,9 +242,10 @@ namespace Exemplar
          { describe_stretched(problem), describe_turned(problem), describe_miss(problem) })
       if (warning)
         all.push_back(*warning);
-    // strains of 1e-4 are no accident, unless cells remember them
+    // strains of 1e-4 are no accident, unless cells or weights remember them
     const double energy    = problem.evaluation.elastic.energy;
-    const bool   remembers = problem.potential.get_cells().get_field().get_batches().remembers();
+    const bool   remembers = problem.potential.get_cells().get_field().get_batches().remembers()
+                           || problem.potential.dissipates();
     if (!remembers && is_unloaded(problem)
         && energy > 1e-8 * unit_energy(problem.body.fe_space, problem.body.material))
       all.push_back(

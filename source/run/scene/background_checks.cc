@@ -33,6 +33,11 @@ namespace Exemplar
                       + " with examples needs Examples/Energy = blended, in which the body has an "
                         "energy of its own beside the wish to be like the examples. Set that"
                       + or_corotational);
+    if (examples.in_use() && examples.elasticity().is_own())
+      throw UserError(key
+                      + " is for examples with the elasticity of the material. Remove "
+                        "Examples/Example modulus and Example Poisson ratio"
+                      + or_corotational);
     if (examples.in_use() && material.importance_varies())
       throw UserError(key
                       + " is for bodies in which examples are equally important everywhere. Set "

@@ -47,6 +47,7 @@ namespace Exemplar
           "set Scene = static." },
         { !has_examples && scene.examples.importance > 0.,
           { "Examples/Importance", "Examples/Weights", "Examples/Energy",
+            "Examples/Example modulus", "Examples/Example Poisson ratio",
             "Material/Importance factor", "Material/Importance map" },
           "without examples. Give Examples/Poses or Examples/Pose functions, or remove it." },
         { !is_dynamic,

@@ -22,14 +22,14 @@ namespace Exemplar
     }
 
     void
-    check_grain(const ElasticConstants &constants, const std::string &section)
+    check_orthotropy(const ElasticConstants &constants, const std::string &section)
     {
-      if (constants.has_grain() && constants.own.at("Yield stress") > 0.)
+      if (!constants.orthotropy.empty() && constants.own.at("Yield stress") > 0.)
         throw UserError(
             section
-            + "/Yield stress is for materials without fibres and orthotropy, as the plastic strain "
-              "is "
-              "that of an isotropic material. Give the two to different regions, or set "
+            + "/Yield stress is for materials without orthotropy, as what yields is isotropic; "
+              "fibres may go through it (Fibre stiffness). Give the two to different regions, or "
+              "set "
             + section + "/Yield stress = 0.");
     }
   } // namespace
@@ -45,7 +45,7 @@ namespace Exemplar
           key
           + " is for static and dynamic scenes: in an interpolation nothing pulls at the "
             "body. Set it to 0, or choose another Scene.");
-    material.for_each_section(check_grain);
+    material.for_each_section(check_orthotropy);
     if (model.law() != CellLaw::corotational && !material.law_of_grain())
       throw UserError(
           key
@@ -58,6 +58,12 @@ namespace Exemplar
           + " with examples needs Examples/Energy = blended, in which the body has an energy of "
             "its own beside the wish to be like the examples, so that yielding does not depend "
             "on Examples/Importance. Set Examples/Energy = blended, or "
+          + key + " = 0.");
+    if (examples.in_use() && examples.elasticity().is_own())
+      throw UserError(
+          key
+          + " is for examples with the elasticity of the material. Remove Examples/Example "
+            "modulus and Example Poisson ratio, or set "
           + key + " = 0.");
     if (examples.in_use() && material.importance_varies())
       throw UserError(

@@ -23,7 +23,7 @@ namespace Exemplar::Testing
     double                     remembered   = 0.;  ///< scale of what laws remember
 
     /// Number k of the constants of a law. A general C is I and a little of everything, so that it is
-    /// positive definite.
+    /// positive definite; fibres come last, with their direction.
     template <typename Constants>
     double
     number_of(const std::size_t k)
@@ -34,7 +34,12 @@ namespace Exemplar::Testing
         for (const std::size_t diagonal : { 3, 9, 14, 18, 21, 23 })
           if (k == diagonal)
             return 1.5;
-      return Constants::is_isotropic ? own_constant : own_constant * std::cos(0.3 * k);
+      if constexpr (std::is_same_v<Constants, Anisotropic<double>>)
+        return own_constant * std::cos(0.3 * k);
+      const double fibres[] = { 1.7, 0.48, 0.6, -0.64 };
+      return Constants::is_isotropic || k + 4 < Constants::n_numbers
+                 ? own_constant
+                 : fibres[k + 4 - Constants::n_numbers];
     }
 
     template <typename Cell>
@@ -311,10 +316,12 @@ namespace Exemplar::Testing
       EXPECT_LT(least_exact, -0.1); // else it proves nothing
     }
 
-    TEST(Plastic, ConvexTangentIsNeverNegativeTogetherWithTheWeightsAndSofterWhereItFlows)
+    template <typename Plastic>
+    void
+    expect_convex_where_it_flows()
     {
       // the quadratic of (dF, dw): dF:convex(dF) - 2 eta dF:C:E dw + eta E:C:E dw^2
-      using Plastic = PlasticCell<double>;
+      const auto   C = Plastic::Constants::from_numbers(number_of<typename Plastic::Constants>);
       std::mt19937 generator(12);
       const double eta      = examples.importance;
       double       softened = 0.;
@@ -327,9 +334,9 @@ namespace Exemplar::Testing
           const Matrix3<double> M       = random_matrix(generator);
           const Matrix3<double> E       = symmetric_part(random_matrix(generator));
           const double          convex  = contract(M, cell.response(M));
-          const double          elastic = contract(M, stress(material, symmetric_part(M)));
+          const double          elastic = contract(M, stress(C, symmetric_part(M)));
           EXPECT_GE(convex - 2. * eta * contract(M, cell.example_response(E))
-                        + eta * contract(E, stress(material, E)),
+                        + eta * contract(E, stress(C, E)),
                     -1e-12)
               << name;
           EXPECT_LE(convex, elastic + 1e-12) << name;
@@ -338,6 +345,12 @@ namespace Exemplar::Testing
           softened = std::max(softened, (elastic - convex) / elastic);
         }
       EXPECT_GT(softened, 0.1); // else it proves nothing
+    }
+
+    TEST(Plastic, ConvexTangentIsNeverNegativeTogetherWithTheWeightsAndSofterWhereItFlows)
+    {
+      expect_convex_where_it_flows<PlasticCell<double>>();
+      expect_convex_where_it_flows<FibrousPlasticCell<double>>();
     }
 
     TEST(Green, EnergyOfUniformScaleAndOfRotation)
@@ -379,6 +392,39 @@ namespace Exemplar::Testing
       expect_no_torque<Corotational>();
       expect_no_torque<FibrousCell<double>>();
       expect_no_torque<AnisotropicCell<double>>();
+      for (const double scale : { 0., 0.05 })
+      {
+        remembered = scale;
+        expect_no_torque<FibrousPlasticCell<double>>();
+      }
+      remembered = 0.;
+    }
+
+    // Fibres see all of the strain, whatever of it the body between them keeps.
+    TEST(FibrousPlastic, IsASumOfACellThatYieldsAndOfFibres)
+    {
+      const FibrousPlasticConstants<double> constants
+          = { { { 1.3, 0.7 }, 0.1, 0.2, 0.3, 0., 0.9 }, 2., { { 0.6, 0.8, 0. } } };
+      const Matrix3<double> F = { { { 1.4, 0.2, 0. }, { 0., 0.9, 0.1 }, { 0., 0., 0.9 } } };
+      const Matrix3<double> R = closest_rotation(F), D = targets()[1];
+
+      FibrousPlasticCell<double> both(constants, R, F, examples);
+      PlasticCell<double>        plastic(constants, R, F, examples);
+      FibrousCell<double>        fibres({ 0., 0., constants.alpha, constants.a }, R, F, examples);
+      for (PlasticCell<double> *const cell :
+           { static_cast<PlasticCell<double> *>(&both), &plastic })
+        cell->remember([](const std::size_t k) { return 0.02 * k; }, 1.);
+      for (std::size_t k = 0; k < PlasticCell<double>::traits.n_history; ++k)
+        EXPECT_EQ(both.new_history(k), plastic.new_history(k));
+      EXPECT_GT(plastic.new_history(PlasticCell<double>::traits.plastic_strain), 0.2);
+      both.set_target(D);
+      plastic.set_target(D);
+      fibres.set_target(D);
+      EXPECT_LT(max_difference(both.force(), combine(1., plastic.force(), 1., fibres.force())),
+                1e-14);
+      EXPECT_GT(norm(fibres.force()), 0.1);
+      const double stretch = dot(constants.a, combine(1., both.strain(), -1., D) * constants.a);
+      EXPECT_NEAR(both.energy(D) - plastic.energy(D), stretch * stretch, 1e-14);
     }
 
     // Without examples, too: the fibres' stress and S have other axes.
@@ -459,6 +505,9 @@ namespace Exemplar::Testing
       {
         expect_continuity_where_the_rotation_is_ambiguous<FibrousCell<double>>(D);
         expect_continuity_where_the_rotation_is_ambiguous<AnisotropicCell<double>>(D);
+        remembered = 0.05;
+        expect_continuity_where_the_rotation_is_ambiguous<FibrousPlasticCell<double>>(D);
+        remembered = 0.;
       }
     }
   } // namespace

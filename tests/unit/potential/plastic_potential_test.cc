@@ -18,20 +18,22 @@ namespace Exemplar::Testing
     constexpr double step_size = 0.05;
 
     std::string
-    yielding_bar(const std::string &model)
+    yielding_bar(const std::string &model, const std::string &fibres)
     {
       return "set Scene = dynamic\n" + bar + drag + examples(two_poses + "set Energy = blended\n")
              + "subsection Model\n" + model
              + "end\nsubsection Time\n set Step = 0.05\n set Stiffness damping = 0.1\nend\n"
                "subsection Material\n set Young's modulus = 1\n set Yield stress = 0.02\n"
                "set Kinematic hardening = 0.1\n set Isotropic hardening = 0.05\n"
-               "set Flow viscosity = 0.001\nend\n";
+               "set Flow viscosity = 0.001\n"
+             + fibres + "end\n";
     }
 
     /// A step of such a body that has made some before, at other positions than its end.
     struct Step
     {
-      explicit Step(const std::string &model) : scene(yielding_bar(model)), p(scene.problem)
+      Step(const std::string &model, const std::string &fibres)
+          : scene(yielding_bar(model, fibres)), p(scene.problem)
       {
         for (int step = 0; step < 3; ++step)
           EXPECT_TRUE(is_success(p.advance().status));
@@ -62,9 +64,9 @@ namespace Exemplar::Testing
     };
 
     void
-    expect_derivatives(const std::string &model)
+    expect_derivatives(const std::string &model, const std::string &fibres = "")
     {
-      Step                step(model);
+      Step                step(model, fibres);
       const auto         &free_dofs = step.p.potential.get_free_dofs();
       const auto         &free      = free_dofs.list();
       const double        h         = 1e-5;
@@ -105,6 +107,15 @@ namespace Exemplar::Testing
       expect_derivatives("set Dilatation = cells\n");
       expect_derivatives("set Dilatation = patches\n");
       expect_derivatives("set Element = P2\n");
+    }
+
+    TEST(PlasticPotential, ItsDerivativesKnowFibresInWhatYields)
+    {
+      const std::string fibres
+          = "set Fibre stiffness = 3\n set Fibre direction = 1; 0.3*x; 0.5-z\n";
+      expect_derivatives("set Dilatation = cells\n", fibres);
+      expect_derivatives("set Dilatation = patches\n", fibres);
+      expect_derivatives("set Element = P2\n", fibres);
     }
   } // namespace
 } // namespace Exemplar::Testing

@@ -192,8 +192,10 @@ namespace Exemplar::Testing
       for (const std::string method : { "newton", "quasi newton" })
         for (const std::string dilatation : { "cells", "patches" })
         {
-          const std::vector<std::string> keys
+          std::vector<std::string> keys
               = { "Solver/Method=" + method, "Model/Dilatation=" + dilatation };
+          if (dilatation == "patches")
+            keys.insert(keys.end(), { "Examples/Energy=blended", "Examples/Example modulus=2e5" });
           Scene changed(changeable_bar(soft, "0.8", "-1", "0"), keys),
               other(changeable_bar(stiff, "0.4", "-9", "0.01"), keys);
           advance(changed.problem, 3);

@@ -43,7 +43,7 @@ namespace Exemplar
     follow_material();
 
     const Mesh    mesh;
-    Material      material;
+    Material      material; ///< of examples with an elasticity of their own the sum with it
     const FESpace fe_space;
     Patches       patches;       ///< of one mean dilatation each; none: cells know their own
     Material      cell_material; ///< of the cells' own energy

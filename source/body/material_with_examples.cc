@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/body/material.h>
+
+// Examples with an elasticity of their own. The energy density of the body and of its examples,
+//
+//   (1 - eta)/2 e:C:e + eta/2 (e - E):C_e:(e - E) = 1/2 (e - D):C':(e - D) + 1/2 D:C_y:D,
+//   C' = (1 - eta) C + eta C_e,  D = C'^-1:eta C_e:E,  C_y = (1 - eta)/eta C':C_e^-1:C,   Eq. (38)
+//
+// is that of a body of C' whose examples have the strains D, but for a form of the weights alone.
+
+namespace Exemplar
+{
+  Orthotropy
+  Material::elasticity_of_examples(const Constants &body) const
+  {
+    const auto &[lambda, mu] = body.elasticity;
+    const double E           = of_examples.youngs_modulus.value_or(body.youngs_modulus);
+    const double nu          = of_examples.poissons_ratio.value_or(lambda / (2. * (lambda + mu)));
+    return Orthotropy({ E * nu / ((1. + nu) * (1. - 2. * nu)), E / (2. * (1. + nu)) }, 0.);
+  }
+
+  Material
+  Material::with_examples(const ExampleElasticity &own, const double importance) const
+  {
+    Material result         = *this;
+    result.of_examples      = own;
+    result.importance_there = importance;
+    if (!has_examples())
+      result.of_body = constants;
+    const char *const alpha = Fibrous<double>::own_constants[0].name;
+    for (std::size_t i = 0; i < result.constants.size(); ++i)
+    {
+      const Constants &body     = result.of_body[i];
+      Constants       &values   = result.constants[i];
+      const double     eta      = importance * body.importance;
+      const double     fibres   = body.own->at(alpha);
+      const Orthotropy examples = result.elasticity_of_examples(body);
+      const auto       wish     = examples.isotropic_part();
+      values.grain              = body.grain.sum(1. - eta, eta, examples);
+      if (fibres > 0.)
+      {
+        OwnConstants changed = *body.own;
+        changed[alpha]       = (1. - eta) * fibres;
+        values.own           = std::make_shared<const OwnConstants>(std::move(changed));
+      }
+      if (body.is_orthotropic)
+        values.elasticity = values.grain.isotropic_part();
+      else
+        values.elasticity = { (1. - eta) * body.elasticity.lambda + eta * wish.lambda,
+                              (1. - eta) * body.elasticity.mu + eta * wish.mu };
+      values.lambda_of_patches = body.is_orthotropic || fibres > 0.
+                                     ? values.grain.lambda_of_patches()
+                                     : values.elasticity.lambda;
+    }
+    result.find_stiffnesses();
+    return result;
+  }
+
+  Material::Parts
+  Material::parts(const unsigned int cell) const
+  {
+    const Constants &body = of_body[constants_of_cell[cell]];
+    return { body.grain, elasticity_of_examples(body), importance_there * body.importance,
+             axes.empty() ? GrainAxes() : axes[cell] };
+  }
+
+  Matrix3<double>
+  Material::drawn_strain(const unsigned int cell, const Matrix3<double> &E) const
+  {
+    const auto [body, examples, eta, axes_of_cell] = parts(cell);
+    return body.sum(1. - eta, eta, examples)
+        .strain(axes_of_cell, combine(eta, examples.stress(axes_of_cell, E), 0., E));
+  }
+
+  Matrix3<double>
+  Material::excess_stress(const unsigned int cell, const Matrix3<double> &D) const
+  {
+    const auto [body, examples, eta, axes_of_cell] = parts(cell);
+    if (!(eta > 0.))
+      return {};
+    const Matrix3<double> E = examples.strain(axes_of_cell, body.stress(axes_of_cell, D));
+    const Matrix3<double> T = body.sum(1. - eta, eta, examples).stress(axes_of_cell, E);
+    return combine((1. - eta) / eta, T, 0., T);
+  }
+
+  double
+  Material::excess_of_patches(const unsigned int cell) const
+  {
+    const Constants &body = of_body[constants_of_cell[cell]];
+    if (body.is_orthotropic || body.grain.norm_of_grain() > 0.)
+      return 0.;
+    // an isotropic tensor makes lambda of a stretch, across it
+    Matrix3<double> stretch{};
+    stretch[0][0] = 1.;
+    return excess_stress(cell, stretch)[1][1];
+  }
+} // namespace Exemplar

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The loops over cells of laws that are sums of others for CPUs with AVX512.
+#include <exemplar/kernels/cell_kernels_loops.h>
+
+#include <xsimd/xsimd.hpp>
+
+namespace Exemplar
+{
+  template <>
+  LawKernels
+  sum_kernels_avx512(const ElementConstant<Element::P1> element)
+  {
+    return Loops::make_law_kernels<SumsOfLaws, xsimd::batch<double, xsimd::avx512dq>>(element);
+  }
+
+  template <>
+  LawKernels
+  sum_kernels_avx512(const ElementConstant<Element::P2> element)
+  {
+    return Loops::make_law_kernels<SumsOfLaws, xsimd::batch<double, xsimd::avx512dq>>(element);
+  }
+} // namespace Exemplar

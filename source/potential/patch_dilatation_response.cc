@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/potential/patch_dilatation.h>
+#include <exemplar/potential/stretch_stiffness.h>
+
+// What displacements of held degrees of freedom change by the tangent of patches.
+
+namespace Exemplar
+{
+  void
+  PatchDilatation::add_response(const TermPoint &at,
+                                const Tangent    kind,
+                                const Vector    &displacement,
+                                ElasticSums     &sums)
+  {
+    const PatchProducts products = find_products(at.positions, kind);
+    for (unsigned int patch = 0; patch < patches.size(); ++patch)
+      if (scatter->is_beside_held(patch))
+      {
+        add_response_of(patch, products, displacement, sums);
+        add_response_of_points(patch, kind, at, displacement, sums);
+      }
+    if (!volumes)
+      return;
+    const PatchProducts of_volumes = find_products_of_volumes(kind);
+    for (unsigned int patch = 0; patch < patches.size(); ++patch)
+      if (scatter->is_beside_held(patch))
+        scatter->add(patch,
+                     of_volumes.factors[patch]
+                         * scatter->product(patch, of_volumes.vectors, displacement),
+                     of_volumes.vectors, sums->gradient);
+  }
+
+  void
+  PatchDilatation::add_response_of(const unsigned int   patch,
+                                   const PatchProducts &products,
+                                   const Vector        &displacement,
+                                   ElasticSums         &sums) const
+  {
+    const double change = scatter->product(patch, products.vectors, displacement);
+    scatter->add(patch, products.factors[patch] * change, products.vectors, sums->gradient);
+    for (unsigned int weight = 0; weight < sums->weight_gradient.size(); ++weight)
+      sums->weight_gradient[weight]
+          -= patches.stiffness(patch) * change * examples.patch_dilatation(patch, weight);
+    if (products.squares.empty())
+      return;
+    const double of_square = scatter->product(patch, products.squares, displacement);
+    const double of_sum    = scatter->product(patch, products.sums, displacement);
+    const double a = products.of_squares[patch], b = products.of_products[patch];
+    scatter->add(patch, a * of_square + b * of_sum, products.squares, sums->gradient);
+    scatter->add(patch, b * of_square, products.sums, sums->gradient);
+  }
+
+  void
+  PatchDilatation::add_response_of_points(const unsigned int patch,
+                                          const Tangent      kind,
+                                          const TermPoint   &at,
+                                          const Vector      &displacement,
+                                          ElasticSums       &sums) const
+  {
+    std::vector<double> forces;
+    for (const unsigned int point : patches.points(patch))
+    {
+      if (!is_special(point))
+        continue;
+      const Matrix3<double> F = fe_space.deformation_gradient(point, at.positions);
+      const Matrix3<double> R = cells->rotation(point);
+      const Matrix3<double> M
+          = transpose_times(R, fe_space.deformation_gradient(point, displacement));
+      Matrix3<double> dP = patch_cell(*cells, point, F)
+                               .response(M, cells->pressure(point), kind == Tangent::convex);
+      if (kind == Tangent::convex && traits_of(cells->get_batches().law(point)).has_stretch_guard
+          && is_strongly_stretched(*cells, point, F))
+      {
+        const StretchModes modes = stretch_modes(*cells, point, R, F);
+        for (std::size_t m = 0; m < modes.stiffness.size(); ++m)
+          dP = combine(1., dP, modes.stiffness[m] * contract(modes.direction[m], M),
+                       modes.direction[m]);
+      }
+      fe_space.nodal_forces(point, R * dP, forces);
+      const auto nodes = fe_space.nodes(fe_space.cell_of(point));
+      for (std::size_t i = 0; i < forces.size(); ++i)
+        sums->gradient[3 * nodes[i / 3] + i % 3] += forces[i];
+    }
+  }
+} // namespace Exemplar
