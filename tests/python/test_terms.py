@@ -95,18 +95,18 @@ class Terms(unittest.TestCase):
             np.testing.assert_allclose(problem.positions - x0, np.tile([0, 0, z], (len(x0), 1)), atol=1e-9)
 
     def test_soft_obstacle(self):
-        for of in BAR, {**BAR, "Model": {"Element": "P2"}}, {**BAR, "Solver": {"Tolerance": 1e-10, "Method": "quasi newton"}}:
+        for of in BAR, {**BAR, "Model": {"Element": "P2"}}:
             with self.subTest(str(of)[-60:]):
                 free, problem = exemplar.Problem(of), exemplar.Problem(of)
-                problem.add_term(floor(-0.01, 1e6))
+                problem.add_term(floor(-0.51, 1e6))
                 free.run()
                 problem.run()
-                self.assertLess(free.positions[:, 2].min(), -0.03)
-                self.assertGreater(problem.positions[:, 2].min(), -0.02)
-                self.assertLess(problem.positions[:, 2].min(), -0.01)
+                self.assertLess(free.positions[:, 2].min(), -0.53)
+                self.assertGreater(problem.positions[:, 2].min(), -0.52)
+                self.assertLess(problem.positions[:, 2].min(), -0.51)
                 force = problem.gradient()
-                held = np.isin(np.arange(len(force)), np.flatnonzero(problem.rest_positions[:, 0] > 0))
-                self.assertLess(np.abs(force[held]).max(), 1e-6 * np.abs(force).max())
+                free_nodes = problem.state.positions[:, 0] > 1e-6
+                self.assertLess(np.abs(force[free_nodes]).max(), 1e-6 * np.abs(force).max())
 
     def test_derivatives_include_the_term(self):
         problem = exemplar.Problem(DYNAMIC)
@@ -130,10 +130,10 @@ class Terms(unittest.TestCase):
             force[tip, 2] = -100 * t
             return (force * x).sum(), force, None
         problem.add_term(lift)
-        problem.add_term(floor(-0.02, 1e5))
+        problem.add_term(floor(-0.52, 1e5))
         problem.run()
         other = exemplar.Problem(BAR)
-        other.add_term(floor(-0.02, 1e5))
+        other.add_term(floor(-0.52, 1e5))
         forces = np.zeros((n, 3))
         forces[tip, 2] = 100
         other.nodal_forces = forces
@@ -143,7 +143,7 @@ class Terms(unittest.TestCase):
 
     def test_state_and_reset(self):
         problem = exemplar.Problem(DYNAMIC)
-        problem.add_term(floor(-0.001, 1e6))
+        problem.add_term(floor(-0.501, 1e6))
         problem.step()
         before = problem.state
         problem.step()
@@ -155,9 +155,9 @@ class Terms(unittest.TestCase):
 
 class Failures(unittest.TestCase):
     def test_exception_leaves_the_problem_as_it_was(self):
-        for of in BAR, DYNAMIC:
+        for of in BAR, {**DYNAMIC, "Solver": {"Method": "newton", "Tolerance": 1e-11}}:
             problem, same = exemplar.Problem(of), exemplar.Problem(of)
-            term = floor(-0.001, 1e5)
+            term = floor(-0.501, 1e5)
             breaks = []
 
             def function(x, t):
@@ -197,9 +197,10 @@ class Failures(unittest.TestCase):
         problem.run()
 
     def test_new_couplings_within_a_step(self):
-        problem = exemplar.Problem(BAR)
+        problem = exemplar.Problem({**BAR, "Model": {"Dilatation": "cells"}})  # patches couple more nodes
         n = len(problem.rest_positions)
-        whole = springs(np.array([[0, n - 1], [9, n - 2]]), 1.0, n)
+        ends = np.flatnonzero(problem.rest_positions[:, 0] == 2)[[0, -1]]  # of a diagonal
+        whole = springs(ends[None], 1.0, n)
         start = problem.positions.tobytes()
 
         def function(x, t):
