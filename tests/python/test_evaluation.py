@@ -40,6 +40,10 @@ SCENES = {
     "dynamic quadratic": scene(DYNAMIC, Model={"Element": "P2"}),
     "of two steps": scene(DYNAMIC, Time={"Scheme": "bdf2"}),
     "that creeps": scene(DYNAMIC, Examples={"Creep viscosity": 500}),
+    "of Green's strain": scene(Model={"Strain": "green"}),
+    "neo-Hookean": scene(DYNAMIC, Model={"Background": "neo-hookean"}, Examples={"Energy": "blended"}),
+    "with fibres": scene(Material={"Fibre stiffness": 1e6, "Fibre direction": "1; 1; 0"}),
+    "that yields": scene(DYNAMIC, Material={"Yield stress": 2e4, "Kinematic hardening": 1e5}, Examples={"Energy": "blended"}),
     "by kept factors": scene(DYNAMIC, Solver={"Method": "quasi newton", "Tolerance": 1e-8}),
     "without examples": {name: section for name, section in DYNAMIC.items() if name != "Examples"},
 }

@@ -70,7 +70,7 @@ namespace Exemplar
     void
     renew_pattern();
 
-    /// One more term, which couples no nodes and is none of Psi.
+    /// One more term, which is none of Psi; one that couples nodes needs renew_pattern().
     void
     add_term(std::unique_ptr<PotentialTerm> term);
 
