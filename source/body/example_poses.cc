@@ -203,8 +203,24 @@ namespace Exemplar
   }
 
   void
+  ExamplePoses::set_material(const Material &cell_material, const Patches &patches)
+  {
+    if (acts_on != ActsOn::all || cell_material.has_examples()) // their strains depend on it
+      set_parameters(example_constants.importance, cell_material, patches);
+    else if (!poses.empty())
+      compute_gram_matrix(cell_material, patches);
+  }
+
+  void
+  ExamplePoses::set_pose(const unsigned int i, const std::vector<dealii::Point<3>> &places)
+  {
+    poses[i] = make_pose(poses[i].name, places, fe_space);
+  }
+
+  void
   ExamplePoses::compute_strains(const Material &material)
   {
+    example_constants.guard_bound = ExampleConstants().guard_bound;
     strains.clear();
     strains.resize(batched_size(fe_space.n_points(), 6 * n_strained()), 0.);
     strain_norms.assign(n_weights(), 0.);

@@ -180,22 +180,27 @@ namespace Exemplar
         + (names.empty() ? "Add it to Handles/Names." : "Handles/Names has: " + names + "."));
   }
 
-  std::vector<bool>
+  std::vector<Handles::Holding>
   Handles::holding() const
   {
-    std::vector<bool> all;
+    std::vector<Holding> all;
     for (const Handle &handle : handles)
-      all.push_back(handle.holds);
+      all.push_back({ handle.holds, handle.nodes, handle.components, handle.function });
     return all;
   }
 
   void
-  Handles::restore(const std::vector<bool> &holding)
+  Handles::restore(const std::vector<Holding> &holding)
   {
     while (handles.size() > holding.size())
       handles.pop_back();
     for (std::size_t h = 0; h < handles.size(); ++h)
-      handles[h].holds = holding[h];
+    {
+      handles[h].holds      = holding[h].holds;
+      handles[h].nodes      = holding[h].nodes;
+      handles[h].components = holding[h].components;
+      handles[h].function   = holding[h].function;
+    }
   }
 
   void
@@ -207,20 +212,32 @@ namespace Exemplar
   void
   Handles::grab(const std::string &name, const std::vector<unsigned int> &nodes, Motion motion)
   {
-    for (const Handle &handle : handles)
-      if (handle.name == name)
-        throw UserError("There is a handle '" + name + "' already. Give another name.");
+    const auto named = std::find_if(handles.begin(), handles.end(),
+                                    [&](const Handle &handle) { return handle.name == name; });
+    if (named != handles.end() && named->holds)
+      throw UserError("There is a handle '" + name
+                      + "' already. Give another name, or let that one go first.");
     if (!motion)
       throw UserError("Handle '" + name + "' has no motion. Give a function of place and time.");
-    const std::string               key = "Handles/" + name;
-    const std::vector<unsigned int> all = fe_space.numbering().with_middles(nodes);
+    const std::string               key    = "Handles/" + name;
+    const std::vector<unsigned int> all    = fe_space.numbering().with_middles(nodes);
+    const std::vector<unsigned int> xyz    = { 0, 1, 2 };
+    Motion                          moving = at_middles_too(motion, all, fe_space);
+    if (named != handles.end())
+    {
+      named->nodes      = all;
+      named->components = xyz;
+      named->function   = std::move(moving);
+      named->holds      = true;
+      return;
+    }
     handles.push_back({ name,
                         all,
-                        { 0, 1, 2 },
+                        xyz,
                         Expression(key + "/Motion", "0; 0; 0", "xyzt", 3),
                         Expression(key + "/Progress", "t", "t", 1),
                         {},
-                        at_middles_too(motion, all, fe_space) });
+                        std::move(moving) });
   }
 
   std::set<unsigned int>

@@ -189,5 +189,7 @@ namespace Exemplar
         for (unsigned int c = 0; c < 3; ++c)
           force[3 * load.nodes[i] + c] += load.shares[i] * total[c];
     }
+    if (nodal_force.size() > 0)
+      force.add(factor, nodal_force);
   }
 } // namespace Exemplar

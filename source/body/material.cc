@@ -101,6 +101,15 @@ namespace Exemplar
     return regions;
   }
 
+  namespace
+  {
+    std::shared_ptr<const OwnConstants>
+    shared_own(const ElasticConstants &values)
+    {
+      return std::make_shared<const OwnConstants>(values.own);
+    }
+  } // namespace
+
   Material::Material(const MaterialParameters        &parameters,
                      const std::vector<unsigned int> &material_ids,
                      const MshFile                   &names,
@@ -109,7 +118,7 @@ namespace Exemplar
       : constants_of_cell(material_ids.size(), 0), axes(std::move(axes_of_cells))
   {
     std::vector<ElasticConstants> bases{ parameters.everywhere };
-    add(parameters.everywhere);
+    add(parameters.everywhere, shared_own(parameters.everywhere));
     const std::set<unsigned int> ids(material_ids.begin(), material_ids.end());
     for (const auto &[id, region] : regions_by_id(parameters, names))
     {
@@ -126,7 +135,7 @@ namespace Exemplar
                         "Physical Volume that tag, or rename the subsection.",
                         MaterialParameters::region_name(id), id, present));
       }
-      add(region);
+      add(region, shared_own(region));
       bases.push_back(region);
     }
     if (!painted.youngs_modulus.values.empty() || !painted.poissons_ratio.values.empty()
@@ -136,7 +145,7 @@ namespace Exemplar
   }
 
   void
-  Material::add(const ElasticConstants &values)
+  Material::add(const ElasticConstants &values, std::shared_ptr<const OwnConstants> own)
   {
     CellMaterial<double> elasticity     = elasticity_of(values);
     double               youngs_modulus = values.youngs_modulus;
@@ -150,8 +159,8 @@ namespace Exemplar
     }
     const double lambda_of_patches
         = values.has_grain() ? grain.lambda_of_patches() : elasticity.lambda;
-    constants.push_back({ elasticity, values.density, youngs_modulus, values.importance, values.own,
-                          lambda_of_patches, grain, 0., is_orthotropic });
+    constants.push_back({ elasticity, values.density, youngs_modulus, values.importance,
+                          std::move(own), lambda_of_patches, grain, 0., is_orthotropic });
   }
 
   void
@@ -217,6 +226,9 @@ namespace Exemplar
   void
   Material::paint(const PaintedMaterial &painted, const std::vector<ElasticConstants> &bases)
   {
+    std::vector<std::shared_ptr<const OwnConstants>> own;
+    for (const ElasticConstants &base : bases)
+      own.push_back(shared_own(base));
     constants.clear();
     for (unsigned int cell = 0; cell < constants_of_cell.size(); ++cell)
     {
@@ -226,7 +238,7 @@ namespace Exemplar
       apply(painted.density, cell, values.density);
       apply(painted.importance, cell, values.importance);
       check_constants(values, cell, " map");
-      add(values);
+      add(values, own[constants_of_cell[cell]]);
       constants_of_cell[cell] = cell;
     }
   }
@@ -242,7 +254,7 @@ namespace Exemplar
       return (stiffnesses.empty() ? stiffness(cell) : stiffnesses[cell])[k - n];
     const std::vector<LawConstant> own = own_constants(law);
     if (k < n + own.size())
-      return of_cell.own.at(own[k - n].name);
+      return of_cell.own->at(own[k - n].name);
     return axes.empty() ? 0. : axes[cell].along[k - n - own.size()];
   }
 
@@ -280,25 +292,26 @@ namespace Exemplar
     check_number(changed.youngs_modulus, constants_of_cell.size(), "Material/Young's modulus");
     check_number(changed.poissons_ratio, constants_of_cell.size(), "Material/Poisson's ratio");
     check_number(changed.density, constants_of_cell.size(), "Material/Density");
-    Material result;
+    Material         result;
+    ElasticConstants values;
     result.axes = axes;
+    result.constants.reserve(constants_of_cell.size());
+    result.constants_of_cell.reserve(constants_of_cell.size());
+    const OwnConstants *own = nullptr; // that `values` has
     for (unsigned int cell = 0; cell < constants_of_cell.size(); ++cell)
     {
-      const Constants       &before = constants[constants_of_cell[cell]];
-      const double           lambda = before.elasticity.lambda, mu = before.elasticity.mu;
-      const double           nu = lambda / (2. * (lambda + mu));
-      const ElasticConstants values
-          = { changed_to(changed.youngs_modulus, cell, before.youngs_modulus),
-              changed_to(changed.poissons_ratio, cell, nu),
-              changed_to(changed.density, cell, before.density),
-              before.own,
-              before.importance,
-              "",
-              "",
-              "" };
+      const Constants &before = constants[constants_of_cell[cell]];
+      const double     lambda = before.elasticity.lambda, mu = before.elasticity.mu;
+      const double     nu = lambda / (2. * (lambda + mu));
+      if (own != before.own.get())
+        values.own = *(own = before.own.get());
+      values.youngs_modulus = changed_to(changed.youngs_modulus, cell, before.youngs_modulus);
+      values.poissons_ratio = changed_to(changed.poissons_ratio, cell, nu);
+      values.density        = changed_to(changed.density, cell, before.density);
+      values.importance     = before.importance;
       check_constants(values, cell, "");
       result.constants_of_cell.push_back(cell);
-      result.add(values);
+      result.add(values, before.own);
       if (changed.youngs_modulus.empty() && changed.poissons_ratio.empty())
       {
         result.constants.back()         = before; // to the last digit

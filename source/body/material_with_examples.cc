@@ -33,11 +33,16 @@ namespace Exemplar
       const Constants &body     = result.of_body[i];
       Constants       &values   = result.constants[i];
       const double     eta      = importance * body.importance;
-      const double     fibres   = body.own.at(alpha);
+      const double     fibres   = body.own->at(alpha);
       const Orthotropy examples = result.elasticity_of_examples(body);
       const auto       wish     = examples.isotropic_part();
       values.grain              = body.grain.sum(1. - eta, eta, examples);
-      values.own[alpha]         = (1. - eta) * fibres;
+      if (fibres > 0.)
+      {
+        OwnConstants changed = *body.own;
+        changed[alpha]       = (1. - eta) * fibres;
+        values.own           = std::make_shared<const OwnConstants>(std::move(changed));
+      }
       if (body.is_orthotropic)
         values.elasticity = values.grain.isotropic_part();
       else

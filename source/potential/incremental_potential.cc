@@ -121,6 +121,14 @@ namespace Exemplar
   }
 
   void
+  IncrementalPotential::add_term(std::unique_ptr<PotentialTerm> term)
+  {
+    term->attach(pattern, free_dofs, cells.get_field());
+    all_terms.push_back(term.get());
+    terms.push_back(std::move(term));
+  }
+
+  void
   IncrementalPotential::assemble_in_parts(const bool in_parts)
   {
     if (pattern.products_are_apart == in_parts)

@@ -193,6 +193,53 @@ namespace Exemplar::Python
     return points;
   }
 
+  std::vector<double>
+  numbers_of(const py::handle &object, const std::string &what, const py::ssize_t n)
+  {
+    const auto any  = py::array::ensure(object);
+    const char kind = any ? any.dtype().kind() : 'O';
+    if (!any || (kind != 'f' && kind != 'i' && kind != 'u')
+        || (any.ndim() != 0 && (any.ndim() != 1 || any.shape(0) != n)))
+    {
+      PyErr_Clear();
+      throw UserError(fmt::format("{} must be a number or an array of shape ({},), but is {}.",
+                                  what, n, description(object)));
+    }
+    const auto values = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(any);
+    for (py::ssize_t i = 0; i < values.size(); ++i)
+      if (!std::isfinite(values.data()[i]))
+        throw UserError(fmt::format("{} must be finite, but number {}, counted from 0, is {}.",
+                                    what, i, short_text(values.data()[i])));
+    return { values.data(), values.data() + values.size() };
+  }
+
+  std::vector<unsigned int>
+  nodes_of(const py::handle &object, const std::string &what, const std::size_t n)
+  {
+    const auto any = py::array::ensure(object);
+    if (any && any.dtype().kind() == 'b')
+      throw UserError(what + " is a mask. Take the indices: numpy.flatnonzero(mask).");
+    if (!any || any.ndim() != 1 || any.shape(0) == 0
+        || (any.dtype().kind() != 'i' && any.dtype().kind() != 'u'))
+    {
+      PyErr_Clear();
+      throw UserError(
+          fmt::format("{} must be an array of at least one index of a node, from 0, but "
+                      "is {}{}.",
+                      what, description(object),
+                      any && any.ndim() == 1 && any.shape(0) > 0 ? " of no integers" : ""));
+    }
+    std::vector<unsigned int> nodes;
+    for (const py::handle index : any)
+      nodes.push_back(index_of(index.cast<long long>(), what));
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    if (nodes.back() >= n)
+      throw UserError(
+          fmt::format("{} has {}, but there are {} nodes, counted from 0.", what, nodes.back(), n));
+    return nodes;
+  }
+
   MshFile
   mesh_of(const py::object &mesh)
   {

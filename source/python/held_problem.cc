@@ -83,7 +83,7 @@ namespace Exemplar::Python
 
   HeldProblem::HeldProblem(const py::object &scene, const py::object &mesh, const py::object &poses)
       : callback(py::none()), problem(make_problem(scene, mesh, poses)), diagnostics(*problem),
-        review(*problem)
+        initial(save_state(*problem, {})), review(*problem)
   {
     problem->solver->observe = [this](const SolveReport &iteration) { return observe(iteration); };
     warn(problem->warnings());
@@ -129,12 +129,12 @@ namespace Exemplar::Python
   }
 
   SolveReport
-  HeldProblem::advance()
+  HeldProblem::advance(const StepInterval &interval)
   {
     try
     {
       warn_of_motions();
-      SolveReport result = problem->advance();
+      SolveReport result = problem->advance(interval);
       if (!is_success(result.status))
         throw SolverFailure(problem->failure_message(result));
       return result;
@@ -176,13 +176,11 @@ namespace Exemplar::Python
   }
 
   SolveReport
-  HeldProblem::step()
+  HeldProblem::step(const std::optional<StepInterval> &other)
   {
     require_no_step("step()");
-    if (problem->state.step >= problem->time_axis.n_steps())
-      throw UserError(fmt::format(
-          "All {} steps of the scene are made. Change Time/End or Time/Increments for more.",
-          problem->time_axis.n_steps()));
+    const StepInterval interval = other.value_or(next_step(*problem));
+    const bool         is_extra = has_reached(*problem, end_of_scene(*problem));
     UnlockedWork::check();
     let_go(problem->state.positions, shown_positions);
     let_go(problem->state.velocities, shown_velocities);
@@ -193,10 +191,10 @@ namespace Exemplar::Python
     try
     {
       const UnlockedWork unlocked;
-      report = advance();
+      report = advance(interval);
       diagnostics.add_step();
       review.add_step(report);
-      if (problem->state.step == problem->time_axis.n_steps())
+      if (!is_extra && has_reached(*problem, end_of_scene(*problem)))
         at_end = review.warnings();
     }
     catch (...)
@@ -214,13 +212,56 @@ namespace Exemplar::Python
   SolveReport
   HeldProblem::run()
   {
-    if (problem->state.step >= problem->time_axis.n_steps())
+    const double end = end_of_scene(*problem);
+    if (has_reached(*problem, end))
       warn({ fmt::format(
-          "run() does nothing: all {} steps of the scene are made. A new Problem begins anew.",
+          "run() does nothing: all {} steps of the scene are made. step() makes more, "
+          "and reset() begins anew.",
           problem->time_axis.n_steps()) });
-    while (problem->state.step < problem->time_axis.n_steps())
-      step();
+    while (!has_reached(*problem, end))
+      step(step_towards(*problem, end));
     return report;
+  }
+
+  void
+  HeldProblem::change(const std::string &what, const std::function<void(Problem &)> &function)
+  {
+    require_no_step(what);
+    UnlockedWork::check();
+    const auto keep_alive = shared_from_this(); // other threads may drop it meanwhile
+    stepping              = std::this_thread::get_id();
+    try
+    {
+      const UnlockedWork unlocked;
+      function(*problem);
+    }
+    catch (...)
+    {
+      stepping = std::thread::id();
+      throw;
+    }
+    stepping = std::thread::id();
+  }
+
+  SavedState
+  HeldProblem::save() const
+  {
+    require_no_step("state");
+    return save_state(*problem, diagnostics.get_work());
+  }
+
+  void
+  HeldProblem::restore(const SavedState *saved)
+  {
+    const SavedState &target = saved == nullptr ? initial : *saved;
+    require_no_step(saved == nullptr ? "reset()" : "state");
+    check_fits(target, *problem);
+    let_go(problem->state.positions, shown_positions);
+    let_go(problem->state.velocities, shown_velocities);
+    change("state", [&target](Problem &changed) { restore_state(target, changed); });
+    diagnostics.resume(target.work);
+    report               = {};
+    is_warned_of_motions = false;
   }
 
   void

@@ -4,7 +4,8 @@
 #include <exemplar/base/nearest_word.h>
 #include <exemplar/base/version.h>
 #include <exemplar/python/from_python.h>
-#include <exemplar/python/problem_type.h>
+#include <exemplar/python/problem_changes.h>
+#include <exemplar/python/problem_state.h>
 #include <exemplar/python/unlocked_work.h>
 
 #include <deal.II/base/exceptions.h>
@@ -86,15 +87,7 @@ namespace Exemplar::Python
                });
     }
 
-    using Class = py::class_<HeldProblem, std::shared_ptr<HeldProblem>>;
-
-    /// For calls that fit nothing else; pybind11 would print all that it was given, arrays too.
-    void
-    refuse_other_arguments(Class &problem, const char *name, const std::string &usage)
-    {
-      problem.def(name, [usage](const HeldProblem &, const py::args &, const py::kwargs &)
-                  { throw py::type_error(usage); });
-    }
+    using Class = ProblemClass;
 
     /// What is wrong with the arguments of exemplar.Problem, by their names and number.
     std::string
@@ -140,16 +133,10 @@ namespace Exemplar::Python
     void
     add_actions(Class &problem)
     {
-      problem.def(
-          "step", &HeldProblem::step,
-          "step() -> exemplar.Report\n\n"
-          "Make the next step and return its Report. Raises SolverFailure if it cannot be\n"
-          "solved, Interrupted if a callback stopped it, KeyboardInterrupt, and whatever a\n"
-          "callback raises; the problem is then as it was before, unless step_number says\n"
-          "that the step was made. Other Python threads run meanwhile.");
       problem.def("run", &HeldProblem::run,
                   "run() -> exemplar.Report\n\n"
-                  "Make all steps that are left; return the last Report. Warns if none is left.");
+                  "Make steps to the scene's end, Time/End or t = 1, the last one shorter if it\n"
+                  "must be; return the last Report. Warns if the end is reached.");
       problem.def(
           "set_motion", &HeldProblem::set_motion, py::arg("name"), py::arg("function"),
           "set_motion(name, function)\n\n"
@@ -164,9 +151,6 @@ namespace Exemplar::Python
           "Call function(report) after each iteration of a step; None: call nothing.\n\n"
           "If it returns False, the step is left and Interrupted raised; methods that cannot\n"
           "stop within a step finish it before.");
-      refuse_other_arguments(problem, "step",
-                             "step() takes no argument. How long a step is, the scene says: "
-                             "Time/Step, or in a static scene Time/Increments.");
       refuse_other_arguments(problem, "run",
                              "run() takes no argument: it makes all steps that are left. Some of "
                              "them: for _ in range(5): problem.step().");
@@ -184,8 +168,8 @@ namespace Exemplar::Python
           "positions", &HeldProblem::positions,
           [](HeldProblem &, const py::object &)
           {
-            throw py::attribute_error("positions cannot be set: a problem starts where the scene's "
-                                      "section Initial says, and its steps go on from there.");
+            throw py::attribute_error("positions cannot be set alone. Set the whole state: "
+                                      "problem.state = problem.state.replace(positions=...).");
           },
           "Positions (n, 3) [m] of the nodes, read only, in the mesh's order. No copy is made. "
           "The\n"
@@ -218,7 +202,7 @@ namespace Exemplar::Python
           "How many steps are made.");
       problem.def_property_readonly(
           "n_steps", [](const HeldProblem &held) { return held.get().time_axis.n_steps(); },
-          "How many steps the scene has.");
+          "How many steps the scene has; step() makes more.");
     }
 
     /// A type of dictionaries that say what they hold where a name is not among it.
@@ -298,6 +282,8 @@ namespace Exemplar::Python
           { throw py::type_error(describe_arguments(given, named)); }));
       add_actions(problem);
       add_state(problem);
+      add_saved_states(module, problem);
+      add_changes(problem);
       const py::object measures = make_measures_type();
       module.attr("Measures")   = measures; // where pickle looks for it
       add_measures(problem, measures);

@@ -46,6 +46,13 @@ namespace Exemplar::Python
   }
 
   void
+  refuse_other_arguments(ProblemClass &problem, const char *name, const std::string &usage)
+  {
+    problem.def(name, [usage](const HeldProblem &, const py::args &, const py::kwargs &)
+                { throw py::type_error(usage); });
+  }
+
+  void
   support_garbage_collection(PyHeapTypeObject *type)
   {
     type->ht_type.tp_flags |= Py_TPFLAGS_HAVE_GC;

@@ -78,6 +78,15 @@ namespace Exemplar
     void
     set_parameters(double importance, const Material &cell_material, const Patches &patches);
 
+    /// From now on in a body of this material.
+    void
+    set_material(const Material &cell_material, const Patches &patches);
+
+    /// From now on example i is at these places of the nodes [m], of the vertices alone or of all. What
+    /// depends on it is made anew by set_parameters(). Throws UserError for curved edges.
+    void
+    set_pose(unsigned int i, const std::vector<dealii::Point<3>> &places);
+
     /// Volume of each region over that of the body, with shares counted; they sum to one.
     std::vector<double>
     volume_fractions() const;
@@ -233,19 +242,19 @@ namespace Exemplar
     void
     compute_patch_dilatations(const Patches &patches);
 
-    const FESpace                 &fe_space;
-    const LawsOfCells              laws;
-    ExampleConstants               example_constants;
-    const RegionShares             regions;
-    const std::vector<ExamplePose> poses;
-    const unsigned int             first_strained;
-    dealii::AlignedVector<double>  strains; ///< eta E_i, as ExampleArrays has them
-    const ActsOn                   acts_on;
-    const bool                     is_single; ///< round them to single precision
-    dealii::AlignedVector<float>   in_single; ///< then, once more
-    std::vector<double>            strain_norms;
-    dealii::FullMatrix<double>     patch_dilatations; ///< patch, weight; empty without patches
-    dealii::FullMatrix<double>     gram;
+    const FESpace                &fe_space;
+    const LawsOfCells             laws;
+    ExampleConstants              example_constants;
+    const RegionShares            regions;
+    std::vector<ExamplePose>      poses;
+    const unsigned int            first_strained;
+    dealii::AlignedVector<double> strains; ///< eta E_i, as ExampleArrays has them
+    const ActsOn                  acts_on;
+    const bool                    is_single; ///< round them to single precision
+    dealii::AlignedVector<float>  in_single; ///< then, once more
+    std::vector<double>           strain_norms;
+    dealii::FullMatrix<double>    patch_dilatations; ///< patch, weight; empty without patches
+    dealii::FullMatrix<double>    gram;
     dealii::FullMatrix<double>
         blended; ///< see add_blended(), where the importance varies or examples have C_e; else empty
     const std::vector<std::string> warnings;

@@ -56,8 +56,8 @@ namespace Exemplar
             const NamedMotions                  &motions = {});
 
     /// A further handle, of all components of some nodes of this process, ascending, that `motion`
-    /// moves. Throws UserError if there is a handle of that name. All processes must call this and the two
-    /// functions below.
+    /// moves; one of that name that was let go becomes this one. Throws UserError if a handle of that name
+    /// holds nodes. All processes must call this and the two functions below.
     void
     grab(const std::string &name, const std::vector<unsigned int> &nodes, Motion motion);
 
@@ -75,13 +75,21 @@ namespace Exemplar
       find(name).holds = true;
     }
 
-    /// Of each handle whether it holds its nodes.
-    std::vector<bool>
+    /// What may change of a handle.
+    struct Holding
+    {
+      bool                      holds;
+      std::vector<unsigned int> nodes, components;
+      Motion                    function;
+    };
+
+    /// Of each handle.
+    std::vector<Holding>
     holding() const;
 
     /// As when holding() was this: handles that came later are gone.
     void
-    restore(const std::vector<bool> &holding);
+    restore(const std::vector<Holding> &holding);
 
     /// Degrees of freedom 3 i + c that are held, ascending, each once.
     std::vector<unsigned int>

@@ -10,6 +10,7 @@
 #include <deal.II/lac/vector.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace Exemplar
@@ -34,16 +35,31 @@ namespace Exemplar
                 const FESpace               &fe_space,
                 const Material              &material);
 
+    /// From now on this force [N] acts on each node of this process, by degree of freedom, beside the
+    /// named loads; empty: none does.
+    void
+    set_nodal_forces(dealii::Vector<double> forces)
+    {
+      nodal_force = std::move(forces);
+    }
+
+    const dealii::Vector<double> &
+    nodal_forces() const
+    {
+      return nodal_force;
+    }
+
     bool
     has_gravity() const
     {
       return gravity_force.size() > 0;
     }
 
+    /// Nodal forces are one, without a name.
     bool
     has_named_loads() const
     {
-      return !loads.empty();
+      return !loads.empty() || nodal_force.size() > 0;
     }
 
     /// How many named ones there are.
@@ -97,6 +113,7 @@ namespace Exemplar
     const LoadRamp         ramp;
     const MassMatrix       mass_matrix; ///< on whose masses gravity acts
     dealii::Vector<double> gravity_force;
+    dealii::Vector<double> nodal_force; ///< see set_nodal_forces(); without the ramp
     std::vector<Load>      loads;
   };
 } // namespace Exemplar

@@ -8,6 +8,8 @@
 #include <exemplar/kernels/cell_model.h>
 #include <exemplar/mesh/msh_file.h>
 
+#include <memory>
+#include <utility>
 #include <vector>
 
 namespace Exemplar
@@ -93,7 +95,7 @@ namespace Exemplar
     double
     own_number(const std::string &name, const unsigned int cell) const
     {
-      return constants[constants_of_cell[cell]].own.at(name);
+      return constants[constants_of_cell[cell]].own->at(name);
     }
 
     /// With other constants. Throws UserError for numbers that are not one for all or one a cell, or that
@@ -176,27 +178,33 @@ namespace Exemplar
     /// The constants of a region, or of a cell where they are painted.
     struct Constants
     {
-      CellMaterial<double> elasticity;
-      double               density;
-      double               youngs_modulus;
-      double               importance; ///< factor of Examples/Importance
-      OwnConstants         own;
-      double               lambda_of_patches; ///< [Pa]
-      Orthotropy           grain;             ///< all of C, in the cell's axes
-      double               lambda_of_others;  ///< what of it patches have taken [Pa]
-      bool                 is_orthotropic;    ///< by nine constants
+      CellMaterial<double>                elasticity;
+      double                              density;
+      double                              youngs_modulus;
+      double                              importance;        ///< factor of Examples/Importance
+      std::shared_ptr<const OwnConstants> own;               ///< mostly the same in many cells
+      double                              lambda_of_patches; ///< [Pa]
+      Orthotropy                          grain;             ///< all of C, in the cell's axes
+      double                              lambda_of_others;  ///< what of it patches have taken [Pa]
+      bool                                is_orthotropic;    ///< by nine constants
 
       template <typename Archive>
       void
       serialize(Archive &archive, unsigned int /*version*/)
       {
-        archive &elasticity.lambda &elasticity.mu &density &youngs_modulus &importance &own
+        OwnConstants numbers;
+        if constexpr (Archive::is_saving::value)
+          numbers = *own;
+        archive &elasticity.lambda &elasticity.mu &density &youngs_modulus &importance &numbers
             &lambda_of_patches &grain &lambda_of_others &is_orthotropic;
+        if constexpr (Archive::is_loading::value)
+          own = std::make_shared<const OwnConstants>(std::move(numbers));
       }
     };
 
+    /// `own` are those of `values`.
     void
-    add(const ElasticConstants &values);
+    add(const ElasticConstants &values, std::shared_ptr<const OwnConstants> own);
 
     /// C and C_e of a cell, and the eta with which they are summed up.
     struct Parts

@@ -70,6 +70,10 @@ namespace Exemplar
     void
     renew_pattern();
 
+    /// One more term, which couples no nodes and is none of Psi.
+    void
+    add_term(std::unique_ptr<PotentialTerm> term);
+
     /// Material, masses or the importance of the examples are others from now on.
     void
     follow_parameters();
@@ -227,7 +231,7 @@ namespace Exemplar
                  std::vector<double>       &columns,
                  OuterProducts             *products);
 
-    const PotentialTerms terms;
+    PotentialTerms       terms;
     const FESpace       &fe_space;
     SymmetricPattern     pattern; ///< of cells and terms
     ElasticPotential     cells;
@@ -235,9 +239,9 @@ namespace Exemplar
     TimeIntegrator      *integrator;
     const FreeDofs      &free_dofs;
     /// Those of Psi first.
-    const std::vector<PotentialTerm *> all_terms;
-    HeldBackForces                     held_back;
-    bool                               in_dynamic_step = false;
+    std::vector<PotentialTerm *> all_terms;
+    HeldBackForces               held_back;
+    bool                         in_dynamic_step = false;
   };
 } // namespace Exemplar
 

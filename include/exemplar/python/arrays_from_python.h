@@ -23,6 +23,14 @@ namespace Exemplar::Python
   std::vector<dealii::Point<3>>
   points_of(const pybind11::handle &object, const std::string &what, pybind11::ssize_t n = -1);
 
+  /// A number, or an array (n) of finite numbers: then n of them, else one.
+  std::vector<double>
+  numbers_of(const pybind11::handle &object, const std::string &what, pybind11::ssize_t n);
+
+  /// Indices from 0 of some of n nodes, in any order; ascending, each once.
+  std::vector<unsigned int>
+  nodes_of(const pybind11::handle &object, const std::string &what, std::size_t n);
+
   /// A tuple (nodes, cells) or (nodes, cells, material ids).
   MshFile
   mesh_of(const pybind11::object &mesh);

@@ -2,6 +2,7 @@
 #ifndef exemplar_held_problem_h
 #define exemplar_held_problem_h
 
+#include <exemplar/python/saved_state.h>
 #include <exemplar/run/output/diagnostics.h>
 #include <exemplar/run/problem/problem.h>
 #include <exemplar/run/problem/state_review.h>
@@ -9,8 +10,10 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -27,14 +30,28 @@ namespace Exemplar::Python
                 const pybind11::object &mesh,
                 const pybind11::object &poses);
 
-    /// Throws SolverFailure, Interrupted and whatever callbacks throw; the problem is then as it
-    /// was before the step.
+    /// The next step, or another one. Throws SolverFailure, Interrupted and whatever callbacks throw; the
+    /// problem is then as it was before the step.
     SolveReport
-    step();
+    step(const std::optional<StepInterval> &other = {});
 
     /// All steps that are left; returns the report of the last one.
     SolveReport
     run();
+
+    /// Between steps, change the problem without Python's lock; `what` is called for that. Throws
+    /// RuntimeError while a step is made, and what `function` throws.
+    void
+    change(const std::string &what, const std::function<void(Problem &)> &function);
+
+    /// Throws RuntimeError while a step is made.
+    SavedState
+    save() const;
+
+    /// Go on from there, by default from the beginning. Throws UserError for what is of another body, and
+    /// RuntimeError while a step is made.
+    void
+    restore(const SavedState *saved = nullptr);
 
     void
     set_motion(const pybind11::object &name, const pybind11::object &function);
@@ -121,13 +138,14 @@ namespace Exemplar::Python
 
     /// A step of the solver that leaves the problem as it was if it throws.
     SolveReport
-    advance();
+    advance(const StepInterval &interval);
 
     std::map<std::string, pybind11::object> motions;  ///< functions, by handle
     pybind11::object                        callback; ///< None or a function
     const std::shared_ptr<Problem>          problem;  ///< its memory is shared with arrays
     std::vector<std::string>                warnings;
     Diagnostics                             diagnostics;
+    const SavedState                        initial;
     StateReview                             review;
     SolveReport                             report;
     std::shared_ptr<Shown>                  shown_positions, shown_velocities;

@@ -13,6 +13,13 @@ namespace Exemplar::Python
   HeldProblem *
   held_by(PyObject *object);
 
+  using ProblemClass = pybind11::class_<HeldProblem, std::shared_ptr<HeldProblem>>;
+
+  /// For calls of a method that fit nothing else; pybind11 would print all that it was given, arrays
+  /// too.
+  void
+  refuse_other_arguments(ProblemClass &problem, const char *name, const std::string &usage);
+
   /// Let Python's garbage collector find, and end, cycles of problems and their functions.
   void
   support_garbage_collection(PyHeapTypeObject *type);

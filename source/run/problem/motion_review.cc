@@ -164,7 +164,8 @@ namespace Exemplar
       const Handles &handles = problem.constraints.handles;
       Vector         moved   = problem.body.fe_space.rest_positions();
       handles.move(problem.time_axis.time(0), moved);
-      for (unsigned int handle = 0; handle < handles.size(); ++handle)
+      // what is grabbed later begins where it is
+      for (unsigned int handle = 0; handle < problem.parameters.handles.size(); ++handle)
         if (const Warning warning = review_beginning(problem, handle, moved))
           warnings.push_back(*warning);
     }
@@ -198,7 +199,7 @@ namespace Exemplar
       return {};
     const Vector &before = problem.state.positions;
     Vector        after  = before;
-    handles.move(problem.time_axis.time(problem.state.step + 1), after);
+    handles.move(next_step(problem).end, after);
     Travel travel;
     travel.in_step = problem.body.exchange().max(greatest_difference(before, after));
     return warnings_of_handles(problem, travel, problem.state.step == 0);

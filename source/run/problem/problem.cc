@@ -124,9 +124,15 @@ namespace Exemplar
   SolveReport
   Problem::advance()
   {
-    State              next = state;
-    const unsigned int step = state.step + 1;
-    next.step               = step;
+    return advance(next_step(*this));
+  }
+
+  SolveReport
+  Problem::advance(const StepInterval &interval)
+  {
+    check_weights(*this, interval);
+    State next = state;
+    next.step  = state.step + 1;
     if (turns_freely()
         && turn_to_support(*constraints.support, parameters.model.is_frozen() ? 0. : max_turn,
                            next.positions, body.exchange()))
@@ -135,9 +141,8 @@ namespace Exemplar
       start(next);
     }
     const unsigned int factorizations_before = system.n_new_factorizations();
-    SolveReport        report
-        = solver->solve(next, evaluation, time_axis.time(step), time_axis.step_size(step));
-    report.factorizations = system.n_new_factorizations() - factorizations_before;
+    SolveReport        report = solver->solve(next, evaluation, interval.end, interval.size);
+    report.factorizations     = system.n_new_factorizations() - factorizations_before;
     if (is_success(report.status))
     {
       if (actions.integrator != nullptr)

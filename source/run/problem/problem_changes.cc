@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
+#include <exemplar/potential/load_term.h>
 #include <exemplar/run/problem/problem.h>
+
+#include <fmt/core.h>
+
+#include <utility>
 
 // What of a problem may change between its steps, and what follows from that.
 
@@ -21,10 +26,13 @@ namespace Exemplar
   Problem::set_material(const ChangedConstants &changed)
   {
     body.material = body.material.with(changed);
-    if (actions.mass != nullptr)
+    body.follow_material();
+    if (actions.mass != nullptr && !changed.density.empty())
       actions.mass->set_material(body.fe_space, body.material);
-    if (actions.loads != nullptr)
+    if (actions.loads != nullptr && !changed.density.empty())
       actions.loads->set_gravity(parameters.loads.gravity, body.fe_space, body.material);
+    if (!changed.youngs_modulus.empty() || !changed.poissons_ratio.empty())
+      examples.poses.set_material(body.cell_material, body.patches);
     follow_parameters();
   }
 
@@ -42,20 +50,74 @@ namespace Exemplar
     parameters.examples.importance = importance;
     if (body.material.has_examples())
       body.material = body.material.with_examples(parameters.examples.elasticity(), importance);
+    body.follow_material();
+    examples.poses.set_parameters(importance, body.cell_material, body.patches);
     follow_parameters();
   }
 
   void
   Problem::set_gravity(const std::array<double, 3> &acceleration)
   {
-    if (actions.loads == nullptr)
-      throw UserError(
-          parameters.name
-          + ": there are no loads, so gravity cannot change. Give Loads/Gravity, even a "
-            "small one.");
+    make_loads();
     actions.loads->set_gravity(acceleration, body.fe_space, body.material);
     parameters.loads.gravity = acceleration;
     start(state);
+  }
+
+  void
+  Problem::set_nodal_forces(Vector forces)
+  {
+    make_loads();
+    actions.loads->set_nodal_forces(std::move(forces));
+    start(state);
+  }
+
+  void
+  Problem::make_loads()
+  {
+    if (parameters.scene == SceneKind::interpolation)
+      throw UserError(parameters.name
+                      + ": an interpolation has no loads. Set Scene = static or dynamic.");
+    if (actions.loads != nullptr)
+      return;
+    actions.loads
+        = std::make_unique<Loads>(parameters.loads, body.mesh, body.fe_space, body.material,
+                                  NamedNodes(), parameters.material.mass_matrix);
+    potential.add_term(std::make_unique<LoadTerm>(*actions.loads, body.fe_space));
+  }
+
+  void
+  Problem::set_pose(const unsigned int i, const std::vector<dealii::Point<3>> &places)
+  {
+    const bool has_rest = parameters.examples.include_rest_pose;
+    if (i >= examples.poses.size() || (i == 0 && has_rest))
+      throw UserError(
+          fmt::format("{}: there is no pose {} to set. {}", parameters.name, i,
+                      examples.poses.size() == 0
+                          ? "The scene has no examples: give Examples/Poses."
+                          : fmt::format("Examples are counted from 0, as weights: there are {}{}.",
+                                        examples.poses.size(),
+                                        has_rest ? ", of which 0 is the rest pose" : "")));
+    const Vector                  before = examples.poses.pose(i);
+    std::vector<dealii::Point<3>> back;
+    for (unsigned int node = 0; node < body.fe_space.n_nodes(); ++node)
+      back.emplace_back(before[3 * node], before[3 * node + 1], before[3 * node + 2]);
+    const auto change_to = [&](const std::vector<dealii::Point<3>> &pose)
+    {
+      examples.poses.set_pose(i, pose);
+      examples.poses.set_parameters(parameters.examples.importance, body.cell_material,
+                                    body.patches);
+      follow_parameters();
+    };
+    try
+    {
+      change_to(places);
+    }
+    catch (const UserError &)
+    {
+      change_to(back);
+      throw;
+    }
   }
 
   void
@@ -74,8 +136,6 @@ namespace Exemplar
   void
   Problem::follow_parameters()
   {
-    body.follow_material();
-    examples.poses.set_parameters(parameters.examples.importance, body.cell_material, body.patches);
     examples.weights.set_parameters(parameters.examples,
                                     unit_energy_of_examples(body.fe_space, body.material));
     potential.follow_parameters();

@@ -197,7 +197,7 @@ namespace Exemplar
   {
     const HandleParameters   usual;
     std::vector<std::string> all;
-    for (unsigned int h = 0; h < handles.size(); ++h)
+    for (unsigned int h = 0; h < parameters.handles.size(); ++h)
       if (const HandleParameters &handle = parameters.handles[h];
           handle.select.is_of_space() && handle.motion != usual.motion
           && handle.components == usual.components && handles.n_nodes(h) == 1)
@@ -219,7 +219,7 @@ namespace Exemplar
                               const SceneParameters                &parameters,
                               const Body                           &body)
   {
-    const std::vector<bool> holding = handles.holding();
+    const auto holding = handles.holding();
     try
     {
       change(handles);

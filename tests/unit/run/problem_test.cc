@@ -217,6 +217,47 @@ namespace Exemplar::Testing
         }
     }
 
+    TEST(Problem, LoadsMayComeLater)
+    {
+      Scene scene(static_bar),
+          loaded(static_bar + "subsection Loads\n set Gravity = 0, 0, -1\nend\n");
+      scene.problem.set_gravity({ { 0., 0., -1. } });
+      EXPECT_EQ(scene.problem.evaluation.gradient, loaded.problem.evaluation.gradient);
+      Vector forces(scene.problem.body.fe_space.n_dofs());
+      forces              = 2.;
+      const double before = scene.problem.evaluation.gradient[0];
+      scene.problem.set_nodal_forces(forces);
+      EXPECT_NEAR(scene.problem.evaluation.gradient[0], before - 2., 1e-12);
+      scene.problem.set_nodal_forces({});
+      advance(scene.problem, 2);
+      advance(loaded.problem, 2);
+      expect_same_bytes(scene.problem.state, loaded.problem.state);
+    }
+
+    TEST(Problem, StepsHaveAnyLength)
+    {
+      Scene          scene(swung_bar), same(swung_bar);
+      Problem       &problem = scene.problem;
+      const TimeAxis axis    = problem.time_axis;
+      const double   h       = axis.step_size(1);
+      ASSERT_TRUE(is_success(problem.advance(step_of(problem, h)).status));
+      advance(same.problem, 1);
+      expect_same_bytes(problem.state, same.problem.state);
+      ASSERT_TRUE(is_success(problem.advance(step_of(problem, 0.3 * h)).status));
+      EXPECT_NEAR(problem.state.time, 1.3 * h, 1e-14);
+      EXPECT_EQ(step_towards(problem, 1.5 * h).end, 1.5 * h);
+      ASSERT_TRUE(is_success(problem.advance().status));
+      EXPECT_NEAR(problem.state.time, 2.3 * h, 1e-14);
+      expect_contains(message_of([&] { step_of(problem, 0.); }), "above 0");
+      Scene still(static_bar);
+      expect_contains(message_of([&] { step_of(still.problem, 2.); }), "beyond t = 1");
+      while (!has_reached(still.problem, 1.))
+        advance(still.problem, 1);
+      EXPECT_EQ(next_step(still.problem).end, 1.);
+      EXPECT_EQ(next_step(still.problem).size, 0.);
+      advance(still.problem, 1);
+    }
+
     TEST(Problem, ConstantsMayBeGivenByCell)
     {
       Scene                     scene(static_bar), same(static_bar);
@@ -239,7 +280,6 @@ namespace Exemplar::Testing
       refuse([&] { problem.set_material({ {}, { 0.5 }, {} }); }, "Poisson's ratio");
       refuse([&] { problem.set_material({ {}, {}, { 1., 2. } }); }, "2 numbers for");
       refuse([&] { problem.set_importance(0.5); }, "with examples");
-      refuse([&] { problem.set_gravity({ { 0., 0., -1. } }); }, "there are no loads");
       refuse([&] { problem.set_damping(1., 0.); }, "Scene = dynamic");
       advance(problem, 2);
       advance(same.problem, 2);

@@ -5,6 +5,7 @@
 #include <exemplar/algebra/conditioning.h>
 #include <exemplar/base/step_clock.h>
 #include <exemplar/run/problem/problem_parts.h>
+#include <exemplar/run/problem/step_interval.h>
 #include <exemplar/solvers/step_solver.h>
 
 #include <memory>
@@ -26,9 +27,13 @@ namespace Exemplar
     /// Of what the inputs have become, or of the part that this process has of them.
     Problem(const CompleteScene &scene, BodyInputs given, StepClock clock = StepClock(Phase::read));
 
-    /// Solve the next step from `state`, which is replaced if the solve succeeds.
+    /// Solve the scene's next step from `state`, which is replaced if the solve succeeds; see next_step().
     SolveReport
     advance();
+
+    /// The same for a step of another end and length, as step_of() and others give.
+    SolveReport
+    advance(const StepInterval &step);
 
     /// From the next step on `motion` moves a handle instead of its formulas. Throws UserError if
     /// no handle has this name.
@@ -52,10 +57,20 @@ namespace Exemplar
     void
     set_importance(double importance);
 
-    /// Between steps, let gravity be another [m/s^2]. Throws UserError for a scene without loads, whose
-    /// potential has no such term.
+    /// Between steps, let gravity be another [m/s^2]. Throws UserError for an interpolation.
     void
     set_gravity(const std::array<double, 3> &acceleration);
+
+    /// Between steps, let these forces [N] act on the nodes of this process, by degree of freedom, beside
+    /// other loads and with their Ramp; empty: none. Throws UserError for an interpolation.
+    void
+    set_nodal_forces(Vector forces);
+
+    /// Between steps, let example i, counted as the weights, be at these places of the nodes [m]. Handles
+    /// that follow a pose keep the first. Throws UserError, with nothing changed, for the rest pose, an
+    /// example that is not there, and places that are no pose.
+    void
+    set_pose(unsigned int i, const std::vector<dealii::Point<3>> &places);
 
     /// Between steps, damp otherwise: mass damping [1/s] and stiffness damping [s]. Throws UserError
     /// for a scene that is not dynamic, and for negative numbers.
@@ -91,7 +106,7 @@ namespace Exemplar
     const std::shared_ptr<const SurfaceMesh> surface; ///< of the body; null unless it is needed
     Constraints                              constraints;
     Examples                                 examples;
-    const Actions                            actions;
+    Actions                                  actions;
     IncrementalPotential                     potential;
     StepSystem                               system;
     const std::unique_ptr<StepSolver>        solver;
@@ -119,7 +134,11 @@ namespace Exemplar
     void
     refuse_what_is_not_finite(const State &next, SolveReport &report);
 
-    /// What is made of material and importance is made anew, each from what it depends on.
+    /// There are loads from now on.
+    void
+    make_loads();
+
+    /// What is made of material, poses and importance is made anew, each from what it depends on.
     void
     follow_parameters();
 

@@ -124,7 +124,7 @@ namespace Exemplar
     PotentialTerms
     make_terms(const Body &body) const;
 
-    const std::unique_ptr<Loads>          loads;
+    std::unique_ptr<Loads>                loads;
     const std::unique_ptr<Mass>           mass;       ///< in dynamic scenes
     const std::unique_ptr<TimeIntegrator> integrator; ///< in dynamic scenes
 

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_python_problem_state_h
+#define exemplar_python_problem_state_h
+
+#include <exemplar/python/problem_type.h>
+
+namespace Exemplar::Python
+{
+  /// exemplar.State, and of exemplar.Problem state, step(), goto() and reset().
+  void
+  add_saved_states(pybind11::module_ &module, ProblemClass &problem);
+} // namespace Exemplar::Python
+
+#endif
