@@ -5,6 +5,7 @@
 #include <exemplar/base/version.h>
 #include <exemplar/python/from_python.h>
 #include <exemplar/python/problem_changes.h>
+#include <exemplar/python/problem_gradients.h>
 #include <exemplar/python/problem_state.h>
 #include <exemplar/python/unlocked_work.h>
 
@@ -284,6 +285,7 @@ namespace Exemplar::Python
       add_state(problem);
       add_saved_states(module, problem);
       add_changes(problem);
+      add_gradients(problem);
       const py::object measures = make_measures_type();
       module.attr("Measures")   = measures; // where pickle looks for it
       add_measures(problem, measures);
