@@ -16,13 +16,16 @@ namespace Exemplar::Python
   {
     /// dJ/dx and dJ/dw; None is zero.
     Direction
-    functional_of(const py::object &by_positions, const py::object &by_weights, const Problem &problem)
+    functional_of(const py::object &by_positions,
+                  const py::object &by_weights,
+                  const Problem    &problem)
     {
       Direction functional{ Vector(problem.body.fe_space.n_dofs()),
                             std::vector<double>(problem.state.weights.size(), 0.) };
       if (!by_positions.is_none())
       {
-        const auto rows = points_of(by_positions, "vjp: dJ_dx", py::ssize_t(problem.body.mesh.n_nodes()));
+        const auto rows
+            = points_of(by_positions, "vjp: dJ_dx", py::ssize_t(problem.body.mesh.n_nodes()));
         for (unsigned int dof = 0; dof < 3 * rows.size(); ++dof)
           functional.positions[dof] = rows[dof / 3][dof % 3];
       }
@@ -31,9 +34,10 @@ namespace Exemplar::Python
       const std::size_t n = functional.weights.size();
       functional.weights  = numbers_of(by_weights, "vjp: dJ_dw", py::ssize_t(n));
       if (functional.weights.size() != n || py::array::ensure(by_weights).ndim() != 1)
-        throw UserError(fmt::format("vjp: dJ_dw must be an array of shape ({},), one number for each of "
-                                    "problem.weights, but is {}.",
-                                    n, description(by_weights)));
+        throw UserError(
+            fmt::format("vjp: dJ_dw must be an array of shape ({},), one number for each of "
+                        "problem.weights, but is {}.",
+                        n, description(by_weights)));
       return functional;
     }
 
@@ -46,7 +50,8 @@ namespace Exemplar::Python
     py::array
     rows(const Vector &values)
     {
-      return py::array_t<double>({ py::ssize_t(values.size() / 3), py::ssize_t(3) }, values.begin());
+      return py::array_t<double>({ py::ssize_t(values.size() / 3), py::ssize_t(3) },
+                                 values.begin());
     }
 
     py::dict
@@ -90,7 +95,8 @@ namespace Exemplar::Python
     problem.def(
         "vjp", &vjp, py::arg("dJ_dx"), py::arg("dJ_dw") = py::none(),
         "vjp(dJ_dx, dJ_dw=None) -> dict\n\n"
-        "Gradients of a function J(positions, weights) of the static equilibrium that was just found,\n"
+        "Gradients of a function J(positions, weights) of the static equilibrium that was just "
+        "found,\n"
         "from its derivatives dJ_dx (n, 3) and dJ_dw (k,) there; None: zero. For any number of\n"
         "parameters it takes one linear system. The dictionary has, as arrays of their own,\n"
         "  young, poisson, density (m,), by cell\n"

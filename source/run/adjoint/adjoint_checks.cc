@@ -28,9 +28,10 @@ namespace Exemplar
       const LawsOfCells laws = laws_of_cells(problem.parameters, problem.body);
       for (unsigned int cell = 0; cell < problem.body.mesh.n_cells(); ++cell)
         if (laws[cell] != CellLaw::corotational)
-          refuse(fmt::format("of cells that are {}", traits_of(laws[cell]).name),
-                 "Known are those of the corotational strain with consistent forces, without fibres, "
-                 "nine constants, a yield stress and a neo-Hookean background.");
+          refuse(
+              fmt::format("of cells that are {}", traits_of(laws[cell]).name),
+              "Known are those of the corotational strain with consistent forces, without fibres, "
+              "nine constants, a yield stress and a neo-Hookean background.");
     }
 
     void
@@ -104,7 +105,8 @@ namespace Exemplar
     const double   value    = std::max(residual.positions, residual.weights);
     if (problem.state.step == 0 || !(value <= bound))
       throw UserError(fmt::format(
-          "vjp: the problem does not stand at an equilibrium that a step has found (residual {:.2g}, "
+          "vjp: the problem does not stand at an equilibrium that a step has found (residual "
+          "{:.2g}, "
           "allowed {:.2g}). Call step() or run() first, after each change of the problem.",
           value, bound));
   }

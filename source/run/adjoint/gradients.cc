@@ -16,17 +16,17 @@ namespace Exemplar
     std::vector<unsigned int>
     weakly_active(const Problem &problem, const Evaluation &evaluation)
     {
-      const ExampleWeights      &rule = problem.examples.weights;
-      const std::vector<double> &w = problem.state.weights, &slopes = evaluation.elastic.weight_gradient;
-      std::vector<unsigned int>  found;
+      const ExampleWeights      &rule   = problem.examples.weights;
+      const std::vector<double> &w      = problem.state.weights,
+                                &slopes = evaluation.elastic.weight_gradient;
+      std::vector<unsigned int> found;
       if (rule.n_unknown() == 0 || rule.limits_of_changes(w).lower.empty())
         return found;
       const std::vector<double> multipliers = rule.residual(w, slopes).multipliers;
       for (unsigned int weight = 0; weight < w.size(); ++weight)
       {
-        const double excess = slopes[weight] - multipliers[weight / rule.n_per_region()];
-        if (w[weight] < weak
-            && (w[weight] > 0. || excess < weak * evaluation.elastic.weight_scale))
+        const double excess = slopes[weight] + multipliers[weight / rule.n_per_region()];
+        if (w[weight] < weak && (w[weight] > 0. || excess < weak * evaluation.elastic.weight_scale))
           found.push_back(weight);
       }
       return found;
@@ -63,12 +63,12 @@ namespace Exemplar
     SlopeDerivatives slope = solve_adjoint(problem, by_state).derivatives;
 
     Gradients result;
-    result.young        = negative(std::move(slope.by_young));
-    result.poisson      = negative(std::move(slope.by_poisson));
-    result.density      = negative(std::move(slope.by_density));
-    result.handles      = of_held(problem, by_state.positions, slope.by_positions);
-    result.nodal_forces = negative(std::move(slope.by_nodal_forces));
-    result.gravity      = negative(slope.by_gravity);
+    result.young              = negative(std::move(slope.by_young));
+    result.poisson            = negative(std::move(slope.by_poisson));
+    result.density            = negative(std::move(slope.by_density));
+    result.handles            = of_held(problem, by_state.positions, slope.by_positions);
+    result.nodal_forces       = negative(std::move(slope.by_nodal_forces));
+    result.gravity            = negative(slope.by_gravity);
     const ExamplePoses &poses = problem.examples.poses;
     if (poses.size() > 0)
       result.importance = -slope.by_importance;

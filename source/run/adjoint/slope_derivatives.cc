@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/kernels/cell_model.h>
-#include <exemplar/run/adjoint/slope_derivatives.h>
+#include <exemplar/run/adjoint/slope_terms.h>
 
 #include <numeric>
 
@@ -93,8 +93,6 @@ namespace Exemplar
         find_patch_sums();
         for (unsigned int point = 0; point < fe_space.n_points(); ++point)
           add_point(point);
-        add_ridge();
-        add_loads();
       }
 
       SlopeDerivatives
@@ -120,23 +118,22 @@ namespace Exemplar
       Matrix
       blend(const unsigned int point, const std::vector<double> &weights) const
       {
-        return weights.empty() ? Matrix{}
-                               : scaled(1. / eta, poses.strain(point, weights));
+        return weights.empty() ? Matrix{} : scaled(1. / eta, poses.strain(point, weights));
       }
 
       PointState
       at(const unsigned int point) const
       {
         PointState at;
-        at.volume = fe_space.volume(point);
-        at.C      = problem.body.cell_material.elasticity(point);
-        at.F      = fe_space.deformation_gradient(point, problem.state.positions);
-        at.dF     = fe_space.deformation_gradient(point, direction.positions);
-        at.R      = closest_rotation(at.F);
-        at.S      = symmetric_part(transpose_times(at.R, at.F));
-        at.eta    = eta;
-        at.wish   = blend(point, problem.state.weights);
-        at.d_wish = blend(point, direction.weights);
+        at.volume      = fe_space.volume(point);
+        at.C           = problem.body.cell_material.elasticity(point);
+        at.F           = fe_space.deformation_gradient(point, problem.state.positions);
+        at.dF          = fe_space.deformation_gradient(point, direction.positions);
+        at.R           = closest_rotation(at.F);
+        at.S           = symmetric_part(transpose_times(at.R, at.F));
+        at.eta         = eta;
+        at.wish        = blend(point, problem.state.weights);
+        at.d_wish      = blend(point, direction.weights);
         const Matrix M = transpose_times(at.R, at.dF);
         at.dS          = symmetric_part(combine(1., M, -1., cell(at).turn(M) * at.S));
         return at;
@@ -171,8 +168,8 @@ namespace Exemplar
       {
         double pressure = 0., d_pressure = 0.; ///< pi and dpi
         double wish = 0., d_wish = 0.;         ///< lambda_p theta_p of E(w) and of E(b)
-        double by_lambda    = 0.;              ///< derivative of the slope by lambda_p over V_p
-        double mean_lambda  = 0.;              ///< lambda_p
+        double by_lambda   = 0.;               ///< derivative of the slope by lambda_p over V_p
+        double mean_lambda = 0.;               ///< lambda_p
       };
 
       Pressures
@@ -195,14 +192,14 @@ namespace Exemplar
       void
       add_point(const unsigned int point)
       {
-        const PointState here = at(point);
+        const PointState here     = at(point);
         const Pressures  of_patch = pressures(point);
         // the derivatives of the slope by E(w) and E(b)
-        const Matrix dT = add_identity(stress(here.C, here.d_strain()), of_patch.d_pressure);
-        const Matrix T  = add_identity(stress(here.C, here.strain()), of_patch.pressure);
-        const Matrix by_wish
-            = combine(kappa * here.volume, add_identity(stress(here.C, here.d_wish), of_patch.d_wish),
-                      -eta * here.volume, dT);
+        const Matrix dT      = add_identity(stress(here.C, here.d_strain()), of_patch.d_pressure);
+        const Matrix T       = add_identity(stress(here.C, here.strain()), of_patch.pressure);
+        const Matrix by_wish = combine(kappa * here.volume,
+                                       add_identity(stress(here.C, here.d_wish), of_patch.d_wish),
+                                       -eta * here.volume, dT);
         const Matrix by_d_wish
             = combine(kappa * here.volume, add_identity(stress(here.C, here.wish), of_patch.wish),
                       -eta * here.volume, T);
@@ -223,27 +220,14 @@ namespace Exemplar
       {
         CorotationalCell<double> of_cell = cell(here);
         of_cell.add_pressure(of_patch.pressure);
-        const Matrix M        = transpose_times(here.R, here.dF);
-        const Matrix of_wish  = pull_back(here.R, here.S, stress(here.C, here.d_wish));
-        Matrix       by_F     = here.R * add_identity(of_cell.response(M), of_patch.d_pressure);
+        const Matrix M       = transpose_times(here.R, here.dF);
+        const Matrix of_wish = pull_back(here.R, here.S, stress(here.C, here.d_wish));
+        Matrix       by_F    = here.R * add_identity(of_cell.response(M), of_patch.d_pressure);
         add(by_F, -eta, of_wish);
         const Matrix by_dF = here.R * of_cell.force();
-        add_forces(point, scaled(here.volume, by_F), sums.by_positions);
+        add_forces(fe_space, point, scaled(here.volume, by_F), sums.by_positions);
         return combine(here.volume, transpose_times(here.F, by_F), here.volume,
                        transpose_times(here.dF, by_dF));
-      }
-
-      void
-      add_forces(const unsigned int point, const Matrix &by_F, Vector &to) const
-      {
-        const auto nodes = fe_space.nodes(fe_space.cell_of(point));
-        const auto g     = fe_space.gradients(point);
-        for (unsigned int a = 0; a < nodes.size(); ++a)
-        {
-          const Vector3<double> force = by_F * g[a];
-          for (int c = 0; c < 3; ++c)
-            to[3 * nodes[a] + c] += force[c];
-        }
       }
 
       /// By weights and poses; adds F_i^T dslope/dF_i to `by_gradients`.
@@ -255,14 +239,14 @@ namespace Exemplar
       {
         const std::vector<double> &w = problem.state.weights, &b = direction.weights;
         std::vector<Matrix>        by_strains(poses.size(), Matrix{});
-        poses.for_each_weight(point,
-                              [&](const unsigned int weight, const unsigned int i, const double share)
-                              {
-                                sums.by_weights[weight]
-                                    += share / eta * contract(poses.strain(point, i), by_wish);
-                                add(by_strains[i], share * w[weight], by_wish);
-                                add(by_strains[i], share * b[weight], by_d_wish);
-                              });
+        poses.for_each_weight(
+            point,
+            [&](const unsigned int weight, const unsigned int i, const double share)
+            {
+              sums.by_weights[weight] += share / eta * contract(poses.strain(point, i), by_wish);
+              add(by_strains[i], share * w[weight], by_wish);
+              add(by_strains[i], share * b[weight], by_d_wish);
+            });
         for (unsigned int i = 0; i < poses.size(); ++i)
         {
           if (!poses.is_strained(i))
@@ -270,7 +254,7 @@ namespace Exemplar
           const Matrix F    = fe_space.deformation_gradient(point, poses.pose(i));
           const Matrix R    = closest_rotation(F);
           const Matrix by_F = pull_back(R, symmetric_part(transpose_times(R, F)), by_strains[i]);
-          add_forces(point, by_F, sums.by_poses[i]);
+          add_forces(fe_space, point, by_F, sums.by_poses[i]);
           add(by_gradients, 1., transpose_times(F, by_F));
         }
       }
@@ -289,10 +273,10 @@ namespace Exemplar
       {
         const CellMaterial<double> all = material.elasticity(point);
         const double               E   = material.youngs_modulus(point);
-        const double nu = 0.5 * all.lambda / (all.lambda + all.mu), lateral = 1. - 2. * nu;
-        CellMaterial<double> by_nu{ E * (1. + 2. * nu * nu)
-                                        / ((1. + nu) * (1. + nu) * lateral * lateral),
-                                    -all.mu / (1. + nu) };
+        const double         nu = 0.5 * all.lambda / (all.lambda + all.mu), lateral = 1. - 2. * nu;
+        CellMaterial<double> by_nu{
+          E * (1. + 2. * nu * nu) / ((1. + nu) * (1. + nu) * lateral * lateral), -all.mu / (1. + nu)
+        };
         const double of_patches = here.volume * of_patch.by_lambda;
         sums.by_young[point] += (own_slope(here, here.C) + all.lambda * of_patches) / E;
         sums.by_poisson[point] += by_nu.lambda * of_patches;
@@ -321,71 +305,8 @@ namespace Exemplar
           by_volume += here.volume * of_patch.by_lambda
                        * (material.lambda_of_patches(point) - 2. * of_patch.mean_lambda);
         }
-        add_volume(point, by_volume, by_gradients);
-      }
-
-      /// Times the volume, what depends on it, and what on the gradients.
-      void
-      add_volume(const unsigned int point, const double by_volume, const Matrix &by_gradients)
-      {
-        add_forces(point, add_identity(scaled(-1., by_gradients), by_volume),
+        add_forces(fe_space, point, add_identity(scaled(-1., by_gradients), by_volume),
                    sums.by_rest_positions);
-      }
-
-      void
-      add_ridge()
-      {
-        if (direction.weights.empty() || problem.examples.weights.n_unknown() == 0)
-          return;
-        const ExampleParameters  &parameters = problem.parameters.examples;
-        const double              total      = fe_space.total_volume();
-        const double              sigma      = parameters.ridge(unit_energy(fe_space, material));
-        const double              by_unit    = parameters.ridge(1.) - parameters.ridge(0.);
-        const std::vector<double> fractions  = poses.volume_fractions();
-        std::vector<double>       products(fractions.size(), 0.); // w.b of each region
-        double                    mean = 0.;
-        for (unsigned int weight = 0; weight < poses.n_weights(); ++weight)
-        {
-          const unsigned int region = weight / poses.size();
-          sums.by_weights[weight] += sigma * fractions[region] * direction.weights[weight];
-          products[region] += problem.state.weights[weight] * direction.weights[weight];
-        }
-        for (std::size_t region = 0; region < fractions.size(); ++region)
-          mean += fractions[region] * products[region];
-        for (unsigned int point = 0; point < fe_space.n_points(); ++point)
-        {
-          const double volume = fe_space.volume(point);
-          double       here   = 0.;
-          poses.get_regions().for_each(point, [&](const unsigned int region, const double share)
-                                       { here += share * products[region]; });
-          sums.by_young[point] += by_unit * volume * mean;
-          add_volume(point,
-                     volume
-                         * (by_unit * material.youngs_modulus(point) * mean
-                            + sigma * (here - mean) / total),
-                     Matrix{});
-        }
-      }
-
-      void
-      add_loads()
-      {
-        const LoadsParameters &loads = problem.parameters.loads;
-        const double ramp = loads.ramp == LoadRamp::increments ? problem.state.time : 1.;
-        sums.by_nodal_forces.add(-ramp, direction.positions);
-        for (unsigned int point = 0; point < fe_space.n_points(); ++point)
-        {
-          double work = 0.; // of gravity on a unit of mass, along the direction
-          for (const unsigned int node : fe_space.nodes(point))
-            for (unsigned int c = 0; c < 3; ++c)
-            {
-              const double mean = -0.25 * ramp * direction.positions[3 * node + c];
-              sums.by_gravity[c] += fe_space.volume(point) * material.density(point) * mean;
-              work += mean * loads.gravity[c];
-            }
-          sums.by_density[point] = fe_space.volume(point) * work;
-          add_volume(point, fe_space.volume(point) * material.density(point) * work, Matrix{});
-        }
       }
 
       const Problem         &problem;
@@ -404,6 +325,9 @@ namespace Exemplar
   SlopeDerivatives
   derivatives_of_slope(const Problem &problem, const Direction &direction)
   {
-    return Slope(problem, direction).take();
+    SlopeDerivatives sums = Slope(problem, direction).take();
+    add_slope_of_ridge(problem, direction, sums);
+    add_slope_of_loads(problem, direction, sums);
+    return sums;
   }
 } // namespace Exemplar

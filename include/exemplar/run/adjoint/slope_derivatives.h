@@ -23,7 +23,7 @@ namespace Exemplar
     Vector                by_positions; ///< by degree of freedom, held ones too
     std::vector<double>   by_weights;
     Vector                by_rest_positions;
-    std::vector<Vector>   by_poses; ///< of all examples
+    std::vector<Vector>   by_poses;                         ///< of all examples
     std::vector<double>   by_young, by_poisson, by_density; ///< by cell
     double                by_importance = 0.;
     Vector                by_nodal_forces;
