@@ -14,17 +14,16 @@
 
 namespace Exemplar
 {
+  double
+  blended_part(const ExampleEnergy energy)
+  {
+    if (energy == ExampleEnergy::mixed)
+      return 0.2;
+    return energy == ExampleEnergy::blended ? 1. : 0.;
+  }
+
   namespace
   {
-    /// How much of the blended energy is in `energy`; the rest is the scaled one, Eq. (5).
-    double
-    blended_part(const ExampleEnergy energy)
-    {
-      if (energy == ExampleEnergy::mixed)
-        return 0.2;
-      return energy == ExampleEnergy::blended ? 1. : 0.;
-    }
-
     std::string
     names_of_examples(const ExamplePoses &poses)
     {

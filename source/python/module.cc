@@ -7,6 +7,7 @@
 #include <exemplar/python/from_python.h>
 #include <exemplar/python/function_term.h>
 #include <exemplar/python/problem_changes.h>
+#include <exemplar/python/problem_gradients.h>
 #include <exemplar/python/problem_state.h>
 #include <exemplar/python/unlocked_work.h>
 
@@ -288,6 +289,7 @@ namespace Exemplar::Python
       add_changes(problem);
       add_evaluation(problem);
       add_terms(problem);
+      add_gradients(problem);
       const py::object measures = make_measures_type();
       module.attr("Measures")   = measures; // where pickle looks for it
       add_measures(problem, measures);

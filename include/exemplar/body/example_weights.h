@@ -20,6 +20,10 @@ namespace Exemplar
     double deviation = 0.; ///< greatest violation of the conditions of Karush, Kuhn and Tucker [J]
   };
 
+  /// How much of the blended energy is in `energy`; the rest is the scaled one, Eq. (5).
+  double
+  blended_part(ExampleEnergy energy);
+
   /// The rule by which example weights are found: whether they are prescribed functions of time or
   /// unknowns, their bounds and sums, and the part of the energy that depends on them alone. Weight
   /// r * n_per_region() + i is that of example i in region r; the weights of a region sum to one.

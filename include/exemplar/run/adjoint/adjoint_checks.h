@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_adjoint_checks_h
+#define exemplar_adjoint_checks_h
+
+#include <exemplar/run/problem/problem.h>
+
+// What derivatives_of_slope() relies on.
+
+namespace Exemplar
+{
+  /// Throws UserError, by name, for what the scene has and gradients do not know.
+  void
+  require_known_scene(const Problem &problem);
+
+  /// Throws UserError where a guard acts, Eqs. (16), (24) and (26), or a patch has continued the dilatation of
+  /// a thin cell.
+  void
+  require_no_guard(const Problem &problem);
+
+  /// Throws UserError for a state that is not in equilibrium.
+  void
+  require_equilibrium(const Problem &problem, const Evaluation &evaluation);
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_adjoint_solve_h
+#define exemplar_adjoint_solve_h
+
+#include <exemplar/run/adjoint/slope_derivatives.h>
+
+namespace Exemplar
+{
+  /// The direction (a, b) with Phi'' (a, b) = (dJ/dx, dJ/dw) on the free degrees of freedom and the weights
+  /// that are at no bound, whose changes keep the sums of each region; zero elsewhere. It is solved by a
+  /// factor of the exact tangent at the state and corrected with the exact derivatives. Throws SolverFailure
+  /// if the tangent is not positive definite, or the correction does not converge.
+  struct AdjointSolution
+  {
+    Direction        direction;
+    SlopeDerivatives derivatives; ///< of the slope along it
+  };
+
+  AdjointSolution
+  solve_adjoint(Problem &problem, const Direction &by_state);
+
+  /// Whether steps find this weight and no bound holds it.
+  std::vector<bool>
+  are_inactive(const Problem &problem);
+} // namespace Exemplar
+
+#endif

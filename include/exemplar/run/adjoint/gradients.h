@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_gradients_h
+#define exemplar_gradients_h
+
+#include <exemplar/run/adjoint/slope_derivatives.h>
+
+#include <optional>
+
+namespace Exemplar
+{
+  /// The gradient of a function J(x, w) of the positions and weights of a static equilibrium, by what the
+  /// equilibrium depends on; doc/gradients.md.
+  struct Gradients
+  {
+    std::vector<double>       young, poisson, density; ///< by cell
+    std::optional<double>     importance;              ///< with examples
+    std::vector<Vector>       poses;                   ///< of all examples but the rest pose
+    std::optional<Vector>     rest_positions;          ///< unless shares of regions follow them
+    Vector                    handles;                 ///< zero where nothing is held
+    Vector                    nodal_forces;
+    std::array<double, 3>     gravity{};
+    std::vector<unsigned int> weakly_active; ///< weights at which the gradient is one-sided
+  };
+
+  /// Of the state where the problem stands. `by_state` is dJ/dx by degree of freedom and dJ/dw by weight.
+  /// Throws UserError for scenes that it does not know and states that are no equilibrium, and
+  /// SolverFailure if the exact tangent is not positive definite. The problem stays as it is.
+  Gradients
+  gradients(Problem &problem, const Direction &by_state);
+} // namespace Exemplar
+
+#endif

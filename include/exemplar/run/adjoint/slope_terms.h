@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_slope_terms_h
+#define exemplar_slope_terms_h
+
+#include <exemplar/run/adjoint/slope_derivatives.h>
+
+// The slope of what is not elastic, and what all terms need.
+
+namespace Exemplar
+{
+  /// Add the derivatives by the nodes of a cell of what has the derivative `by_F` by sum x_a g_a^T.
+  void
+  add_forces(const FESpace &fe_space, unsigned int point, const Matrix3<double> &by_F, Vector &to);
+
+  /// The same by the rest positions of what depends on them by the volume alone; the derivative is given times
+  /// the volume.
+  void
+  add_volume(const FESpace &fe_space, unsigned int point, double by_volume, Vector &to);
+
+  /// Of the ridge sigma/2 sum w_i^2 on weights that are to be found.
+  void
+  add_slope_of_ridge(const Problem &problem, const Direction &direction, SlopeDerivatives &sums);
+
+  /// Of gravity and nodal forces.
+  void
+  add_slope_of_loads(const Problem &problem, const Direction &direction, SlopeDerivatives &sums);
+} // namespace Exemplar
+
+#endif

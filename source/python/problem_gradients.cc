@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
+#include <exemplar/python/arrays_from_python.h>
+#include <exemplar/python/problem_gradients.h>
+#include <exemplar/run/adjoint/gradients.h>
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+namespace Exemplar::Python
+{
+  namespace py = pybind11;
+
+  namespace
+  {
+    /// dJ/dx and dJ/dw; None is zero.
+    Direction
+    functional_of(const py::object &by_positions,
+                  const py::object &by_weights,
+                  const Problem    &problem)
+    {
+      Direction functional{ Vector(problem.body.fe_space.n_dofs()),
+                            std::vector<double>(problem.state.weights.size(), 0.) };
+      if (!by_positions.is_none())
+      {
+        const auto rows
+            = points_of(by_positions, "vjp: dJ_dx", py::ssize_t(problem.body.mesh.n_nodes()));
+        for (unsigned int dof = 0; dof < 3 * rows.size(); ++dof)
+          functional.positions[dof] = rows[dof / 3][dof % 3];
+      }
+      if (by_weights.is_none())
+        return functional;
+      const std::size_t n = functional.weights.size();
+      functional.weights  = numbers_of(by_weights, "vjp: dJ_dw", py::ssize_t(n));
+      if (functional.weights.size() != n || py::array::ensure(by_weights).ndim() != 1)
+        throw UserError(
+            fmt::format("vjp: dJ_dw must be an array of shape ({},), one number for each of "
+                        "problem.weights, but is {}.",
+                        n, description(by_weights)));
+      return functional;
+    }
+
+    py::array
+    numbers(const std::vector<double> &values)
+    {
+      return py::array_t<double>(py::ssize_t(values.size()), values.data());
+    }
+
+    py::array
+    rows(const Vector &values)
+    {
+      return py::array_t<double>({ py::ssize_t(values.size() / 3), py::ssize_t(3) },
+                                 values.begin());
+    }
+
+    py::dict
+    to_python(const Gradients &found)
+    {
+      py::dict result;
+      result["young"]   = numbers(found.young);
+      result["poisson"] = numbers(found.poisson);
+      result["density"] = numbers(found.density);
+      if (found.importance)
+        result["importance"] = *found.importance;
+      py::list poses;
+      for (const Vector &pose : found.poses)
+        poses.append(rows(pose));
+      result["poses"] = poses;
+      if (found.rest_positions)
+        result["rest_positions"] = rows(*found.rest_positions);
+      result["handles"]      = rows(found.handles);
+      result["nodal_forces"] = rows(found.nodal_forces);
+      result["gravity"]      = py::array_t<double>(3, found.gravity.data());
+      py::list weak;
+      for (const unsigned int weight : found.weakly_active)
+        weak.append(weight);
+      result["weakly_active"] = weak;
+      return result;
+    }
+
+    py::dict
+    vjp(HeldProblem &held, const py::object &by_positions, const py::object &by_weights)
+    {
+      const Direction functional = functional_of(by_positions, by_weights, held.get());
+      Gradients       found;
+      held.change("vjp()", [&](Problem &problem) { found = gradients(problem, functional); });
+      return to_python(found);
+    }
+  } // namespace
+
+  void
+  add_gradients(ProblemClass &problem)
+  {
+    problem.def(
+        "vjp", &vjp, py::arg("dJ_dx"), py::arg("dJ_dw") = py::none(),
+        "vjp(dJ_dx, dJ_dw=None) -> dict\n\n"
+        "Gradients of a function J(positions, weights) of the static equilibrium that was just "
+        "found,\n"
+        "from its derivatives dJ_dx (n, 3) and dJ_dw (k,) there; None: zero. For any number of\n"
+        "parameters it takes one linear system. The dictionary has, as arrays of their own,\n"
+        "  young, poisson, density (m,), by cell\n"
+        "  importance              a float; with examples\n"
+        "  poses                   a list of (n, 3), of all examples but the rest pose\n"
+        "  rest_positions (n, 3)   with handles, poses and nodal forces where they are; it is not\n"
+        "                          there with Region blend length\n"
+        "  handles (n, 3)          by the positions of held nodes; zero on free ones\n"
+        "  nodal_forces (n, 3), gravity (3,)\n"
+        "  weakly_active           a list of weights that are about to reach or to leave their\n"
+        "                          bound: there gradients are one-sided\n"
+        "Raises UserError for scenes whose gradients are not known (doc/gradients.md), for a\n"
+        "deformation at which a guard acts, and where the problem is not in equilibrium;\n"
+        "SolverFailure if the tangent there is not positive definite.");
+    refuse_other_arguments(problem, "vjp", "vjp is called as vjp(dJ_dx, dJ_dw=None).");
+  }
+} // namespace Exemplar::Python

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/run/adjoint/adjoint_checks.h>
+#include <exemplar/run/adjoint/adjoint_solve.h>
+#include <exemplar/run/adjoint/gradients.h>
+
+#include <algorithm>
+
+namespace Exemplar
+{
+  namespace
+  {
+    /// Of a weight at its bound the multiplier, and else the weight, below which a small change would
+    /// move it off the bound or onto it.
+    constexpr double weak = 1e-6;
+
+    std::vector<unsigned int>
+    weakly_active(const Problem &problem, const Evaluation &evaluation)
+    {
+      const ExampleWeights      &rule   = problem.examples.weights;
+      const std::vector<double> &w      = problem.state.weights,
+                                &slopes = evaluation.elastic.weight_gradient;
+      std::vector<unsigned int> found;
+      if (rule.n_unknown() == 0 || rule.limits_of_changes(w).lower.empty())
+        return found;
+      const std::vector<double> multipliers = rule.residual(w, slopes).multipliers;
+      for (unsigned int weight = 0; weight < w.size(); ++weight)
+      {
+        const double excess = slopes[weight] + multipliers[weight / rule.n_per_region()];
+        if (w[weight] < weak && (w[weight] > 0. || excess < weak * evaluation.elastic.weight_scale))
+          found.push_back(weight);
+      }
+      return found;
+    }
+
+    template <typename Numbers>
+    Numbers
+    negative(Numbers numbers)
+    {
+      for (auto &number : numbers)
+        number = -number;
+      return numbers;
+    }
+
+    /// dJ/dx less Phi_xx a + Phi_xw b where something is held.
+    Vector
+    of_held(const Problem &problem, Vector difference, const Vector &by_positions)
+    {
+      difference -= by_positions;
+      for (const unsigned int dof : problem.potential.get_free_dofs().list())
+        difference[dof] = 0.;
+      return difference;
+    }
+  } // namespace
+
+  Gradients
+  gradients(Problem &problem, const Direction &by_state)
+  {
+    require_known_scene(problem);
+    require_no_guard(problem);
+    Evaluation evaluation;
+    problem.potential.evaluate(problem.state, RotationUse::update, evaluation);
+    require_equilibrium(problem, evaluation);
+    SlopeDerivatives slope = solve_adjoint(problem, by_state).derivatives;
+
+    Gradients result;
+    result.young              = negative(std::move(slope.by_young));
+    result.poisson            = negative(std::move(slope.by_poisson));
+    result.density            = negative(std::move(slope.by_density));
+    result.handles            = of_held(problem, by_state.positions, slope.by_positions);
+    result.nodal_forces       = negative(std::move(slope.by_nodal_forces));
+    result.gravity            = negative(slope.by_gravity);
+    const ExamplePoses &poses = problem.examples.poses;
+    if (poses.size() > 0)
+      result.importance = -slope.by_importance;
+    for (unsigned int i = 0; i < poses.size(); ++i)
+      if (poses.is_strained(i))
+        result.poses.push_back(negative(std::move(slope.by_poses[i])));
+    const ExampleParameters &examples = problem.parameters.examples;
+    if (!examples.weights_per_region || examples.region_blend_length == 0.)
+      result.rest_positions = negative(std::move(slope.by_rest_positions));
+    result.weakly_active = weakly_active(problem, evaluation);
+    return result;
+  }
+} // namespace Exemplar

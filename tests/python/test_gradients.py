@@ -1,0 +1,208 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Gradients of static equilibria, against differences of equilibria."""
+import itertools
+import unittest
+
+import numpy as np
+
+import exemplar
+
+BOX = {"Scene": "static", "Mesh": {"Generator": "box", "Box size": [3, 1, 1], "Box cells": (3, 2, 2)},
+       "Handles": {"left": {"Select": "box 0 -1 -1 0 2 2"}}}
+SCENE = {"Scene": "static", "Time": {"Increments": 1},
+         "Handles": {"left": {"Select": "box -0.3 -1 -1 0.3 2 2"}, "right": {"Select": "box 2.7 -1 -1 3.3 2 2"}},
+         "Material": {"Young's modulus": 1e5, "Poisson's ratio": 0.4, "Density": 900}, "Loads": {"Gravity": [0.5, -1, -3]},
+         "Examples": {"Importance": 0.7, "Weights": "simplex"}, "Solver": {"Tolerance": 1e-12}}
+random = np.random.default_rng(5)
+
+
+def bar():
+    """(nodes, cells, material ids) of a bar without any symmetry."""
+    box = exemplar.Problem(BOX)
+    nodes, cells = box.rest_positions.copy(), box.cells.copy()
+    nodes += random.uniform(-0.04, 0.04, nodes.shape)
+    return nodes, cells, np.where(nodes[cells].mean(axis=1)[:, 0] < 1.4, 1, 2)
+
+
+MESH = bar()
+NODES, CELLS, _ = MESH
+X, Y, Z = NODES.T
+POSES = [np.stack([X, Y + 0.1 * X * (Z - 0.5), Z - 0.1 * X * (Y - 0.5)], axis=1),
+         np.stack([X, Y, Z + 0.06 * X**2], axis=1),
+         np.stack([1.15 * X, 0.95 * Y, 0.95 * Z + 0.02 * X * Y], axis=1)]
+HELD = (X < 0.3) | (X > 2.7)
+TARGETS = NODES + HELD[:, None] * np.where(X < 1.5, 0., 1.)[:, None] * (
+    [0.25, 0.05, 0.2] + 0.12 * np.stack([0 * X, Z - 0.5, 0.5 - Y], axis=1))
+BY_POSITIONS = random.normal(size=NODES.shape)
+
+
+def scene(**sections):
+    return {**SCENE, **{name: {**SCENE.get(name, {}), **keys} for name, keys in sections.items()}}
+
+
+# other constants in each cell, so that a patch has cells of several
+MATERIAL = {"young": 1e5 * random.uniform(0.7, 1.3, len(CELLS)), "poisson": random.uniform(0.35, 0.42, len(CELLS)),
+            "density": 900 * random.uniform(0.7, 1.3, len(CELLS))}
+
+
+def solved(base, targets=TARGETS, mesh=MESH, poses=POSES, material=None, **attributes):
+    """The equilibrium with held nodes at their targets, and with these attributes of the problem."""
+    problem = exemplar.Problem(base, mesh=mesh, poses=poses)
+    problem.set_material(**{**MATERIAL, **(material or {})})
+    problem.set_motion("left", lambda rest, t: targets[X < 0.3] - rest)
+    problem.set_motion("right", lambda rest, t: targets[X > 2.7] - rest)
+    for name, value in attributes.items():
+        setattr(problem, name, value)
+    problem.run()
+    return problem
+
+
+class Case:
+    """An equilibrium, a function of it, and what both depend on."""
+
+    def __init__(self, base):
+        self.base = base
+        self.problem = solved(base)
+        self.by_weights = random.normal(size=len(self.problem.weights))
+        self.found = self.problem.vjp(BY_POSITIONS, self.by_weights)
+
+    def value(self, **changes):
+        problem = solved(self.base, **changes)
+        return (BY_POSITIONS * problem.positions).sum() + self.by_weights @ problem.weights
+
+    def parameters(self):
+        """{name: (value, size of its changes, function of a value)}"""
+        def material(name):
+            return MATERIAL[name], MATERIAL[name].mean(), lambda value: self.value(material={name: value})
+
+        def attribute(name, value, size):
+            return np.array(value), size, lambda changed: self.value(**{name: changed})
+        return {"young": material("young"), "poisson": material("poisson"), "density": material("density"),
+                "importance": attribute("importance", 0.7, 1), "gravity": attribute("gravity", [0.5, -1, -3], 1),
+                "nodal_forces": attribute("nodal_forces", 0 * NODES, 1e3), "handles": attribute("targets", TARGETS, 1),
+                "poses": (np.array(POSES), 0.2, lambda value: self.value(poses=list(value))),
+                "rest_positions": (NODES, 0.2, lambda value: self.value(mesh=(value, *MESH[1:])))}
+
+
+def difference(function, at, direction, step=5e-4):
+    """Of fourth order."""
+    values = [function(at + s * step * direction) for s in (-2, -1, 1, 2)]
+    return np.dot(values, [1, -8, 8, -1]) / (12 * step)
+
+
+class Differences(unittest.TestCase):
+    def check(self, base):
+        case = Case(base)
+        self.assertEqual(case.found["weakly_active"], [])
+        self.assertFalse(np.any(case.found["handles"][~HELD]))
+        for name, (at, size, function) in case.parameters().items():
+            if name not in case.found:
+                continue
+            direction = size * random.uniform(0.5, 1, at.shape) * random.choice([-1, 1], at.shape)
+            expected = difference(function, at, direction)
+            found = np.sum(np.array(case.found[name]) * direction)
+            with self.subTest(name):
+                self.assertLess(abs(found - expected), 1e-6 * abs(expected), (found, expected))
+        return case
+
+    def test_all_rules_of_weights(self):
+        rules = {"simplex": {"Weights": "simplex"}, "free": {"Weights": "free"},
+                 "prescribed": {"Weights": "prescribed", "Prescribed weights": "0.1; 0.2; 0.3; 0.4"},
+                 "per region": {"Weights": "simplex", "Weights per region": True}}
+        n_at_bounds = 0
+        for dilatation, (name, rule), energy in itertools.product(["cells", "patches"], rules.items(), ["scaled", "blended"]):
+            with self.subTest(f"{dilatation}, {name}, {energy}"):
+                case = self.check(scene(Model={"Dilatation": dilatation}, Examples={**rule, "Energy": energy}))
+                n_at_bounds += np.count_nonzero(case.problem.weights == 0)
+        self.assertGreater(n_at_bounds, 5)
+
+    def test_defaults_and_regions_that_blend(self):
+        case = self.check(scene(Examples={"Weights per region": True, "Region blend length": 0.5}))
+        self.assertNotIn("rest_positions", case.found)
+        self.assertIn("rest_positions", self.check(scene()).found)
+
+    def test_no_rest_pose_and_no_examples(self):
+        self.assertEqual(len(self.check(scene(Examples={"Include rest pose": False})).found["poses"]), 3)
+        problem = exemplar.Problem({**BOX, "Loads": {"Gravity": [0, 0, -1]}, "Solver": {"Tolerance": 1e-12}})
+        problem.run()
+        found = problem.vjp(np.ones((problem.positions.shape)))
+        self.assertNotIn("importance", found)
+        self.assertEqual(found["poses"], [])
+
+    def test_ramp(self):
+        """Half the way, nodal forces have half their value."""
+        base = scene(Time={"Increments": 4}, Loads={"Ramp": "increments"})
+        forces = random.normal(size=NODES.shape)
+
+        def half_way(factor):
+            problem = solved(base, nodal_forces=factor * forces)
+            problem.reset()
+            problem.goto(0.5)
+            return problem
+        found = (half_way(0.).vjp(BY_POSITIONS)["nodal_forces"] * forces).sum()
+        expected = difference(lambda factor: (BY_POSITIONS * half_way(factor).positions).sum(), 0., 1e3) / 1e3
+        self.assertLess(abs(found - expected), 1e-6 * abs(expected))
+
+    def test_linear_solvers(self):
+        expected = solved(SCENE).vjp(BY_POSITIONS)
+        for linear_solver in "cholesky", "cholmod", "iterative":
+            with self.subTest(linear_solver):
+                found = solved(scene(Solver={"Linear solver": linear_solver})).vjp(BY_POSITIONS)
+                for name in "young", "rest_positions", "handles":
+                    error = np.abs(found[name] - expected[name]).max()
+                    self.assertLess(error, 1e-7 * np.abs(expected[name]).max(), name)
+
+
+class Answers(unittest.TestCase):
+    def test_weakly_active(self):
+        """Where a weight is about to leave its bound."""
+        base = scene(Examples={"Energy": "blended"})
+
+        def at(part):
+            return solved(base, targets=NODES + part * (TARGETS - NODES))
+        part, other = 1., 0.3
+        weight = int(np.flatnonzero((at(part).weights > 0) != (at(other).weights > 0))[0])
+        is_active = at(part).weights[weight] == 0
+        for _ in range(45):
+            middle = 0.5 * (part + other)
+            if (at(middle).weights[weight] == 0) == is_active:
+                part = middle
+            else:
+                other = middle
+        self.assertEqual(at(part).vjp(BY_POSITIONS)["weakly_active"], [weight])
+
+    def test_problem_stays(self):
+        asked, other = solved({**SCENE, "Time": {"Increments": 3}}), solved({**SCENE, "Time": {"Increments": 3}})
+        positions = asked.positions.copy()
+        first = asked.vjp(BY_POSITIONS)
+        second = asked.vjp(BY_POSITIONS, np.zeros(4))
+        np.testing.assert_array_equal(first["young"], second["young"])
+        np.testing.assert_array_equal(asked.positions, positions)
+        for problem in asked, other:
+            problem.gravity = [0, 1, 2]
+            problem.step()
+        np.testing.assert_array_equal(asked.positions, other.positions)
+
+    def refuse(self, message, base, change=None, ask=lambda problem: problem.vjp(BY_POSITIONS)):
+        problem = solved(base)
+        if change is not None:
+            change(problem)
+        with self.assertRaisesRegex(exemplar.UserError, message):
+            ask(problem)
+
+    def test_refused(self):
+        self.refuse("not static", {**SCENE, "Scene": "dynamic", "Time": {"Step": 0.1, "End": 0.1}})
+        self.refuse("cells that are frozen", scene(Model={"Gradient": "frozen"}, Solver={"Method": "fixed point", "Tolerance": 1e-4}))
+        self.refuse("an elasticity of their own", scene(Examples={"Example modulus": 1e4, "Energy": "blended"}))
+        self.refuse("part of the strain", scene(Examples={"Acts on": "shape"}))
+        self.refuse("equilibrium", SCENE, lambda problem: setattr(problem, "gravity", [0, 0, 9]))
+        self.refuse(r"dJ_dx.*\(79, 3\)|dJ_dx.*\(.*3\)", SCENE, ask=lambda problem: problem.vjp(np.zeros(3)))
+        self.refuse(r"dJ_dw must", SCENE, ask=lambda problem: problem.vjp(BY_POSITIONS, np.zeros(7)))
+        with self.assertRaisesRegex(exemplar.UserError, "equilibrium"):
+            exemplar.Problem(SCENE, mesh=MESH, poses=POSES).vjp(BY_POSITIONS)
+        with self.assertRaisesRegex(TypeError, "vjp is called"):
+            solved(SCENE).vjp()
+
+
+if __name__ == "__main__":
+    unittest.main()
