@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Write the types of the module `exemplar` for mypy and editors, as the module itself says them: each public name with its
+docstring. The build calls this after the module is linked.
+
+Usage: PYTHONPATH=build/release/python python3 source/python/write_stub.py FILE
+
+A method's docstring begins with its call, "name(a, b=None) -> type". What a name or argument is that docstrings do not say is in
+TYPES, by "name" or "function.argument"; what is not there either is Any.
+"""
+import ast
+import inspect
+import re
+import sys
+import types
+
+import exemplar
+
+HEAD = '''# Written by source/python/write_stub.py.
+import os
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+'''
+
+TYPES = {
+    "scene": "str | os.PathLike[str] | Mapping[str, Any]", "mesh": "Sequence[ArrayLike] | None",
+    "poses": "Sequence[ArrayLike] | None", "name": "str", "nodes": "ArrayLike | None", "dt": "float | None", "time": "float",
+    "set_motion.function": "Callable[[NDArray[np.float64], float], ArrayLike]",
+    "grab.function": "Callable[[NDArray[np.float64], float], ArrayLike]",
+    "on_iteration.function": "Callable[[Report], object] | None",
+    "values": "ArrayLike | None", "set_material.young": "ArrayLike | None", "set_material.poisson": "ArrayLike | None",
+    "set_material.density": "ArrayLike | None", "set_pose.i": "int", "set_pose.positions": "ArrayLike",
+    "weights": "NDArray[np.float64]", "energies": "Measures", "statistics": "Measures", "warnings": "list[str]",
+    "residual_history": "list[float]", "status": "str", "iterations": "int", "factorizations": "int", "residual": "float",
+    "kkt_residual": "float", "step_length": "float", "newton_decrement": "float", "step_number": "int", "n_steps": "int",
+    "importance": "float", "gravity": "NDArray[np.float64]", "mass_damping": "float", "stiffness_damping": "float",
+}
+
+
+def public(members):
+    return {name: member for name, member in members.items() if not name.startswith("_")}
+
+
+def indented(text, by="    "):
+    return "\n".join(by + line if line else "" for line in text.splitlines())
+
+
+def body_of(doc, by="    "):
+    """A docstring as the body of what it explains, or dots."""
+    return indented(f'r"""{doc}"""' if "\n" not in doc else f'r"""{doc}\n"""', by) if doc else by + "..."
+
+
+def call_of(doc):
+    """(arguments, type) of the call that a docstring begins with, or None."""
+    found = re.match(r"\w+\((.*?)\)(?: -> ([\w.\[\], |]+))?\n\n", doc + "\n\n", re.DOTALL)
+    return found and (found[1].replace("\n", " "), (found[2] or "None").replace("exemplar.", ""))
+
+
+def typed(function, arguments):
+    """The arguments with their types."""
+    parsed = ast.parse(f"def f({arguments}): pass").body[0].args
+    for argument in [*parsed.posonlyargs, *parsed.args, *parsed.kwonlyargs]:
+        if argument.arg != "self":
+            name = TYPES.get(f"{function}.{argument.arg}", TYPES.get(argument.arg, "Any"))
+            argument.annotation = ast.parse(name, mode="eval").body
+    return ast.unparse(parsed)
+
+
+def function_lines(name, doc, self=""):
+    arguments, result = call_of(doc) or ("*args, **kwargs", "Any")
+    known = re.fullmatch(r"(Any|None|int|float|bool|str|list|dict|\w*Array\w*)", result) or hasattr(exemplar, result)
+    result = result if known else TYPES.get(result, "Any")
+    given = typed(name, ", ".join(filter(None, [self, re.sub(r"^self[^,]*,? *", "", arguments)])))
+    return f"def {name}({given}) -> {result}:\n{body_of(doc)}"
+
+
+def type_of_property(name, doc):
+    if name in TYPES:
+        return TYPES[name]
+    number = "np.uint32" if "uint32" in doc else "np.float64"
+    if re.search(r"\([nmk], ?\d?\)", doc):
+        return f"NDArray[{number}]" + (" | None" if "None unless" in doc else "")
+    shown = re.search(r"\ban? exemplar\.(\w+)", doc)
+    if shown and hasattr(exemplar, shown[1]):
+        return shown[1]
+    return TYPES["time"] if name == "time" else "Any"
+
+
+def property_lines(name, member):
+    doc = inspect.getdoc(member) or ""
+    lines = f"@property\ndef {name}(self) -> {type_of_property(name, doc)}:\n{body_of(doc)}"
+    if getattr(member, "fset", None) and "read only" not in doc:
+        lines += f"\n@{name}.setter\ndef {name}(self, value: Any) -> None: ..."
+    return lines
+
+
+def class_lines(name, kind):
+    bases = "dict[str, float]" if name == "Measures" else ", ".join(base.__name__ for base in kind.__bases__)
+    doc = kind.__doc__ or ""
+    found = [body_of(doc)]
+    init = inspect.getdoc(kind.__init__) or ""
+    if init.startswith(f"{name}("):
+        found.append(indented(function_lines("__init__", init, "self").replace(" -> Any", " -> None")))
+    for member, value in public(vars(kind)).items():
+        is_method = callable(value) and not isinstance(value, (property, type))
+        lines = function_lines(member, value.__doc__ or "", "self") if is_method else property_lines(member, value)
+        found.append(indented(lines))
+    return f"class {name}({bases}):\n" + "\n\n".join(found)
+
+
+def stub():
+    parts = [HEAD, "__version__: str"]
+    for name, member in public(vars(exemplar)).items():
+        if isinstance(member, types.ModuleType):
+            continue
+        parts.append(class_lines(name, member).replace("(pybind11_object)", "").replace("(object)", "")
+                     if isinstance(member, type) else function_lines(name, member.__doc__ or ""))
+    return "\n\n".join(parts) + "\n"
+
+
+if __name__ == "__main__":
+    with open(sys.argv[1], "w", encoding="utf-8") as file:
+        file.write(stub())
