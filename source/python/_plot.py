@@ -68,6 +68,7 @@ def plot(problem, values, axes):
     axes.add_collection3d(Poly3DCollection(corners, facecolors=shaded(scale.to_rgba(numbers), corners)))
     low, high = problem.positions.min(axis=0), problem.positions.max(axis=0)
     axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2]), xlabel="x", ylabel="y", zlabel="z")
+    axes.locator_params(nbins=4)
     axes.set_box_aspect(np.maximum(high - low, 1e-3 * (high - low).max()))
-    axes.figure.colorbar(scale, ax=axes, shrink=0.6, label=label)
+    axes.figure.colorbar(scale, ax=axes, shrink=0.6, pad=0.15, label=label)
     return axes
