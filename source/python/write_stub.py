@@ -5,7 +5,7 @@ docstring. The build calls this after the module is linked.
 Usage: PYTHONPATH=build/release/python python3 source/python/write_stub.py FILE
 
 A method's docstring begins with its call, "name(a, b=None) -> type". What a name or argument is that docstrings do not say is in
-TYPES, by "name" or "function.argument"; what is not there either is Any.
+TYPES, by "name" or "function.argument"; what is not there either is Any. An argument whose default is None may be None.
 """
 import ast
 import inspect
@@ -25,13 +25,15 @@ from numpy.typing import ArrayLike, NDArray
 '''
 
 TYPES = {
-    "scene": "str | os.PathLike[str] | Mapping[str, Any]", "mesh": "Sequence[ArrayLike] | None",
-    "poses": "Sequence[ArrayLike] | None", "name": "str", "nodes": "ArrayLike | None", "dt": "float | None", "time": "float",
+    "scene": "str | os.PathLike[str] | Mapping[str, Any]", "mesh": "Sequence[ArrayLike]",
+    "poses": "Sequence[ArrayLike]", "name": "str", "nodes": "ArrayLike", "dt": "float", "time": "float",
     "set_motion.function": "Callable[[NDArray[np.float64], float], ArrayLike]",
     "grab.function": "Callable[[NDArray[np.float64], float], ArrayLike]",
     "on_iteration.function": "Callable[[Report], object] | None",
-    "values": "ArrayLike | None", "set_material.young": "ArrayLike | None", "set_material.poisson": "ArrayLike | None",
-    "set_material.density": "ArrayLike | None", "set_pose.i": "int", "set_pose.positions": "ArrayLike",
+    "values": "ArrayLike", "set_material.young": "ArrayLike", "set_material.poisson": "ArrayLike",
+    "set_material.density": "ArrayLike", "set_pose.i": "int", "set_pose.positions": "ArrayLike",
+    "replace.positions": "ArrayLike", "replace.velocities": "ArrayLike", "replace.weights": "ArrayLike", "replace.step": "int",
+    "history": "NDArray[np.float64]", "step": "int",
     "weights": "NDArray[np.float64]", "energies": "Measures", "statistics": "Measures", "warnings": "list[str]",
     "residual_history": "list[float]", "status": "str", "iterations": "int", "factorizations": "int", "residual": "float",
     "kkt_residual": "float", "step_length": "float", "newton_decrement": "float", "step_number": "int", "n_steps": "int",
@@ -61,10 +63,13 @@ def call_of(doc):
 def typed(function, arguments):
     """The arguments with their types."""
     parsed = ast.parse(f"def f({arguments}): pass").body[0].args
-    for argument in [*parsed.posonlyargs, *parsed.args, *parsed.kwonlyargs]:
+    given = [*parsed.posonlyargs, *parsed.args]
+    defaults = [None] * (len(given) - len(parsed.defaults)) + parsed.defaults + parsed.kw_defaults
+    for argument, default in zip([*given, *parsed.kwonlyargs], defaults):
         if argument.arg != "self":
             name = TYPES.get(f"{function}.{argument.arg}", TYPES.get(argument.arg, "Any"))
-            argument.annotation = ast.parse(name, mode="eval").body
+            may_be_none = isinstance(default, ast.Constant) and default.value is None and "None" not in name and name != "Any"
+            argument.annotation = ast.parse(name + " | None" * may_be_none, mode="eval").body
     return ast.unparse(parsed)
 
 
@@ -85,7 +90,7 @@ def type_of_property(name, doc):
     shown = re.search(r"\ban? exemplar\.(\w+)", doc)
     if shown and hasattr(exemplar, shown[1]):
         return shown[1]
-    return TYPES["time"] if name == "time" else "Any"
+    return "Any"
 
 
 def property_lines(name, member):
