@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Install what is missing, build exemplar and run the cat of the paper's Fig. 2a. --install-only also installs what some
-# tests read results with, if that is to be had.
+# Install what is missing, build exemplar and run the cat of the paper's Fig. 2a. --install-only also installs what pip, the
+# pages and some tests need, if that is to be had.
 # Usage: ./demo.sh [--install-only]
 set -euo pipefail
 usage="Usage: ./demo.sh [--install-only]"
