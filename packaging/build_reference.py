@@ -54,7 +54,7 @@ def escaped(text):
 def entry(name, member, level):
     """A heading with the call, and what the docstring says below it."""
     doc = inspect.getdoc(member) or ""
-    call = re.match(r"\w+(\(.*?\)(?: -> [^\n]+)?)(\n\n|$)", doc, re.DOTALL)
+    call = re.match(r"\w+(\(.*?\)(?:\s+-> [^\n]+)?)(\n\n|$)", doc, re.DOTALL)
     if call:
         doc = doc[call.end():]
     heading = name + re.sub(r"\s+", " ", call[1]) if call else name
@@ -85,6 +85,8 @@ def public_headers():
     page = (TOP / "doc/embedding.md").read_text()
     names = set(re.findall(r"`(?:\w+::)?(\w+)(?:\(\))?`", page))
     for file in (INCLUDE / "exemplar").rglob("*.h"):
+        if file.parent.name == "kernels":
+            continue  # no program of others sees these
         defined = re.findall(r"^  (?:class|struct) (\w+)[^;]*$|^  (\w+)\([^;]*;", file.read_text(), re.MULTILINE)
         if names & {name for pair in defined for name in pair}:
             found.add(str(file.relative_to(INCLUDE)))

@@ -16,7 +16,8 @@ namespace Exemplar::Python
     find_arguments(const std::string &doc, const std::string &name, std::string &arguments)
     {
       std::string call = doc.substr(0, doc.find("\n\n"));
-      call             = call.substr(0, call.find(" -> "));
+      call             = call.substr(0, call.find("->"));
+      call.erase(call.find_last_not_of(" \n") + 1);
       if (call.compare(0, name.size() + 1, name + "(") != 0 || call.back() != ')')
         return false;
       arguments = call.substr(name.size() + 1, call.size() - name.size() - 2);

@@ -4,8 +4,8 @@ docstring. The build calls this after the module is linked.
 
 Usage: PYTHONPATH=build/release/python python3 source/python/write_stub.py FILE
 
-A method's docstring begins with its call, "name(a, b=None) -> type". What a name or argument is that docstrings do not say is in
-TYPES, by "name" or "function.argument"; what is not there either is Any. An argument whose default is None may be None.
+A method's docstring begins with its call, "name(a, b=None) -> type". What docstrings do not say is in
+ARGUMENTS and PROPERTIES; what is not there either is Any. An argument whose default is None may be None.
 """
 import ast
 import inspect
@@ -24,20 +24,24 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 '''
 
-TYPES = {
-    "scene": "str | os.PathLike[str] | Mapping[str, Any]", "mesh": "Sequence[ArrayLike]",
-    "poses": "Sequence[ArrayLike]", "name": "str", "nodes": "ArrayLike", "dt": "float", "time": "float",
+# of arguments, by "name" or "function.name"
+ARGUMENTS = {
+    "scene": "str | os.PathLike[str] | Mapping[str, Any]", "mesh": "Sequence[ArrayLike]", "poses": "Sequence[ArrayLike]",
+    "name": "str", "kind": "str", "dt": "float", "time": "float", "i": "int", "step": "int",
+    "nodes": "ArrayLike", "positions": "ArrayLike", "velocities": "ArrayLike", "weights": "ArrayLike", "values": "ArrayLike",
+    "young": "ArrayLike", "poisson": "ArrayLike", "density": "ArrayLike", "dJ_dx": "ArrayLike", "dJ_dw": "ArrayLike",
     "set_motion.function": "Callable[[NDArray[np.float64], float], ArrayLike]",
     "grab.function": "Callable[[NDArray[np.float64], float], ArrayLike]",
+    "add_term.function": "Callable[[NDArray[np.float64], float], Any]",
     "on_iteration.function": "Callable[[Report], object] | None",
-    "values": "ArrayLike", "set_material.young": "ArrayLike", "set_material.poisson": "ArrayLike",
-    "set_material.density": "ArrayLike", "set_pose.i": "int", "set_pose.positions": "ArrayLike",
-    "replace.positions": "ArrayLike", "replace.velocities": "ArrayLike", "replace.weights": "ArrayLike", "replace.step": "int",
-    "history": "NDArray[np.float64]", "step": "int",
-    "weights": "NDArray[np.float64]", "energies": "Measures", "statistics": "Measures", "warnings": "list[str]",
-    "residual_history": "list[float]", "status": "str", "iterations": "int", "factorizations": "int", "residual": "float",
-    "kkt_residual": "float", "step_length": "float", "newton_decrement": "float", "step_number": "int", "n_steps": "int",
-    "importance": "float", "gravity": "NDArray[np.float64]", "mass_damping": "float", "stiffness_damping": "float",
+}
+
+PROPERTIES = {
+    "weights": "NDArray[np.float64]", "history": "NDArray[np.float64]", "gravity": "NDArray[np.float64]",
+    "energies": "Measures", "statistics": "Measures", "warnings": "list[str]", "residual_history": "list[float]", "status": "str",
+    "iterations": "int", "factorizations": "int", "step_number": "int", "n_steps": "int", "step": "int", "time": "float",
+    "residual": "float", "kkt_residual": "float", "step_length": "float", "newton_decrement": "float",
+    "importance": "float", "mass_damping": "float", "stiffness_damping": "float",
 }
 
 
@@ -56,8 +60,15 @@ def body_of(doc, by="    "):
 
 def call_of(doc):
     """(arguments, type) of the call that a docstring begins with, or None."""
-    found = re.match(r"\w+\((.*?)\)(?: -> ([\w.\[\], |]+))?\n\n", doc + "\n\n", re.DOTALL)
+    found = re.match(r"\w+\(([^()]*(?:\([^()]*\)[^()]*)*)\)(?:\s+-> ([^\n]+))?\n\n", doc + "\n\n")
     return found and (found[1].replace("\n", " "), (found[2] or "None").replace("exemplar.", ""))
+
+
+def type_of_result(name):
+    """The type by which a call's docstring names its result, such as "float", "Report", or the shape (n, 3) of an array."""
+    if re.fullmatch(r"\([\w, ]+\)", name):
+        return "NDArray[np.float64]"
+    return name if re.fullmatch(r"Any|None|int|float|bool|str|list|dict", name) or hasattr(exemplar, name) else "Any"
 
 
 def typed(function, arguments):
@@ -67,7 +78,7 @@ def typed(function, arguments):
     defaults = [None] * (len(given) - len(parsed.defaults)) + parsed.defaults + parsed.kw_defaults
     for argument, default in zip([*given, *parsed.kwonlyargs], defaults):
         if argument.arg != "self":
-            name = TYPES.get(f"{function}.{argument.arg}", TYPES.get(argument.arg, "Any"))
+            name = ARGUMENTS.get(f"{function}.{argument.arg}", ARGUMENTS.get(argument.arg, "Any"))
             may_be_none = isinstance(default, ast.Constant) and default.value is None and "None" not in name and name != "Any"
             argument.annotation = ast.parse(name + " | None" * may_be_none, mode="eval").body
     return ast.unparse(parsed)
@@ -75,17 +86,15 @@ def typed(function, arguments):
 
 def function_lines(name, doc, self=""):
     arguments, result = call_of(doc) or ("*args, **kwargs", "Any")
-    known = re.fullmatch(r"(Any|None|int|float|bool|str|list|dict|\w*Array\w*)", result) or hasattr(exemplar, result)
-    result = result if known else TYPES.get(result, "Any")
     given = typed(name, ", ".join(filter(None, [self, re.sub(r"^self[^,]*,? *", "", arguments)])))
-    return f"def {name}({given}) -> {result}:\n{body_of(doc)}"
+    return f"def {name}({given}) -> {type_of_result(result)}:\n{body_of(doc)}"
 
 
 def type_of_property(name, doc):
-    if name in TYPES:
-        return TYPES[name]
+    if name in PROPERTIES:
+        return PROPERTIES[name]
     number = "np.uint32" if "uint32" in doc else "np.float64"
-    if re.search(r"\([nmk], ?\d?\)", doc):
+    if "scipy.sparse" not in doc and re.search(r"\((examples, )?[nmk],[ \d,]*\)", doc):
         return f"NDArray[{number}]" + (" | None" if "None unless" in doc else "")
     shown = re.search(r"\ban? exemplar\.(\w+)", doc)
     if shown and hasattr(exemplar, shown[1]):
