@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Install what is missing, build exemplar and run the cat of the paper's Fig. 2a. --install-only also installs what some
-# tests read results with, if that is to be had.
+# Install what is missing, build exemplar and run the cat of the paper's Fig. 2a. --install-only also installs what pip, the
+# pages and some tests need, if that is to be had.
 # Usage: ./demo.sh [--install-only]
 set -euo pipefail
 usage="Usage: ./demo.sh [--install-only]"
@@ -15,7 +15,8 @@ cd "$(dirname "$(readlink -f "$0")")"
 packages=(git g++ cmake ninja-build libdeal.ii-dev libsuitesparse-dev libopenblas0-pthread
           libmuparser-dev libcli11-dev libfmt-dev nlohmann-json3-dev libssl-dev zlib1g-dev libseccomp-dev libopenmpi-dev
           openmpi-bin libgtest-dev libxsimd-dev python3 python3-dev python3-numpy pybind11-dev gnuplot-nox help2man)
-packages_for_tests=(blender)
+packages_for_tests=(blender python3-pip python3-venv python3-wheel python3-matplotlib mypy doxygen mkdocs mkdocs-material
+                    python3-pymdownx libjs-katex)
 
 # Install those of some packages that are missing; end the script if that fails.
 install_missing() {

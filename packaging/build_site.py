@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Make the documentation site from the pages of the project by Debian's mkdocs-material, mkdocs, python3-pymdownx and
-libjs-katex, for a web server or for reading from the disk: it fetches nothing from elsewhere.
+libjs-katex, for a web server or for reading from the disk: it fetches nothing from elsewhere. The reference of the names is in
+it where build_reference.py can make it.
 
 Usage: /usr/bin/python3 packaging/build_site.py DIRECTORY      pages in DIRECTORY/site, begin with index.html; exit 77 if
                                                                a package is missing
@@ -12,6 +13,8 @@ import shutil
 import subprocess
 import sys
 from pathlib import Path
+
+import build_reference
 
 TOP = Path(__file__).resolve().parents[1]
 KATEX = Path("/usr/share/javascript/katex")
@@ -76,6 +79,12 @@ def require_packages():
         sys.exit(77)
 
 
+def write_menu(site, with_reference):
+    menu = (TOP / "packaging/mkdocs.yml").read_text()
+    lines = [line for line in menu.splitlines() if with_reference or "reference/README.md" not in line]
+    Path(site, "mkdocs.yml").write_text("\n".join(lines) + "\n")
+
+
 def main():
     require_packages()
     site = Path(sys.argv[1]).resolve()
@@ -85,7 +94,10 @@ def main():
     copy_pages(pages)
     for page in list(pages.rglob("*.md")):
         lead_to_pages(page)
-    shutil.copy(TOP / "packaging/mkdocs.yml", site)
+    with_reference = build_reference.can_build()
+    if with_reference:
+        build_reference.build(pages / "reference")
+    write_menu(site, with_reference)
     done = subprocess.run([sys.executable, "-m", "mkdocs", "build", "--strict", "--config-file", site / "mkdocs.yml"],
                           env={**os.environ, "PYTHONPATH": str(THEMES)})
     shutil.rmtree(pages)

@@ -5,6 +5,7 @@
 #include <exemplar/python/arrays_from_python.h>
 #include <exemplar/python/from_python.h>
 #include <exemplar/python/held_problem.h>
+#include <exemplar/python/step_log.h>
 #include <exemplar/python/unlocked_work.h>
 #include <exemplar/run/problem/idle_review.h>
 #include <exemplar/run/problem/motion_review.h>
@@ -203,6 +204,7 @@ namespace Exemplar::Python
       throw;
     }
     stepping = std::thread::id();
+    log_step(*problem, report);
     warn(at_end);
     if (is_stopped)
       throw Interrupted(fmt::format("Interrupted after step {}.", problem->state.step));

@@ -6,9 +6,12 @@
 #include <exemplar/python/evaluation.h>
 #include <exemplar/python/from_python.h>
 #include <exemplar/python/function_term.h>
+#include <exemplar/python/plot.h>
 #include <exemplar/python/problem_changes.h>
 #include <exemplar/python/problem_gradients.h>
 #include <exemplar/python/problem_state.h>
+#include <exemplar/python/problem_type.h>
+#include <exemplar/python/signatures.h>
 #include <exemplar/python/unlocked_work.h>
 
 #include <deal.II/base/exceptions.h>
@@ -70,7 +73,7 @@ namespace Exemplar::Python
           .def_property_readonly(
               "status", [](const SolveReport &report) { return status_name(report.status); },
               "'converged' or 'one pass'; 'initial' before it ends.")
-          .def_readonly("iterations", &SolveReport::iterations)
+          .def_readonly("iterations", &SolveReport::iterations, "How many were made.")
           .def_readonly("residual", &SolveReport::residual,
                         "Of the forces, relative: doc/solver.md, Eq. (13).")
           .def_readonly("kkt_residual", &SolveReport::kkt_residual, "Of the weights, relative.")
@@ -153,7 +156,7 @@ namespace Exemplar::Python
           "on_iteration(function)\n\n"
           "Call function(report) after each iteration of a step; None: call nothing.\n\n"
           "If it returns False, the step is left and Interrupted raised; methods that cannot\n"
-          "stop within a step finish it before.");
+          "stop within a step finish it before. Raises TypeError for what is no function.");
       refuse_other_arguments(problem, "run",
                              "run() takes no argument: it makes all steps that are left. Some of "
                              "them: for _ in range(5): problem.step().");
@@ -293,6 +296,7 @@ namespace Exemplar::Python
       const py::object measures = make_measures_type();
       module.attr("Measures")   = measures; // where pickle looks for it
       add_measures(problem, measures);
+      add_plot(problem);
     }
   } // namespace
 } // namespace Exemplar::Python
@@ -310,7 +314,9 @@ PYBIND11_MODULE(exemplar, module)
   module.def(
       "use_one_blas_thread", &use_one_blas_thread,
       "Let BLAS use one thread in the whole process, numpy with it if it uses the same BLAS.\n"
-      "Results are then the same bytes as the program's. Importing exemplar does not do so.");
+      "Results are then the same bytes as the program's. Importing exemplar does not do so.\n"
+      "Raises nothing.");
+  Python::add_signatures(module);
   py::module_::import("atexit").attr("register")(py::cpp_function(&Python::UnlockedWork::end_all));
   dealii::MultithreadInfo::set_thread_limit(1);
   dealii::deal_II_exceptions::disable_abort_on_exception();

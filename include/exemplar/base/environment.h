@@ -39,6 +39,7 @@ namespace Exemplar
       several
     };
 
+    /// Until it ends, parallel regions of this thread have one thread, or several again.
     explicit OpenMPScope(Threads threads);
     ~OpenMPScope();
 

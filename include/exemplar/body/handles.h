@@ -111,6 +111,7 @@ namespace Exemplar
     bool
     are_elsewhere(double time, const dealii::Vector<double> &positions) const;
 
+    /// How many handles there are.
     unsigned int
     size() const
     {
@@ -121,6 +122,7 @@ namespace Exemplar
     unsigned int
     n_nodes(unsigned int handle) const;
 
+    /// As the scene or grab() calls it.
     const std::string &
     name(const unsigned int handle) const
     {

@@ -37,6 +37,7 @@ namespace Exemplar
     operator=(const SceneFile &)
         = delete;
 
+    /// The file of the scene, as it was given.
     const std::filesystem::path &
     get_path() const
     {
@@ -50,6 +51,7 @@ namespace Exemplar
       return text;
     }
 
+    /// What the text and the overrides say, with the defaults of all else.
     const CompleteScene &
     get_parameters() const
     {
