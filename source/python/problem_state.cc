@@ -201,6 +201,12 @@ namespace Exemplar::Python
           "A state with other values: positions (n, 3) [m], velocities (n, 3) [m/s], weights (k),\n"
           "time [s] or 0 to 1, step. What the solver remembers is left out. Raises UserError for\n"
           "other shapes and for what is not finite.");
+      type.def("replace",
+               [](const SavedState &, const py::args &, const py::kwargs &) -> SavedState
+               {
+                 throw py::type_error("replace is called as replace(positions=..., velocities=..., "
+                                      "weights=..., time=..., step=...), with the names.");
+               });
       type.def("__eq__",
                [](const SavedState &a, const SavedState &b) { return a.state == b.state; });
       type.def("__eq__", [](const SavedState &, const py::object &) { return false; });
@@ -251,7 +257,14 @@ namespace Exemplar::Python
     add_state_type(module);
     problem.def_property(
         "state", &HeldProblem::save,
-        [](HeldProblem &held, const SavedState &saved) { held.restore(&saved); },
+        [](HeldProblem &held, const py::object &saved)
+        {
+          if (!py::isinstance<SavedState>(saved))
+            throw py::type_error(
+                "state must be an exemplar.State, but is " + description(saved)
+                + ". Arrays are put into one by problem.state.replace(positions=...).");
+          held.restore(&saved.cast<const SavedState &>());
+        },
         "Where the problem stands, an exemplar.State. Setting it puts the problem there, with the "
         "work\n"
         "done until then; residual and the other numbers of the last step begin anew. Steps from "

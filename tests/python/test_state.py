@@ -159,8 +159,10 @@ class States(unittest.TestCase):
             self.assertEqual(bytes_of(problem), before)
         with self.assertRaisesRegex(exemplar.UserError, "has velocities"):
             exemplar.Problem(STATIC).state = problem.state
-        with self.assertRaises(TypeError):
+        with self.assertRaisesRegex(TypeError, "must be an exemplar.State, but is an array of shape \\(45, 3\\)"):
             problem.state = problem.positions
+        with self.assertRaisesRegex(TypeError, "with the names"):
+            state.replace(position=problem.positions)
         with self.assertRaisesRegex(AttributeError, "state.replace"):
             problem.positions = 1
 
