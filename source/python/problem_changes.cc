@@ -293,7 +293,7 @@ namespace Exemplar::Python
           "grab", &grab, py::arg("name"), py::arg("nodes"), py::arg("function"),
           "grab(name, nodes, function)\n\n"
           "hold(name, nodes) and set_motion(name, function): function(rest (k, 3), t) returns the\n"
-          "displacements (k, 3) [m] of the nodes in ascending order.");
+          "displacements (k, 3) [m] of the nodes in ascending order. Raises what these two raise.");
       problem.def("let_go", &let_go, py::arg("name"),
                   "let_go(name)\n\n"
                   "From the next step on the handle holds nothing; its nodes keep their "

@@ -300,7 +300,8 @@ namespace Exemplar::Python
         "reset()\n\n"
         "Back to the initial state. Steps are then the same bytes as at first, but for what was "
         "changed\n"
-        "since: motions, handles and numbers that were changed stay changed.");
+        "since: motions, handles and numbers that were changed stay changed. Raises RuntimeError\n"
+        "within a step.");
     refuse_other_arguments(problem, "step",
                            "step is called as step(dt=None), with the length of the "
                            "step. Some steps: for _ in range(5): problem.step().");

@@ -231,13 +231,13 @@ namespace Exemplar
                  std::vector<double>       &columns,
                  OuterProducts             *products);
 
-    PotentialTerms       terms;
-    const FESpace       &fe_space;
-    SymmetricPattern     pattern; ///< of cells and terms
-    ElasticPotential     cells;
-    ExampleWeights      &weights;
-    TimeIntegrator      *integrator;
-    const FreeDofs      &free_dofs;
+    PotentialTerms   terms;
+    const FESpace   &fe_space;
+    SymmetricPattern pattern; ///< of cells and terms
+    ElasticPotential cells;
+    ExampleWeights  &weights;
+    TimeIntegrator  *integrator;
+    const FreeDofs  &free_dofs;
     /// Those of Psi first.
     std::vector<PotentialTerm *> all_terms;
     HeldBackForces               held_back;

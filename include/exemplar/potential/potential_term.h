@@ -214,6 +214,7 @@ namespace Exemplar
     {
     }
 
+    /// Read what save() wrote.
     virtual void
     load(boost::archive::binary_iarchive & /*archive*/)
     {

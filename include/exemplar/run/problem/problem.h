@@ -90,6 +90,7 @@ namespace Exemplar
       const PotentialTerm *term; ///< that of the steps
     };
 
+    /// What was added to the potential, first come first.
     const std::vector<OwnTerm> &
     get_own_terms() const
     {
