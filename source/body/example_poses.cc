@@ -167,6 +167,14 @@ namespace Exemplar
       }
       return warnings;
     }
+
+    void
+    round_to_single(dealii::AlignedVector<double> &numbers, dealii::AlignedVector<float> &in_single)
+    {
+      in_single.resize_fast(numbers.size());
+      for (std::size_t i = 0; i < numbers.size(); ++i)
+        numbers[i] = in_single[i] = static_cast<float>(numbers[i]);
+    }
   } // namespace
 
   ExamplePoses::ExamplePoses(const ExampleParameters                &parameters,
@@ -183,7 +191,7 @@ namespace Exemplar
         regions(make_regions(parameters, mesh, fe_space, painted)),
         poses(make_poses(parameters, mesh, fe_space, named_poses)),
         first_strained(parameters.in_use() && parameters.include_rest_pose ? 1 : 0),
-        acts_on(parameters.acts_on), is_single(parameters.in_single_precision),
+        rule{ parameters.acts_on, parameters.in_single_precision },
         warnings(review(parameters, mesh, fe_space, poses))
   {
     set_parameters(example_constants.importance, cell_material, patches);
@@ -198,17 +206,16 @@ namespace Exemplar
       return;
     example_constants.importance = importance;
     compute_strains(cell_material);
-    compute_patch_dilatations(patches);
-    compute_gram_matrix(cell_material, patches);
+    gram.compute(*this, fe_space, laws, cell_material, patches);
   }
 
   void
   ExamplePoses::set_material(const Material &cell_material, const Patches &patches)
   {
-    if (acts_on != ActsOn::all || cell_material.has_examples()) // their strains depend on it
+    if (rule.acts_on != ActsOn::all || cell_material.has_examples()) // their strains depend on it
       set_parameters(example_constants.importance, cell_material, patches);
     else if (!poses.empty())
-      compute_gram_matrix(cell_material, patches);
+      gram.compute(*this, fe_space, laws, cell_material, patches);
   }
 
   void
@@ -233,7 +240,7 @@ namespace Exemplar
         const Matrix3<double> F    = fe_space.deformation_gradient(point, poses[i].positions);
         const Matrix3<double> E    = model_strain(law, model_rotation(law, F), F);
         const unsigned int    cell = fe_space.cell_of(point);
-        const Matrix3<double> part = acting_part(acts_on, material, cell, E);
+        const Matrix3<double> part = acting_part(rule.acts_on, material, cell, E);
         const bool            own  = material.has_examples();
         add_to_stored(strains.data(), point, n_strained(), i - first_strained,
                       own ? 1. : example_constants.importance * material.importance(cell),
@@ -242,8 +249,8 @@ namespace Exemplar
           p_0 = min_or_nan(p_0, 0.5 * guard_product(E));
       }
     }
-    if (is_single)
-      round_strains();
+    if (rule.is_single)
+      round_to_single(strains, in_single);
     for (unsigned int point = 0; point < fe_space.n_points(); ++point)
       for_each_weight(point,
                       [&](const unsigned int weight, const unsigned int i, const double share)
@@ -259,30 +266,6 @@ namespace Exemplar
     if (!std::isfinite(max_entry(strain_norms)) || !std::isfinite(p_0))
       throw UserError("Examples: the strains of the poses are not finite numbers, or too large to "
                       "compute with. Are all poses in the unit of the mesh?");
-  }
-
-  void
-  ExamplePoses::round_strains()
-  {
-    in_single.resize_fast(strains.size());
-    for (std::size_t i = 0; i < strains.size(); ++i)
-      strains[i] = in_single[i] = static_cast<float>(strains[i]);
-  }
-
-  void
-  ExamplePoses::compute_patch_dilatations(const Patches &patches)
-  {
-    patch_dilatations.reinit(patches.size(), n_weights());
-    if (patches.size() == 0)
-      return;
-    for (unsigned int point = 0; point < fe_space.n_points(); ++point)
-    {
-      const unsigned int patch    = patches.of_point(point);
-      const double       fraction = fe_space.volume(point) / patches.volume(patch);
-      for_each_weight(
-          point, [&](const unsigned int weight, const unsigned int i, const double share)
-          { patch_dilatations(patch, weight) += fraction * share * trace(strain(point, i)); });
-    }
   }
 
   std::vector<double>
@@ -318,7 +301,6 @@ namespace Exemplar
     for (const ExamplePose &pose : poses)
       of_poses += pose.positions.memory_consumption();
     return of_poses + strains.memory_consumption() + in_single.memory_consumption()
-           + memory_consumption(strain_norms) + patch_dilatations.memory_consumption()
-           + gram.memory_consumption() + blended.memory_consumption();
+           + memory_consumption(strain_norms) + gram.memory_consumption();
   }
 } // namespace Exemplar

@@ -85,9 +85,9 @@ namespace Exemplar
     for (unsigned int weight = 0; weight < n; ++weight)
       penalty(weight, weight) = sigma * fraction[weight / poses.size()];
     if (parameters.energy != ExampleEnergy::scaled)
-      poses.add_blended(blended_part(parameters.energy), penalty);
+      poses.get_gram().add_blended(blended_part(parameters.energy), penalty);
     form.H = penalty;
-    form.H.add(1., poses.gram_matrix());
+    form.H.add(1., poses.get_gram().matrix());
     for (unsigned int weight = 0; weight < n; ++weight)
     {
       form.N(weight / poses.size(), weight) = 1.;
@@ -101,7 +101,7 @@ namespace Exemplar
   {
     memory.set_step(std::move(step));
     for (unsigned int weight = 0; memory.creeps() && weight < form.H.m(); ++weight)
-      form.H(weight, weight) = penalty(weight, weight) + poses.gram_matrix()(weight, weight)
+      form.H(weight, weight) = penalty(weight, weight) + poses.get_gram().matrix()(weight, weight)
                                + memory.stiffness(weight);
   }
 

@@ -30,11 +30,12 @@ namespace Exemplar
   void
   ExampleWeights::check_independence(const double unit_energy, const bool has_ridge)
   {
-    const unsigned int               k           = n_per_region();
-    const dealii::FullMatrix<double> differences = form_of_differences(poses.gram_matrix(), k);
+    const unsigned int               k = n_per_region();
+    const dealii::FullMatrix<double> differences
+        = form_of_differences(poses.get_gram().matrix(), k);
     const auto second = [k](const unsigned int d) { return d + d / (k - 1) + 1; };
     // strains of 1e-10 are the rounding of a rest pose
-    const double     of_rounding = std::pow(1e-10 * poses.constants().importance, 2) * unit_energy;
+    const double   of_rounding = std::pow(1e-10 * poses.constants().importance, 2) * unit_energy;
     const MinPivot least       = min_pivot(differences, of_rounding);
     if (differences.m() == 0 || least.ratio > 1e-8)
       return;

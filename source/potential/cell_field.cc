@@ -131,7 +131,7 @@ namespace Exemplar
   void
   CellField::update_dilatations(const Vector &positions, const RotationUse rotations)
   {
-    clear_cell_flags();
+    dilatation.clear_flags();
     for_each_law_in_stripes(task(positions, rotations), &LawKernels::dilatations);
   }
 

@@ -111,7 +111,7 @@ namespace Exemplar
   void
   ElasticPotential::follow_parameters()
   {
-    cells.set_constants(parts.cell_material, parts.examples.constants());
+    cells.get_batches().set_constants(parts.cell_material, parts.examples.constants());
     rounding = estimate_rounding(parts);
   }
 
@@ -139,7 +139,7 @@ namespace Exemplar
   RotationUse
   ElasticPotential::find_dilatations(const Vector &positions, const RotationUse rotations)
   {
-    if (!cells.has_dilatations())
+    if (!cells.get_dilatation().is_filled())
       return rotations;
     cells.update_dilatations(positions, rotations);
     for (const auto &term : terms)
@@ -240,7 +240,7 @@ namespace Exemplar
   {
     const CellTask cell_task = task(positions, {}, rotations);
     WeightSums     weight_sums(cells.get_nodal_sums().n_stripes(), parts.examples.n_weights());
-    cells.clear_cell_flags();
+    cells.get_dilatation().clear_flags();
     cells.get_nodal_sums().for_each_stripe(
         [&](const std::size_t stripe, const std::size_t begin, const std::size_t end, double *)
         {
@@ -291,7 +291,8 @@ namespace Exemplar
                         {
                           using Cell = std::decay_t<decltype(state)>;
                           if constexpr (Cell::traits.knows_volume)
-                            state.add_volume_pressure(cells.volume_pressure(point));
+                            state.add_volume_pressure(
+                                cells.get_dilatation().volume.pressure(point));
                           energy += state.elastic_density();
                           energy += state.is_stretched() ? state.stretch().energy() : 0.;
                           T = state.stress_towards(parts.examples.strain(point, weights));

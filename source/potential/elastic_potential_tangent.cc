@@ -86,9 +86,9 @@ namespace Exemplar
           D = state.damp(D, s, damping.past_strain(point));
         state.set_target(D);
         if constexpr (Cell::traits.trace_gradient_is_R)
-          state.add_pressure(cells.pressure(point));
+          state.add_pressure(cells.get_dilatation().pressure(point));
         if constexpr (Cell::traits.knows_volume)
-          state.add_volume_pressure(cells.volume_pressure(point));
+          state.add_volume_pressure(cells.get_dilatation().volume.pressure(point));
         if constexpr (!Cell::traits.convex_is_rotated)
           if (tangent == Tangent::convex)
             state.make_convex();

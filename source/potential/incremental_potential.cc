@@ -148,8 +148,8 @@ namespace Exemplar
   void
   IncrementalPotential::begin_step(const State &start, const double step_size)
   {
-    cells.get_field().set_history(start.history);
-    cells.get_field().set_step_size(
+    cells.get_field().get_batches().set_history(start.history);
+    cells.get_field().get_batches().set_step_size(
         integrator != nullptr ? step_size : std::numeric_limits<double>::infinity());
     if (integrator != nullptr)
     {
@@ -183,8 +183,8 @@ namespace Exemplar
   IncrementalPotential::leave_step(const State &at)
   {
     in_dynamic_step = false;
-    cells.get_field().set_history(at.history);
-    cells.get_field().set_step_size(0.);
+    cells.get_field().get_batches().set_history(at.history);
+    cells.get_field().get_batches().set_step_size(0.);
     cells.set_damping(0., {});
     if (weights.get_memory().in_use())
       weights.set_step({ at.weights, {} });

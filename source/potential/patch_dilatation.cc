@@ -90,7 +90,7 @@ namespace Exemplar
   {
     double sum = 0.;
     for (unsigned int weight = 0; weight < weights.size(); ++weight)
-      sum += weights[weight] * examples.patch_dilatation(patch, weight);
+      sum += weights[weight] * examples.get_gram().patch_dilatation(patch, weight);
     return sum;
   }
 
@@ -150,8 +150,8 @@ namespace Exemplar
       sums->energy_elastic += 0.5 * patches.stiffness(patch) * means[patch] * means[patch];
       sums->energy += 0.5 * patches.stiffness(patch) * deviation * deviation;
       for (unsigned int weight = 0; weight < sums->weight_gradient.size(); ++weight)
-        sums->weight_gradient[weight]
-            -= patches.stiffness(patch) * deviation * examples.patch_dilatation(patch, weight);
+        sums->weight_gradient[weight] -= patches.stiffness(patch) * deviation
+                                         * examples.get_gram().patch_dilatation(patch, weight);
       if (const double s = damping.factor(patch); s > 0.)
       {
         const double change = means[patch] - damping.past_means[patch];
@@ -182,8 +182,8 @@ namespace Exemplar
   {
     for (unsigned int patch = 0; patch < patches.size(); ++patch)
       for (unsigned int weight = 0; weight < c.size(); ++weight)
-        c[weight]
-            += patches.stiffness(patch) * means[patch] * examples.patch_dilatation(patch, weight);
+        c[weight] += patches.stiffness(patch) * means[patch]
+                     * examples.get_gram().patch_dilatation(patch, weight);
   }
 
   double
@@ -239,8 +239,8 @@ namespace Exemplar
     for (unsigned int weight = 0; weight < examples.n_weights(); ++weight)
       for (unsigned int patch = 0; examples.is_strained(weight) && patch < patches.size(); ++patch)
         scatter->add_column(
-            patch, patches.stiffness(patch) * examples.patch_dilatation(patch, weight), b,
-            &columns[free_dofs->local_list().size() * examples.strained_index(weight)]);
+            patch, patches.stiffness(patch) * examples.get_gram().patch_dilatation(patch, weight),
+            b, &columns[free_dofs->local_list().size() * examples.strained_index(weight)]);
   }
 
   void

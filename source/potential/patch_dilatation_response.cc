@@ -39,8 +39,8 @@ namespace Exemplar
     const double change = scatter->product(patch, products.vectors, displacement);
     scatter->add(patch, products.factors[patch] * change, products.vectors, sums->gradient);
     for (unsigned int weight = 0; weight < sums->weight_gradient.size(); ++weight)
-      sums->weight_gradient[weight]
-          -= patches.stiffness(patch) * change * examples.patch_dilatation(patch, weight);
+      sums->weight_gradient[weight] -= patches.stiffness(patch) * change
+                                       * examples.get_gram().patch_dilatation(patch, weight);
     if (products.squares.empty())
       return;
     const double of_square = scatter->product(patch, products.squares, displacement);
@@ -66,8 +66,9 @@ namespace Exemplar
       const Matrix3<double> R = cells->rotation(point);
       const Matrix3<double> M
           = transpose_times(R, fe_space.deformation_gradient(point, displacement));
-      Matrix3<double> dP = patch_cell(*cells, point, F)
-                               .response(M, cells->pressure(point), kind == Tangent::convex);
+      Matrix3<double> dP
+          = patch_cell(*cells, point, F)
+                .response(M, cells->get_dilatation().pressure(point), kind == Tangent::convex);
       if (kind == Tangent::convex && traits_of(cells->get_batches().law(point)).has_stretch_guard
           && is_strongly_stretched(*cells, point, F))
       {

@@ -79,7 +79,7 @@ namespace Exemplar
                         std::vector<double> &values)
   {
     const StretchField &patch = cells.get_dilatation().stretch;
-    if (cells.has_dilatations() && !patch.acts)
+    if (cells.get_dilatation().is_filled() && !patch.acts)
       return;
     for (unsigned int point = 0; point < fe_space.n_points(); ++point)
     {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/python/arrays_from_python.h>
+#include <exemplar/python/arrays_to_python.h>
 #include <exemplar/python/evaluation.h>
 #include <exemplar/python/from_python.h>
 
 #include <fmt/core.h>
 
-#include <cmath>
 #include <utility>
 
 namespace Exemplar::Python
@@ -15,73 +15,6 @@ namespace Exemplar::Python
 
   namespace
   {
-    using Shape = std::vector<py::ssize_t>;
-
-    /// An array that keeps the memory of a vector.
-    template <typename Number>
-    py::array
-    array_of(std::vector<Number> numbers, Shape shape)
-    {
-      auto *const       kept = new std::vector<Number>(std::move(numbers));
-      const py::capsule owner(kept,
-                              [](void *old) { delete static_cast<std::vector<Number> *>(old); });
-      return py::array_t<Number>(std::move(shape), kept->data(), owner);
-    }
-
-    py::array
-    array_of(const std::vector<Matrix3<double>> &matrices, Shape shape)
-    {
-      std::vector<double> numbers;
-      numbers.reserve(9 * matrices.size());
-      for (const Matrix3<double> &matrix : matrices)
-        for (int i = 0; i < 3; ++i)
-          for (int j = 0; j < 3; ++j)
-            numbers.push_back(matrix[i][j]);
-      return array_of(std::move(numbers), std::move(shape));
-    }
-
-    py::array
-    array_of(const dealii::FullMatrix<double> &matrix)
-    {
-      std::vector<double> numbers;
-      for (unsigned int i = 0; i < matrix.m(); ++i)
-        for (unsigned int j = 0; j < matrix.n(); ++j)
-          numbers.push_back(matrix(i, j));
-      return array_of(std::move(numbers), { py::ssize_t(matrix.m()), py::ssize_t(matrix.n()) });
-    }
-
-    py::module_
-    scipy(const char *name)
-    {
-      try
-      {
-        return py::module_::import(name);
-      }
-      catch (py::error_already_set &error)
-      {
-        if (!error.matches(PyExc_ImportError))
-          throw;
-        py::raise_from(error, PyExc_ImportError,
-                       "Sparse matrices need scipy, which this Python cannot import. Install it "
-                       "(Debian: apt-get install python3-scipy; elsewhere: pip install scipy).");
-        throw py::error_already_set();
-      }
-    }
-
-    py::object
-    sparse_array(RowMatrix matrix)
-    {
-      const auto n      = static_cast<py::ssize_t>(matrix.row_start.size()) - 1;
-      const auto length = static_cast<py::ssize_t>(matrix.column.size());
-      const auto parts  = py::make_tuple(array_of(std::move(matrix.value), { length }),
-                                         array_of(std::move(matrix.column), { length }),
-                                         array_of(std::move(matrix.row_start), { n + 1 }));
-      py::object sparse
-          = scipy("scipy.sparse").attr("csr_array")(parts, py::arg("shape") = py::make_tuple(n, n));
-      sparse.attr("has_canonical_format") = true; // which scipy would look for
-      return sparse;
-    }
-
     std::vector<double>
     weights_of(const py::object &object, const std::string &what, const std::size_t n)
     {
@@ -125,14 +58,6 @@ namespace Exemplar::Python
         throw UserError(what + ": kind is " + std::string(py::repr(object))
                         + ", but must be 'exact' or 'convex'.");
       return kind == "exact" ? Tangent::exact : Tangent::convex;
-    }
-
-    /// Ask the problem's laboratory without Python's lock.
-    template <typename Function>
-    void
-    ask(HeldProblem &held, const std::string &what, const Function &function)
-    {
-      held.change(what, [&function](Problem &problem) { function(problem.laboratory()); });
     }
 
     double
@@ -246,57 +171,6 @@ namespace Exemplar::Python
       return sparse_array(std::move(matrix));
     }
 
-    CellMeans
-    cells_at_state(HeldProblem &held, const std::string &what)
-    {
-      CellMeans means;
-      ask(held, what, [&](Laboratory &lab) { means = lab.cell_means(lab.here()); });
-      return means;
-    }
-
-    py::array
-    tensors(const std::vector<Matrix3<double>> &of_cells)
-    {
-      return array_of(of_cells, { py::ssize_t(of_cells.size()), 3, 3 });
-    }
-
-    py::array
-    example_strains(HeldProblem &held)
-    {
-      std::vector<Matrix3<double>> strains;
-      ask(held, "example_strains", [&](Laboratory &lab) { strains = lab.example_strains(); });
-      const auto m = static_cast<py::ssize_t>(held.get().body.mesh.n_cells());
-      return array_of(strains, { py::ssize_t(strains.size()) / m, m, 3, 3 });
-    }
-
-    py::array
-    shape_gradients(const HeldProblem &held)
-    {
-      const FESpace      &fe_space = held.get().body.fe_space;
-      std::vector<double> numbers;
-      for (unsigned int point = 0; point < fe_space.n_points(); ++point)
-        for (const Vector3<double> &gradient : fe_space.gradients(point))
-          for (int c = 0; c < 3; ++c)
-            numbers.push_back(gradient[c]);
-      const auto m     = static_cast<py::ssize_t>(fe_space.n_cells());
-      const auto nodes = static_cast<py::ssize_t>(fe_space.nodes(0).size());
-      const auto q     = static_cast<py::ssize_t>(fe_space.n_points()) / m;
-      return array_of(std::move(numbers), q == 1 ? Shape{ m, nodes, 3 } : Shape{ m, q, nodes, 3 });
-    }
-
-    py::array
-    cell_nodes(const HeldProblem &held)
-    {
-      const FESpace            &fe_space = held.get().body.fe_space;
-      std::vector<unsigned int> numbers;
-      for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
-        for (const unsigned int node : fe_space.nodes(cell))
-          numbers.push_back(node);
-      const auto m = static_cast<py::ssize_t>(fe_space.n_cells());
-      const auto n = static_cast<py::ssize_t>(numbers.size());
-      return array_of(std::move(numbers), { m, n / m });
-    }
-
     void
     add_potential(ProblemClass &problem)
     {
@@ -360,51 +234,12 @@ namespace Exemplar::Python
                                     "scenes, too. A copy.");
     }
 
-    void
-    add_cells(ProblemClass &problem)
-    {
-      problem.def_property_readonly(
-          "strains",
-          [](HeldProblem &held) { return tensors(cells_at_state(held, "strains").strains); },
-          "Strains (m, 3, 3) [-] of the cells at the state, by Model/Strain: of corotational ones "
-          "S - I,\n"
-          "in the frame that the rotation has turned. Means over the cell. A copy.");
-      problem.def_property_readonly(
-          "stresses",
-          [](HeldProblem &held) { return tensors(cells_at_state(held, "stresses").stresses); },
-          "Stresses (m, 3, 3) [Pa] of the cells at the state, in space: R T R^T with the "
-          "corotated\n"
-          "T = C:(e - eta E(w)) and a patch's pressure. Means over the cell. A copy.");
-      problem.def_property_readonly(
-          "det_F",
-          [](HeldProblem &held)
-          {
-            std::vector<double> det_F = cells_at_state(held, "det_F").det_F;
-            const auto          m     = static_cast<py::ssize_t>(det_F.size());
-            return array_of(std::move(det_F), { m });
-          },
-          "Ratios of volumes (m,) of the cells at the state; with P2 the least of a cell. A copy.");
-      problem.def_property_readonly(
-          "example_strains", &example_strains,
-          "What the examples ask of the cells, (examples, m, 3, 3) [-]: eta E_i, the rest pose\n"
-          "(zeros) first if it is one. A copy.");
-      problem.def_property_readonly(
-          "shape_gradients", &shape_gradients,
-          "Gradients of the shape functions (m, 4, 3) [1/m] by cell and its node of cell_nodes; "
-          "with\n"
-          "Element = P2 (m, 4, 10, 3), at four points of the cell. A copy.");
-      problem.def_property_readonly(
-          "cell_nodes", &cell_nodes,
-          "Nodes (m, 4) of the cells; with Element = P2 (m, 10), with the middles of edges. A "
-          "copy.");
-    }
   } // namespace
 
   void
   add_evaluation(ProblemClass &problem)
   {
     add_potential(problem);
-    add_cells(problem);
     for (const char *name : { "energy", "gradient", "weight_gradient" })
       refuse_other_arguments(
           problem, name, fmt::format("{0} is called as {0}(positions=None, weights=None).", name));

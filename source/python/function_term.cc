@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
-#include <exemplar/base/number_text.h>
 #include <exemplar/python/arrays_from_python.h>
-#include <exemplar/python/from_python.h>
+#include <exemplar/python/function_answer.h>
 #include <exemplar/python/function_term.h>
-
-#include <deal.II/base/memory_consumption.h>
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <cmath>
 #include <set>
 #include <utility>
@@ -20,111 +16,6 @@ namespace Exemplar::Python
 
   namespace
   {
-    /// Of a symmetric matrix, where the row is not before the column.
-    struct Entry
-    {
-      unsigned int row, column;
-      double       value;
-    };
-
-    /// What a function has returned, and for what.
-    struct Answer
-    {
-      Vector             positions;
-      double             time   = 0.;
-      double             energy = 0.;
-      Vector             gradient;
-      std::vector<Entry> hessian; ///< may have several entries in one place
-
-      bool
-      is_for(const Vector &other_positions, const double other_time) const
-      {
-        return time == other_time && positions.size() == other_positions.size()
-               && std::equal(positions.begin(), positions.end(), other_positions.begin());
-      }
-    };
-
-    const char *const usage
-        = "add_term calls function(positions, time), which returns energy, gradient, hessian.";
-
-    /// Throws UserError unless H x = H^T x for some x.
-    void
-    require_symmetry(const std::vector<Entry> &entries,
-                     const std::size_t         n,
-                     const std::string        &what)
-    {
-      std::vector<double> x(n), Hx(n, 0.), HTx(n, 0.), scale(n, 0.);
-      for (std::size_t i = 0; i < n; ++i)
-        x[i] = 1.5 + std::sin(static_cast<double>(i)); // of no particular direction
-      for (const Entry &entry : entries)
-      {
-        Hx[entry.row] += entry.value * x[entry.column];
-        HTx[entry.column] += entry.value * x[entry.row];
-        scale[entry.row] += std::abs(entry.value * x[entry.column]);
-      }
-      const double size = n == 0 ? 0. : *std::max_element(scale.begin(), scale.end());
-      for (std::size_t i = 0; i < n; ++i)
-        if (!(std::abs(Hx[i] - HTx[i]) <= 1e-8 * size))
-          throw UserError(fmt::format("{}: the Hessian is not symmetric, or not finite, in row {} "
-                                      "(of node {}). Return all of it, both triangles.",
-                                      what, i, i / 3));
-    }
-
-    /// What Python's arrays of numbers are; throws UserError for anything else.
-    template <typename Number>
-    py::array_t<Number>
-    numbers_in(const py::object &array, const std::string &what)
-    {
-      auto numbers = py::array_t<Number, py::array::c_style | py::array::forcecast>::ensure(array);
-      if (!numbers)
-      {
-        PyErr_Clear();
-        throw UserError(what + ": the Hessian's entries are no numbers.");
-      }
-      return std::move(numbers);
-    }
-
-    std::vector<Entry>
-    entries_of(const py::object &hessian, const std::size_t n, const std::string &what)
-    {
-      if (hessian.is_none())
-        return {};
-      if (!py::hasattr(hessian, "tocoo"))
-        throw UserError(fmt::format("{}: the Hessian must be a sparse array of scipy of shape "
-                                    "({}, {}), or None, but is {}. Of a dense one take "
-                                    "scipy.sparse.csr_array(H).",
-                                    what, n, n, description(hessian)));
-      const py::object coo   = hessian.attr("tocoo")();
-      const py::tuple  shape = coo.attr("shape");
-      if (py::cast<std::size_t>(shape[0]) != n || py::cast<std::size_t>(shape[1]) != n)
-        throw UserError(fmt::format("{}: the Hessian has the shape {}, but must have ({}, {}): "
-                                    "three rows a node.",
-                                    what, std::string(py::str(py::object(shape))), n, n));
-      const auto         rows    = numbers_in<long long>(coo.attr("row"), what);
-      const auto         columns = numbers_in<long long>(coo.attr("col"), what);
-      const auto         values  = numbers_in<double>(coo.attr("data"), what);
-      std::vector<Entry> all, lower;
-      for (py::ssize_t i = 0; i < values.size(); ++i)
-        all.push_back({ static_cast<unsigned int>(rows.at(i)),
-                        static_cast<unsigned int>(columns.at(i)), values.at(i) });
-      require_symmetry(all, n, what);
-      std::copy_if(all.begin(), all.end(), std::back_inserter(lower),
-                   [](const Entry &entry) { return entry.row >= entry.column; });
-      return lower;
-    }
-
-    double
-    energy_of(const py::object &object, const std::string &what)
-    {
-      const double energy = PyFloat_AsDouble(object.ptr());
-      const bool   is_one = PyErr_Occurred() == nullptr && std::isfinite(energy);
-      PyErr_Clear();
-      if (!is_one)
-        throw UserError(what + ": the energy must be a finite number [J], but is "
-                        + std::string(py::repr(object)) + ".");
-      return energy;
-    }
-
     class FunctionTerm : public PotentialTerm
     {
     public:
@@ -189,7 +80,7 @@ namespace Exemplar::Python
       void
       add(const TermPoint &at, ElasticSums &sums) override
       {
-        const Answer &answer = ask(at.positions, time);
+        const FunctionAnswer &answer = ask(at.positions, time);
         sums->energy += answer.energy;
         sums->gradient += answer.gradient;
         for (unsigned int node = 0; node < sums->force_scale.size(); ++node)
@@ -204,7 +95,7 @@ namespace Exemplar::Python
                   std::vector<double> &values,
                   std::vector<double> & /*columns*/) override
       {
-        for (const Entry &entry : ask(at.positions, time).hessian)
+        for (const MatrixEntry &entry : ask(at.positions, time).hessian)
         {
           const int i = free_dofs->free_index(entry.row), j = free_dofs->free_index(entry.column);
           if (i == FreeDofs::held || j == FreeDofs::held)
@@ -222,7 +113,7 @@ namespace Exemplar::Python
                    const Vector &displacement,
                    ElasticSums  &sums) override
       {
-        for (const Entry &entry : ask(at.positions, time).hessian)
+        for (const MatrixEntry &entry : ask(at.positions, time).hessian)
         {
           sums->gradient[entry.row] += entry.value * displacement[entry.column];
           if (entry.row != entry.column)
@@ -242,7 +133,7 @@ namespace Exemplar::Python
       {
         return 2
                * (last.positions.memory_consumption() + last.gradient.memory_consumption()
-                  + last.hessian.capacity() * sizeof(Entry));
+                  + last.hessian.capacity() * sizeof(MatrixEntry));
       }
 
     private:
@@ -253,7 +144,7 @@ namespace Exemplar::Python
         if (!accepted.is_for(state.positions, state.time))
           accepted = ask(state.positions, state.time);
         const std::size_t n_before = pairs.size();
-        for (const Entry &entry : accepted.hessian)
+        for (const MatrixEntry &entry : accepted.hessian)
           if (entry.row / 3 != entry.column / 3)
             pairs.emplace(entry.column / 3, entry.row / 3);
         is_new = pairs.size() > n_before;
@@ -261,41 +152,18 @@ namespace Exemplar::Python
 
       /// The last answers are kept: that of the state, so that a step that fails by the function can be
       /// taken back without it, and that of the place that was asked for last.
-      const Answer &
+      const FunctionAnswer &
       ask(const Vector &positions, const double at_time)
       {
         if (accepted.is_for(positions, at_time))
           return accepted;
         if (!last.is_for(positions, at_time))
-          last = answer(positions, at_time);
+          last = answer_of(function, term_name, positions, at_time);
         return last;
       }
 
-      Answer
-      answer(const Vector &positions, const double at_time) const
-      {
-        const py::gil_scoped_acquire lock;
-        const auto                   n = static_cast<py::ssize_t>(positions.size() / 3);
-        const std::string            what
-            = term_name + ": what the function returns at t = " + shortest_text(at_time);
-        const py::array_t<double> points({ n, py::ssize_t(3) }, positions.begin());
-        const py::object          parts = call(function, py::make_tuple(points, at_time), usage);
-        if (!py::isinstance<py::tuple>(parts) || py::len(parts) != 3)
-          throw UserError(what + " must be energy, gradient, hessian, but is " + description(parts)
-                          + ".");
-        const py::tuple three(parts);
-        Answer          result{
-          positions, at_time, energy_of(three[0], what), Vector(positions.size()), {}
-        };
-        const auto gradient = points_of(three[1], what + ": the gradient", n);
-        for (unsigned int dof = 0; dof < positions.size(); ++dof)
-          result.gradient[dof] = gradient[dof / 3][dof % 3];
-        result.hessian = entries_of(three[2], positions.size(), what);
-        return result;
-      }
-
       [[noreturn]] void
-      refuse_new_coupling(const Entry &entry) const
+      refuse_new_coupling(const MatrixEntry &entry) const
       {
         throw UserError(fmt::format(
             "{}: within a step the Hessian couples the nodes {} and {}, which it did not where the "
@@ -308,7 +176,7 @@ namespace Exemplar::Python
       const SymmetricPattern                         *pattern   = nullptr; ///< since attach()
       const FreeDofs                                 *free_dofs = nullptr; ///< since attach()
       double                                          time;
-      Answer                                          accepted, last;
+      FunctionAnswer                                  accepted, last;
       std::set<std::pair<unsigned int, unsigned int>> pairs; ///< of nodes, that are coupled
       bool                                            is_new = false;
     };
@@ -328,6 +196,7 @@ namespace Exemplar::Python
                            "but is "
                            + description(function) + ".");
     require_no_step("add_term()");
+    std::list<py::object> &terms = functions.terms;
     terms.push_back(function);
     const py::object &kept = terms.back();
     const std::string name = fmt::format("term_{}", terms.size());

@@ -59,31 +59,32 @@ namespace Exemplar::Python
       return { make_unlocked(from_python(scene, mesh, poses)).release(), end_last };
     }
 
-    /// An array in memory that `owner` keeps.
-    template <typename Number>
-    py::array
-    read_only_rows(const Number     *memory,
-                   const std::size_t n,
-                   const py::ssize_t width,
-                   py::object        owner)
+    /// While it lives, the problem is this thread's.
+    class Stepping
     {
-      py::array_t<Number> rows({ py::ssize_t(n), width }, memory, std::move(owner));
-      rows.attr("flags").attr("writeable") = false;
-      return std::move(rows);
-    }
+    public:
+      explicit Stepping(std::thread::id &thread) : thread(thread)
+      {
+        thread = std::this_thread::get_id();
+      }
 
-    /// An object that keeps what `pointer` shares.
-    template <typename T>
-    py::capsule
-    keeper(std::shared_ptr<T> pointer)
-    {
-      return py::capsule(new std::shared_ptr<T>(std::move(pointer)),
-                         [](void *kept) { delete static_cast<std::shared_ptr<T> *>(kept); });
-    }
+      ~Stepping()
+      {
+        thread = std::thread::id();
+      }
+
+      Stepping(const Stepping &) = delete;
+      Stepping &
+      operator=(const Stepping &)
+          = delete;
+
+    private:
+      std::thread::id &thread;
+    };
   } // namespace
 
   HeldProblem::HeldProblem(const py::object &scene, const py::object &mesh, const py::object &poses)
-      : callback(py::none()), problem(make_problem(scene, mesh, poses)), diagnostics(*problem),
+      : problem(make_problem(scene, mesh, poses)), arrays(problem), diagnostics(*problem),
         initial(save_state(*problem, {})), review(*problem)
   {
     problem->solver->observe = [this](const SolveReport &iteration) { return observe(iteration); };
@@ -113,15 +114,22 @@ namespace Exemplar::Python
   }
 
   bool
+  HeldProblem::in_step() const
+  {
+    get();
+    return stepping != std::thread::id();
+  }
+
+  bool
   HeldProblem::observe(const SolveReport &iteration)
   {
     const py::gil_scoped_acquire lock;
     if (PyErr_CheckSignals() != 0)
       throw py::error_already_set(); // Ctrl-C
     UnlockedWork::check();
-    if (callback.is_none())
+    if (functions.callback.is_none())
       return true;
-    const py::object function = callback; // which it may replace
+    const py::object function = functions.callback; // which it may replace
     is_stopped
         = is_stopped
           || call(function, py::make_tuple(iteration), "on_iteration calls function(report).")
@@ -150,7 +158,7 @@ namespace Exemplar::Python
   void
   HeldProblem::warn_of_motions()
   {
-    if (motions.empty() || is_warned_of_motions)
+    if (functions.motions.empty() || is_warned_of_motions)
       return;
     std::vector<std::string> found = next_step_warnings(*problem);
     is_warned_of_motions           = !found.empty();
@@ -183,14 +191,12 @@ namespace Exemplar::Python
     const StepInterval interval = other.value_or(next_step(*problem));
     const bool         is_extra = has_reached(*problem, end_of_scene(*problem));
     UnlockedWork::check();
-    let_go(problem->state.positions, shown_positions);
-    let_go(problem->state.velocities, shown_velocities);
+    arrays.let_go();
     const auto keep_alive = shared_from_this(); // a callback may drop the last other owner
     is_stopped            = false;
-    stepping              = std::this_thread::get_id();
     std::vector<std::string> at_end;
-    try
     {
+      const Stepping     this_one(stepping);
       const UnlockedWork unlocked;
       report = advance(interval);
       diagnostics.add_step();
@@ -198,12 +204,6 @@ namespace Exemplar::Python
       if (!is_extra && has_reached(*problem, end_of_scene(*problem)))
         at_end = review.warnings();
     }
-    catch (...)
-    {
-      stepping = std::thread::id();
-      throw;
-    }
-    stepping = std::thread::id();
     log_step(*problem, report);
     warn(at_end);
     if (is_stopped)
@@ -230,19 +230,10 @@ namespace Exemplar::Python
   {
     require_no_step(what);
     UnlockedWork::check();
-    const auto keep_alive = shared_from_this(); // other threads may drop it meanwhile
-    stepping              = std::this_thread::get_id();
-    try
-    {
-      const UnlockedWork unlocked;
-      function(*problem);
-    }
-    catch (...)
-    {
-      stepping = std::thread::id();
-      throw;
-    }
-    stepping = std::thread::id();
+    const auto         keep_alive = shared_from_this(); // other threads may drop it meanwhile
+    const Stepping     this_one(stepping);
+    const UnlockedWork unlocked; // ends before the problem is anybody's again
+    function(*problem);
   }
 
   SavedState
@@ -258,8 +249,7 @@ namespace Exemplar::Python
     const SavedState &target = saved == nullptr ? initial : *saved;
     require_no_step(saved == nullptr ? "reset()" : "state");
     check_fits(target, *problem);
-    let_go(problem->state.positions, shown_positions);
-    let_go(problem->state.velocities, shown_velocities);
+    arrays.let_go();
     change("state", [&target](Problem &changed) { restore_state(target, changed); });
     diagnostics.resume(target.work);
     report               = {};
@@ -279,7 +269,8 @@ namespace Exemplar::Python
                            + ". Displacements that do not change: lambda rest, t: displacements.");
     const std::string handle = text_of(name, "set_motion: the name of the handle");
     require_no_step("set_motion()");
-    py::object &kept = motions[handle]; // null if there is no such handle, which the next line says
+    py::object &kept
+        = functions.motions[handle]; // null if there is no such handle, which the next line says
     problem->set_motion(handle, motion_of(handle, kept));
     kept                 = function;
     is_warned_of_motions = false;
@@ -290,82 +281,7 @@ namespace Exemplar::Python
   {
     if (!function.is_none() && !PyCallable_Check(function.ptr()))
       throw py::type_error("on_iteration needs a function or None.");
-    callback = function;
-  }
-
-  int
-  HeldProblem::visit_functions(const visitproc visit, void *arg) const
-  {
-    Py_VISIT(callback.ptr());
-    for (const auto &[handle, function] : motions)
-      Py_VISIT(function.ptr());
-    for (const py::object &function : terms)
-      Py_VISIT(function.ptr());
-    return 0;
-  }
-
-  void
-  HeldProblem::forget_functions()
-  {
-    callback = py::none();
-    for (auto &[handle, function] : motions)
-      function = py::none();
-    for (py::object &function : terms)
-      function = py::none();
-  }
-
-  void
-  HeldProblem::let_go(Vector &field, std::shared_ptr<Shown> &shown)
-  {
-    if (shown.use_count() > 1)
-    {
-      shown->memory.swap(field);
-      field = shown->memory;
-    }
-    shown.reset();
-  }
-
-  py::array
-  HeldProblem::show(const Vector &field, std::shared_ptr<Shown> &shown)
-  {
-    const std::size_t n_nodes = problem->body.mesh.n_nodes(); // without the middles of edges
-    if (stepping != std::thread::id())                        // the step will free this memory
-      return py::array_t<double>({ py::ssize_t(n_nodes), py::ssize_t(3) }, field.begin());
-    if (shown == nullptr)
-      shown = std::make_shared<Shown>();
-    // the memory is of the problem until a step leaves it to the array
-    return read_only_rows(
-        field.begin(), n_nodes, 3,
-        keeper(std::make_shared<std::pair<std::shared_ptr<Problem>, std::shared_ptr<Shown>>>(
-            problem, shown)));
-  }
-
-  py::array
-  HeldProblem::positions()
-  {
-    return show(get().state.positions, shown_positions);
-  }
-
-  py::object
-  HeldProblem::velocities()
-  {
-    const Vector &field = get().state.velocities;
-    return field.size() == 0 ? py::object(py::none()) : show(field, shown_velocities);
-  }
-
-  py::array
-  HeldProblem::rest_positions()
-  {
-    const auto &nodes = problem->body.mesh.get_nodes();
-    static_assert(sizeof(nodes[0]) == 3 * sizeof(double));
-    return read_only_rows(&nodes[0][0], nodes.size(), 3, keeper(problem));
-  }
-
-  py::array
-  HeldProblem::cells()
-  {
-    const auto &cells = problem->body.mesh.get_cells();
-    return read_only_rows(cells[0].data(), cells.size(), 4, keeper(problem));
+    functions.callback = function;
   }
 
   py::dict

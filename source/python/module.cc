@@ -3,6 +3,7 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/base/nearest_word.h>
 #include <exemplar/base/version.h>
+#include <exemplar/python/cell_arrays.h>
 #include <exemplar/python/evaluation.h>
 #include <exemplar/python/from_python.h>
 #include <exemplar/python/function_term.h>
@@ -171,7 +172,8 @@ namespace Exemplar::Python
     add_state(Class &problem)
     {
       problem.def_property(
-          "positions", &HeldProblem::positions,
+          "positions",
+          [](HeldProblem &held) { return held.get_arrays().positions(held.in_step()); },
           [](HeldProblem &, const py::object &)
           {
             throw py::attribute_error("positions cannot be set alone. Set the whole state: "
@@ -181,13 +183,17 @@ namespace Exemplar::Python
           "The\n"
           "array shows the state at which it was asked for, also after later steps: ask again for\n"
           "the new one.");
-      problem.def_property_readonly("velocities", &HeldProblem::velocities,
-                                    "Velocities (n, 3) [m/s], as positions; None unless dynamic.");
-      problem.def_property_readonly("rest_positions", &HeldProblem::rest_positions,
-                                    "Rest positions (n, 3) [m], read only, no copy.");
-      problem.def_property_readonly("cells", &HeldProblem::cells,
-                                    "Nodes (m, 4) of the tetrahedra, from 0, each positively\n"
-                                    "oriented; uint32, read only, no copy.");
+      problem.def_property_readonly(
+          "velocities",
+          [](HeldProblem &held) { return held.get_arrays().velocities(held.in_step()); },
+          "Velocities (n, 3) [m/s], as positions; None unless dynamic.");
+      problem.def_property_readonly(
+          "rest_positions", [](HeldProblem &held) { return held.get_arrays().rest_positions(); },
+          "Rest positions (n, 3) [m], read only, no copy.");
+      problem.def_property_readonly(
+          "cells", [](HeldProblem &held) { return held.get_arrays().cells(); },
+          "Nodes (m, 4) of the tetrahedra, from 0, each positively\n"
+          "oriented; uint32, read only, no copy.");
       problem.def_property_readonly(
           "weights",
           [](const HeldProblem &held)
@@ -291,6 +297,7 @@ namespace Exemplar::Python
       add_saved_states(module, problem);
       add_changes(problem);
       add_evaluation(problem);
+      add_cell_arrays(problem);
       add_terms(problem);
       add_gradients(problem);
       const py::object measures = make_measures_type();

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
-#include <exemplar/body/pose_checks.h>
 #include <exemplar/python/arrays_from_python.h>
 #include <exemplar/python/from_python.h>
 #include <exemplar/python/problem_changes.h>
+#include <exemplar/run/problem/scene_review.h>
 
 #include <fmt/core.h>
 
@@ -187,18 +187,14 @@ namespace Exemplar::Python
       if (index < 0)
         throw UserError("set_pose: examples are counted from 0, as weights.");
       const auto  example = static_cast<unsigned int>(index);
-      std::string doubt;
+      std::string warning;
       held.change("set_pose()",
                   [&](Problem &problem)
                   {
                     problem.set_pose(example, rows);
-                    doubt = describe_pose(problem.body.mesh, problem.body.fe_space,
-                                          problem.examples.poses.pose(example));
+                    warning = pose_warning(problem, example);
                   });
-      if (!doubt.empty()
-          && PyErr_WarnEx(PyExc_UserWarning, fmt::format("Example {} {}", example, doubt).c_str(),
-                          1)
-                 != 0)
+      if (!warning.empty() && PyErr_WarnEx(PyExc_UserWarning, warning.c_str(), 1) != 0)
         throw py::error_already_set();
     }
 

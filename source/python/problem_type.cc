@@ -13,15 +13,15 @@ namespace Exemplar::Python
       traverse_problem(PyObject *self, visitproc visit, void *arg)
       {
         Py_VISIT(Py_TYPE(self));
-        const HeldProblem *held = held_by(self);
-        return held == nullptr ? 0 : held->visit_functions(visit, arg);
+        HeldProblem *held = held_by(self);
+        return held == nullptr ? 0 : held->get_functions().visit(visit, arg);
       }
 
       int
       clear_problem(PyObject *self)
       {
         if (HeldProblem *held = held_by(self))
-          held->forget_functions();
+          held->get_functions().forget();
         return 0;
       }
 

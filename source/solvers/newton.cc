@@ -149,12 +149,12 @@ namespace Exemplar
     {
       // after a resume
       CellField &cells = potential.get_cells().get_field();
-      cells.set_history(linearization.history);
+      cells.get_batches().set_history(linearization.history);
       cells.update_rotations(linearization.positions);
       system.factorize(linearization.positions, linearization.weights, 0.);
       system.prepare();
       system.count_as_remade();
-      cells.set_history(start.state.history);
+      cells.get_batches().set_history(start.state.history);
       linearization.factor = system.n_factorizations();
     }
     return true;

@@ -4,8 +4,7 @@
 #include <exemplar/base/message_text.h>
 #include <exemplar/base/number_text.h>
 #include <exemplar/base/progress.h>
-#include <exemplar/mesh/mesh.h>
-#include <exemplar/run/inputs/inputs.h>
+#include <exemplar/run/output/final_pose.h>
 #include <exemplar/run/output/run_directory.h>
 #include <exemplar/run/scene/scene_file.h>
 #include <exemplar/study/study.h>
@@ -32,52 +31,18 @@ namespace Exemplar
   {
     namespace fs = std::filesystem;
 
-    /// The final poses of runs. A mesh is read once for all runs that have it.
-    class FinalPoses
-    {
-    public:
-      FinalPoses(const Study &study, const std::string &scene_text)
-          : study(study), scene_text(scene_text)
-      {
-      }
-
-      FinalPose
-      read(const PlannedRun &run, const fs::path &directory)
-      {
-        const SceneFile scene(study.scene, scene_text, run.assignments);
-        std::string     key;
-        for (const DeclaredKey &declared : scene.get_keys())
-          if (declared.subsections == std::vector<std::string>{ "Mesh" })
-            key += declared.value + "\n";
-        std::unique_ptr<const Mesh> &mesh = meshes[key];
-        if (mesh == nullptr)
-        {
-          const MeshParameters &parameters = scene.get_parameters().mesh;
-          mesh = std::make_unique<const Mesh>(load_or_make_mesh(parameters), parameters.name(),
-                                              parameters.scale);
-        }
-        return { *mesh, RunFiles{ directory }.final_pose() };
-      }
-
-    private:
-      const Study                                       &study;
-      const std::string                                 &scene_text;
-      std::map<std::string, std::unique_ptr<const Mesh>> meshes;
-    };
-
     /// Fills rows from what the runs have left.
     class RowMaker
     {
     public:
       RowMaker(const StudyPlan &plan, const StudyRuns &runs)
-          : runs(runs), poses(plan.study, plan.scene_text), columns(plan.study.columns),
-            probe(plan.study.probe)
+          : plan(plan), runs(runs), columns(plan.study.columns), probe(plan.study.probe)
       {
         if (!plan.reference || !runs.record(plan.reference->name).succeeded())
           return;
-        const fs::path directory = runs.path(plan.reference->name);
-        reference = std::make_unique<const FinalPose>(poses.read(*plan.reference, directory));
-        reference_energy = read_run_statistics(RunFiles{ directory }.statistics()).energy;
+        reference = std::make_unique<const FinalPose>(final_pose(*plan.reference));
+        reference_energy
+            = read_run_statistics(RunFiles{ runs.path(plan.reference->name) }.statistics()).energy;
       }
 
       StudyRow
@@ -106,10 +71,17 @@ namespace Exemplar
       }
 
     private:
+      FinalPose
+      final_pose(const PlannedRun &run)
+      {
+        const SceneFile scene(plan.study.scene, plan.scene_text, run.assignments);
+        return poses.read(scene, runs.path(run.name));
+      }
+
       void
       compare(const PlannedRun &planned, StudyRow &row)
       {
-        const FinalPose pose = poses.read(planned, runs.path(planned.name));
+        const FinalPose pose = final_pose(planned);
         row.max_displacement = pose.max_displacement();
         for (unsigned int c = 0; probe && c < 3; ++c)
           row.extra[columns.size() + c] = pose.displacement_near(*probe)[c];
@@ -121,8 +93,9 @@ namespace Exemplar
               = std::abs(row.statistics.energy - reference_energy) / std::abs(reference_energy);
       }
 
+      const StudyPlan                       &plan;
       const StudyRuns                       &runs;
-      FinalPoses                             poses;
+      FinalPoseReader                        poses;
       const std::vector<std::string>        &columns;
       const std::optional<dealii::Point<3>> &probe;
       std::unique_ptr<const FinalPose>       reference; ///< null if there is none

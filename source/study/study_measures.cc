@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/number_text.h>
-#include <exemplar/mesh/mesh.h>
 #include <exemplar/prm/assignments.h>
 #include <exemplar/study/study_measures.h>
 
@@ -101,22 +100,6 @@ namespace Exemplar
     private:
       double handles_before = nan, bound = nan, work = nan;
     };
-
-    std::vector<double>
-    nodal_volumes(const Mesh &mesh)
-    {
-      std::vector<double> volumes(mesh.n_nodes());
-      const auto         &nodes = mesh.get_nodes();
-      for (const auto &cell : mesh.get_cells())
-      {
-        const dealii::Tensor<1, 3> normal
-            = cross_product_3d(nodes[cell[1]] - nodes[cell[0]], nodes[cell[2]] - nodes[cell[0]]);
-        const double volume = std::abs(normal * (nodes[cell[3]] - nodes[cell[0]])) / 6.;
-        for (const unsigned int node : cell)
-          volumes[node] += volume / 4.;
-      }
-      return volumes;
-    }
 
     /// Finds points again whose coordinates differ by rounding only.
     class PointIndex
@@ -242,30 +225,6 @@ namespace Exemplar
     };
     return { number("factorizations"), number("condition_matrix"), number("condition_schur"),
              number("peak_memory_mib") };
-  }
-
-  FinalPose::FinalPose(const Mesh &mesh, const std::filesystem::path &final_msh)
-      : rest(mesh.get_nodes()), positions(mesh.read_pose(final_msh)), volumes(nodal_volumes(mesh))
-  {
-  }
-
-  double
-  FinalPose::max_displacement() const
-  {
-    double maximum = 0.;
-    for (unsigned int i = 0; i < rest.size(); ++i)
-      maximum = std::max(maximum, positions[i].distance(rest[i]));
-    return maximum;
-  }
-
-  dealii::Tensor<1, 3>
-  FinalPose::displacement_near(const dealii::Point<3> &point) const
-  {
-    const auto nearest
-        = std::min_element(rest.begin(), rest.end(),
-                           [&](const auto &a, const auto &b)
-                           { return a.distance_square(point) < b.distance_square(point); });
-    return positions[nearest - rest.begin()] - *nearest;
   }
 
   PoseErrors

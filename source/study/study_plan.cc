@@ -2,12 +2,13 @@
 #include <exemplar/base/message_text.h>
 #include <exemplar/base/nearest_word.h>
 #include <exemplar/base/number_text.h>
-#include <exemplar/mesh/mesh.h>
 #include <exemplar/run/output/diagnostics.h>
 #include <exemplar/run/problem/problem.h>
 #include <exemplar/run/scene/scene_file.h>
 #include <exemplar/study/study_plan.h>
 #include <exemplar/study/study_table.h>
+
+#include <deal.II/base/bounding_box.h>
 
 #include <algorithm>
 #include <memory>
@@ -51,23 +52,20 @@ namespace Exemplar
 
     /// A probe that is not in the box around the body was given in another unit, say.
     std::vector<std::string>
-    warnings_of_probe(const Study &study, const Mesh &mesh)
+    warnings_of_probe(const Study &study, const std::vector<dealii::Point<3>> &nodes)
     {
       if (!study.probe)
         return {};
-      dealii::Point<3> in_box, nearest = mesh.get_nodes()[0];
+      const dealii::BoundingBox<3> box(nodes);
+      const auto &[lowest, highest] = box.get_boundary_points();
+      dealii::Point<3> in_box, nearest = nodes[0];
       for (unsigned int c = 0; c < 3; ++c)
-      {
-        const auto [minimum, maximum]
-            = std::minmax_element(mesh.get_nodes().begin(), mesh.get_nodes().end(),
-                                  [&](const auto &a, const auto &b) { return a[c] < b[c]; });
-        in_box[c] = std::clamp((*study.probe)[c], (*minimum)[c], (*maximum)[c]);
-      }
-      for (const dealii::Point<3> &node : mesh.get_nodes())
+        in_box[c] = std::clamp((*study.probe)[c], lowest[c], highest[c]);
+      for (const dealii::Point<3> &node : nodes)
         if (node.distance_square(*study.probe) < nearest.distance_square(*study.probe))
           nearest = node;
       const double distance = in_box.distance(*study.probe);
-      if (!(distance > 0.01 * mesh.diameter()))
+      if (!(distance > 0.01 * lowest.distance(highest)))
         return {};
       return { study.probe_place + " lies " + short_text(distance)
                + " m outside the box around the body: the node nearest to it is taken, at "
@@ -89,7 +87,7 @@ namespace Exemplar
       {
         const auto problem = make_problem(scene.get_parameters());
         built              = { problem->warnings(), columns_of(*problem) };
-        for (const std::string &warning : warnings_of_probe(study, problem->body.mesh))
+        for (const std::string &warning : warnings_of_probe(study, problem->body.mesh.get_nodes()))
           built.warnings.push_back(warning);
         return true;
       }

@@ -2,6 +2,7 @@
 #ifndef exemplar_example_poses_h
 #define exemplar_example_poses_h
 
+#include <exemplar/body/example_gram.h>
 #include <exemplar/body/example_parameters.h>
 #include <exemplar/body/fe_space.h>
 #include <exemplar/body/laws_of_cells.h>
@@ -11,7 +12,6 @@
 #include <exemplar/kernels/symmetric.h>
 
 #include <deal.II/base/aligned_vector.h>
-#include <deal.II/lac/full_matrix.h>
 
 #include <string>
 #include <vector>
@@ -25,6 +25,13 @@ namespace Exemplar
   /// The same with the moduli of the wish to be like the examples: the scale of the weights' form.
   double
   unit_energy_of_examples(const FESpace &fe_space, const Material &material);
+
+  /// Which strains of the poses are taken.
+  struct StrainRule
+  {
+    ActsOn acts_on;
+    bool   is_single; ///< rounded to single precision
+  };
 
   /// A pose that the body likes.
   struct ExamplePose
@@ -180,13 +187,6 @@ namespace Exemplar
       return strain_norms[weight];
     }
 
-    /// eta dtheta_p/dw of a patch, the mean of eta tr E over its volume, for a weight; Eq. (25).
-    double
-    patch_dilatation(const unsigned int patch, const unsigned int weight) const
-    {
-      return patch_dilatations(patch, weight);
-    }
-
     /// The importance, and a bound of the guard (16) such that it leaves every example as it is.
     const ExampleConstants &
     constants() const
@@ -194,17 +194,12 @@ namespace Exemplar
       return example_constants;
     }
 
-    /// eta^2 sum V E_i : C : E_j for all pairs of weights [J]; with patches, the volume part by Eq. (25).
-    const dealii::FullMatrix<double> &
-    gram_matrix() const
+    /// What pairs of them cost in energy, and what they ask of patches.
+    const ExampleGram &
+    get_gram() const
     {
       return gram;
     }
-
-    /// Add to `sum` so many times what H of the blended energy has beyond it, sum V eta (1 - eta)
-    /// E_i : C : E_j with the importance of each cell, of patches its mean [J].
-    void
-    add_blended(double factor, dealii::FullMatrix<double> &sum) const;
 
     const std::vector<std::string> &
     get_warnings() const
@@ -226,37 +221,17 @@ namespace Exemplar
     void
     compute_strains(const Material &material);
 
-    void
-    round_strains();
-
-    void
-    compute_gram_matrix(const Material &cell_material, const Patches &patches);
-
-    /// What H has beyond the Gram matrix where examples have an elasticity of their own.
-    void
-    compute_excess(const Material &cell_material, const Patches &patches);
-
-    void
-    add_patches_to_gram_matrix(const Material &cell_material, const Patches &patches);
-
-    void
-    compute_patch_dilatations(const Patches &patches);
-
-    const FESpace                &fe_space;
-    const LawsOfCells             laws;
-    ExampleConstants              example_constants;
-    const RegionShares            regions;
-    std::vector<ExamplePose>      poses;
-    const unsigned int            first_strained;
-    dealii::AlignedVector<double> strains; ///< eta E_i, as ExampleArrays has them
-    const ActsOn                  acts_on;
-    const bool                    is_single; ///< round them to single precision
-    dealii::AlignedVector<float>  in_single; ///< then, once more
-    std::vector<double>           strain_norms;
-    dealii::FullMatrix<double>    patch_dilatations; ///< patch, weight; empty without patches
-    dealii::FullMatrix<double>    gram;
-    dealii::FullMatrix<double>
-        blended; ///< see add_blended(), where the importance varies or examples have C_e; else empty
+    const FESpace                 &fe_space;
+    const LawsOfCells              laws;
+    ExampleConstants               example_constants;
+    const RegionShares             regions;
+    std::vector<ExamplePose>       poses;
+    const unsigned int             first_strained;
+    const StrainRule               rule;
+    dealii::AlignedVector<double>  strains;   ///< eta E_i, as ExampleArrays has them
+    dealii::AlignedVector<float>   in_single; ///< then, once more
+    std::vector<double>            strain_norms;
+    ExampleGram                    gram;
     const std::vector<std::string> warnings;
   };
 } // namespace Exemplar

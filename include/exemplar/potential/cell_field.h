@@ -49,6 +49,13 @@ namespace Exemplar
     VolumeArrays
     arrays();
 
+    /// What terms make act along cof F in a point [Pa].
+    double
+    pressure(const unsigned int point) const
+    {
+      return pressures.empty() ? 0. : pressures[point];
+    }
+
     /// In bytes.
     std::size_t
     memory_consumption() const;
@@ -69,6 +76,27 @@ namespace Exemplar
 
     DilatationArrays
     arrays();
+
+    /// Whether a term asks for them.
+    bool
+    is_filled() const
+    {
+      return !traces.empty();
+    }
+
+    /// Before a loop that finds dilatations.
+    void
+    clear_flags()
+    {
+      std::fill(flags.begin(), flags.end(), 0);
+    }
+
+    /// What terms make act in a point [Pa].
+    double
+    pressure(const unsigned int point) const
+    {
+      return pressures.empty() ? 0. : pressures[point];
+    }
 
     /// Whether some batch has that flag.
     bool
@@ -101,20 +129,6 @@ namespace Exemplar
     /// to arrays of this object.
     CellTask
     task(const Vector &positions, RotationUse rotations);
-
-    /// Whether a term asks for them.
-    bool
-    has_dilatations() const
-    {
-      return !dilatation.traces.empty();
-    }
-
-    /// Before a loop that finds dilatations.
-    void
-    clear_cell_flags()
-    {
-      std::fill(dilatation.flags.begin(), dilatation.flags.end(), 0);
-    }
 
     /// tr(e) and |F|^2 of the points at these positions into the dilatation field.
     void
@@ -149,20 +163,6 @@ namespace Exemplar
     rotation(const unsigned int point) const
     {
       return batches.rotation(point);
-    }
-
-    /// What terms make act in a point [Pa].
-    double
-    pressure(const unsigned int point) const
-    {
-      return dilatation.pressures.empty() ? 0. : dilatation.pressures[point];
-    }
-
-    /// The same along cof F [Pa].
-    double
-    volume_pressure(const unsigned int point) const
-    {
-      return dilatation.volume.pressures.empty() ? 0. : dilatation.volume.pressures[point];
     }
 
     /// Node a at a point in the order of the loops.
@@ -223,27 +223,6 @@ namespace Exemplar
       return nodal_sums;
     }
 
-    /// As CellBatches::set_constants().
-    void
-    set_constants(const Material &material, const ExampleConstants &examples)
-    {
-      batches.set_constants(material, examples);
-    }
-
-    /// What the laws remember from now on, see State::history.
-    void
-    set_history(const std::vector<double> &history)
-    {
-      batches.set_history(history);
-    }
-
-    /// As CellBatches::set_step_size().
-    void
-    set_step_size(const double step_size)
-    {
-      batches.set_step_size(step_size);
-    }
-
     /// What they remember after a step that ends at these positions, from what they remembered. The
     /// step is over then.
     std::vector<double>
@@ -260,6 +239,12 @@ namespace Exemplar
     }
 
     /// Laws, constants and history of the points.
+    CellBatches &
+    get_batches()
+    {
+      return batches;
+    }
+
     const CellBatches &
     get_batches() const
     {

@@ -6,7 +6,16 @@
 
 namespace Exemplar::Python
 {
-  /// Of exemplar.Problem energies, forces and matrices anywhere, and what the cells show of the state.
+  /// Ask the laboratory of a problem without Python's lock; `what` is called for that. Throws as
+  /// HeldProblem::change().
+  template <typename Function>
+  void
+  ask(HeldProblem &held, const std::string &what, const Function &function)
+  {
+    held.change(what, [&function](Problem &problem) { function(problem.laboratory()); });
+  }
+
+  /// Of exemplar.Problem energies, forces and matrices anywhere.
   void
   add_evaluation(ProblemClass &problem);
 } // namespace Exemplar::Python

@@ -2,17 +2,16 @@
 #ifndef exemplar_held_problem_h
 #define exemplar_held_problem_h
 
+#include <exemplar/python/kept_functions.h>
 #include <exemplar/python/saved_state.h>
+#include <exemplar/python/state_arrays.h>
 #include <exemplar/run/output/diagnostics.h>
 #include <exemplar/run/problem/problem.h>
 #include <exemplar/run/problem/state_review.h>
 
-#include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
 #include <functional>
-#include <list>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -57,22 +56,19 @@ namespace Exemplar::Python
     void
     set_motion(const pybind11::object &name, const pybind11::object &function);
 
-    /// None: nothing is called.
     /// Let Phi have a term that calls a function, see make_function_term().
     void
     add_term(const pybind11::object &function);
 
+    /// None: nothing is called.
     void
     on_iteration(const pybind11::object &function);
 
-    /// For Python's garbage collector: call visit(function, arg) for all of set_motion(), add_term()
-    /// and on_iteration().
-    int
-    visit_functions(visitproc visit, void *arg) const;
-
-    /// For a problem that nobody will use any more.
-    void
-    forget_functions();
+    KeptFunctions &
+    get_functions()
+    {
+      return functions;
+    }
 
     /// To look at the problem. Throws RuntimeError while another thread makes a step.
     const Problem &
@@ -91,39 +87,21 @@ namespace Exemplar::Python
       return report;
     }
 
-    /// (n,3) without a copy, read only. They stay what they are when steps replace the state:
-    /// then the problem leaves them the memory.
-    pybind11::array
-    positions();
+    StateArrays &
+    get_arrays()
+    {
+      return arrays;
+    }
 
-    pybind11::object
-    velocities();
-
-    /// (n,3) and (m,4), read only, in the memory of the problem, which lives as long as they do.
-    pybind11::array
-    rest_positions();
-
-    pybind11::array
-    cells();
+    /// Whether this thread is making a step. Throws RuntimeError while another one does.
+    bool
+    in_step() const;
 
     /// The numbers of a row of statistics.csv, seconds aside, whose columns begin with `prefix`.
     pybind11::dict
     statistics(const std::string &prefix) const;
 
   private:
-    /// A field of the state that arrays show.
-    struct Shown
-    {
-      Vector memory; ///< of a state that is no more; empty: the problem has it
-    };
-
-    pybind11::array
-    show(const Vector &field, std::shared_ptr<Shown> &shown);
-
-    /// Leave to arrays the memory that the next step would free.
-    static void
-    let_go(Vector &field, std::shared_ptr<Shown> &shown);
-
     /// Throws what a filter of Python's warnings makes of them.
     void
     warn(const std::vector<std::string> &some);
@@ -145,16 +123,14 @@ namespace Exemplar::Python
     SolveReport
     advance(const StepInterval &interval);
 
-    std::map<std::string, pybind11::object> motions;  ///< functions, by handle
-    std::list<pybind11::object>             terms;    ///< functions; they keep their places
-    pybind11::object                        callback; ///< None or a function
-    const std::shared_ptr<Problem>          problem;  ///< its memory is shared with arrays
-    std::vector<std::string>                warnings;
-    Diagnostics                             diagnostics;
-    const SavedState                        initial;
-    StateReview                             review;
-    SolveReport                             report;
-    std::shared_ptr<Shown>                  shown_positions, shown_velocities;
+    KeptFunctions                  functions;
+    const std::shared_ptr<Problem> problem; ///< its memory is shared with arrays
+    StateArrays                    arrays;
+    std::vector<std::string>       warnings;
+    Diagnostics                    diagnostics;
+    const SavedState               initial;
+    StateReview                    review;
+    SolveReport                    report;
     std::thread::id stepping; ///< the thread that makes a step; none: no step is made
     bool            is_stopped           = false; ///< by the callback
     bool            is_warned_of_motions = false;

@@ -2,7 +2,7 @@
 #ifndef exemplar_study_measures_h
 #define exemplar_study_measures_h
 
-#include <deal.II/base/point.h>
+#include <exemplar/run/output/final_pose.h>
 
 #include <filesystem>
 #include <limits>
@@ -11,8 +11,6 @@
 
 namespace Exemplar
 {
-  class Mesh;
-
   /// What statistics.csv says of a run as a whole; NaN where it says nothing.
   struct RunStatistics
   {
@@ -50,24 +48,6 @@ namespace Exemplar
   /// The values of columns of statistics.csv in its last row; NaN where there are none.
   std::vector<double>
   read_last_values(const std::filesystem::path &file, const std::vector<std::string> &columns);
-
-  /// A body at the end of a run.
-  struct FinalPose
-  {
-    FinalPose(const Mesh &mesh, const std::filesystem::path &final_msh);
-
-    /// The greatest displacement [m].
-    double
-    max_displacement() const;
-
-    /// That of the node nearest to a rest position [m].
-    dealii::Tensor<1, 3>
-    displacement_near(const dealii::Point<3> &point) const;
-
-    const std::vector<dealii::Point<3>> rest;
-    const std::vector<dealii::Point<3>> positions;
-    std::vector<double>                 volumes; ///< a quarter of each cell's to each node
-  };
 
   /// Distances between two poses of one body over the displacement of the reference.
   struct PoseErrors

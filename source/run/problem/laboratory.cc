@@ -61,6 +61,39 @@ namespace Exemplar
                         "program without mpirun.");
       return problem.body;
     }
+
+    /// The inverse of H of some weights, bordered by the sums of the regions that have one of them: its
+    /// first rows and columns are those of the weights.
+    dealii::FullMatrix<double>
+    bordered_inverse(const WeightForm &form, const std::vector<unsigned int> &active)
+    {
+      std::vector<unsigned int> sums;
+      for (unsigned int r = 0; r < form.N.m(); ++r)
+        if (std::any_of(active.begin(), active.end(),
+                        [&](const unsigned int i) { return form.N(r, i) != 0.; }))
+          sums.push_back(r);
+      const unsigned int         m    = active.size();
+      const double               unit = form.H.frobenius_norm(); // rows of sums as large as others
+      dealii::FullMatrix<double> bordered(m + sums.size(), m + sums.size());
+      for (unsigned int i = 0; i < m; ++i)
+      {
+        for (unsigned int j = 0; j < m; ++j)
+          bordered(i, j) = form.H(active[i], active[j]);
+        for (unsigned int r = 0; r < sums.size(); ++r)
+          bordered(i, m + r) = bordered(m + r, i) = unit * form.N(sums[r], active[i]);
+      }
+      try
+      {
+        bordered.gauss_jordan();
+      }
+      catch (const dealii::ExceptionBase &)
+      {
+        throw SolverFailure(
+            "The weights do not minimise the energy in one place alone: the "
+            "examples depend on each other. Give Examples/Weight penalty a number.");
+      }
+      return bordered;
+    }
   } // namespace
 
   Laboratory::Laboratory(Problem &problem)
@@ -134,50 +167,11 @@ namespace Exemplar
                        columns);
   }
 
-  void
-  Laboratory::make_row_pattern()
-  {
-    const SymmetricPattern &lower          = potential.matrix_pattern();
-    const auto              n              = static_cast<int>(lower.n());
-    const auto              for_each_entry = [&](const auto &function)
-    {
-      // entries left of the diagonal ascend by the columns of `lower`, then those from it on do
-      for (int column = 0; column < n; ++column)
-        for (int entry = lower.column_start[column]; entry < lower.column_start[column + 1];
-             ++entry)
-          if (lower.row[entry] != column)
-            function(lower.row[entry], column, entry);
-      for (int column = 0; column < n; ++column)
-        for (int entry = lower.column_start[column]; entry < lower.column_start[column + 1];
-             ++entry)
-          function(column, lower.row[entry], entry);
-    };
-    rows_version = lower.version;
-    rows.row_start.assign(n + 1, 0);
-    for_each_entry([&](const int row, int, int) { ++rows.row_start[row + 1]; });
-    std::partial_sum(rows.row_start.begin(), rows.row_start.end(), rows.row_start.begin());
-    rows.column.resize(rows.row_start[n]);
-    source.resize(rows.row_start[n]);
-    std::vector<int> next(rows.row_start.begin(), rows.row_start.end() - 1);
-    for_each_entry(
-        [&](const int row, const int column, const int entry)
-        {
-          rows.column[next[row]] = column;
-          source[next[row]++]    = entry;
-        });
-  }
-
   RowMatrix
   Laboratory::hessian(const Place &at, const Tangent kind)
   {
     assemble(at, kind);
-    if (rows.row_start.empty() || rows_version != potential.matrix_pattern().version)
-      make_row_pattern();
-    RowMatrix matrix = rows;
-    matrix.value.resize(source.size());
-    for (std::size_t i = 0; i < source.size(); ++i)
-      matrix.value[i] = values[source[i]];
-    return matrix;
+    return rows.with(potential.matrix_pattern(), values);
   }
 
   void
@@ -220,19 +214,14 @@ namespace Exemplar
     return weights.weight_form().H;
   }
 
-  dealii::FullMatrix<double>
-  Laboratory::weight_compliance(const Place &at)
+  std::vector<unsigned int>
+  Laboratory::weights_in_motion(const Place &at)
   {
-    const unsigned int         n = weights.size();
-    dealii::FullMatrix<double> compliance(n, n);
-    if (weights.n_unknown() == 0)
-      return compliance;
     const std::vector<double> slope   = evaluate(at).elastic.weight_gradient;
-    const WeightForm         &form    = weights.weight_form();
     const bool                bounded = problem.parameters.examples.weights == WeightRule::simplex;
-    std::vector<double>       lambda  = weights.residual(at.weights, slope).multipliers;
+    const std::vector<double> lambda  = weights.residual(at.weights, slope).multipliers;
     std::vector<unsigned int> active;
-    for (unsigned int i = 0; i < n; ++i)
+    for (unsigned int i = 0; i < weights.size(); ++i)
     {
       const auto   slopes = weights.get_memory().slopes(i, at.weights[i], slope[i]);
       const double l      = lambda.empty() ? 0. : lambda[i / weights.n_per_region()];
@@ -240,35 +229,22 @@ namespace Exemplar
       if (!(bounded && at.weights[i] <= 0.) && !sticks)
         active.push_back(i);
     }
-    std::vector<unsigned int> sums; // regions with an active weight
-    for (unsigned int r = 0; r < form.N.m(); ++r)
-      if (std::any_of(active.begin(), active.end(),
-                      [&](const unsigned int i) { return form.N(r, i) != 0.; }))
-        sums.push_back(r);
-    const unsigned int m = active.size(), size = m + sums.size();
-    if (m == 0)
+    return active;
+  }
+
+  dealii::FullMatrix<double>
+  Laboratory::weight_compliance(const Place &at)
+  {
+    dealii::FullMatrix<double> compliance(weights.size(), weights.size());
+    if (weights.n_unknown() == 0)
       return compliance;
-    const double               unit = form.H.frobenius_norm(); // rows of sums as large as others
-    dealii::FullMatrix<double> bordered(size, size);
-    for (unsigned int i = 0; i < m; ++i)
-    {
-      for (unsigned int j = 0; j < m; ++j)
-        bordered(i, j) = form.H(active[i], active[j]);
-      for (unsigned int r = 0; r < sums.size(); ++r)
-        bordered(i, m + r) = bordered(m + r, i) = unit * form.N(sums[r], active[i]);
-    }
-    try
-    {
-      bordered.gauss_jordan();
-    }
-    catch (const dealii::ExceptionBase &)
-    {
-      throw SolverFailure("The weights do not minimise the energy in one place alone: the examples "
-                          "depend on each other. Give Examples/Weight penalty a number.");
-    }
-    for (unsigned int i = 0; i < m; ++i)
-      for (unsigned int j = 0; j < m; ++j)
-        compliance(active[i], active[j]) = bordered(i, j);
+    const std::vector<unsigned int> active = weights_in_motion(at);
+    if (active.empty())
+      return compliance;
+    const auto inverse = bordered_inverse(weights.weight_form(), active);
+    for (unsigned int i = 0; i < active.size(); ++i)
+      for (unsigned int j = 0; j < active.size(); ++j)
+        compliance(active[i], active[j]) = inverse(i, j);
     return compliance;
   }
 
@@ -295,11 +271,11 @@ namespace Exemplar
           {
             using Cell = std::decay_t<decltype(state)>;
             if constexpr (Cell::traits.knows_volume)
-              state.add_volume_pressure(cells.volume_pressure(point));
+              state.add_volume_pressure(cells.get_dilatation().volume.pressure(point));
             Matrix3<double> T
                 = state.stress_towards(problem.examples.poses.strain(point, at.weights));
             for (int i = 0; i < 3; ++i)
-              T[i][i] += cells.pressure(point);
+              T[i][i] += cells.get_dilatation().pressure(point);
             const Matrix3<double> turned = R * transposed(R * T); // T is symmetric
             means.strains[cell]          = combine(1., means.strains[cell], part, state.strain());
             means.stresses[cell]         = combine(1., means.stresses[cell], part, turned);
@@ -324,32 +300,5 @@ namespace Exemplar
                        poses.strain(point, i));
       }
     return all;
-  }
-
-  RowMatrix
-  mass_matrix(const Problem &problem)
-  {
-    const FESpace        &fe_space = problem.body.fe_space;
-    std::unique_ptr<Mass> made;
-    if (problem.actions.mass == nullptr)
-      made = std::make_unique<Mass>(fe_space, problem.body.material,
-                                    problem.parameters.material.mass_matrix);
-    const auto &nodal = (made != nullptr ? *made : *problem.actions.mass).nodal();
-    RowMatrix   matrix;
-    matrix.row_start.push_back(0);
-    for (unsigned int dof = 0; dof < fe_space.n_dofs(); ++dof)
-    {
-      std::vector<std::pair<int, double>> row;
-      for (auto entry = nodal.begin(dof / 3); entry != nodal.end(dof / 3); ++entry)
-        row.emplace_back(3 * entry->column() + dof % 3, entry->value());
-      std::sort(row.begin(), row.end()); // deal.II begins with the diagonal
-      for (const auto &[column, value] : row)
-      {
-        matrix.column.push_back(column);
-        matrix.value.push_back(value);
-      }
-      matrix.row_start.push_back(static_cast<int>(matrix.column.size()));
-    }
-    return matrix;
   }
 } // namespace Exemplar

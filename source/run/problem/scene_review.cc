@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/message_text.h>
 #include <exemplar/base/number_text.h>
+#include <exemplar/body/pose_checks.h>
 #include <exemplar/prm/assignments.h>
 #include <exemplar/run/problem/scene_review.h>
+
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
@@ -190,5 +193,13 @@ namespace Exemplar
       if (warning)
         warnings.push_back(*warning);
     return warnings;
+  }
+
+  std::string
+  pose_warning(const Problem &problem, const unsigned int example)
+  {
+    const std::string doubt = describe_pose(problem.body.mesh, problem.body.fe_space,
+                                            problem.examples.poses.pose(example));
+    return doubt.empty() ? doubt : fmt::format("Example {} {}", example, doubt);
   }
 } // namespace Exemplar

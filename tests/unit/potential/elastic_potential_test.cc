@@ -198,7 +198,8 @@ namespace Exemplar::Testing
       std::mt19937   generator(4);
       auto           positions = body.random_positions(generator, 0.05);
       const auto     past = body.random_positions(generator, 0.05), before = past;
-      elastic.get_field().set_step_size(std::numeric_limits<double>::infinity()); // cells may flow
+      elastic.get_field().get_batches().set_step_size(
+          std::numeric_limits<double>::infinity()); // cells may flow
       elastic.begin_step(test_case.damping, { { 1.5, &past }, { -0.5, &before } });
       std::vector<double> weights  = test_case.per_region
                                          ? std::vector<double>{ 0.2, 0.5, 0.3, 0.6, 0.1, 0.3 }
@@ -295,7 +296,7 @@ namespace Exemplar::Testing
         const auto     examples = body.examples(two_examples(), law);
         const FreeDofs free_dofs(body.fe_space.n_dofs(), {}, Exchange::serial());
         BodyPotential  elastic(body, LawsOfCells(law), examples, free_dofs);
-        elastic.get_field().set_step_size(std::numeric_limits<double>::infinity());
+        elastic.get_field().get_batches().set_step_size(std::numeric_limits<double>::infinity());
         std::mt19937 generator(9);
         const Vector positions = body.random_positions(generator, 0.1);
         const Vector force     = elastic.evaluate_at(positions, { 0.2, 0.5, 0.3 }).gradient;

@@ -3,6 +3,7 @@
 #define exemplar_laboratory_h
 
 #include <exemplar/potential/incremental_potential.h>
+#include <exemplar/run/problem/row_matrix.h>
 
 #include <functional>
 #include <memory>
@@ -16,14 +17,6 @@ namespace Exemplar
   /// Makes a term of one's own. It is called for each potential that needs one: that of the steps, and
   /// that of a Laboratory, whose term gets what the other remembers by PotentialTerm::save() and load().
   using MakeTerm = std::function<std::unique_ptr<PotentialTerm>()>;
-
-  /// A sparse matrix by rows, of columns that ascend: of n degrees of freedom, held ones included.
-  struct RowMatrix
-  {
-    std::vector<int>    row_start; ///< n + 1
-    std::vector<int>    column;
-    std::vector<double> value;
-  };
 
   /// Of each cell the mean over its quadrature points, weighted by their volumes.
   struct CellMeans
@@ -102,12 +95,13 @@ namespace Exemplar
     void
     require_unknown_weights() const;
 
+    /// Weights that are neither at their bound nor stuck where they were.
+    std::vector<unsigned int>
+    weights_in_motion(const Place &at);
+
     /// Evaluate, and assemble the tangent of this kind.
     void
     assemble(const Place &at, Tangent kind);
-
-    void
-    make_row_pattern();
 
     Problem                              &problem;
     ExampleWeights                        weights;
@@ -117,14 +111,8 @@ namespace Exemplar
     IncrementalPotential                  potential;
     Evaluation                            evaluation;
     std::vector<double>                   values, columns; ///< of the last assembly
-    RowMatrix                             rows; ///< of the pattern of this version, and no values
-    unsigned int                          rows_version = 0;
-    std::vector<int>                      source; ///< of the rows' values among `values`
+    SymmetricRows                         rows;
   };
-
-  /// The mass matrix [kg] of a problem, as its scene has it; in a static scene, too.
-  RowMatrix
-  mass_matrix(const Problem &problem);
 } // namespace Exemplar
 
 #endif

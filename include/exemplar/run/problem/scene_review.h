@@ -14,6 +14,10 @@ namespace Exemplar
   /// of components that are not held.
   std::vector<std::string>
   scene_warnings(const Problem &problem);
+
+  /// What looks wrong in the present pose of an example, see describe_pose(); empty if nothing does.
+  std::string
+  pose_warning(const Problem &problem, unsigned int example);
 } // namespace Exemplar
 
 #endif

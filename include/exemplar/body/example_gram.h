@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_example_gram_h
+#define exemplar_example_gram_h
+
+#include <exemplar/body/fe_space.h>
+#include <exemplar/body/laws_of_cells.h>
+#include <exemplar/body/material.h>
+#include <exemplar/body/patches.h>
+
+#include <deal.II/lac/full_matrix.h>
+
+namespace Exemplar
+{
+  class ExamplePoses;
+
+  /// What pairs of examples cost in energy, and what they ask of the volumes of patches: both are sums
+  /// over the strains of examples, Eqs. (9) and (25).
+  class ExampleGram
+  {
+  public:
+    /// `cell_material` is that of the cells' own energy, beside which that of `patches` stands, null
+    /// where there are none.
+    void
+    compute(const ExamplePoses &poses,
+            const FESpace      &fe_space,
+            const LawsOfCells  &laws,
+            const Material     &cell_material,
+            const Patches      &patches);
+
+    /// eta^2 sum V E_i : C : E_j for all pairs of weights [J]; with patches, the volume part by Eq. (25).
+    const dealii::FullMatrix<double> &
+    matrix() const
+    {
+      return gram;
+    }
+
+    /// Add to `sum` so many times what H of the blended energy has beyond it, sum V eta (1 - eta)
+    /// E_i : C : E_j with the importance of each cell, of patches its mean [J].
+    void
+    add_blended(double factor, dealii::FullMatrix<double> &sum) const;
+
+    /// eta dtheta_p/dw of a patch, the mean of eta tr E over its volume, for a weight; Eq. (25).
+    double
+    patch_dilatation(const unsigned int patch, const unsigned int weight) const
+    {
+      return patch_dilatations(patch, weight);
+    }
+
+    /// In bytes.
+    std::size_t
+    memory_consumption() const;
+
+  private:
+    void
+    compute_patch_dilatations(const ExamplePoses &poses,
+                              const FESpace      &fe_space,
+                              const Patches      &patches);
+
+    void
+    add_cells(const ExamplePoses &poses,
+              const FESpace      &fe_space,
+              const LawsOfCells  &laws,
+              const Material     &cell_material);
+
+    void
+    add_patches(const FESpace &fe_space, const Material &cell_material, const Patches &patches);
+
+    /// What H has beyond the Gram matrix where examples have an elasticity of their own.
+    void
+    compute_excess(const ExamplePoses &poses,
+                   const FESpace      &fe_space,
+                   const Material     &cell_material,
+                   const Patches      &patches);
+
+    double                     importance = 0.;
+    dealii::FullMatrix<double> patch_dilatations; ///< patch, weight; empty without patches
+    dealii::FullMatrix<double> gram;
+    dealii::FullMatrix<double>
+        blended; ///< see add_blended(), where the importance varies or examples have C_e; else empty
+  };
+} // namespace Exemplar
+
+#endif

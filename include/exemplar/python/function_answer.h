@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_function_answer_h
+#define exemplar_function_answer_h
+
+#include <exemplar/run/problem/problem.h>
+
+#include <pybind11/pybind11.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace Exemplar::Python
+{
+  /// Of a symmetric matrix, where the row is not before the column.
+  struct MatrixEntry
+  {
+    unsigned int row, column;
+    double       value;
+  };
+
+  /// What a function has returned, and for what.
+  struct FunctionAnswer
+  {
+    Vector                   positions;
+    double                   time   = 0.;
+    double                   energy = 0.;
+    Vector                   gradient;
+    std::vector<MatrixEntry> hessian; ///< may have several entries in one place
+
+    bool
+    is_for(const Vector &other_positions, const double other_time) const
+    {
+      return time == other_time && positions.size() == other_positions.size()
+             && std::equal(positions.begin(), positions.end(), other_positions.begin());
+    }
+  };
+
+  /// What function(positions (n,3), time) -> energy, gradient (n,3), sparse Hessian (3n,3n) or None
+  /// returns; `term_name` stands for it in messages. Throws UserError for anything else, and what the
+  /// function raises. Takes Python's lock.
+  FunctionAnswer
+  answer_of(const pybind11::object &function,
+            const std::string      &term_name,
+            const Vector           &positions,
+            double                  time);
+} // namespace Exemplar::Python
+
+#endif

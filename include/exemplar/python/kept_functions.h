@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_kept_functions_h
+#define exemplar_kept_functions_h
+
+#include <pybind11/pybind11.h>
+
+#include <list>
+#include <map>
+#include <string>
+
+namespace Exemplar::Python
+{
+  /// The functions of Python that a problem calls. They keep their places.
+  struct KeptFunctions
+  {
+    std::map<std::string, pybind11::object> motions; ///< by handle
+    std::list<pybind11::object>             terms;
+    pybind11::object                        callback = pybind11::none(); ///< of on_iteration()
+
+    /// For Python's garbage collector: call visit(function, arg) for all.
+    int
+    visit(visitproc visit, void *arg) const;
+
+    /// For a problem that nobody will use any more.
+    void
+    forget();
+  };
+} // namespace Exemplar::Python
+
+#endif

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/body/material.h>
+
+// Parts of a strain, which examples may act on alone.
+
+namespace Exemplar
+{
+  namespace
+  {
+    /// factor times a strain that these axes see without shear; 0 without axes.
+    Matrix3<double>
+    strain_in(const GrainAxes &axes, const std::array<double, 3> &entries, const double factor)
+    {
+      const auto           &a = axes.along, &b = axes.across;
+      const Vector3<double> c
+          = { { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] } };
+      Matrix3<double> strain = {};
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+          strain[i][j]
+              = factor
+                * (entries[0] * a[i] * a[j] + entries[1] * b[i] * b[j] + entries[2] * c[i] * c[j]);
+      return strain;
+    }
+  } // namespace
+
+  Matrix3<double>
+  Material::part_of_pressure(const unsigned int cell, const Matrix3<double> &strain) const
+  {
+    const Constants &of_cell = constants[constants_of_cell[cell]];
+    if (has_examples() || axes.empty() || axes[cell].along == GrainAxes().along)
+      return combine(trace(strain) / 3., identity_matrix<double>(), 0., strain);
+    return strain_in(axes[cell], of_cell.grain.strain_of_pressure(), trace(strain));
+  }
+
+  Matrix3<double>
+  Material::part_of_tension(const unsigned int cell, const Matrix3<double> &strain) const
+  {
+    if (axes.empty())
+      return {};
+    const auto &a       = axes[cell].along;
+    double      stretch = 0.;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        stretch += a[i] * strain[i][j] * a[j];
+    const Orthotropy grain
+        = has_examples() ? parts(cell).examples : constants[constants_of_cell[cell]].grain;
+    return strain_in(axes[cell], grain.strain_of_tension(), stretch);
+  }
+} // namespace Exemplar
