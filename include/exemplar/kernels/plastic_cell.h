@@ -180,8 +180,11 @@ namespace Exemplar
         return convex_response(symmetric_part(M));
       const Matrix3<Number> dS = symmetric_part(
           combine(Number(1.), M, Number(-1.), this->turn(M) * this->stretch_factor()));
+      Matrix3<Number> d = driving(dS);
+      if (any(this->is_guarded()))
+        d = combine(Number(1.), d, this->change_of_guard(dS), deviator(this->strain()));
       return combine(Number(1.), Corotational::response(M), -of_body / moved,
-                     this->example_response(flow.response(driving(dS))));
+                     this->example_response(flow.response(d)));
     }
 
     Matrix3<Number>
