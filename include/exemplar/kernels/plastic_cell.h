@@ -30,18 +30,18 @@ namespace Exemplar
     /// p by xx, yy, yz, xz, xy; the accumulated plastic strain; the plastic work [J/m^3].
     static constexpr std::size_t n_of_strain = 5;
 
-    static constexpr ModelTraits traits = { "plastic",
-                                            "",
-                                            /* has_rotations */ true,
-                                            /* has_guard */ true,
-                                            /* has_stretch_guard */ true,
-                                            /* exact_is_rotated */ false,
-                                            /* convex_is_rotated */ false,
-                                            /* trace_gradient_is_R */ true,
-                                            /* turns_freely */ true,
-                                            /* n_history */ n_of_strain + 2,
-                                            /* plastic_strain */ n_of_strain,
-                                            /* dissipated */ n_of_strain + 1 };
+    static constexpr ModelTraits traits = chosen_by({ "plastic", "",
+                                                      /* has_rotations */ true,
+                                                      /* has_guard */ true,
+                                                      /* has_stretch_guard */ true,
+                                                      /* exact_is_rotated */ false,
+                                                      /* convex_is_rotated */ false,
+                                                      /* trace_gradient_is_R */ true,
+                                                      /* turns_freely */ true,
+                                                      /* n_history */ n_of_strain + 2,
+                                                      /* plastic_strain */ n_of_strain,
+                                                      /* dissipated */ n_of_strain + 1 },
+                                                    Constants::own_constants[0].name);
 
     PlasticCell(const Constants        &constants,
                 const Matrix3<Number>  &rotation,
