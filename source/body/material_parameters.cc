@@ -150,6 +150,17 @@ namespace Exemplar
   }
 
   bool
+  MaterialParameters::chooses_laws() const
+  {
+    bool chooses = false;
+    for (const CellLaw law : all_laws())
+      if (const char *const key = traits_of(law).chosen_by[0])
+        for_each_section([&](const ElasticConstants &constants, const std::string & /*section*/)
+                         { chooses |= constants.own.at(key) > 0.; });
+    return chooses;
+  }
+
+  bool
   MaterialParameters::importance_varies() const
   {
     bool varies = !importance_map.empty();

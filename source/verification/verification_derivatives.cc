@@ -52,8 +52,7 @@ namespace Exemplar::Verification
       };
       add("forces", differences.of_gradient());
       add("along the forces", differences.along_gradient());
-      if (!differences.are_guarded())
-        add("tangent", differences.of_tangent());
+      add("tangent", differences.of_tangent());
     }
 
     /// At F (X + perturbation), without and with examples.
@@ -67,8 +66,7 @@ namespace Exemplar::Verification
       measure(Differences(plain.problem, x, weights, Rotations::followed), "", all);
       const Differences differences(with.problem, x, weights, Rotations::followed);
       measure(differences, ", examples", all);
-      if (!differences.are_guarded())
-        all.push_back({ "weights", 0., differences.of_weights(), Comparison::absolute, tolerance });
+      all.push_back({ "weights", 0., differences.of_weights(), Comparison::absolute, tolerance });
       return all;
     }
 

@@ -95,6 +95,10 @@ namespace Exemplar
     bool
     may_yield() const;
 
+    /// Whether some have a constant by which ModelTraits::chosen_by may choose their law.
+    bool
+    chooses_laws() const;
+
     void
     declare(KeyTable &keys);
 

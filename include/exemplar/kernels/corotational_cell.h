@@ -44,7 +44,7 @@ namespace Exemplar
     return C;
   }
 
-  /// phi = z^2 (3 - 2 z), z = clamp(p/p_0, 0, 1), and its derivative by p. The product
+  /// phi = z^2 (3 - 2 z), z = clamp(p/p_0, 0, 1), and its derivatives by p. The product
   /// p = (s_1+s_2)(s_2+s_3)(s_3+s_1) of the singular values, s_3 < 0 in a mirrored cell, is
   /// 8 at rest and 0 where the rotation is ambiguous and the energy with an example would jump.
   template <typename Number>
@@ -52,6 +52,7 @@ namespace Exemplar
   {
     Number phi;
     Number derivative;
+    Number second;
   };
 
   template <typename Number>
@@ -61,7 +62,9 @@ namespace Exemplar
     const Number z         = max(p / p_0, Number(0.));
     const auto   is_beyond = p >= p_0;
     return { select(is_beyond, Number(1.), z * z * (Number(3.) - Number(2.) * z)),
-             select(is_beyond, Number(0.), Number(6.) * z * (Number(1.) - z) / p_0) };
+             select(is_beyond, Number(0.), Number(6.) * z * (Number(1.) - z) / p_0),
+             select(is_beyond, Number(0.),
+                    Number(6.) * (Number(1.) - Number(2.) * z) / (p_0 * p_0)) };
   }
 
   /// Inverse of the symmetric positive semidefinite matrix B = tr(S) I - S with its
@@ -225,6 +228,7 @@ namespace Exemplar
       W = skew_matrix(B_inverse * axial_vector(commutator(S, T)));
       if (!any(is_guarded()))
         return;
+      target      = D;
       guard_force = -guard_energy(material, phi_derivative, S, D);
       bound_inverse(Number(1e-2));
     }
@@ -263,8 +267,7 @@ namespace Exemplar
       return skew_matrix(B_inverse * axial_vector(difference));
     }
 
-    /// R^T dP for R^T dF = M, Eq. (18); symmetric in M. In guarded cells the derivative of
-    /// the guard is left out and denominators are bounded.
+    /// R^T dP for R^T dF = M, Eq. (18); symmetric in M. Denominators of guarded cells are bounded.
     Matrix3<Number>
     response(const Matrix3<Number> &M) const
     {
@@ -279,8 +282,10 @@ namespace Exemplar
         for (int j = 0; j < 3; ++j)
           skew[i][j] = right[i][j] - dS_W[i][j] - W_dS[i][j];
       const Matrix3<Number> dW = skew_matrix(B_inverse * axial_vector(skew));
-      const Matrix3<Number> dP = combine(Number(1.), Omega * combine(Number(1.), T, Number(1.), W),
+      Matrix3<Number>       dP = combine(Number(1.), Omega * combine(Number(1.), T, Number(1.), W),
                                          Number(1.), combine(Number(1.), dT, Number(1.), dW));
+      if (any(is_guarded()))
+        add_response_of_guard(dS, Omega, dP);
       if (!is_stretched())
         return dP;
       const StretchGuard<Number> guard = stretch();
@@ -295,11 +300,44 @@ namespace Exemplar
     {
       const Matrix3<Number> dT = add_guard_of_target(stress(material, E), material,
                                                      phi - Number(1.), Matrix3<Number>{}, E);
-      return combine(Number(1.), dT, Number(1.),
-                     skew_matrix(B_inverse * axial_vector(commutator(S, dT))));
+      const Matrix3<Number> dP = combine(Number(1.), dT, Number(1.),
+                                         skew_matrix(B_inverse * axial_vector(commutator(S, dT))));
+      if (!any(is_guarded()))
+        return dP;
+      const Matrix3<Number> by_target
+          = add_guard_of_stretch(Matrix3<Number>{}, material, phi_derivative, S);
+      return combine(Number(1.), dP, contract(by_target, E), p_derivative(S));
     }
 
   protected:
+    /// Of phi, with S.
+    Number
+    change_of_guard(const Matrix3<Number> &dS) const
+    {
+      return phi_derivative * contract(p_derivative(S), dS);
+    }
+
+    /// What the change of phi adds to response(). It is kept out of that, because hardly any cell needs it.
+    [[gnu::noinline, gnu::cold]] void
+    add_response_of_guard(const Matrix3<Number> &dS,
+                          const Matrix3<Number> &Omega,
+                          Matrix3<Number>       &dP) const
+    {
+      const Matrix3<Number> by_S = p_derivative(S);
+      const Number          dp   = contract(by_S, dS);
+      const Matrix3<Number> of_target
+          = add_guard_of_target(Matrix3<Number>{}, material, Number(1.), e, target);
+      const Matrix3<Number> dT = combine(-phi_derivative * dp, of_target, Number(0.), of_target);
+      const Matrix3<Number> dW = skew_matrix(B_inverse * axial_vector(commutator(S, dT)));
+      const Number          d_force = -guard_energy(material, phi_second * dp, S, target)
+                             - phi_derivative * contract(of_target, dS);
+      // dp/dS commutes with S and so has no part in W
+      const Matrix3<Number> of_force
+          = combine(Number(1.), p_second_derivative(S, dS), Number(1.), Omega * by_S);
+      dP = combine(Number(1.), dP, Number(1.), combine(Number(1.), dT, Number(1.), dW));
+      dP = combine(Number(1.), dP, Number(1.), combine(d_force, by_S, guard_force, of_force));
+    }
+
     CorotationalCell(const OfLaw &material, const Matrix3<Number> &S, const double p_0)
         : Quadratic(material, minus_identity(S)), elasticity(material.isotropic_part()), S(S)
     {
@@ -310,6 +348,7 @@ namespace Exemplar
       const Guard<Number> g = guard(product, Number(p_0));
       phi                   = g.phi;
       phi_derivative        = g.derivative;
+      phi_second            = g.second;
     }
 
     static Matrix3<Number>
@@ -338,6 +377,8 @@ namespace Exemplar
     Matrix3<Number>      B; ///< tr(S) I - S
     Number               phi            = Number(1.);
     Number               phi_derivative = Number(0.);
+    Number               phi_second     = Number(0.);
+    Matrix3<Number>      target; ///< where the guard acts
     Matrix3<Number>      W;
     Matrix3<Number>      B_inverse;
     Number               guard_force;

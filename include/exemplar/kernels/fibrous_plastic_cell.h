@@ -80,7 +80,9 @@ namespace Exemplar
   public:
     using Constants = FibrousPlasticConstants<Number>;
 
-    static constexpr ModelTraits traits = with_name(Plastic::traits, "fibrous plastic");
+    static constexpr ModelTraits traits = chosen_by(with_name(Plastic::traits, "fibrous plastic"),
+                                                    Plastic::Constants::own_constants[0].name,
+                                                    Constants::Fibres::own_constants[0].name);
 
     FibrousPlasticCell(const Constants        &constants,
                        const Matrix3<Number>  &rotation,

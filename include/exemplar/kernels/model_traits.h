@@ -2,6 +2,7 @@
 #ifndef exemplar_model_traits_h
 #define exemplar_model_traits_h
 
+#include <array>
 #include <cstddef>
 #include <limits>
 
@@ -75,6 +76,10 @@ namespace Exemplar
     /// one of the mean of J, Eq. (37), in patches. Such a law has the member add_volume_pressure().
     bool knows_volume = false;
 
+    /// The constants, at most two, whose values above 0 give a cell this law; of several such laws it has the
+    /// last. None: something else chooses it.
+    std::array<const char *, 2> chosen_by = { {} };
+
     /// Whether patches have its part of Eq. (26): what is stretched far of the trace of the strain.
     constexpr bool
     has_guard_of_patches() const
@@ -89,6 +94,14 @@ namespace Exemplar
       return *strain != '\0';
     }
   };
+
+  /// Those of a law that cells have where these constants are greater than 0.
+  constexpr ModelTraits
+  chosen_by(ModelTraits traits, const char *first, const char *second = nullptr)
+  {
+    traits.chosen_by = { { first, second } };
+    return traits;
+  }
 } // namespace Exemplar
 
 #endif

@@ -30,18 +30,18 @@ namespace Exemplar
     /// p by xx, yy, yz, xz, xy; the accumulated plastic strain; the plastic work [J/m^3].
     static constexpr std::size_t n_of_strain = 5;
 
-    static constexpr ModelTraits traits = { "plastic",
-                                            "",
-                                            /* has_rotations */ true,
-                                            /* has_guard */ true,
-                                            /* has_stretch_guard */ true,
-                                            /* exact_is_rotated */ false,
-                                            /* convex_is_rotated */ false,
-                                            /* trace_gradient_is_R */ true,
-                                            /* turns_freely */ true,
-                                            /* n_history */ n_of_strain + 2,
-                                            /* plastic_strain */ n_of_strain,
-                                            /* dissipated */ n_of_strain + 1 };
+    static constexpr ModelTraits traits = chosen_by({ "plastic", "",
+                                                      /* has_rotations */ true,
+                                                      /* has_guard */ true,
+                                                      /* has_stretch_guard */ true,
+                                                      /* exact_is_rotated */ false,
+                                                      /* convex_is_rotated */ false,
+                                                      /* trace_gradient_is_R */ true,
+                                                      /* turns_freely */ true,
+                                                      /* n_history */ n_of_strain + 2,
+                                                      /* plastic_strain */ n_of_strain,
+                                                      /* dissipated */ n_of_strain + 1 },
+                                                    Constants::own_constants[0].name);
 
     PlasticCell(const Constants        &constants,
                 const Matrix3<Number>  &rotation,
@@ -180,8 +180,11 @@ namespace Exemplar
         return convex_response(symmetric_part(M));
       const Matrix3<Number> dS = symmetric_part(
           combine(Number(1.), M, Number(-1.), this->turn(M) * this->stretch_factor()));
+      Matrix3<Number> d = driving(dS);
+      if (any(this->is_guarded()))
+        d = combine(Number(1.), d, this->change_of_guard(dS), deviator(this->strain()));
       return combine(Number(1.), Corotational::response(M), -of_body / moved,
-                     this->example_response(flow.response(driving(dS))));
+                     this->example_response(flow.response(d)));
     }
 
     Matrix3<Number>

@@ -116,13 +116,6 @@ namespace Exemplar::Verification
       return maximum / (1. + max_entry(at.gradient.begin(), at.gradient.end()));
     }
 
-    /// Whether the guard acts: its derivative is left out of the tangent, Eq. (18).
-    bool
-    are_guarded() const
-    {
-      return at.guarded_cells > 0;
-    }
-
   private:
     /// Central difference of fourth order at 0.
     template <typename Function>

@@ -283,20 +283,36 @@ namespace Exemplar
   {
   }
 
+  namespace
+  {
+    /// The law that its constants choose for a cell, or this one.
+    CellLaw
+    chosen_law(const Material &material, const unsigned int cell, CellLaw law)
+    {
+      for (const CellLaw other : all_laws())
+      {
+        const auto keys = traits_of(other).chosen_by;
+        if (keys[0] != nullptr
+            && std::all_of(keys.begin(), keys.end(),
+                           [&](const char *const key)
+                           { return key == nullptr || material.own_number(key, cell) > 0.; }))
+          law = other;
+      }
+      return law;
+    }
+  } // namespace
+
   LawsOfCells
   laws_of_cells(const SceneParameters &parameters, const Body &body)
   {
     const CellLaw law = parameters.model.law();
-    if (!parameters.material.may_yield())
+    if (!parameters.material.chooses_laws())
       return law;
-    std::vector<CellLaw> of_cells(body.fe_space.n_cells(), law);
+    std::vector<CellLaw> of_cells(body.fe_space.n_cells());
     for (unsigned int cell = 0; cell < of_cells.size(); ++cell)
-      if (body.material.own_number("Yield stress", cell) > 0.)
-        of_cells[cell] = body.material.own_number("Fibre stiffness", cell) > 0.
-                             ? CellLaw::fibrous_plastic
-                             : CellLaw::plastic;
+      of_cells[cell] = chosen_law(body.material, cell, law);
     LawsOfCells laws(std::move(of_cells));
-    for (const CellLaw other : { law, CellLaw::plastic, CellLaw::fibrous_plastic })
+    for (const CellLaw other : all_laws())
     {
       const auto &here = laws.present();
       if (body.exchange().any(std::count(here.begin(), here.end(), other) > 0))

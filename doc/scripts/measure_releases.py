@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Print the table of doc/stability.md on random pulls: the back of a cat is drawn somewhere and let go, again and again.
+
+Usage: PYTHONPATH=build/release/python /usr/bin/python3 doc/scripts/measure_releases.py [--reach M] [--steps N] [MATERIAL]...
+The cat stands on its paws. Ten steps of .02 s draw its back in a random direction, each time another one, up to `reach` metres from where
+it is (.5, half a body), ten leave it to itself. The second half is made once more from a state in the middle. All materials by default:
+an hour; each row is printed when it is there. Exits with 1 if a run fails, gains energy or resumes to other bytes.
+"""
+import argparse
+import pickle
+import sys
+from pathlib import Path
+
+import numpy as np
+
+import exemplar
+
+TOP = Path(__file__).resolve().parents[2]
+E = 1e6
+ARCH = {"Examples": {"Poses": TOP / "meshes/poses/cat_arch.msh", "Importance": 0.5, "Energy": "blended"}}
+FIBRES = {"Fibre stiffness": 4 * E, "Fibre direction": "1; 0; 0.3"}
+YIELD = {"Yield stress": 0.02 * E, "Isotropic hardening": 0.02 * E}
+MATERIALS = {
+    "elastic": {},
+    "fibres": {"Material": FIBRES},
+    "orthotropy": {"Material": {"Orthotropy": f"{4 * E}, {E}, {E / 2}, 0.3, 0.3, 0.3, {E / 3}, {E / 2}, {E / 4}", "Fibre direction": "1; 0; 0.3",
+                                "Cross direction": "0; 1; 0"}},
+    "plastic": {"Material": YIELD},
+    "fibres in plastic cells": {"Material": {**FIBRES, **YIELD}},
+    "memory": {"Examples": {**ARCH["Examples"], "Importance": 0.8, "Yield": 800}},
+    "neo-Hookean": {"Model": {"Background": "neo-hookean"}},
+}
+MATERIALS.update({f"{name}, example": {**keys, **ARCH} for name, keys in MATERIALS.items() if name != "memory"})
+PULL = REST = 10  # steps
+MOST_ENERGY_GAINED = 1e-3  # of the greatest: steps are solved to a thousandth of their displacement
+
+
+class Releases:
+    """A cat whose back is pulled and let go."""
+
+    def __init__(self, keys, reach):
+        material = {"Young's modulus": E, "Poisson's ratio": 0.45, "Density": 1000, **keys.get("Material", {})}
+        self.problem = exemplar.Problem({
+            "Scene": "dynamic", "Mesh": {"File": TOP / "meshes/cat.msh"}, "Time": {"Step": 0.02, "End": 1000},
+            "Handles": {"paws": {"Select": "box -9 -9 -9 9 9 0.04"}}, **keys, "Material": material})
+        rest = self.problem.rest_positions
+        self.back = np.flatnonzero((abs(rest[:, 0]) < 0.06) & (rest[:, 2] > 0.5))
+        self.reach, self.energies, self.reports, self.gain, self.min_det_F = reach, [], [], 0, 1
+
+    def pull(self, number):
+        """Grab the back, in the pull of that number."""
+        random = np.random.default_rng(number)
+        way = random.normal(size=3)
+        way *= self.reach * random.random() ** (1 / 3) / np.linalg.norm(way)
+        start, begin = self.problem.time, (self.problem.positions - self.problem.rest_positions)[self.back]
+        duration = 0.02 * PULL
+        self.problem.grab("back", self.back, lambda rest, t: begin + way * min((t - start) / duration, 1))
+
+    def total_energy(self):
+        return sum(self.problem.energies[f"energy_{kind}"] for kind in ("elastic", "example", "kinetic") if f"energy_{kind}" in self.problem.energies)
+
+    def run(self, n_steps):
+        """Steps up to that number; what ends them is raised."""
+        while self.problem.step_number < n_steps:
+            pull, step = divmod(self.problem.step_number, PULL + REST)
+            if step == 0:
+                self.pull(pull)
+            elif step == PULL:
+                self.problem.let_go("back")
+            self.reports.append(self.problem.step())
+            self.min_det_F = min(self.min_det_F, self.problem.statistics["min_det_F"])
+            self.energies.append(self.total_energy())
+            if step >= PULL:
+                self.gain = max(self.gain, self.energies[-1] - self.energies[-2])
+
+
+def measure(keys, reach, n_steps):
+    """A row of the table but its name, and whether all is well."""
+    middle = n_steps // (PULL + REST) // 2 * (PULL + REST)
+    first, ended, resumed = Releases(keys, reach), "", ""
+    try:
+        first.run(middle)
+        state = pickle.dumps(first.problem.state)
+        first.run(n_steps)
+        second = Releases(keys, reach)
+        second.problem.state = pickle.loads(state)
+        second.run(n_steps)
+        resumed = "same bytes" if second.problem.state == first.problem.state else "OTHER BYTES"
+    except exemplar.SolverFailure as failure:
+        ended = str(failure).split("\n")[0]
+    iterations = [report.iterations for report in first.reports]
+    gain = first.gain / max(first.energies)
+    row = [len(first.energies), f"{np.mean(iterations):.1f}", max(iterations), sum(report.factorizations for report in first.reports),
+           f"{max(first.energies):.2g}", f"{gain:.1g}", f"{first.min_det_F:.2g}", resumed or ended]
+    return row, resumed == "same bytes" and gain <= MOST_ENERGY_GAINED
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--reach", type=float, default=0.5)
+    parser.add_argument("--steps", type=int, default=1000)
+    parser.add_argument("materials", nargs="*", metavar="MATERIAL")
+    arguments = parser.parse_args()
+    exemplar.use_one_blas_thread()
+    print("| material | steps | iterations a step | most | factorisations | greatest energy [J] | gained, over that | least det F | resumed |")
+    print("|" + "---|" * 9, flush=True)
+    is_well = True
+    for name in arguments.materials or MATERIALS:
+        row, is_row_well = measure(MATERIALS[name], arguments.reach, arguments.steps)
+        is_well &= is_row_well
+        print("| " + " | ".join(map(str, [name, *row])) + " |", flush=True)
+    sys.exit(not is_well)
+
+
+if __name__ == "__main__":
+    main()
