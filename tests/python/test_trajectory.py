@@ -5,6 +5,7 @@ import gc
 import itertools
 import pickle
 import unittest
+import warnings
 import weakref
 
 import numpy as np
@@ -81,8 +82,18 @@ class Case:
 
     def value(self, **changes):
         trajectory = recorded(self.base, **changes)[1]
+        self.are_at_bounds.add((np.array(trajectory.weights) == 0).tobytes())
         return ((BY_POSITIONS * trajectory.positions).sum() + (BY_VELOCITIES * trajectory.velocities).sum()
                 + (self.by_weights * trajectory.weights).sum())
+
+    def difference(self, function, at, direction):
+        """Over so small a change that the same weights are at their bounds in all steps, as elsewhere J has kinks."""
+        for step in 5e-4, 2e-4, 1e-4, 3e-5, 1e-5, 3e-6:
+            self.are_at_bounds = {(np.array(self.trajectory.weights) == 0).tobytes()}
+            found = difference(function, at, direction, step)
+            if len(self.are_at_bounds) == 1:
+                return found
+        raise AssertionError("there is a kink nearby")
 
     def parameters(self):
         """{name: (value, size of its changes, function of a value)}"""
@@ -93,7 +104,7 @@ class Case:
             return np.array(value), size, lambda changed: self.value(**{name: changed})
         return {"young": material("young"), "poisson": material("poisson"), "density": material("density"),
                 "importance": attribute("importance", 0.7, 1), "gravity": attribute("gravity", [0.5, -1, -3], 1),
-                "nodal_forces": attribute("nodal_forces", 0 * NODES, 1e3), "handles": attribute("shift", 0 * NODES, 1),
+                "nodal_forces": attribute("nodal_forces", 0 * NODES, 1e3), "handles": attribute("shift", 0 * NODES, 0.5),
                 "handles_of_steps": attribute("moved", 0 * NODES, 1),
                 "mass_damping": attribute("mass_damping", self.problem.mass_damping, 1),
                 "stiffness_damping": attribute("stiffness_damping", self.problem.stiffness_damping, 0.02),
@@ -129,7 +140,7 @@ class Differences(unittest.TestCase):
         for name, (at, size, function) in case.parameters().items():
             signs = 1 if name.endswith("damping") else random.choice([-1, 1], at.shape)
             direction = size * random.uniform(0.5, 1, at.shape) * signs
-            expected, found = difference(function, at, direction), case.derivative(name, direction)
+            expected, found = case.difference(function, at, direction), case.derivative(name, direction)
             with self.subTest(name):
                 self.assertLess(abs(found - expected), 1e-6 * abs(expected), (found, expected))
         return case
@@ -324,4 +335,5 @@ class Refusals(unittest.TestCase):
 
 
 if __name__ == "__main__":
+    warnings.filterwarnings("ignore", "Handles/")  # shifted ones jump in the first step
     unittest.main()
