@@ -13,6 +13,7 @@
 #include <exemplar/python/problem_state.h>
 #include <exemplar/python/problem_type.h>
 #include <exemplar/python/signatures.h>
+#include <exemplar/python/trajectory.h>
 #include <exemplar/python/unlocked_work.h>
 
 #include <deal.II/base/exceptions.h>
@@ -300,6 +301,7 @@ namespace Exemplar::Python
       add_cell_arrays(problem);
       add_terms(problem);
       add_gradients(problem);
+      add_trajectories(module, problem);
       const py::object measures = make_measures_type();
       module.attr("Measures")   = measures; // where pickle looks for it
       add_measures(problem, measures);

@@ -32,12 +32,8 @@ namespace Exemplar::Python
       if (by_weights.is_none())
         return functional;
       const std::size_t n = functional.weights.size();
-      functional.weights  = numbers_of(by_weights, "vjp: dJ_dw", py::ssize_t(n));
-      if (functional.weights.size() != n || py::array::ensure(by_weights).ndim() != 1)
-        throw UserError(
-            fmt::format("vjp: dJ_dw must be an array of shape ({},), one number for each of "
-                        "problem.weights, but is {}.",
-                        n, description(by_weights)));
+      check_weight_derivatives(by_weights, "vjp: dJ_dw", n);
+      functional.weights = numbers_of(by_weights, "vjp: dJ_dw", py::ssize_t(n));
       return functional;
     }
 
@@ -54,38 +50,60 @@ namespace Exemplar::Python
                                  values.begin());
     }
 
-    py::dict
-    to_python(const Gradients &found)
-    {
-      py::dict result;
-      result["young"]   = numbers(found.young);
-      result["poisson"] = numbers(found.poisson);
-      result["density"] = numbers(found.density);
-      if (found.importance)
-        result["importance"] = *found.importance;
-      py::list poses;
-      for (const Vector &pose : found.poses)
-        poses.append(rows(pose));
-      result["poses"] = poses;
-      if (found.rest_positions)
-        result["rest_positions"] = rows(*found.rest_positions);
-      result["handles"]      = rows(found.handles);
-      result["nodal_forces"] = rows(found.nodal_forces);
-      result["gravity"]      = py::array_t<double>(3, found.gravity.data());
-      py::list weak;
-      for (const unsigned int weight : found.weakly_active)
-        weak.append(weight);
-      result["weakly_active"] = weak;
-      return result;
-    }
+  } // namespace
 
+  py::dict
+  gradients_to_python(const Gradients &found)
+  {
+    py::dict result;
+    result["young"]   = numbers(found.young);
+    result["poisson"] = numbers(found.poisson);
+    result["density"] = numbers(found.density);
+    if (found.importance)
+      result["importance"] = *found.importance;
+    py::list poses;
+    for (const Vector &pose : found.poses)
+      poses.append(rows(pose));
+    result["poses"] = poses;
+    if (found.rest_positions)
+      result["rest_positions"] = rows(*found.rest_positions);
+    result["handles"]      = rows(found.handles);
+    result["nodal_forces"] = rows(found.nodal_forces);
+    result["gravity"]      = py::array_t<double>(3, found.gravity.data());
+    py::list weak;
+    for (const unsigned int weight : found.weakly_active)
+      weak.append(weight);
+    result["weakly_active"] = weak;
+    return result;
+  }
+
+  py::array
+  array_of_nodes(Vector field)
+  {
+    auto *kept = new Vector(std::move(field));
+    return py::array_t<double>(
+        { py::ssize_t(kept->size() / 3), py::ssize_t(3) }, kept->begin(),
+        py::capsule(kept, [](void *memory) { delete static_cast<Vector *>(memory); }));
+  }
+
+  void
+  check_weight_derivatives(const py::object &array, const std::string &what, const std::size_t n)
+  {
+    if (numbers_of(array, what, py::ssize_t(n)).size() != n || py::array::ensure(array).ndim() != 1)
+      throw UserError(fmt::format("{} must be an array of shape ({},), one number for each of "
+                                  "problem.weights, but is {}.",
+                                  what, n, description(array)));
+  }
+
+  namespace
+  {
     py::dict
     vjp(HeldProblem &held, const py::object &by_positions, const py::object &by_weights)
     {
       const Direction functional = functional_of(by_positions, by_weights, held.get());
       Gradients       found;
       held.change("vjp()", [&](Problem &problem) { found = gradients(problem, functional); });
-      return to_python(found);
+      return gradients_to_python(found);
     }
   } // namespace
 

@@ -55,6 +55,13 @@ namespace Exemplar
       return gamma * (gamma + mass_damping);
     }
 
+    /// gamma [1/s].
+    double
+    rate_factor() const
+    {
+      return gamma;
+    }
+
     /// Stiffness damping over the time that gamma stands for [-].
     double
     stiffness_damping_factor() const

@@ -3,12 +3,27 @@
 #define exemplar_problem_gradients_h
 
 #include <exemplar/python/problem_type.h>
+#include <exemplar/run/adjoint/gradients.h>
+
+#include <string>
 
 namespace Exemplar::Python
 {
   /// problem.vjp().
   void
   add_gradients(ProblemClass &problem);
+
+  /// What problem.vjp() returns.
+  pybind11::dict
+  gradients_to_python(const Gradients &found);
+
+  /// (n, 3) in the memory of the field, which is the array's from now on.
+  pybind11::array
+  array_of_nodes(Vector field);
+
+  /// Throws UserError for what is no array of a finite number for each of n weights; `what` stands for it.
+  void
+  check_weight_derivatives(const pybind11::object &array, const std::string &what, std::size_t n);
 } // namespace Exemplar::Python
 
 #endif

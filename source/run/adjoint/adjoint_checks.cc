@@ -53,15 +53,37 @@ namespace Exemplar
     }
   } // namespace
 
+  namespace
+  {
+    void
+    require_known_parts(const Problem &problem)
+    {
+      if (problem.body.exchange().n_processes() > 1)
+        refuse("for several processes", "Use one.");
+      require_known_model(problem);
+      require_known_examples(problem);
+      if (!problem.get_own_terms().empty())
+        refuse("with terms of one's own", "Leave out add_term().");
+    }
+  }
+
   void
   require_known_scene(const Problem &problem)
   {
     if (problem.parameters.scene != SceneKind::statics)
-      refuse("of scenes that are not static", "Set Scene = static.");
-    if (problem.body.exchange().n_processes() > 1)
-      refuse("for several processes", "Use one.");
-    require_known_model(problem);
-    require_known_examples(problem);
+      refuse("of scenes that are not static",
+             "Set Scene = static, or record the steps: with problem.record() as trajectory.");
+    require_known_parts(problem);
+  }
+
+  void
+  require_known_steps(const Problem &problem)
+  {
+    if (problem.parameters.scene == SceneKind::interpolation)
+      refuse("of interpolations", "Set Scene = static or dynamic.");
+    if (problem.parameters.solver.method == Method::one_pass)
+      refuse("of steps of one pass, which find no minimum", "Set Solver/Method = auto.");
+    require_known_parts(problem);
   }
 
   void
@@ -109,5 +131,21 @@ namespace Exemplar
           "{:.2g}, "
           "allowed {:.2g}). Call step() or run() first, after each change of the problem.",
           value, bound));
+  }
+
+  void
+  require_solved_step(const Problem &problem, const Evaluation &evaluation, const unsigned int step)
+  {
+    const SolverParameters &solver  = problem.parameters.solver;
+    const bool              is_near = solver.method == Method::quasi_newton;
+    const double   asked    = std::max(solver.tolerance, is_near ? solver.step_tolerance : 0.);
+    const double   bound    = std::max(1e-6, 10. * asked);
+    const Residual residual = problem.potential.residual(problem.state, evaluation);
+    const double   value    = std::max(residual.positions, residual.weights);
+    if (!(value <= bound))
+      throw UserError(fmt::format("vjp: step {}, counted from 0, ends in no equilibrium of its "
+                                  "forces (residual {:.2g}, allowed {:.2g}). Lower "
+                                  "Solver/Step tolerance, or Tolerance.",
+                                  step, value, bound));
   }
 } // namespace Exemplar

@@ -13,25 +13,6 @@ namespace Exemplar
     /// move it off the bound or onto it.
     constexpr double weak = 1e-6;
 
-    std::vector<unsigned int>
-    weakly_active(const Problem &problem, const Evaluation &evaluation)
-    {
-      const ExampleWeights      &rule   = problem.examples.weights;
-      const std::vector<double> &w      = problem.state.weights,
-                                &slopes = evaluation.elastic.weight_gradient;
-      std::vector<unsigned int> found;
-      if (rule.n_unknown() == 0 || rule.limits_of_changes(w).lower.empty())
-        return found;
-      const std::vector<double> multipliers = rule.residual(w, slopes).multipliers;
-      for (unsigned int weight = 0; weight < w.size(); ++weight)
-      {
-        const double excess = slopes[weight] + multipliers[weight / rule.n_per_region()];
-        if (w[weight] < weak && (w[weight] > 0. || excess < weak * evaluation.elastic.weight_scale))
-          found.push_back(weight);
-      }
-      return found;
-    }
-
     template <typename Numbers>
     Numbers
     negative(Numbers numbers)
@@ -40,33 +21,43 @@ namespace Exemplar
         number = -number;
       return numbers;
     }
-
-    /// dJ/dx less Phi_xx a + Phi_xw b where something is held.
-    Vector
-    of_held(const Problem &problem, Vector difference, const Vector &by_positions)
-    {
-      difference -= by_positions;
-      for (const unsigned int dof : problem.potential.get_free_dofs().list())
-        difference[dof] = 0.;
-      return difference;
-    }
   } // namespace
 
-  Gradients
-  gradients(Problem &problem, const Direction &by_state)
+  std::vector<unsigned int>
+  weakly_active(const Problem &problem, const Evaluation &evaluation)
   {
-    require_known_scene(problem);
-    require_no_guard(problem);
-    Evaluation evaluation;
-    problem.potential.evaluate(problem.state, RotationUse::update, evaluation);
-    require_equilibrium(problem, evaluation);
-    SlopeDerivatives slope = solve_adjoint(problem, by_state).derivatives;
+    const ExampleWeights      &rule   = problem.examples.weights;
+    const std::vector<double> &w      = problem.state.weights,
+                              &slopes = evaluation.elastic.weight_gradient;
+    std::vector<unsigned int> found;
+    if (rule.n_unknown() == 0 || rule.limits_of_changes(w).lower.empty())
+      return found;
+    const std::vector<double> multipliers = rule.residual(w, slopes).multipliers;
+    for (unsigned int weight = 0; weight < w.size(); ++weight)
+    {
+      const double excess = slopes[weight] + multipliers[weight / rule.n_per_region()];
+      if (w[weight] < weak && (w[weight] > 0. || excess < weak * evaluation.elastic.weight_scale))
+        found.push_back(weight);
+    }
+    return found;
+  }
 
+  Vector
+  of_held(const Problem &problem, Vector difference, const Vector &by_positions)
+  {
+    difference -= by_positions;
+    for (const unsigned int dof : problem.potential.get_free_dofs().list())
+      difference[dof] = 0.;
+    return difference;
+  }
+
+  Gradients
+  gradients_of(const Problem &problem, SlopeDerivatives slope)
+  {
     Gradients result;
     result.young              = negative(std::move(slope.by_young));
     result.poisson            = negative(std::move(slope.by_poisson));
     result.density            = negative(std::move(slope.by_density));
-    result.handles            = of_held(problem, by_state.positions, slope.by_positions);
     result.nodal_forces       = negative(std::move(slope.by_nodal_forces));
     result.gravity            = negative(slope.by_gravity);
     const ExamplePoses &poses = problem.examples.poses;
@@ -78,7 +69,22 @@ namespace Exemplar
     const ExampleParameters &examples = problem.parameters.examples;
     if (!examples.weights_per_region || examples.region_blend_length == 0.)
       result.rest_positions = negative(std::move(slope.by_rest_positions));
-    result.weakly_active = weakly_active(problem, evaluation);
+    return result;
+  }
+
+  Gradients
+  gradients(Problem &problem, const Direction &by_state)
+  {
+    require_known_scene(problem);
+    require_no_guard(problem);
+    Evaluation evaluation;
+    problem.potential.evaluate(problem.state, RotationUse::update, evaluation);
+    require_equilibrium(problem, evaluation);
+    SlopeDerivatives slope   = solve_adjoint(problem, by_state).derivatives;
+    Vector           handles = of_held(problem, by_state.positions, slope.by_positions);
+    Gradients        result  = gradients_of(problem, std::move(slope));
+    result.handles           = std::move(handles);
+    result.weakly_active     = weakly_active(problem, evaluation);
     return result;
   }
 } // namespace Exemplar

@@ -157,7 +157,9 @@ namespace Exemplar
     if (is_success(report.status))
     {
       potential.end_step(next);
-      state = std::move(next);
+      std::swap(state, next);
+      if (on_step)
+        on_step(next, interval.size);
     }
     else
       solver->forget(); // what it remembers has seen the step that failed

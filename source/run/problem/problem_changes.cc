@@ -13,11 +13,19 @@
 namespace Exemplar
 {
   void
+  Problem::count_change(const std::string &what)
+  {
+    ++changes.n;
+    changes.last = what;
+  }
+
+  void
   Problem::change_handles(const std::function<void(Handles &)> &change)
   {
     if (constraints.support)
       throw UserError(parameters.name + ": an interpolation has no handles to change.");
     constraints.change_handles(change, parameters, body);
+    count_change("grab() or let_go()");
     potential.renew_pattern();
     solver->forget(); // what it remembers is of other unknowns
   }
@@ -26,6 +34,7 @@ namespace Exemplar
   Problem::set_material(const ChangedConstants &changed)
   {
     body.material = body.material.with(changed);
+    count_change("set_material()");
     body.follow_material();
     if (actions.mass != nullptr && !changed.density.empty())
       actions.mass->set_material(body.fe_space, body.material);
@@ -47,6 +56,7 @@ namespace Exemplar
     if (!(importance > 0. && importance <= 1.))
       throw UserError("Examples/Importance: it is " + shortest_text(importance)
                       + ", but must be above 0 and at most 1.");
+    count_change("importance");
     parameters.examples.importance = importance;
     if (body.material.has_examples())
       body.material = body.material.with_examples(parameters.examples.elasticity(), importance);
@@ -59,6 +69,7 @@ namespace Exemplar
   Problem::set_gravity(const std::array<double, 3> &acceleration)
   {
     make_loads();
+    count_change("gravity");
     actions.loads->set_gravity(acceleration, body.fe_space, body.material);
     parameters.loads.gravity = acceleration;
     start(state);
@@ -68,6 +79,7 @@ namespace Exemplar
   Problem::set_nodal_forces(Vector forces)
   {
     make_loads();
+    count_change("nodal_forces");
     actions.loads->set_nodal_forces(std::move(forces));
     start(state);
   }
@@ -95,6 +107,7 @@ namespace Exemplar
                       + ": an interpolation has no terms of one's own. Set Scene = static or "
                         "dynamic.");
     std::unique_ptr<PotentialTerm> term = make();
+    count_change("add_term()");
     own_terms.push_back({ make, term.get() });
     potential.add_term(std::move(term));
     potential.renew_pattern();
@@ -127,6 +140,7 @@ namespace Exemplar
     std::vector<dealii::Point<3>> back;
     for (unsigned int node = 0; node < body.fe_space.n_nodes(); ++node)
       back.emplace_back(before[3 * node], before[3 * node + 1], before[3 * node + 2]);
+    count_change("set_pose()");
     const auto change_to = [&](const std::vector<dealii::Point<3>> &pose)
     {
       examples.poses.set_pose(i, pose);
@@ -152,6 +166,7 @@ namespace Exemplar
       throw UserError(parameters.name + ": only a dynamic scene is damped. Set Scene = dynamic.");
     if (!(mass_damping >= 0. && stiffness_damping >= 0.))
       throw UserError("Time/Mass damping and Time/Stiffness damping must not be negative.");
+    count_change("mass_damping or stiffness_damping");
     actions.integrator->set_damping(mass_damping, stiffness_damping);
     solver->forget(); // what it remembers has been damped otherwise
     parameters.time.mass_damping      = mass_damping;

@@ -27,6 +27,18 @@ namespace Exemplar
   /// SolverFailure if the exact tangent is not positive definite. The problem stays as it is.
   Gradients
   gradients(Problem &problem, const Direction &by_state);
+
+  /// The gradients by all but handles, from the derivatives of a slope.
+  Gradients
+  gradients_of(const Problem &problem, SlopeDerivatives slope);
+
+  /// dJ/dx less Phi_xx a + Phi_xw b where something is held, and zero elsewhere.
+  Vector
+  of_held(const Problem &problem, Vector by_state, const Vector &slope_by_positions);
+
+  /// Weights at the problem's state at which gradients are one-sided.
+  std::vector<unsigned int>
+  weakly_active(const Problem &problem, const Evaluation &evaluation);
 } // namespace Exemplar
 
 #endif

@@ -9,6 +9,7 @@
 #include <exemplar/run/problem/step_interval.h>
 #include <exemplar/solvers/step_solver.h>
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -102,6 +103,20 @@ namespace Exemplar
     Laboratory &
     laboratory();
 
+    /// How often and by what function problem_changes.cc was last asked for another problem than that of
+    /// the scene: steps before and after it are of two problems.
+    struct Changes
+    {
+      unsigned int n = 0;
+      std::string  last;
+    };
+
+    const Changes &
+    get_changes() const
+    {
+      return changes;
+    }
+
     /// Go on from a state of an earlier run.
     void
     resume_from(const State &earlier, const std::string &solver_memory = "");
@@ -138,6 +153,9 @@ namespace Exemplar
     State                                    state;
     Evaluation                               evaluation; ///< at the state
 
+    /// Called after each step with the state from which it was made, and its length [s]; null: nothing is.
+    std::function<void(const State &start, double size)> on_step;
+
   private:
     /// Whether the body stands on a support of its own, which must not decide how it is turned.
     bool
@@ -159,6 +177,10 @@ namespace Exemplar
     void
     refuse_what_is_not_finite(const State &next, SolveReport &report);
 
+    /// This was changed, as messages call it.
+    void
+    count_change(const std::string &what);
+
     /// There are loads from now on.
     void
     make_loads();
@@ -171,6 +193,7 @@ namespace Exemplar
     void
     start(State &at);
 
+    Changes                     changes;
     std::vector<OwnTerm>        own_terms;
     std::unique_ptr<Laboratory> lab; ///< null until it is asked for
   };

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_python_trajectory_h
+#define exemplar_python_trajectory_h
+
+#include <exemplar/python/problem_type.h>
+
+namespace Exemplar::Python
+{
+  /// exemplar.Trajectory, and problem.record(), which makes one.
+  void
+  add_trajectories(pybind11::module_ &module, ProblemClass &problem);
+} // namespace Exemplar::Python
+
+#endif

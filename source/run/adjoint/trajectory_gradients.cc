@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/run/adjoint/adjoint_checks.h>
+#include <exemplar/run/adjoint/adjoint_solve.h>
+#include <exemplar/run/adjoint/slope_of_motion.h>
+#include <exemplar/run/adjoint/trajectory_gradients.h>
+
+#include <algorithm>
+#include <array>
+
+// From the last step to the first. What J depends on through later steps is carried back: the derivatives of J
+// by the positions and velocities of the two states before a step.
+
+namespace Exemplar
+{
+  namespace
+  {
+    /// A problem that stands at other states for a while, and then where it stood.
+    class Visit
+    {
+    public:
+      explicit Visit(Problem &problem) : problem(problem)
+      {
+        std::swap(own_state, problem.state); // arrays of others may be in its memory
+      }
+
+      Visit(const Visit &) = delete;
+      Visit &
+      operator=(const Visit &)
+          = delete;
+
+      ~Visit()
+      {
+        std::swap(own_state, problem.state);
+        Evaluation evaluation; // for the rotations alone
+        problem.potential.leave_step(problem.state);
+        problem.potential.set_time(problem.state.time, problem.state);
+        problem.potential.evaluate(problem.state, RotationUse::update, evaluation);
+      }
+
+      /// To the end of a step from `start`; it is evaluated there.
+      void
+      go_to(const State &start, const RecordedStep &step, Evaluation &evaluation)
+      {
+        problem.state            = start;
+        problem.state.positions  = step.positions;
+        problem.state.velocities = step.velocities;
+        problem.state.weights    = step.weights;
+        if (problem.actions.integrator != nullptr)
+          problem.potential.begin_step(start, step.size);
+        problem.potential.set_time(step.time, problem.state);
+        problem.potential.evaluate(problem.state, RotationUse::update, evaluation);
+      }
+
+    private:
+      Problem &problem;
+      State    own_state;
+    };
+
+    void
+    add(const std::vector<double> &numbers, std::vector<double> &to)
+    {
+      for (std::size_t i = 0; i < numbers.size(); ++i)
+        to[i] += numbers[i];
+    }
+
+    void
+    add(const SlopeDerivatives &some, SlopeDerivatives &to)
+    {
+      if (to.by_nodal_forces.size() == 0)
+      {
+        to = some;
+        return;
+      }
+      to.by_rest_positions += some.by_rest_positions;
+      to.by_nodal_forces += some.by_nodal_forces;
+      for (std::size_t i = 0; i < to.by_poses.size(); ++i)
+        to.by_poses[i] += some.by_poses[i];
+      add(some.by_young, to.by_young);
+      add(some.by_poisson, to.by_poisson);
+      add(some.by_density, to.by_density);
+      to.by_importance += some.by_importance;
+      for (unsigned int c = 0; c < 3; ++c)
+        to.by_gravity[c] += some.by_gravity[c];
+    }
+
+    /// Derivatives of J by a state, through later steps, too.
+    struct Carried
+    {
+      Vector positions, velocities;
+    };
+
+    class Backward
+    {
+    public:
+      Backward(Problem                             &problem,
+               const RecordedSteps                 &steps,
+               const std::vector<StateDerivatives> &by_states)
+          : problem(problem), steps(steps), by_states(by_states), visit(problem), system(problem),
+            is_dynamic(problem.actions.integrator != nullptr)
+      {
+        for (Carried &state : carried)
+          state = { zeros(), zeros() };
+        result.handles.assign(steps.size(), zeros());
+      }
+
+      TrajectoryGradients
+      run()
+      {
+        for (unsigned int i = steps.size(); i-- > 0;)
+          add_step(i);
+        result.all         = gradients_of(problem, sums());
+        result.all.handles = zeros();
+        for (const Vector &of_step : result.handles)
+          result.all.handles += of_step;
+        if (is_dynamic)
+        {
+          result.mass_damping       = -by_mass_damping;
+          result.stiffness_damping  = -by_stiffness_damping;
+          result.initial_positions  = std::move(carried[0].positions);
+          result.initial_velocities = std::move(carried[0].velocities);
+        }
+        std::reverse(result.weakly_active.begin(), result.weakly_active.end());
+        return std::move(result);
+      }
+
+    private:
+      Vector
+      zeros() const
+      {
+        return Vector(problem.body.fe_space.n_dofs());
+      }
+
+      /// Of steps of which J does not depend there are none, but fields of their sizes.
+      SlopeDerivatives
+      sums()
+      {
+        if (sum.by_nodal_forces.size() == 0)
+          sum = derivatives_of_slope(
+              problem, { zeros(), std::vector<double>(problem.examples.poses.n_weights(), 0.) });
+        return std::move(sum);
+      }
+
+      void
+      add_step(const unsigned int i)
+      {
+        const State start = steps.start(i);
+        Evaluation  evaluation;
+        visit.go_to(start, steps.step(i), evaluation);
+        require_no_guard(problem);
+        require_solved_step(problem, evaluation, i);
+        const std::vector<unsigned int> weak = weakly_active(problem, evaluation);
+        for (auto weight = weak.rbegin(); weight != weak.rend(); ++weight)
+          result.weakly_active.emplace_back(i, *weight);
+
+        const Direction by_state = take_derivatives(i);
+        if (by_state.positions.all_zero() && all_zero(by_state.weights) && by_velocities.all_zero())
+        {
+          carry({});
+          return;
+        }
+        system.factorize();
+        MotionDerivatives      of_motion;
+        const SlopeDerivatives slope
+            = system
+                  .solve(by_state, [&](const Direction &direction)
+                         { return derivatives(start, direction, of_motion); })
+                  .derivatives;
+        result.handles[i] = of_held(problem, by_state.positions, slope.by_positions);
+        add(slope, sum);
+        by_mass_damping += of_motion.by_mass_damping;
+        by_stiffness_damping += of_motion.by_stiffness_damping;
+        carry(of_motion);
+      }
+
+      static bool
+      all_zero(const std::vector<double> &numbers)
+      {
+        return std::all_of(numbers.begin(), numbers.end(), [](double x) { return x == 0.; });
+      }
+
+      /// Of J by the state at the end of a step, whose velocities depend on its positions.
+      Direction
+      take_derivatives(const unsigned int i)
+      {
+        const StateDerivatives &own = by_states[i];
+        Direction               by_state{ carried[0].positions,
+                            std::vector<double>(problem.examples.poses.n_weights(), 0.) };
+        by_velocities = carried[0].velocities;
+        for (std::size_t dof = 0; dof < own.positions.size(); ++dof)
+          by_state.positions[dof] += own.positions[dof];
+        for (std::size_t dof = 0; dof < own.velocities.size(); ++dof)
+          by_velocities[dof] += own.velocities[dof];
+        std::copy(own.weights.begin(), own.weights.end(), by_state.weights.begin());
+        if (is_dynamic)
+          by_state.positions.add(problem.actions.integrator->rate_factor(), by_velocities);
+        return by_state;
+      }
+
+      SlopeDerivatives
+      derivatives(const State       &start,
+                  const Direction   &direction,
+                  MotionDerivatives &of_motion) const
+      {
+        SlopeDerivatives slope = derivatives_of_slope(problem, direction);
+        if (is_dynamic)
+        {
+          add_slope_of_inertia(problem, direction, slope, of_motion);
+          add_slope_of_damping(problem, start, direction, slope, of_motion);
+        }
+        return slope;
+      }
+
+      /// To the states before this step.
+      void
+      carry(const MotionDerivatives &of_motion)
+      {
+        carried[0] = std::move(carried[1]);
+        carried[1] = { zeros(), zeros() };
+        if (!is_dynamic)
+          return;
+        const TimeIntegrator &integrator = *problem.actions.integrator;
+        const State           places;
+        const auto            history = integrator.history(places);
+        for (std::size_t m = 0; m < history.size(); ++m)
+        {
+          const double c = history[m].weight;
+          carried[m].positions.add(-c * integrator.rate_factor(), by_velocities);
+          if (of_motion.by_base.size() > 0)
+          {
+            carried[m].positions.add(-c, of_motion.by_base);
+            carried[m].velocities.add(-c, of_motion.by_base_velocities);
+          }
+          if (!of_motion.by_past.empty())
+            carried[m].positions -= of_motion.by_past[m];
+        }
+      }
+
+      Problem                             &problem;
+      const RecordedSteps                 &steps;
+      const std::vector<StateDerivatives> &by_states;
+      Visit                                visit;
+      AdjointSystem                        system;
+      const bool                           is_dynamic;
+      std::array<Carried, 2>               carried; ///< by the last states, the later one first
+      Vector                               by_velocities; ///< at the end of a step
+      SlopeDerivatives                     sum;
+      double                               by_mass_damping = 0., by_stiffness_damping = 0.;
+      TrajectoryGradients                  result;
+    };
+  } // namespace
+
+  TrajectoryGradients
+  trajectory_gradients(Problem                             &problem,
+                       const RecordedSteps                 &steps,
+                       const std::vector<StateDerivatives> &by_states)
+  {
+    steps.require_one_problem(problem);
+    return Backward(problem, steps, by_states).run();
+  }
+} // namespace Exemplar

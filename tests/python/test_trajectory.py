@@ -1,0 +1,339 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Gradients through steps, against differences of steps."""
+import copy
+import gc
+import itertools
+import pickle
+import unittest
+import warnings
+import weakref
+
+import numpy as np
+
+import exemplar
+
+BOX = {"Scene": "static", "Mesh": {"Generator": "box", "Box size": [3, 1, 1], "Box cells": (3, 1, 1)},
+       "Handles": {"left": {"Select": "box 0 -1 -1 0 2 2"}}}
+SCENE = {"Scene": "dynamic", "Time": {"Step": 0.02, "End": 0.3},
+         "Handles": {"left": {"Select": "box -0.3 -1 -1 0.3 2 2"}, "right": {"Select": "box 2.7 -1 -1 3.3 2 2"}},
+         "Material": {"Young's modulus": 1e5, "Poisson's ratio": 0.4, "Density": 900}, "Loads": {"Gravity": [0.5, -1, -3]},
+         "Examples": {"Importance": 0.7, "Weights": "simplex"}, "Solver": {"Tolerance": 1e-12, "Method": "newton"}}
+DAMPED = {"Mass damping": 0.4, "Stiffness damping": 0.01}
+# as the scene says, and of other lengths
+LENGTHS = [None] * 4 + [0.02, 0.012, 0.02, 0.027] + [None] * 6 + [0.015, 0.02] + [None] * 4
+random = np.random.default_rng(7)
+
+
+def bar():
+    """(nodes, cells, material ids) of a bar without any symmetry."""
+    box = exemplar.Problem(BOX)
+    nodes, cells = box.rest_positions.copy(), box.cells.copy()
+    nodes += random.uniform(-0.04, 0.04, nodes.shape)
+    return nodes, cells, np.where(nodes[cells].mean(axis=1)[:, 0] < 1.4, 1, 2)
+
+
+MESH = bar()
+NODES, CELLS, _ = MESH
+X, Y, Z = NODES.T
+POSES = [np.stack([X, Y + 0.1 * X * (Z - 0.5), Z - 0.1 * X * (Y - 0.5)], axis=1),
+         np.stack([X, Y, Z + 0.06 * X**2], axis=1),
+         np.stack([1.15 * X, 0.95 * Y, 0.95 * Z + 0.02 * X * Y], axis=1)]
+HELD = (X < 0.3) | (X > 2.7)
+GOALS = np.where(X > 2.7, 1, 0)[:, None] * ([0.25, 0.05, 0.2] + 0.12 * np.stack([0 * X, Z - 0.5, 0.5 - Y], axis=1))
+MATERIAL = {"young": 1e5 * random.uniform(0.7, 1.3, len(CELLS)), "poisson": random.uniform(0.35, 0.42, len(CELLS)),
+            "density": 900 * random.uniform(0.7, 1.3, len(CELLS))}
+START = NODES + 0.01 * random.normal(size=NODES.shape)
+VELOCITIES = 0.2 * random.normal(size=NODES.shape)
+BY_POSITIONS, BY_VELOCITIES = random.normal(size=(2, len(LENGTHS), *NODES.shape))
+
+
+def scene(base=SCENE, **sections):
+    return {**base, **{name: {**base.get(name, {}), **keys} for name, keys in sections.items()}}
+
+
+def recorded(base, shift=0 * NODES, moved=0 * NODES, mesh=MESH, poses=POSES, material=None, start=START, velocities=VELOCITIES,
+             lengths=LENGTHS, **attributes):
+    """(problem, trajectory) of the scene with held nodes shifted, also ever farther, and with these attributes of the problem."""
+    problem = exemplar.Problem(base, mesh=mesh, poses=poses)
+    problem.set_material(**{**MATERIAL, **(material or {})})
+
+    def path(t):
+        return NODES + GOALS * np.sin(4 * t) + shift + moved * t
+    problem.set_motion("left", lambda rest, t: path(t)[X < 0.3] - rest)
+    problem.set_motion("right", lambda rest, t: path(t)[X > 2.7] - rest)
+    for name, value in attributes.items():
+        setattr(problem, name, value)
+    if start is not None:
+        problem.state = problem.state.replace(positions=start, velocities=velocities)
+    with problem.record() as trajectory:
+        for length in lengths:
+            problem.step(length)
+    return problem, trajectory
+
+
+class Case:
+    """Steps, a function of them, and what both depend on."""
+
+    def __init__(self, base):
+        self.base = base
+        self.problem, self.trajectory = recorded(base)
+        self.by_weights = random.normal(size=(len(LENGTHS), len(self.problem.weights)))
+        self.found = self.trajectory.vjp(list(BY_POSITIONS), self.by_weights, BY_VELOCITIES)
+
+    def value(self, **changes):
+        trajectory = recorded(self.base, **changes)[1]
+        self.are_at_bounds.add((np.array(trajectory.weights) == 0).tobytes())
+        return ((BY_POSITIONS * trajectory.positions).sum() + (BY_VELOCITIES * trajectory.velocities).sum()
+                + (self.by_weights * trajectory.weights).sum())
+
+    def difference(self, function, at, direction):
+        """Over so small a change that the same weights are at their bounds in all steps, as elsewhere J has kinks."""
+        for step in 5e-4, 2e-4, 1e-4, 3e-5, 1e-5, 3e-6:
+            self.are_at_bounds = {(np.array(self.trajectory.weights) == 0).tobytes()}
+            found = difference(function, at, direction, step)
+            if len(self.are_at_bounds) == 1:
+                return found
+        raise AssertionError("there is a kink nearby")
+
+    def parameters(self):
+        """{name: (value, size of its changes, function of a value)}"""
+        def material(name):
+            return MATERIAL[name], MATERIAL[name].mean(), lambda value: self.value(material={name: value})
+
+        def attribute(name, value, size):
+            return np.array(value), size, lambda changed: self.value(**{name: changed})
+        return {"young": material("young"), "poisson": material("poisson"), "density": material("density"),
+                "importance": attribute("importance", 0.7, 1), "gravity": attribute("gravity", [0.5, -1, -3], 1),
+                "nodal_forces": attribute("nodal_forces", 0 * NODES, 1e3), "handles": attribute("shift", 0 * NODES, 0.5),
+                "handles_of_steps": attribute("moved", 0 * NODES, 1),
+                "mass_damping": attribute("mass_damping", self.problem.mass_damping, 1),
+                "stiffness_damping": attribute("stiffness_damping", self.problem.stiffness_damping, 0.02),
+                "initial_positions": attribute("start", START, 0.2), "initial_velocities": attribute("velocities", VELOCITIES, 1),
+                "poses": (np.array(POSES), 0.2, lambda value: self.value(poses=list(value))),
+                "rest_positions": (NODES, 0.2, lambda value: self.value(mesh=(value, *MESH[1:])))}
+
+    def derivative(self, name, direction):
+        if name == "handles_of_steps":
+            return sum((by_handles * direction).sum() * t for by_handles, t in zip(self.found[name], self.trajectory.times))
+        return np.sum(np.array(self.found[name]) * direction)
+
+
+def difference(function, at, direction, step=5e-4):
+    """Of fourth order; of what must not be negative, to one side alone."""
+    if np.all(direction >= 0) and np.all(at == 0):
+        values = [function(at + s * step * direction) for s in range(5)]
+        return np.dot(values, [-25, 48, -36, 16, -3]) / (12 * step)
+    values = [function(at + s * step * direction) for s in (-2, -1, 1, 2)]
+    return np.dot(values, [1, -8, 8, -1]) / (12 * step)
+
+
+RULES = {"simplex": {"Weights": "simplex"}, "free": {"Weights": "free"},
+         "prescribed": {"Weights": "prescribed", "Prescribed weights": "0.1+t; 0.2; 0.3-t; 0.4"},
+         "per region": {"Weights": "simplex", "Weights per region": True}}
+
+
+class Differences(unittest.TestCase):
+    def check(self, base):
+        case = Case(base)
+        self.assertEqual(case.found["weakly_active"], [])
+        self.assertFalse(np.any(case.found["handles"][~HELD]))
+        for name, (at, size, function) in case.parameters().items():
+            signs = 1 if name.endswith("damping") else random.choice([-1, 1], at.shape)
+            direction = size * random.uniform(0.5, 1, at.shape) * signs
+            expected, found = case.difference(function, at, direction), case.derivative(name, direction)
+            with self.subTest(name):
+                self.assertLess(abs(found - expected), 1e-6 * abs(expected), (found, expected))
+        return case
+
+    def check_rules(self, damping):
+        n_at_bounds = 0
+        for scheme, dilatation, (name, rule), energy in itertools.product(["implicit euler", "bdf2"], ["cells", "patches"],
+                                                                          RULES.items(), ["scaled", "blended"]):
+            with self.subTest(f"{scheme}, {dilatation}, {name}, {energy}"):
+                case = self.check(scene(Time={"Scheme": scheme, **damping}, Model={"Dilatation": dilatation},
+                                        Examples={**rule, "Energy": energy}))
+                n_at_bounds += np.count_nonzero(np.array(case.trajectory.weights) == 0)
+        self.assertGreater(n_at_bounds, 50)
+
+    def test_undamped(self):
+        self.check_rules({})
+
+    def test_damped(self):
+        self.check_rules(DAMPED)
+
+    def test_lumped_mass_mixed_energy_and_other_solvers(self):
+        self.check(scene(Material={"Mass matrix": "lumped"}, Examples={"Energy": "mixed"}, Time=DAMPED))
+        self.check(scene(Solver={"Method": "quasi newton", "Step tolerance": 1e-12}, Time=DAMPED))
+
+    def test_the_last_step_of_the_scene_is_shorter(self):
+        base = scene(Time={"Scheme": "bdf2", "End": 0.07})
+        by_end = [None, None, None, BY_POSITIONS[0]]
+        found = recorded(base, lengths=4 * [None])[1].vjp(by_end)["young"]
+        direction = MATERIAL["young"] * random.uniform(-1, 1, len(CELLS))
+
+        def value(young):
+            problem, trajectory = recorded(base, lengths=4 * [None], material={"young": young})
+            self.assertAlmostEqual(problem.time, 0.07)
+            return (BY_POSITIONS[0] * trajectory.positions[-1]).sum()
+        expected = difference(value, MATERIAL["young"], direction)
+        self.assertLess(abs(found @ direction - expected), 1e-6 * abs(expected))
+
+    def test_increments_of_a_static_scene(self):
+        base = scene({**SCENE, "Scene": "static", "Time": {"Increments": 3}}, Loads={"Ramp": "increments"}, Solver={"Method": "auto"})
+        by_weights = random.normal(size=(3, 4))
+        problem, trajectory = recorded(base, start=None, lengths=3 * [None])
+        found = trajectory.vjp(list(BY_POSITIONS[:3]), list(by_weights))
+        self.assertFalse({"mass_damping", "stiffness_damping", "initial_positions", "initial_velocities"} & set(found))
+        np.testing.assert_allclose(trajectory.vjp([None, None, BY_POSITIONS[2]])["young"], problem.vjp(BY_POSITIONS[2])["young"],
+                                   rtol=1e-9, atol=1e-14)
+
+        def value(**changes):
+            trajectory = recorded(base, start=None, lengths=3 * [None], **changes)[1]
+            return (BY_POSITIONS[:3] * trajectory.positions).sum() + (by_weights * trajectory.weights).sum()
+        for name, at, size, function in [("young", MATERIAL["young"], 1e5, lambda young: value(material={"young": young})),
+                                         ("nodal_forces", 0 * NODES, 1e3, lambda forces: value(nodal_forces=forces))]:
+            direction = size * random.uniform(-1, 1, at.shape)
+            expected = difference(function, at, direction)
+            with self.subTest(name):
+                self.assertLess(abs((found[name] * direction).sum() - expected), 1e-6 * abs(expected))
+
+
+class Answers(unittest.TestCase):
+    def test_what_is_recorded(self):
+        problem, trajectory = recorded(SCENE)
+        self.assertEqual(len(trajectory), len(LENGTHS))
+        self.assertEqual(trajectory.times[-1], problem.time)
+        np.testing.assert_array_equal(trajectory.positions[-1], problem.positions)
+        np.testing.assert_array_equal(trajectory.velocities[-1], problem.velocities)
+        np.testing.assert_array_equal(trajectory.weights[-1], problem.weights)
+        last = trajectory.positions[-1]
+        problem.step()
+        self.assertEqual(len(trajectory), len(LENGTHS))
+        with trajectory:
+            problem.step()
+        self.assertEqual(len(trajectory), 1)
+        self.assertEqual(last.shape, NODES.shape)  # it keeps its memory
+        self.assertFalse(last.flags.writeable)
+
+    def test_problem_stays(self):
+        """Steps after vjp() are the same bytes as without it, and the same question gets the same answer."""
+        for kind in (scene(Solver={"Method": "quasi newton", "Tolerance": 1e-8}, Time=DAMPED), scene(Time={"Scheme": "bdf2"}),
+                     scene({**SCENE, "Scene": "static", "Time": {"Increments": 30}}), scene(Model={"Dilatation": "patches"})):
+            is_static = kind["Scene"] == "static"
+            (asked, trajectory), (other, _) = (recorded(kind, start=None if is_static else START, lengths=5 * [None]) for _ in range(2))
+            shown = asked.positions
+            numbers = asked.statistics
+            by_positions = list(BY_POSITIONS[:5])
+            first, second = trajectory.vjp(by_positions), trajectory.vjp(by_positions, 5 * [None])
+            np.testing.assert_array_equal(first["young"], second["young"])
+            self.assertEqual(asked.statistics, numbers)
+            np.testing.assert_array_equal(shown, other.positions)
+            for _ in range(5):
+                asked.step()
+                other.step()
+                self.assertEqual(asked.positions.tobytes(), other.positions.tobytes())
+                self.assertEqual(asked.statistics, other.statistics)
+
+    def test_steps_on_which_nothing_depends(self):
+        _, trajectory = recorded(SCENE, lengths=3 * [None])
+        zero = trajectory.vjp(3 * [None])
+        self.assertFalse(np.any(zero["young"]) or np.any(zero["initial_positions"]))
+        early = trajectory.vjp([BY_POSITIONS[0], None, None])
+        _, short = recorded(SCENE, lengths=[None])
+        np.testing.assert_array_equal(early["young"], short.vjp([BY_POSITIONS[0]])["young"])
+
+    def test_steps_that_are_solved_roughly(self):
+        """A gradient is as good as the steps."""
+        def young(tolerance):
+            base = scene(Solver={"Method": "quasi newton", "Tolerance": 1e-8, "Step tolerance": tolerance})
+            return recorded(base)[1].vjp(list(BY_POSITIONS))["young"]
+        exact = young(1e-8)
+        self.assertLess(np.linalg.norm(young(1e-3) - exact), 0.02 * np.linalg.norm(exact))
+
+    def test_memory_is_freed(self):
+        problem, trajectory = recorded(SCENE, lengths=[None])
+        references = [weakref.ref(problem), weakref.ref(trajectory)] if hasattr(trajectory, "__weakref__") else [weakref.ref(problem)]
+        trajectory.vjp([BY_POSITIONS[0]])
+        del problem
+        self.assertEqual(trajectory.positions[0].shape, NODES.shape)
+        del trajectory
+        gc.collect()
+        self.assertEqual([reference() for reference in references], [None] * len(references))
+
+    def test_a_trajectory_that_is_dropped_records_no_more(self):
+        problem, trajectory = recorded(SCENE, lengths=[None])
+        trajectory.__enter__()
+        with self.assertRaisesRegex(exemplar.UserError, "is being recorded"):
+            with problem.record():
+                pass
+        del trajectory
+        problem.step()
+        with problem.record() as other:
+            problem.step()
+        self.assertEqual(len(other), 1)
+
+
+class Refusals(unittest.TestCase):
+    def refuse(self, message, base=SCENE, within=None, after=None, ask=None, lengths=(None, None)):
+        problem, trajectory = recorded(base, lengths=[None], start=None)
+        with self.assertRaisesRegex(exemplar.UserError, message):
+            with trajectory:
+                for length in lengths:
+                    problem.step(length)
+                    if within is not None:
+                        within(problem)
+            if after is not None:
+                after(problem)
+            (ask or (lambda steps: steps.vjp(len(steps) * [None])))(trajectory)
+
+    def test_changes(self):
+        changes = {r"set_material\(\)": lambda problem: problem.set_material(young=2e5),
+                   "importance": lambda problem: setattr(problem, "importance", 0.3),
+                   "gravity": lambda problem: setattr(problem, "gravity", [0, 0, 1]),
+                   "nodal_forces": lambda problem: setattr(problem, "nodal_forces", 0 * NODES),
+                   r"set_pose\(\)": lambda problem: problem.set_pose(1, POSES[1]),
+                   "mass_damping": lambda problem: setattr(problem, "mass_damping", 0.1),
+                   "let_go": lambda problem: problem.let_go("left")}
+        for name, change in changes.items():
+            with self.subTest(name):
+                self.refuse("while the problem was recorded it was changed by .*" + name, within=change)
+                self.refuse("since it was recorded the problem was changed by .*" + name, after=change)
+        self.refuse("while the problem was recorded its state was set", within=lambda problem: problem.reset())
+
+    def test_scenes(self):
+        scenes = {"of steps of one pass": scene(Solver={"Method": "one pass"}),
+                  "cells that are frozen": scene(Model={"Gradient": "frozen"}, Solver={"Method": "fixed point", "Tolerance": 1e-4}),
+                  "quadratic": scene(Model={"Element": "P2"}), "plastic": scene(Material={"Yield stress": 1e4}, Examples={"Energy": "blended"}),
+                  "weights that remember": scene(Examples={"Yield": 1e-3}), "part of the strain": scene(Examples={"Acts on": "shape"})}
+        for message, base in scenes.items():
+            with self.subTest(message), self.assertRaisesRegex(exemplar.UserError, message):
+                exemplar.Problem(base, mesh=MESH, poses=POSES).record()
+        with self.assertRaisesRegex(exemplar.UserError, "interpolations"):
+            exemplar.Problem({"Scene": "interpolation", "Examples": {"Prescribed weights": "1-t; t; 0; 0"}}, mesh=MESH, poses=POSES).record()
+
+    def test_terms_of_ones_own(self):
+        problem = exemplar.Problem(SCENE, mesh=MESH, poses=POSES)
+        problem.add_term(lambda x, t: (0., 0 * x, None))
+        with self.assertRaisesRegex(exemplar.UserError, "terms of one's own"):
+            problem.record()
+
+    def test_arguments(self):
+        self.refuse(r"dJ_dx has 3 entries, but 2 steps", ask=lambda steps: steps.vjp(3 * [None]))
+        self.refuse(r"dJ_dx\[1\]", ask=lambda steps: steps.vjp([None, np.zeros(3)]))
+        self.refuse(r"dJ_dw\[0\] must", ask=lambda steps: steps.vjp([None, None], [np.zeros(7), None]))
+        self.refuse(r"dJ_dv must be a list", ask=lambda steps: steps.vjp([None, None], None, 3))
+        self.refuse(r"dJ_dv must be None", base={**SCENE, "Scene": "static", "Time": {"Increments": 3}},
+                    ask=lambda steps: steps.vjp(2 * [None], None, 2 * [None]))
+        problem, trajectory = recorded(SCENE, lengths=[None])
+        with self.assertRaisesRegex(exemplar.UserError, "Nothing is recorded"):
+            problem.record().vjp([])
+        with self.assertRaisesRegex(TypeError, "vjp is called"):
+            trajectory.vjp()
+        for copied in pickle.dumps, copy.copy:
+            with self.assertRaisesRegex(TypeError, "Trajectory"):
+                copied(trajectory)
+
+
+if __name__ == "__main__":
+    warnings.filterwarnings("ignore", "Handles/")  # shifted ones jump in the first step
+    unittest.main()
