@@ -210,7 +210,7 @@ namespace Exemplar::Testing
       std::vector<double> history = field.get_batches().history();
       for (std::size_t k = 0; k < history.size(); ++k)
         history[k] = 0.01 * (1. + std::sin(1. + k));
-      field.set_history(history);
+      field.get_batches().set_history(history);
     }
 
     double
