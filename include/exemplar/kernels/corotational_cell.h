@@ -222,15 +222,12 @@ namespace Exemplar
     set_target(const Matrix3<Number> &D)
     {
       T = add_guard_of_target(this->stress_towards(D), material, Number(1.) - phi, e, D);
-      // W divides by s_i + s_j, but its numerator vanishes faster because of the guard, so that a
-      // tiny bound suffices; responses need a greater one
-      bound_inverse(Number(1e-8));
+      invert_B();
       W = skew_matrix(B_inverse * axial_vector(commutator(S, T)));
       if (!any(is_guarded()))
         return;
       target      = D;
       guard_force = -guard_energy(material, phi_derivative, S, D);
-      bound_inverse(Number(1e-2));
     }
 
     /// R^T P = T + W + the guard of Eq. (16), Eq. (17), with P the derivative of psi by F.
@@ -267,7 +264,7 @@ namespace Exemplar
       return skew_matrix(B_inverse * axial_vector(difference));
     }
 
-    /// R^T dP for R^T dF = M, Eq. (18); symmetric in M. Denominators of guarded cells are bounded.
+    /// R^T dP for R^T dF = M, Eq. (18); symmetric in M.
     Matrix3<Number>
     response(const Matrix3<Number> &M) const
     {
@@ -359,9 +356,10 @@ namespace Exemplar
       return S;
     }
 
-    /// B^-1; where the guard acts, with the eigenvalues of B held above `least`.
+    /// B^-1; where the guard acts, with the eigenvalues s_i + s_j of B held above a tiny number. In W the
+    /// guard lets the numerator vanish faster than they do, in responses they are what turns the cell.
     void
-    bound_inverse(const Number &minimum)
+    invert_B()
     {
       B_inverse           = cofactors(B); // symmetric, so cofactors need no transpose
       const Number factor = Number(1.) / determinant(B);
@@ -369,7 +367,7 @@ namespace Exemplar
         for (int j = 0; j < 3; ++j)
           B_inverse[i][j] *= factor;
       if (any(is_guarded()))
-        B_inverse = select_matrix(is_guarded(), bounded_inverse(B, minimum), B_inverse);
+        B_inverse = select_matrix(is_guarded(), bounded_inverse(B, Number(1e-8)), B_inverse);
     }
 
     CellMaterial<Number> elasticity; ///< of the guard of the stretch
