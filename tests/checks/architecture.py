@@ -4,8 +4,8 @@
 Usage: python3 tests/checks/architecture.py [--draw]
 Rooms are the folders of include/exemplar and source; the folders in a room are its wings. The tables of doc/architecture.md
 list both from the top of the house to its ground. A file includes headers of its own folder and of folders below it alone,
-headers of a folder do not include each other in a circle, and kernels include no deal.II. Unit tests lie in folders with
-the names of rooms. Fails with what is out of order; with --draw it writes the pictures by Graphviz: of the house, and of
+headers of a folder do not include each other in a circle, kernels include no deal.II, and no file is longer than
+max_n_lines. Unit tests lie in folders with the names of rooms. Fails with what is out of order; with --draw it writes the pictures by Graphviz: of the house, and of
 each room that has wings.
 """
 import argparse
@@ -16,6 +16,7 @@ from pathlib import Path
 
 TOP = Path(__file__).resolve().parents[2]
 PICTURES = TOP / "doc/figures"
+max_n_lines = 350
 
 
 def folders_of_page():
@@ -80,6 +81,8 @@ def failures(folders):
     for folder in folders:
         headers = {}
         for file in files_of(folder):
+            if (n := len(file.read_text().splitlines())) > max_n_lines:
+                yield f"{file.relative_to(TOP)} has {n} lines, more than {max_n_lines}: cut it"
             for other, header in includes_of(file):
                 if other not in floor or floor[other] > floor[folder]:
                     yield f"{file.relative_to(TOP)} includes {other}/{header}.h, which is nothing below {folder}"
