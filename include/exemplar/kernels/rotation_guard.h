@@ -4,7 +4,6 @@
 
 #include <exemplar/kernels/lanes.h>
 #include <exemplar/kernels/matrix3.h>
-#include <exemplar/kernels/symmetric.h>
 
 // How rotations answer a change, and the guard of Eq. (16) where they are hardly unique. No deal.II header
 // here: see matrix3.h.
