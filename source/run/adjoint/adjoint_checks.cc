@@ -133,13 +133,17 @@ namespace Exemplar
           value, bound));
   }
 
+  double
+  required_residual(const SolverParameters &solver)
+  {
+    return solver.method == Method::quasi_newton ? std::max(solver.tolerance, solver.step_tolerance)
+                                                 : solver.tolerance;
+  }
+
   void
   require_solved_step(const Problem &problem, const Evaluation &evaluation, const unsigned int step)
   {
-    const SolverParameters &solver  = problem.parameters.solver;
-    const bool              is_near = solver.method == Method::quasi_newton;
-    const double   asked    = std::max(solver.tolerance, is_near ? solver.step_tolerance : 0.);
-    const double   bound    = std::max(1e-6, 10. * asked);
+    const double   bound    = std::max(1e-6, 10. * required_residual(problem.parameters.solver));
     const Residual residual = problem.potential.residual(problem.state, evaluation);
     const double   value    = std::max(residual.positions, residual.weights);
     if (!(value <= bound))

@@ -145,7 +145,7 @@ namespace Exemplar
         if (patches.size() == 0)
           return {};
         const unsigned int patch  = patches.of_point(point);
-        const RateSums   &sum    = of_patches[patch];
+        const RateSums    &sum    = of_patches[patch];
         const double       volume = patches.volume(patch), lambda = patches.lambda(patch);
         return { lambda / volume * sum.d, lambda / volume * sum.de,
                  sum.d * sum.de / (volume * volume), lambda };
@@ -230,7 +230,7 @@ namespace Exemplar
       const Patches                       &patches;
       const std::vector<WeightedPositions> history;
       const double                         s;
-      std::vector<RateSums>               of_patches;
+      std::vector<RateSums>                of_patches;
     };
   } // namespace
 

@@ -25,6 +25,10 @@ namespace Exemplar
   void
   require_equilibrium(const Problem &problem, const Evaluation &evaluation);
 
+  /// The residual to which steps are solved.
+  double
+  required_residual(const SolverParameters &solver);
+
   /// Throws UserError for a state that is not where a step, counted from 0, ends that was solved as the
   /// scene says. Steps of quasi-Newton's method are solved to Solver/Step tolerance.
   void
