@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/run/adjoint/adjoint_checks.h>
-#include <exemplar/run/adjoint/adjoint_solve.h>
 #include <exemplar/run/adjoint/slope_of_motion.h>
+#include <exemplar/run/adjoint/step_adjoint.h>
+#include <exemplar/run/adjoint/trajectory_checks.h>
 #include <exemplar/run/adjoint/trajectory_gradients.h>
 
 #include <algorithm>
@@ -114,6 +114,7 @@ namespace Exemplar
       TrajectoryGradients
       run()
       {
+        check_start();
         for (unsigned int i = steps.size(); i-- > 0;)
           add_step(i);
         result.all         = gradients_of(problem, sums());
@@ -137,6 +138,21 @@ namespace Exemplar
       zeros() const
       {
         return Vector(problem.body.fe_space.n_dofs());
+      }
+
+      /// Damping compares strains of the states before the first step, too.
+      void
+      check_start()
+      {
+        if (!is_dynamic || !(problem.parameters.time.stiffness_damping > 0.))
+          return;
+        const State start = steps.start(0);
+        for (const Vector *positions : { &start.positions, &start.previous_positions })
+          if (positions->size() > 0)
+          {
+            problem.state.positions = *positions;
+            require_no_guard(problem);
+          }
       }
 
       void
@@ -260,7 +276,7 @@ namespace Exemplar
       const RecordedSteps                 &steps;
       const std::vector<StateDerivatives> &by_states;
       Visit                                visit;
-      AdjointSystem                        system;
+      StepAdjoint                          system;
       const bool                           is_dynamic;
       std::array<Carried, 2>               carried; ///< by the last states, the later one first
       Vector                               by_velocities; ///< at the end of a step
