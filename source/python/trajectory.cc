@@ -146,9 +146,12 @@ namespace Exemplar::Python
     {
       py::dict result = gradients_to_python(found.all);
       py::list handles;
-      for (Vector &of_step : found.handles)
-        handles.append(array_of_nodes(std::move(of_step)));
+      for (const std::vector<double> &of_step : found.handles)
+        handles.append(py::array_t<double>({ py::ssize_t(found.held_nodes.size()), py::ssize_t(3) },
+                                           of_step.data()));
       result["handles_of_steps"] = handles;
+      result["held_nodes"]       = py::array_t<unsigned int>(py::ssize_t(found.held_nodes.size()),
+                                                       found.held_nodes.data());
       if (found.mass_damping)
       {
         result["mass_damping"]       = *found.mass_damping;
@@ -260,7 +263,8 @@ namespace Exemplar::Python
           "all steps, with\n"
           "  handles (n, 3)          by a displacement [m] of held nodes that is the same in all "
           "steps\n"
-          "  handles_of_steps        a list of (n, 3), by their positions at the end of each step\n"
+          "  held_nodes (h,)         the nodes of which a component is held\n"
+          "  handles_of_steps        a list of (h, 3), by their positions at the end of each step\n"
           "  weakly_active           a list of (step, weight), both from 0\n"
           "and of a dynamic scene, with all else where it is,\n"
           "  mass_damping, stiffness_damping          floats\n"

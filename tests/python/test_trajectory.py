@@ -114,7 +114,8 @@ class Case:
 
     def derivative(self, name, direction):
         if name == "handles_of_steps":
-            return sum((by_handles * direction).sum() * t for by_handles, t in zip(self.found[name], self.trajectory.times))
+            moved = direction[self.found["held_nodes"]]
+            return sum((by_handles * moved).sum() * t for by_handles, t in zip(self.found[name], self.trajectory.times))
         return np.sum(np.array(self.found[name]) * direction)
 
 

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/kernels/cell_model.h>
-#include <exemplar/kernels/patch_cell.h>
 #include <exemplar/run/adjoint/adjoint_checks.h>
 
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace Exemplar
 {
@@ -53,70 +51,16 @@ namespace Exemplar
     }
   } // namespace
 
-  namespace
-  {
-    void
-    require_known_parts(const Problem &problem)
-    {
-      if (problem.body.exchange().n_processes() > 1)
-        refuse("for several processes", "Use one.");
-      require_known_model(problem);
-      require_known_examples(problem);
-      if (!problem.get_own_terms().empty())
-        refuse("with terms of one's own", "Leave out add_term().");
-    }
-  }
-
   void
   require_known_scene(const Problem &problem)
   {
     if (problem.parameters.scene != SceneKind::statics)
       refuse("of scenes that are not static",
              "Set Scene = static, or record the steps: with problem.record() as trajectory.");
-    require_known_parts(problem);
-  }
-
-  void
-  require_known_steps(const Problem &problem)
-  {
-    if (problem.parameters.scene == SceneKind::interpolation)
-      refuse("of interpolations", "Set Scene = static or dynamic.");
-    if (problem.parameters.solver.method == Method::one_pass)
-      refuse("of steps of one pass, which find no minimum", "Set Solver/Method = auto.");
-    require_known_parts(problem);
-  }
-
-  void
-  require_no_guard(const Problem &problem)
-  {
-    const FESpace      &fe_space = problem.body.fe_space;
-    const Patches      &patches  = problem.body.patches;
-    const double        p_0      = problem.examples.poses.constants().guard_bound;
-    std::vector<double> mean_squares(patches.size(), 0.);
-    const auto          refuse_cell = [](const std::string &what, const unsigned int number)
-    {
-      throw UserError(fmt::format(
-          "vjp: {} {}, counted from 0, is so deformed that a guard of doc/model.md acts, of which "
-          "gradients lack the derivatives. Deform the body less, or refine the mesh there.",
-          what, number));
-    };
-    for (unsigned int point = 0; point < fe_space.n_points(); ++point)
-    {
-      const Matrix3<double> F = fe_space.deformation_gradient(point, problem.state.positions);
-      const Matrix3<double> S = symmetric_part(transpose_times(closest_rotation(F), F));
-      Matrix3<double>       B = combine(-1., S, 0., S);
-      for (int i = 0; i < 3; ++i)
-        B[i][i] += trace(S);
-      const double square = contract(F, F), p = determinant(B);
-      if (!(p > std::max(p_0, NearKink<double>::y_0 * square)))
-        refuse_cell("cell", point);
-      if (patches.size() > 0)
-        mean_squares[patches.of_point(point)]
-            += fe_space.volume(point) / patches.volume(patches.of_point(point)) * square;
-    }
-    for (unsigned int patch = 0; patch < patches.size(); ++patch)
-      if (!(mean_squares[patch] < min_stretched_square))
-        refuse_cell("the patch of cell", patches.points(patch).front());
+    if (problem.body.exchange().n_processes() > 1)
+      refuse("for several processes", "Use one.");
+    require_known_model(problem);
+    require_known_examples(problem);
   }
 
   void
@@ -131,21 +75,5 @@ namespace Exemplar
           "{:.2g}, "
           "allowed {:.2g}). Call step() or run() first, after each change of the problem.",
           value, bound));
-  }
-
-  void
-  require_solved_step(const Problem &problem, const Evaluation &evaluation, const unsigned int step)
-  {
-    const SolverParameters &solver  = problem.parameters.solver;
-    const bool              is_near = solver.method == Method::quasi_newton;
-    const double   asked    = std::max(solver.tolerance, is_near ? solver.step_tolerance : 0.);
-    const double   bound    = std::max(1e-6, 10. * asked);
-    const Residual residual = problem.potential.residual(problem.state, evaluation);
-    const double   value    = std::max(residual.positions, residual.weights);
-    if (!(value <= bound))
-      throw UserError(fmt::format("vjp: step {}, counted from 0, ends in no equilibrium of its "
-                                  "forces (residual {:.2g}, allowed {:.2g}). Lower "
-                                  "Solver/Step tolerance, or Tolerance.",
-                                  step, value, bound));
   }
 } // namespace Exemplar

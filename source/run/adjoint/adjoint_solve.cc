@@ -16,181 +16,171 @@ namespace Exemplar
     /// one beyond which they are not.
     constexpr double solved = 1e-9, unsolved = 1e-7;
 
-    /// UMFPACK has no factor of the positions' part alone.
-    SolverParameters
-    solver_for(const Problem &problem)
+    /// The equations with the weights that are at no bound; with Z = A^-1 G they are those of Eq. (11).
+    class AdjointSystem
     {
-      SolverParameters solver = problem.parameters.solver;
-      if (solver.linear_solver == LinearSolver::umfpack)
-        solver.linear_solver = LinearSolver::automatic;
-      return solver;
-    }
-  } // namespace
+    public:
+      AdjointSystem(Problem &problem)
+          : problem(problem), free(problem.potential.get_free_dofs().list()),
+            form(problem.potential.get_weights().weight_form()), inactive(are_inactive(problem)),
+            system(
+                problem.potential,
+                [&problem] { return make_bordered_system(solver_for(problem), problem.potential); },
+                problem.clock,
+                false)
+      {
+        system.factorize(problem.state.positions, problem.state.weights, 0.);
+        Z = system.bordered().columns();
+        if (!Z.empty())
+          system.bordered().apply_inverse(Z);
+        make_weight_matrix();
+      }
 
-  AdjointSystem::AdjointSystem(Problem &problem)
-      : problem(problem), free(problem.potential.get_free_dofs().list()),
-        form(problem.potential.get_weights().weight_form()),
-        system(
-            problem.potential,
-            [&problem] { return make_bordered_system(solver_for(problem), problem.potential); },
-            problem.clock,
-            false)
-  {
-  }
+      /// Add to the direction what takes this right side to zero.
+      void
+      add_solution(const Direction &right_side, Direction &direction)
+      {
+        std::vector<double> z;
+        for (const unsigned int dof : free)
+          z.push_back(right_side.positions[dof]);
+        system.bordered().apply_inverse(z);
+        const std::vector<double> b = solve_weights(right_side);
+        for (std::size_t j = 0; j < form.coupled.size(); ++j)
+          for (std::size_t i = 0; i < free.size(); ++i)
+            z[i] += b[form.coupled[j]] * Z[j * free.size() + i];
+        for (std::size_t i = 0; i < free.size(); ++i)
+          direction.positions[free[i]] += z[i];
+        for (std::size_t weight = 0; weight < b.size(); ++weight)
+          direction.weights[weight] += b[weight];
+      }
 
-  void
-  AdjointSystem::factorize()
-  {
-    inactive = are_inactive(problem);
-    system.factorize(problem.state.positions, problem.state.weights, 0.);
-    Z = system.bordered().columns();
-    if (!Z.empty())
-      system.bordered().apply_inverse(Z);
-    make_weight_matrix();
-  }
-
-  void
-  AdjointSystem::add_solution(const Direction &right_side, Direction &direction)
-  {
-    std::vector<double> z;
-    z.reserve(free.size());
-    for (const unsigned int dof : free)
-      z.push_back(right_side.positions[dof]);
-    system.bordered().apply_inverse(z);
-    const std::vector<double> b = solve_weights(right_side);
-    for (std::size_t j = 0; j < form.coupled.size(); ++j)
-      for (std::size_t i = 0; i < free.size(); ++i)
-        z[i] += b[form.coupled[j]] * Z[j * free.size() + i];
-    for (std::size_t i = 0; i < free.size(); ++i)
-      direction.positions[free[i]] += z[i];
-    for (std::size_t weight = 0; weight < b.size(); ++weight)
-      direction.weights[weight] += b[weight];
-  }
-
-  double
-  AdjointSystem::residual(const Direction        &by_state,
-                          const Direction        &direction,
-                          const SlopeDerivatives &derivatives,
-                          Direction              &rest)
-  {
-    rest       = by_state;
-    double sum = 0., scale = 0.;
-    rest.positions -= derivatives.by_positions;
-    for (const unsigned int dof : free)
-    {
-      sum   = std::max(sum, std::abs(rest.positions[dof]));
-      scale = std::max(
-          { scale, std::abs(by_state.positions[dof]), std::abs(derivatives.by_positions[dof]) });
-    }
-    double of_weights = 0., scale_of_weights = scale_of_terms(direction);
-    for (std::size_t weight = 0; weight < inactive.size(); ++weight)
-    {
-      rest.weights[weight] -= derivatives.by_weights[weight];
-      scale_of_weights = std::max(scale_of_weights, std::abs(by_state.weights[weight]));
-    }
-    subtract_multipliers(rest);
-    for (std::size_t weight = 0; weight < inactive.size(); ++weight)
-      if (inactive[weight])
-        of_weights = std::max(of_weights, std::abs(rest.weights[weight]));
-    return std::max(scale > 0. ? sum / scale : 0.,
-                    scale_of_weights > 0. ? of_weights / scale_of_weights : 0.);
-  }
-
-  double
-  AdjointSystem::scale_of_terms(const Direction &direction)
-  {
-    std::vector<double>        sums(form.H.m(), 0.);
-    const std::vector<double> &G = system.bordered().columns();
-    for (std::size_t j = 0; j < form.coupled.size(); ++j)
-      for (std::size_t i = 0; i < free.size(); ++i)
-        sums[form.coupled[j]] += std::abs(G[j * free.size() + i] * direction.positions[free[i]]);
-    for (unsigned int i = 0; i < form.H.m(); ++i)
-      for (unsigned int j = 0; j < form.H.m(); ++j)
-        sums[i] += std::abs(form.H(i, j) * direction.weights[j]);
-    return sums.empty() ? 0. : *std::max_element(sums.begin(), sums.end());
-  }
-
-  /// The region's mean, over the weights at no bound.
-  void
-  AdjointSystem::subtract_multipliers(Direction &rest) const
-  {
-    for (unsigned int region = 0; region < form.N.m(); ++region)
-    {
-      double sum = 0., n = 0.;
-      for (unsigned int weight = 0; weight < form.N.n(); ++weight)
-        if (form.N(region, weight) != 0. && inactive[weight])
+      /// What a direction with these derivatives leaves of a right side, with the multiplier of each region
+      /// that takes most of it; returns its size relative to that of `by_state`.
+      double
+      residual(const Direction        &by_state,
+               const Direction        &direction,
+               const SlopeDerivatives &derivatives,
+               Direction              &rest)
+      {
+        rest       = by_state;
+        double sum = 0., scale = 0.;
+        rest.positions -= derivatives.by_positions;
+        for (const unsigned int dof : free)
         {
-          sum += rest.weights[weight];
-          ++n;
+          sum   = std::max(sum, std::abs(rest.positions[dof]));
+          scale = std::max({ scale, std::abs(by_state.positions[dof]),
+                             std::abs(derivatives.by_positions[dof]) });
         }
-      for (unsigned int weight = 0; weight < form.N.n(); ++weight)
-        if (form.N(region, weight) != 0. && n > 0.)
-          rest.weights[weight] -= sum / n;
-    }
-  }
+        double of_weights = 0., scale_of_weights = scale_of_terms(direction);
+        for (std::size_t weight = 0; weight < inactive.size(); ++weight)
+        {
+          rest.weights[weight] -= derivatives.by_weights[weight];
+          scale_of_weights = std::max(scale_of_weights, std::abs(by_state.weights[weight]));
+        }
+        subtract_multipliers(rest);
+        for (std::size_t weight = 0; weight < inactive.size(); ++weight)
+          if (inactive[weight])
+            of_weights = std::max(of_weights, std::abs(rest.weights[weight]));
+        return std::max(scale > 0. ? sum / scale : 0.,
+                        scale_of_weights > 0. ? of_weights / scale_of_weights : 0.);
+      }
 
-  /// The inverse of the Schur complement, bordered by the sums; of a weight at a bound, 1 on the diagonal.
-  void
-  AdjointSystem::make_weight_matrix()
-  {
-    const unsigned int k = form.H.m(), m = form.N.m();
-    if (k == 0)
-      return;
-    const auto schur
-        = make_schur_complement(form, system.bordered().columns(), Z.data(), free.size(),
-                                problem.potential.get_free_dofs().exchange());
-    size_of_sums = schur.linfty_norm();
-    inverse.reinit(k + m, k + m);
-    for (unsigned int i = 0; i < k; ++i)
-    {
-      for (unsigned int j = 0; j < k; ++j)
-        inverse(i, j) = inactive[i] && inactive[j] ? schur(i, j) : 0.;
-      if (!inactive[i])
-        inverse(i, i) = size_of_sums;
-      for (unsigned int region = 0; region < m; ++region)
-        inverse(i, k + region) = inverse(k + region, i)
-            = inactive[i] ? size_of_sums * form.N(region, i) : 0.;
-    }
-    inverse.gauss_jordan();
-  }
+    private:
+      /// The greatest sum of magnitudes in G^T a and H b, which may cancel.
+      double
+      scale_of_terms(const Direction &direction)
+      {
+        std::vector<double>        sums(form.H.m(), 0.);
+        const std::vector<double> &G = system.bordered().columns();
+        for (std::size_t j = 0; j < form.coupled.size(); ++j)
+          for (std::size_t i = 0; i < free.size(); ++i)
+            sums[form.coupled[j]]
+                += std::abs(G[j * free.size() + i] * direction.positions[free[i]]);
+        for (unsigned int i = 0; i < form.H.m(); ++i)
+          for (unsigned int j = 0; j < form.H.m(); ++j)
+            sums[i] += std::abs(form.H(i, j) * direction.weights[j]);
+        return sums.empty() ? 0. : *std::max_element(sums.begin(), sums.end());
+      }
 
-  std::vector<double>
-  AdjointSystem::solve_weights(const Direction &right_side) const
-  {
-    const unsigned int     k = form.H.m();
-    dealii::Vector<double> right(inverse.m()), solution(inverse.m());
-    for (unsigned int weight = 0; weight < k; ++weight)
-      right[weight] = inactive[weight] ? right_side.weights[weight] : 0.;
-    for (std::size_t j = 0; j < form.coupled.size(); ++j)
-      for (std::size_t i = 0; inactive[form.coupled[j]] && i < free.size(); ++i)
-        right[form.coupled[j]] += Z[j * free.size() + i] * right_side.positions[free[i]];
-    if (k > 0)
-      inverse.vmult(solution, right);
-    return { solution.begin(), solution.begin() + k };
-  }
+      /// UMFPACK has no factor of the positions' part alone.
+      static SolverParameters
+      solver_for(const Problem &problem)
+      {
+        SolverParameters solver = problem.parameters.solver;
+        if (solver.linear_solver == LinearSolver::umfpack)
+          solver.linear_solver = LinearSolver::automatic;
+        return solver;
+      }
 
-  AdjointSolution
-  AdjointSystem::solve(const Direction &by_state, const FindDerivatives &find)
-  {
-    AdjointSolution solution{ { Vector(problem.state.positions.size()),
-                                std::vector<double>(problem.state.weights.size(), 0.) },
-                              {} };
-    Direction       rest  = by_state;
-    double          error = 1.;
-    unsigned int    n     = 0;
-    for (; n < 6 && error > solved; ++n)
-    {
-      add_solution(rest, solution.direction);
-      solution.derivatives = find(solution.direction);
-      error                = residual(by_state, solution.direction, solution.derivatives, rest);
-    }
-    if (!(error <= unsolved))
-      throw SolverFailure(fmt::format(
-          "vjp: the adjoint equations are left with a residual of {:.2g} after {} "
-          "corrections, because rounding is too large in so stiff a body, or a guard acts.",
-          error, n));
-    return solution;
-  }
+      /// The region's mean, over the weights at no bound.
+      void
+      subtract_multipliers(Direction &rest) const
+      {
+        for (unsigned int region = 0; region < form.N.m(); ++region)
+        {
+          double sum = 0., n = 0.;
+          for (unsigned int weight = 0; weight < form.N.n(); ++weight)
+            if (form.N(region, weight) != 0. && inactive[weight])
+            {
+              sum += rest.weights[weight];
+              ++n;
+            }
+          for (unsigned int weight = 0; weight < form.N.n(); ++weight)
+            if (form.N(region, weight) != 0. && n > 0.)
+              rest.weights[weight] -= sum / n;
+        }
+      }
+
+      /// The inverse of the Schur complement, bordered by the sums; of a weight at a bound, 1 on the diagonal.
+      void
+      make_weight_matrix()
+      {
+        const unsigned int k = form.H.m(), m = form.N.m();
+        if (k == 0)
+          return;
+        const auto schur
+            = make_schur_complement(form, system.bordered().columns(), Z.data(), free.size(),
+                                    problem.potential.get_free_dofs().exchange());
+        size_of_sums = schur.linfty_norm();
+        inverse.reinit(k + m, k + m);
+        for (unsigned int i = 0; i < k; ++i)
+        {
+          for (unsigned int j = 0; j < k; ++j)
+            inverse(i, j) = inactive[i] && inactive[j] ? schur(i, j) : 0.;
+          if (!inactive[i])
+            inverse(i, i) = size_of_sums;
+          for (unsigned int region = 0; region < m; ++region)
+            inverse(i, k + region) = inverse(k + region, i)
+                = inactive[i] ? size_of_sums * form.N(region, i) : 0.;
+        }
+        inverse.gauss_jordan();
+      }
+
+      std::vector<double>
+      solve_weights(const Direction &right_side) const
+      {
+        const unsigned int     k = form.H.m();
+        dealii::Vector<double> right(inverse.m()), solution(inverse.m());
+        for (unsigned int weight = 0; weight < k; ++weight)
+          right[weight] = inactive[weight] ? right_side.weights[weight] : 0.;
+        for (std::size_t j = 0; j < form.coupled.size(); ++j)
+          for (std::size_t i = 0; inactive[form.coupled[j]] && i < free.size(); ++i)
+            right[form.coupled[j]] += Z[j * free.size() + i] * right_side.positions[free[i]];
+        if (k > 0)
+          inverse.vmult(solution, right);
+        return { solution.begin(), solution.begin() + k };
+      }
+
+      Problem                         &problem;
+      const std::vector<unsigned int> &free;
+      const WeightForm                &form;
+      const std::vector<bool>          inactive;
+      StepSystem                       system;
+      std::vector<double>              Z; ///< A^-1 G
+      dealii::FullMatrix<double>       inverse;
+      double                           size_of_sums = 1.;
+    };
+  } // namespace
 
   std::vector<bool>
   are_inactive(const Problem &problem)
@@ -206,9 +196,24 @@ namespace Exemplar
   AdjointSolution
   solve_adjoint(Problem &problem, const Direction &by_state)
   {
-    AdjointSystem system(problem);
-    system.factorize();
-    return system.solve(by_state, [&problem](const Direction &direction)
-                        { return derivatives_of_slope(problem, direction); });
+    AdjointSystem   system(problem);
+    AdjointSolution solution{ { Vector(problem.state.positions.size()),
+                                std::vector<double>(problem.state.weights.size(), 0.) },
+                              {} };
+    Direction       rest  = by_state;
+    double          error = 1.;
+    unsigned int    n     = 0;
+    for (; n < 6 && error > solved; ++n)
+    {
+      system.add_solution(rest, solution.direction);
+      solution.derivatives = derivatives_of_slope(problem, solution.direction);
+      error = system.residual(by_state, solution.direction, solution.derivatives, rest);
+    }
+    if (!(error <= unsolved))
+      throw SolverFailure(fmt::format(
+          "vjp: the adjoint equations are left with a residual of {:.2g} after {} "
+          "corrections, because rounding is too large in so stiff a body, or a guard acts.",
+          error, n));
+    return solution;
   }
 } // namespace Exemplar

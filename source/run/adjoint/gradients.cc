@@ -2,6 +2,7 @@
 #include <exemplar/run/adjoint/adjoint_checks.h>
 #include <exemplar/run/adjoint/adjoint_solve.h>
 #include <exemplar/run/adjoint/gradients.h>
+#include <exemplar/run/adjoint/trajectory_checks.h>
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
-#include <exemplar/run/adjoint/adjoint_checks.h>
 #include <exemplar/run/adjoint/recorded_steps.h>
+#include <exemplar/run/adjoint/trajectory_checks.h>
 
 #include <fmt/core.h>
 

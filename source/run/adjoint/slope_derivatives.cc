@@ -271,10 +271,13 @@ namespace Exemplar
       void
       add_material(const unsigned int point, const PointState &here, const Pressures &of_patch)
       {
-        const CellMaterial<double> all        = material.elasticity(point);
-        const double               E          = material.youngs_modulus(point);
-        CellMaterial<double>       by_nu      = elasticity_by_poisson(material, point);
-        const double               of_patches = here.volume * of_patch.by_lambda;
+        const CellMaterial<double> all = material.elasticity(point);
+        const double               E   = material.youngs_modulus(point);
+        const double         nu = 0.5 * all.lambda / (all.lambda + all.mu), lateral = 1. - 2. * nu;
+        CellMaterial<double> by_nu{
+          E * (1. + 2. * nu * nu) / ((1. + nu) * (1. + nu) * lateral * lateral), -all.mu / (1. + nu)
+        };
+        const double of_patches = here.volume * of_patch.by_lambda;
         sums.by_young[point] += (own_slope(here, here.C) + all.lambda * of_patches) / E;
         sums.by_poisson[point] += by_nu.lambda * of_patches;
         if (patches.size() > 0)

@@ -22,6 +22,17 @@ namespace Exemplar
       return combine(1., A, p, identity_matrix<double>());
     }
 
+    /// The derivative of a cell's elasticity by Poisson's ratio.
+    CellMaterial<double>
+    elasticity_by_poisson(const Material &material, const unsigned int point)
+    {
+      const CellMaterial<double> C  = material.elasticity(point);
+      const double               nu = 0.5 * C.lambda / (C.lambda + C.mu), lateral = 1. - 2. * nu;
+      return { material.youngs_modulus(point) * (1. + 2. * nu * nu)
+                   / ((1. + nu) * (1. + nu) * lateral * lateral),
+               -C.mu / (1. + nu) };
+    }
+
     /// A cell where the slope is taken.
     struct MovingCell
     {
@@ -145,7 +156,7 @@ namespace Exemplar
         if (patches.size() == 0)
           return {};
         const unsigned int patch  = patches.of_point(point);
-        const RateSums   &sum    = of_patches[patch];
+        const RateSums    &sum    = of_patches[patch];
         const double       volume = patches.volume(patch), lambda = patches.lambda(patch);
         return { lambda / volume * sum.d, lambda / volume * sum.de,
                  sum.d * sum.de / (volume * volume), lambda };
@@ -230,7 +241,7 @@ namespace Exemplar
       const Patches                       &patches;
       const std::vector<WeightedPositions> history;
       const double                         s;
-      std::vector<RateSums>               of_patches;
+      std::vector<RateSums>                of_patches;
     };
   } // namespace
 

@@ -44,7 +44,9 @@ namespace Exemplar
               * product_in_cell({ nodes.data(), nodes.size() },
                                 problem.parameters.material.mass_matrix, direction.positions, q);
         sums.by_density[cell] += product;
-        add_volume(fe_space, cell, problem.body.material.density(cell) * product,
+        add_forces(fe_space, cell,
+                   combine(problem.body.material.density(cell) * product, identity_matrix<double>(),
+                           0., {}),
                    sums.by_rest_positions);
       }
     }

@@ -26,16 +26,6 @@ namespace Exemplar
                combine(by_volume, identity_matrix<double>(), 0., Matrix3<double>{}), to);
   }
 
-  CellMaterial<double>
-  elasticity_by_poisson(const Material &material, const unsigned int point)
-  {
-    const CellMaterial<double> C  = material.elasticity(point);
-    const double               E  = material.youngs_modulus(point);
-    const double               nu = 0.5 * C.lambda / (C.lambda + C.mu), lateral = 1. - 2. * nu;
-    return { E * (1. + 2. * nu * nu) / ((1. + nu) * (1. + nu) * lateral * lateral),
-             -C.mu / (1. + nu) };
-  }
-
   void
   add_slope_of_ridge(const Problem &problem, const Direction &direction, SlopeDerivatives &sums)
   {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/run/adjoint/adjoint_checks.h>
-#include <exemplar/run/adjoint/adjoint_solve.h>
 #include <exemplar/run/adjoint/slope_of_motion.h>
+#include <exemplar/run/adjoint/step_adjoint.h>
+#include <exemplar/run/adjoint/trajectory_checks.h>
 #include <exemplar/run/adjoint/trajectory_gradients.h>
 
 #include <algorithm>
@@ -89,29 +89,39 @@ namespace Exemplar
       Vector positions, velocities;
     };
 
+    /// Of the adjoint equations. In steps that are solved roughly they need not be solved to the last digit.
+    double
+    tolerance(const Problem &problem)
+    {
+      return std::clamp(1e-3 * required_residual(problem.parameters.solver), 1e-9, 1e-6);
+    }
+
     class Backward
     {
     public:
       Backward(Problem                             &problem,
                const RecordedSteps                 &steps,
                const std::vector<StateDerivatives> &by_states)
-          : problem(problem), steps(steps), by_states(by_states), visit(problem), system(problem),
-            is_dynamic(problem.actions.integrator != nullptr)
+          : problem(problem), steps(steps), by_states(by_states), visit(problem),
+            system(problem, tolerance(problem)), is_dynamic(problem.actions.integrator != nullptr)
       {
         for (Carried &state : carried)
           state = { zeros(), zeros() };
-        result.handles.assign(steps.size(), zeros());
+        find_held_nodes();
+        result.handles.assign(steps.size(), std::vector<double>(3 * result.held_nodes.size(), 0.));
       }
 
       TrajectoryGradients
       run()
       {
+        check_start();
         for (unsigned int i = steps.size(); i-- > 0;)
           add_step(i);
         result.all         = gradients_of(problem, sums());
         result.all.handles = zeros();
-        for (const Vector &of_step : result.handles)
-          result.all.handles += of_step;
+        for (const std::vector<double> &of_step : result.handles)
+          for (std::size_t i = 0; i < of_step.size(); ++i)
+            result.all.handles[3 * result.held_nodes[i / 3] + i % 3] += of_step[i];
         if (is_dynamic)
         {
           result.mass_damping       = -by_mass_damping;
@@ -128,6 +138,31 @@ namespace Exemplar
       zeros() const
       {
         return Vector(problem.body.fe_space.n_dofs());
+      }
+
+      /// Damping compares strains of the states before the first step, too.
+      void
+      check_start()
+      {
+        if (!is_dynamic || !(problem.parameters.time.stiffness_damping > 0.))
+          return;
+        const State start = steps.start(0);
+        for (const Vector *positions : { &start.positions, &start.previous_positions })
+          if (positions->size() > 0)
+          {
+            problem.state.positions = *positions;
+            require_no_guard(problem);
+          }
+      }
+
+      void
+      find_held_nodes()
+      {
+        const FreeDofs &free_dofs = problem.potential.get_free_dofs();
+        for (unsigned int dof = 0; dof < problem.body.fe_space.n_dofs(); ++dof)
+          if (free_dofs.free_index(dof) == FreeDofs::held
+              && (result.held_nodes.empty() || result.held_nodes.back() != dof / 3))
+            result.held_nodes.push_back(dof / 3);
       }
 
       /// Of steps of which J does not depend there are none, but fields of their sizes.
@@ -158,14 +193,16 @@ namespace Exemplar
           carry({});
           return;
         }
-        system.factorize();
+        system.go_to_state();
         MotionDerivatives      of_motion;
         const SlopeDerivatives slope
             = system
                   .solve(by_state, [&](const Direction &direction)
                          { return derivatives(start, direction, of_motion); })
                   .derivatives;
-        result.handles[i] = of_held(problem, by_state.positions, slope.by_positions);
+        const Vector of_handles = of_held(problem, by_state.positions, slope.by_positions);
+        for (std::size_t k = 0; k < result.handles[i].size(); ++k)
+          result.handles[i][k] = of_handles[3 * result.held_nodes[k / 3] + k % 3];
         add(slope, sum);
         by_mass_damping += of_motion.by_mass_damping;
         by_stiffness_damping += of_motion.by_stiffness_damping;
@@ -239,7 +276,7 @@ namespace Exemplar
       const RecordedSteps                 &steps;
       const std::vector<StateDerivatives> &by_states;
       Visit                                visit;
-      AdjointSystem                        system;
+      StepAdjoint                          system;
       const bool                           is_dynamic;
       std::array<Carried, 2>               carried; ///< by the last states, the later one first
       Vector                               by_velocities; ///< at the end of a step

@@ -12,23 +12,9 @@ namespace Exemplar
   void
   require_known_scene(const Problem &problem);
 
-  /// The same for steps of a static or dynamic scene.
-  void
-  require_known_steps(const Problem &problem);
-
-  /// Throws UserError where a guard acts, Eqs. (16), (24) and (26), or a patch has continued the dilatation of
-  /// a thin cell.
-  void
-  require_no_guard(const Problem &problem);
-
   /// Throws UserError for a state that is not in equilibrium.
   void
   require_equilibrium(const Problem &problem, const Evaluation &evaluation);
-
-  /// Throws UserError for a state that is not where a step, counted from 0, ends that was solved as the
-  /// scene says. Steps of quasi-Newton's method are solved to Solver/Step tolerance.
-  void
-  require_solved_step(const Problem &problem, const Evaluation &evaluation, unsigned int step);
 } // namespace Exemplar
 
 #endif

@@ -17,10 +17,6 @@ namespace Exemplar
   void
   add_volume(const FESpace &fe_space, unsigned int point, double by_volume, Vector &to);
 
-  /// The derivative of a cell's elasticity by Poisson's ratio.
-  CellMaterial<double>
-  elasticity_by_poisson(const Material &material, unsigned int point);
-
   /// Of the ridge sigma/2 sum w_i^2 on weights that are to be found.
   void
   add_slope_of_ridge(const Problem &problem, const Direction &direction, SlopeDerivatives &sums);

@@ -25,8 +25,10 @@ namespace Exemplar
   {
     /// By what holds for all steps; handles by a displacement that is the same in all. No list of weak
     /// weights.
-    Gradients             all;
-    std::vector<Vector>   handles; ///< by the positions of held nodes at the end of each step
+    Gradients all;
+    /// By the positions of held nodes at the end of each step, three numbers a node, in that order.
+    std::vector<std::vector<double>> handles;
+    std::vector<unsigned int>        held_nodes;
     std::optional<double> mass_damping, stiffness_damping; ///< in dynamic scenes, as what follows
     std::optional<Vector> initial_positions, initial_velocities;
     /// As Gradients::weakly_active, with the step counted from 0.
