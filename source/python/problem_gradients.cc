@@ -2,6 +2,7 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/python/arrays_from_python.h>
 #include <exemplar/python/problem_gradients.h>
+#include <exemplar/run/adjoint/certificate.h>
 #include <exemplar/run/adjoint/gradients.h>
 
 #include <fmt/core.h>
@@ -16,24 +17,25 @@ namespace Exemplar::Python
   {
     /// dJ/dx and dJ/dw; None is zero.
     Direction
-    functional_of(const py::object &by_positions,
-                  const py::object &by_weights,
-                  const Problem    &problem)
+    functional_of(const std::string &method,
+                  const py::object  &by_positions,
+                  const py::object  &by_weights,
+                  const Problem     &problem)
     {
       Direction functional{ Vector(problem.body.fe_space.n_dofs()),
                             std::vector<double>(problem.state.weights.size(), 0.) };
       if (!by_positions.is_none())
       {
         const auto rows
-            = points_of(by_positions, "vjp: dJ_dx", py::ssize_t(problem.body.mesh.n_nodes()));
+            = points_of(by_positions, method + ": dJ_dx", py::ssize_t(problem.body.mesh.n_nodes()));
         for (unsigned int dof = 0; dof < 3 * rows.size(); ++dof)
           functional.positions[dof] = rows[dof / 3][dof % 3];
       }
       if (by_weights.is_none())
         return functional;
       const std::size_t n = functional.weights.size();
-      check_weight_derivatives(by_weights, "vjp: dJ_dw", n);
-      functional.weights = numbers_of(by_weights, "vjp: dJ_dw", py::ssize_t(n));
+      check_weight_derivatives(by_weights, method + ": dJ_dw", n);
+      functional.weights = numbers_of(by_weights, method + ": dJ_dw", py::ssize_t(n));
       return functional;
     }
 
@@ -100,10 +102,23 @@ namespace Exemplar::Python
     py::dict
     vjp(HeldProblem &held, const py::object &by_positions, const py::object &by_weights)
     {
-      const Direction functional = functional_of(by_positions, by_weights, held.get());
+      const Direction functional = functional_of("vjp", by_positions, by_weights, held.get());
       Gradients       found;
       held.change("vjp()", [&](Problem &problem) { found = gradients(problem, functional); });
       return gradients_to_python(found);
+    }
+
+    double
+    find_correction(HeldProblem      &held,
+                    const py::object &by_positions,
+                    const py::object &by_weights)
+    {
+      const Direction functional
+          = functional_of("correction", by_positions, by_weights, held.get());
+      double found = 0.;
+      held.change("correction()",
+                  [&](Problem &problem) { found = correction(problem, functional); });
+      return found;
     }
   } // namespace
 
@@ -130,5 +145,18 @@ namespace Exemplar::Python
         "deformation at which a guard acts, and where the problem is not in equilibrium;\n"
         "SolverFailure if the tangent there is not positive definite.");
     refuse_other_arguments(problem, "vjp", "vjp is called as vjp(dJ_dx, dJ_dw=None).");
+    problem.def(
+        "correction", &find_correction, py::arg("dJ_dx"), py::arg("dJ_dw") = py::none(),
+        "correction(dJ_dx, dJ_dw=None) -> float\n\n"
+        "What a function J(positions, weights) of the exact equilibrium is more than at the\n"
+        "present state, to first order, from its derivatives dJ_dx (n, 3) and dJ_dw (k,) here;\n"
+        "None: zero. The state may be a loosely solved one, or any other with the held nodes at\n"
+        "their places: J + correction is mostly much nearer to the truth than J, and the\n"
+        "correction says how far that was. It takes one linear system, as vjp().\n"
+        "Raises UserError for scenes whose gradients are not known (doc/gradients.md) and for a\n"
+        "deformation at which a guard acts; SolverFailure if the tangent is not positive\n"
+        "definite.");
+    refuse_other_arguments(problem, "correction",
+                           "correction is called as correction(dJ_dx, dJ_dw=None).");
   }
 } // namespace Exemplar::Python

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Run the examples of doc/python and look at what they print."""
+import importlib.util
 import re
 import subprocess
 import sys
@@ -38,6 +39,34 @@ class Examples(unittest.TestCase):
         forces = [force for _, _, force, _ in rows]
         for before, after in zip(forces, forces[1:]):  # more importance, less force
             self.assertGreater(before, 1.05 * after)
+
+    @unittest.skipUnless(importlib.util.find_spec("scipy"), "needs scipy")
+    def test_fit_stiffness(self):
+        (seen, mean, _, greatest), = rows_of("fit_stiffness.py", "2")
+        self.assertGreater(seen, 0.8)
+        self.assertLess(mean, 0.005)
+        self.assertLess(greatest, 0.02)
+
+    @unittest.skipUnless(importlib.util.find_spec("scipy"), "needs scipy")
+    def test_find_drag(self):
+        (distance, work, *drags), = rows_of("find_drag.py", "2")
+        self.assertLess(distance, 30)  # mm, of 150 at first; 9 iterations bring it to 0
+        self.assertGreater(work, 1)
+        self.assertEqual(len(drags), 6)
+
+    def test_follow_markers(self):
+        rows = rows_of("follow_markers.py", "2")
+        self.assertEqual(len(rows), 2)
+        for _, *weights in rows:
+            for played, found in zip(weights[::2], weights[1::2]):
+                self.assertAlmostEqual(played, found, delta=0.03)
+
+    @unittest.skipUnless(importlib.util.find_spec("scipy"), "needs scipy")
+    def test_stand_tall(self):
+        rows = rows_of("stand_tall.py")
+        self.assertGreater(rows[0][2], 5)  # mm
+        self.assertLess(abs(rows[-1][2]), 1e-3)
+        self.assertLess(len(rows), 7)
 
 
 if __name__ == "__main__":

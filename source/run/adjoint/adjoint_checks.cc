@@ -14,7 +14,7 @@ namespace Exemplar
     void
     refuse(const std::string &what, const std::string &remedy)
     {
-      throw UserError(fmt::format("vjp: there are no gradients {} yet. {}", what, remedy));
+      throw UserError(fmt::format("There are no gradients {} yet. {}", what, remedy));
     }
 
     void

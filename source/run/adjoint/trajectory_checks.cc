@@ -84,7 +84,7 @@ namespace Exemplar
     const auto          refuse_cell = [](const std::string &what, const unsigned int number)
     {
       throw UserError(fmt::format(
-          "vjp: {} {}, counted from 0, is so deformed that a guard of doc/model.md acts, of which "
+          "{} {}, counted from 0, is so deformed that a guard of doc/model.md acts, of which "
           "gradients lack the derivatives. Deform the body less, or refine the mesh there.",
           what, number));
     };
@@ -97,14 +97,14 @@ namespace Exemplar
         B[i][i] += trace(S);
       const double square = contract(F, F), p = determinant(B);
       if (!(p > std::max(p_0, NearKink<double>::y_0 * square)))
-        refuse_cell("cell", point);
+        refuse_cell("Cell", point);
       if (patches.size() > 0)
         mean_squares[patches.of_point(point)]
             += fe_space.volume(point) / patches.volume(patches.of_point(point)) * square;
     }
     for (unsigned int patch = 0; patch < patches.size(); ++patch)
       if (!(mean_squares[patch] < min_stretched_square))
-        refuse_cell("the patch of cell", patches.points(patch).front());
+        refuse_cell("The patch of cell", patches.points(patch).front());
   }
 
   double

@@ -58,6 +58,7 @@ namespace Exemplar
         last_checkpoint(std::chrono::steady_clock::now()), frames(problem, directory, formats),
         space_error(problem)
   {
+    require_functional(problem);
   }
 
   void
@@ -189,18 +190,20 @@ namespace Exemplar
   void
   RunWriter::finish(const std::string &status, const std::vector<std::string> &warnings)
   {
+    LastEstimates last;
     {
       StepClock::Scope scope(problem.clock, Phase::output);
       frames.drain();
       write_final_pose();
       save(); // whatever happens to animations and estimates
       space_error.find_at_end();
+      last = { space_error.get(), functional_at_end(problem) };
       at_root([&] { frames.write_animations(); });
     }
     account.lap();
     at_root([] {}); // the directory is still there
     const auto mesh_digest = input_digests.find(problem.parameters.mesh.file);
-    write_summary(problem, get_totals(), space_error.get(),
+    write_summary(problem, get_totals(), last,
                   mesh_digest != input_digests.end() ? mesh_digest->second : "generated", status,
                   warnings, directory.get_files().summary());
   }

@@ -65,6 +65,17 @@ namespace Exemplar
     }
 
     Json
+    functional_of(const FunctionalReport &report)
+    {
+      Json json{ { "name", report.name }, { "value", report.value } };
+      if (report.correction)
+        json["correction"] = *report.correction;
+      else
+        json["failure"] = report.failure;
+      return json;
+    }
+
+    Json
     mesh_made(const MeshingReport &report)
     {
       Json json;
@@ -186,13 +197,13 @@ namespace Exemplar
   } // namespace
 
   void
-  write_summary(Problem                         &problem,
-                const RunTotals                 &totals,
-                const std::optional<SpaceError> &space_error,
-                const std::string               &mesh_sha256,
-                const std::string               &status,
-                const std::vector<std::string>  &warnings,
-                const std::filesystem::path     &file)
+  write_summary(Problem                        &problem,
+                const RunTotals                &totals,
+                const LastEstimates            &last,
+                const std::string              &mesh_sha256,
+                const std::string              &status,
+                const std::vector<std::string> &warnings,
+                const std::filesystem::path    &file)
   {
     const SharedNumbers numbers(problem);
     at_root(numbers.exchange,
@@ -209,8 +220,10 @@ namespace Exemplar
               json["status"]         = status;
               json["warnings"]       = warnings_of(warnings);
               json["worst_residual"] = totals.worst_residual;
-              if (space_error)
-                json["space_error"] = errors_of(*space_error);
+              if (last.space_error)
+                json["space_error"] = errors_of(*last.space_error);
+              if (last.functional)
+                json["functional"] = functional_of(*last.functional);
               for (const SceneEdit &edit : totals.edits)
                 json["edits"].push_back({ { "step", edit.step }, { "scene_before", edit.before } });
               if (numbers.conditioning.matrix > 0.)

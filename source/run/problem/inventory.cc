@@ -79,6 +79,7 @@ namespace Exemplar
       { "UMFPACK", solver_is("umfpack"), {} },
       { "quasi-Newton method", quasi_newton > 0, quasi_newton },
       { "estimate of the error in space", problem.inputs != nullptr, {} },
+      { "functional", !problem.parameters.output.functional.empty(), {} },
       { "frame writer", problem.parameters.output.every > 0, {} }
     };
     if (solver.bytes > 0)

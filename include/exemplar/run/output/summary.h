@@ -2,6 +2,7 @@
 #ifndef exemplar_summary_h
 #define exemplar_summary_h
 
+#include <exemplar/run/adjoint/functional.h>
 #include <exemplar/run/frames/space_error.h>
 #include <exemplar/run/output/checkpoint.h>
 #include <exemplar/run/problem/problem.h>
@@ -13,16 +14,23 @@
 
 namespace Exemplar
 {
+  /// What is known of the last step, if the scene asks for it.
+  struct LastEstimates
+  {
+    std::optional<SpaceError>       space_error;
+    std::optional<FunctionalReport> functional;
+  };
+
   /// Write summary.json: the program, the scene's sizes, totals over all steps, the warnings of the
-  /// run, the error in space of the last step if it is known, what was used and what was left out.
+  /// run, estimates of its last step, what was used and what was left out.
   void
-  write_summary(Problem                         &problem,
-                const RunTotals                 &totals,
-                const std::optional<SpaceError> &space_error,
-                const std::string               &mesh_sha256,
-                const std::string               &status,
-                const std::vector<std::string>  &warnings,
-                const std::filesystem::path     &file);
+  write_summary(Problem                        &problem,
+                const RunTotals                &totals,
+                const LastEstimates            &last,
+                const std::string              &mesh_sha256,
+                const std::string              &status,
+                const std::vector<std::string> &warnings,
+                const std::filesystem::path    &file);
 } // namespace Exemplar
 
 #endif

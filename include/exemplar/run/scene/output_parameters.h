@@ -34,6 +34,7 @@ namespace Exemplar
     bool                     keep_states        = false; ///< one for each frame
     FinalTetrahedra          final_pose         = FinalTetrahedra::linear;
     SpaceErrorUse            space_error        = SpaceErrorUse::never;
+    std::string              functional         = {}; ///< see make_functional(); empty: none
 
     void
     declare(KeyTable &keys);
