@@ -14,10 +14,10 @@ import unittest
 from exemplar_runner import REPOSITORY, SceneTest
 
 STUDIES = sorted((REPOSITORY / "prm/studies").glob("stability_*.prm"))
-N_CASES = 628
+N_CASES = 644
 ELEMENTS = "P1 + cells", "P1 + patches", "P2 + cells", "P2 + patches"
 # studies of a few seconds, of all elements
-QUICK = {"stability_cells", "stability_contrast", "stability_density", "stability_memory", "stability_node", "stability_plastic",
+QUICK = {"stability_cells", "stability_contrast", "stability_density", "stability_fibrous_plastic", "stability_memory", "stability_node", "stability_plastic",
          "stability_poses", "stability_size"}
 # others of which the linear elements are quick with patches as well
 QUICK_IF_LINEAR = {"stability_fibres", "stability_importance", "stability_pull", "stability_start", "stability_stiffness"}
