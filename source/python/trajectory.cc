@@ -220,7 +220,7 @@ namespace Exemplar::Python
             return of_steps(trajectory, [&](const RecordedStep &step)
                             { return rows(trajectory.steps, step.velocities); });
           },
-          "A list as positions, of velocities [m/s]; of empty arrays unless dynamic.");
+          "A list with the velocities [m/s], as positions; with empty arrays unless dynamic.");
       type.def_property_readonly(
           "weights",
           [](const Trajectory &trajectory)

@@ -37,9 +37,13 @@ ARGUMENTS = {
     "on_iteration.function": "Callable[[Report], object] | None",
 }
 
+# what a with statement and len() need, of the types that have it
+SPECIAL = {"__enter__": "def __enter__(self) -> {name}: ...", "__exit__": "def __exit__(self, *args: Any) -> None: ...",
+           "__len__": "def __len__(self) -> int: ..."}
+
 PROPERTIES = {
     "weights": "NDArray[np.float64]", "history": "NDArray[np.float64]", "gravity": "NDArray[np.float64]",
-    "energies": "Measures", "statistics": "Measures", "warnings": "list[str]", "residual_history": "list[float]", "status": "str",
+    "times": "list[float]", "energies": "Measures", "statistics": "Measures", "warnings": "list[str]", "residual_history": "list[float]", "status": "str",
     "iterations": "int", "factorizations": "int", "step_number": "int", "n_steps": "int", "step": "int", "time": "float",
     "residual": "float", "kkt_residual": "float", "step_length": "float", "newton_decrement": "float",
     "importance": "float", "mass_damping": "float", "stiffness_damping": "float",
@@ -92,6 +96,8 @@ def function_lines(name, doc, self=""):
 
 
 def type_of_property(name, doc):
+    if doc.startswith("A list with"):
+        return "list[NDArray[np.float64]]"
     if name in PROPERTIES:
         return PROPERTIES[name]
     number = "np.uint32" if "uint32" in doc else "np.float64"
@@ -122,6 +128,7 @@ def class_lines(name, kind):
         is_method = callable(value) and not isinstance(value, (property, type))
         lines = function_lines(member, value.__doc__ or "", "self") if is_method else property_lines(member, value)
         found.append(indented(lines))
+    found += [indented(line.format(name=name)) for special, line in SPECIAL.items() if special in vars(kind)]
     return f"class {name}({bases}):\n" + "\n\n".join(found)
 
 

@@ -36,14 +36,14 @@ namespace Exemplar
     double
     product_of(const BorderedVector &a, const BorderedVector &b)
     {
-      return dot(a.positions, b.positions) + dot(a.weights, b.weights);
+      return Exemplar::dot(a.positions, b.positions) + Exemplar::dot(a.weights, b.weights);
     }
 
     void
     add_vector(BorderedVector &a, const double factor, const BorderedVector &b)
     {
-      add(a.positions, factor, b.positions);
-      add(a.weights, factor, b.weights);
+      Exemplar::add(a.positions, factor, b.positions);
+      Exemplar::add(a.weights, factor, b.weights);
     }
 
     /// out += A x, of a matrix of which the lower triangle is given.
