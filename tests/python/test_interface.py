@@ -100,6 +100,14 @@ class Docstrings(unittest.TestCase):
                     self.assertRegex(doc, r"\b([Rr]aises|[Ww]arns|errors as)\b", "says nothing of errors")
                     self.assertRegex(doc, rf"^{member.__name__}\(", "begins with no call")
 
+    def test_files_beside_the_module_are_explained(self):
+        for name in "with_torch", "with_jax":
+            text = (Path(exemplar.__file__).parent / f"{name}.py").read_text()
+            functions = [node for node in ast.parse(text).body if isinstance(node, ast.FunctionDef) and node.name[0] != "_"]
+            self.assertEqual([function.name for function in functions], ["equilibrium"])
+            for word in "Raises", "(n, 3) [m]", "young", "poses":
+                self.assertIn(word, ast.get_docstring(functions[0]))
+
     def test_arrays_say_their_shapes_and_units(self):
         problem = exemplar.Problem(BAR)
         problem.run()
