@@ -6,6 +6,7 @@ doc/embedding.md names.
 Usage: PYTHONPATH=build/release/python python3 packaging/build_reference.py DIRECTORY
 Fails with the public functions that have no `///`; exit 77 without Doxygen or the module.
 """
+import ast
 import inspect
 import re
 import shutil
@@ -72,7 +73,16 @@ def python_page():
         if init.startswith(f"{name}("):
             parts.append(entry(name, member.__init__, 3))
         parts += [entry(f"{name}.{inner}", value, 3) for inner, value in public(vars(member)).items()]
-    return "\n".join(parts)
+    return "\n".join([*parts, *wrappers()])
+
+
+def wrappers():
+    """Of the files for torch and jax, which need not be here, what their functions say."""
+    for file in sorted((TOP / "source/python").glob("with_*.py")):
+        for function in ast.parse(file.read_text()).body:
+            if isinstance(function, ast.FunctionDef) and not function.name.startswith("_"):
+                call = f"exemplar.{file.stem}.{function.name}({ast.unparse(function.args)})"
+                yield f"## `{call}`\n\n{escaped(ast.get_docstring(function))}\n"
 
 
 def included_by(header):

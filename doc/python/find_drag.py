@@ -50,9 +50,10 @@ def by_drags(by_positions):
 
 
 def work(unknowns):
-    """The potential, whose derivative by the place of a held node is the force that holds it."""
+    """The potential, whose derivative by the place of a held node is the force that holds it; over some N/m, which make the
+    second derivatives of the order of 1."""
     solve(unknowns)
-    return problem.energy(), by_drags(problem.gradient())
+    return problem.energy() / 200, by_drags(problem.gradient()) / 200
 
 
 def distance(unknowns):
@@ -69,12 +70,12 @@ def slopes_of_distance(unknowns):
 
 solve(drags.ravel())
 limit = int(sys.argv[1]) if len(sys.argv) > 1 else 50
-found = scipy.optimize.minimize(work, np.zeros(6), jac=True, method="SLSQP", options={"maxiter": limit, "ftol": 1e-6},
+found = scipy.optimize.minimize(work, np.zeros(6), jac=True, method="SLSQP", options={"maxiter": limit, "ftol": 1e-7},
                                 constraints={"type": "eq", "fun": distance, "jac": slopes_of_distance})
 solve(found.x)
 print(f"{found.nit} iterations, {found.nfev} solves")
 print("muzzle is off by [mm]   work [J]   right paw [m]          left paw [m]")
-print(f"{1000 * np.linalg.norm(distance(found.x)):21.4f} {found.fun:10.3f}  ", np.array2string(found.x, precision=3)[1:-1])
+print(f"{1000 * np.linalg.norm(distance(found.x)):21.4f} {problem.energy():10.3f}  ", np.array2string(found.x, precision=3)[1:-1])
 if len(sys.argv) > 2:
     import matplotlib.pyplot as plt
     axes = problem.plot()
