@@ -56,7 +56,7 @@ namespace Exemplar
   gradients(Problem &problem, const Direction &by_state)
   {
     require_known_scene(problem);
-    require_no_guard(problem);
+    require_rotations(problem);
     Evaluation evaluation;
     problem.potential.evaluate(problem.state, RotationUse::update, evaluation);
     require_equilibrium(problem, evaluation);

@@ -12,10 +12,9 @@ namespace Exemplar
   void
   require_known_scene(const Problem &problem);
 
-  /// Throws UserError where a guard acts, Eqs. (16), (24) and (26), or a patch has continued the dilatation of
-  /// a thin cell.
+  /// Throws UserError where the rotation of a cell is not unique, so that its energy has a kink.
   void
-  require_no_guard(const Problem &problem);
+  require_rotations(const Problem &problem);
 
   /// Throws UserError for a state that is not in equilibrium.
   void
