@@ -59,8 +59,8 @@ namespace Exemplar
     operator*=(const HyperDual &x)
     {
       for (std::size_t k = 0; k < n; ++k)
-        change_by[k] = change_by[k] * x.value + by[k] * x.change + change * x.by[k]
-                       + value * x.change_by[k];
+        change_by[k]
+            = change_by[k] * x.value + by[k] * x.change + change * x.by[k] + value * x.change_by[k];
       for (std::size_t k = 0; k < n; ++k)
         by[k] = by[k] * x.value + value * x.by[k];
       change = change * x.value + value * x.change;

@@ -10,6 +10,15 @@
 
 namespace Exemplar
 {
+  bool
+  has_orthotropic_cells(const Problem &problem)
+  {
+    for (unsigned int cell = 0; cell < problem.body.mesh.n_cells(); ++cell)
+      if (problem.body.material.of_body_alone(cell).is_orthotropic)
+        return true;
+    return false;
+  }
+
   namespace
   {
     void
@@ -24,23 +33,16 @@ namespace Exemplar
       const LawsOfCells laws = laws_of_cells(problem.parameters, problem.body);
       for (const CellLaw law : laws.present())
         if (traits_of(law).n_history > 0)
-          refuse(fmt::format("of cells that are {}, as what they have become depends on the whole way "
-                             "to the equilibrium",
-                             traits_of(law).name),
-                 "Set Material/Yield stress to 0.");
+          refuse(
+              fmt::format("of cells that are {}, as what they have become depends on the whole way "
+                          "to the equilibrium",
+                          traits_of(law).name),
+              "Set Material/Yield stress to 0.");
         else if (!law_has_potential(law))
-          refuse(fmt::format("of cells that are {}, as their forces are the derivative of no energy",
-                             traits_of(law).name),
-                 "Set Model/Gradient = consistent.");
-    }
-
-    bool
-    is_orthotropic(const Problem &problem)
-    {
-      for (unsigned int cell = 0; cell < problem.body.mesh.n_cells(); ++cell)
-        if (problem.body.material.of_body_alone(cell).is_orthotropic)
-          return true;
-      return false;
+          refuse(
+              fmt::format("of cells that are {}, as their forces are the derivative of no energy",
+                          traits_of(law).name),
+              "Set Model/Gradient = consistent.");
     }
 
     void
@@ -48,7 +50,7 @@ namespace Exemplar
     {
       if (problem.examples.poses.size() == 0)
         return;
-      if (problem.body.material.has_examples() && is_orthotropic(problem))
+      if (problem.body.material.has_examples() && has_orthotropic_cells(problem))
         refuse("of examples with an elasticity of their own in an orthotropic body",
                "Leave out Examples/Example modulus and Example Poisson ratio.");
       if (problem.examples.weights.get_memory().yields() && problem.state.step > 1)
@@ -87,10 +89,11 @@ namespace Exemplar
       for (int i = 0; i < 3; ++i)
         B[i][i] += trace(S);
       if (!(determinant(B) > 1e-9 * std::pow(contract(F, F), 1.5)))
-        throw UserError(fmt::format(
-            "vjp: cell {}, counted from 0, is so deformed that its rotation is not unique, where its "
-            "energy has no derivative. Deform the body less, or refine the mesh there.",
-            cell));
+        throw UserError(
+            fmt::format("vjp: cell {}, counted from 0, is so deformed that its rotation is not "
+                        "unique, where its "
+                        "energy has no derivative. Deform the body less, or refine the mesh there.",
+                        cell));
     }
   }
 

@@ -250,7 +250,7 @@ namespace Exemplar
             AdjointSolution &solution)
     {
       ConjugateResiduals residuals(system.scale_of_weights());
-      Direction step = std::move(solution.direction), rest = system.projected(by_state);
+      Direction          step = std::move(solution.direction), rest = system.projected(by_state);
       solution.direction = system.zero();
       double error       = 1.;
       for (unsigned int n = 0; n < max_corrections && !(error <= solved); ++n)
@@ -277,10 +277,14 @@ namespace Exemplar
   are_inactive(const Problem &problem)
   {
     const std::vector<double> &weights = problem.state.weights;
+    const WeightMemory        &memory  = problem.examples.weights.get_memory();
     const bool is_bounded = !problem.examples.weights.limits_of_changes(weights).lower.empty();
     std::vector<bool> inactive(problem.examples.weights.n_unknown());
     for (std::size_t weight = 0; weight < inactive.size(); ++weight)
-      inactive[weight] = !is_bounded || weights[weight] > 0.;
+    {
+      const auto [up, down] = memory.slopes(weight, weights[weight], 0.);
+      inactive[weight]      = (!is_bounded || weights[weight] > 0.) && !(up > down);
+    }
     return inactive;
   }
 

@@ -26,8 +26,8 @@ namespace Exemplar
       for (unsigned int i = 0; i < poses.size(); ++i)
         if (poses.is_strained(i))
         {
-          const CellLaw         law = laws[fe_space.cell_of(point)];
-          const Matrix3<double> F   = fe_space.deformation_gradient(point, poses.pose(i));
+          const CellLaw         law         = laws[fe_space.cell_of(point)];
+          const Matrix3<double> F           = fe_space.deformation_gradient(point, poses.pose(i));
           strains[point * poses.size() + i] = model_strain(law, model_rotation(law, F), F);
         }
   }
@@ -65,10 +65,10 @@ namespace Exemplar
     with_potential<Number>(laws[fe_space.cell_of(point)],
                            [&](auto model)
                            {
-                             using Cell           = typename decltype(model)::type;
-                             const Number product = contract(
-                                 strain_near<Cell>(closest_rotation(F), seeded),
-                                 constant_matrix<Number>(by_strain));
+                             using Cell = typename decltype(model)::type;
+                             const Number product
+                                 = contract(strain_near<Cell>(closest_rotation(F), seeded),
+                                            constant_matrix<Number>(by_strain));
                              for (std::size_t k = 0; k < 9; ++k)
                                result[k / 3][k % 3] = product.by[k];
                            });

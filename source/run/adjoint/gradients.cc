@@ -13,22 +13,40 @@ namespace Exemplar
     /// move it off the bound or onto it.
     constexpr double weak = 1e-6;
 
+    /// With the slopes of the potential to both sides, and the multiplier in them.
+    bool
+    is_weak(const WeightMemory &memory,
+            const bool          is_bounded,
+            const unsigned int  weight,
+            const double        w,
+            const double        slope,
+            const double        scale)
+    {
+      const auto [up, down] = memory.slopes(weight, w, slope);
+      if (is_bounded && !(w > 0.))
+        return up < weak * scale;
+      if (up > down) // it stays where it was
+        return std::min(up, -down) < weak * scale;
+      return (is_bounded && w < weak)
+             || memory.slopes(weight, w + weak, 0.).up != memory.slopes(weight, w - weak, 0.).up;
+    }
+
     std::vector<unsigned int>
     weakly_active(const Problem &problem, const Evaluation &evaluation)
     {
       const ExampleWeights      &rule   = problem.examples.weights;
       const std::vector<double> &w      = problem.state.weights,
                                 &slopes = evaluation.elastic.weight_gradient;
+      const bool is_bounded = rule.n_unknown() > 0 && !rule.limits_of_changes(w).lower.empty();
       std::vector<unsigned int> found;
-      if (rule.n_unknown() == 0 || rule.limits_of_changes(w).lower.empty())
+      if (rule.n_unknown() == 0)
         return found;
       const std::vector<double> multipliers = rule.residual(w, slopes).multipliers;
       for (unsigned int weight = 0; weight < w.size(); ++weight)
-      {
-        const double excess = slopes[weight] + multipliers[weight / rule.n_per_region()];
-        if (w[weight] < weak && (w[weight] > 0. || excess < weak * evaluation.elastic.weight_scale))
+        if (is_weak(rule.get_memory(), is_bounded, weight, w[weight],
+                    slopes[weight] + multipliers[weight / rule.n_per_region()],
+                    evaluation.elastic.weight_scale))
           found.push_back(weight);
-      }
       return found;
     }
 
@@ -63,8 +81,11 @@ namespace Exemplar
     SlopeDerivatives slope = solve_adjoint(problem, by_state).derivatives;
 
     Gradients result;
-    result.young              = negative(std::move(slope.by_young));
-    result.poisson            = negative(std::move(slope.by_poisson));
+    if (!has_orthotropic_cells(problem))
+    {
+      result.young   = negative(std::move(slope.by_young));
+      result.poisson = negative(std::move(slope.by_poisson));
+    }
     result.density            = negative(std::move(slope.by_density));
     result.handles            = of_held(problem, by_state.positions, slope.by_positions);
     result.nodal_forces       = negative(std::move(slope.by_nodal_forces));

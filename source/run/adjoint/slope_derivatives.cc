@@ -14,7 +14,8 @@ namespace Exemplar
     using Matrix = Matrix3<double>;
 
     /// Of which the potential of a point has derivatives: F, the six entries of the wish, E, nu, eta.
-    constexpr std::size_t of_F = 0, of_wish = 9, of_E = 15, of_nu = 16, of_eta = 17, n_of_point = 18;
+    constexpr std::size_t of_F = 0, of_wish = 9, of_E = 15, of_nu = 16, of_eta = 17,
+                          n_of_point = 18;
 
     using OfPoint   = HyperDual<n_of_point>;
     using Changing  = HyperDual<0>;
@@ -133,15 +134,14 @@ namespace Exemplar
       PointPotential<Number>
       potential_of(const unsigned int point) const
       {
-        const unsigned int  cell = fe_space.cell_of(point);
-        const Matrix        F    = fe_space.deformation_gradient(point, problem.state.positions);
-        const Matrix        dF   = fe_space.deformation_gradient(point, direction.positions);
-        const PointMaterial material(problem.body.material, problem.body.cell_material,
-                                     problem.parameters.examples.acts_on, cell);
-        const Number        eta = seeded<Number>(scene.examples.importance, of_eta);
+        const unsigned int       cell = fe_space.cell_of(point);
+        const Matrix             F  = fe_space.deformation_gradient(point, problem.state.positions);
+        const Matrix             dF = fe_space.deformation_gradient(point, direction.positions);
+        const PointMaterial      material(problem.body.material, problem.body.cell_material,
+                                          problem.parameters.examples.acts_on, cell);
+        const Number             eta = seeded<Number>(scene.examples.importance, of_eta);
         const PointPlace<Number> at{
-          closest_rotation(F),
-          seeded<Number>(F, dF, of_F),
+          closest_rotation(F), seeded<Number>(F, dF, of_F),
           seeded_symmetric<Number>(strains.wish(point, problem.state.weights),
                                    strains.wish(point, direction.weights), of_wish),
           MaterialFunctions<Number>(material, seeded<Number>(material.body.youngs_modulus, of_E),
@@ -160,8 +160,8 @@ namespace Exemplar
           PatchTerm of_patch;
           for (const unsigned int point : patches.points(patch))
           {
-            PatchTerm term                = potential_of<Changing>(point).of_patch;
-            term[PatchSum::bound]         = Changing(square_of_bound(patch, point));
+            PatchTerm term        = potential_of<Changing>(point).of_patch;
+            term[PatchSum::bound] = Changing(square_of_bound(patch, point));
             const Changing volume(fe_space.volume(point));
             for (std::size_t k = 0; k < PatchTerm::size; ++k)
               of_patch.numbers[k] += volume * term.numbers[k];
@@ -213,8 +213,8 @@ namespace Exemplar
         const auto         n_bound = static_cast<std::size_t>(PatchSum::bound);
         for (std::size_t k = 0; k < n_bound; ++k)
           potential += constant<OfPoint>(factor.numbers[k]) * found.of_patch.numbers[k];
-        potential += constant<OfPoint>(factor.numbers[n_bound])
-                     * OfPoint(square_of_bound(patch, point));
+        potential
+            += constant<OfPoint>(factor.numbers[n_bound]) * OfPoint(square_of_bound(patch, point));
         return potential;
       }
 
@@ -225,13 +225,11 @@ namespace Exemplar
         const OfPoint                 potential = whole_potential(point, found);
         const double                  V         = fe_space.volume(point);
         const unsigned int            cell      = fe_space.cell_of(point);
-        const Matrix                  F
-            = fe_space.deformation_gradient(point, problem.state.positions);
+        const Matrix F    = fe_space.deformation_gradient(point, problem.state.positions);
         const Matrix dF   = fe_space.deformation_gradient(point, direction.positions);
         const Matrix by_F = matrix_of(potential.change_by), by_dF = matrix_of(potential.by);
         add_forces(fe_space, point, times(V, by_F), sums.by_positions);
-        Matrix by_gradients
-            = combine(V, transpose_times(F, by_F), V, transpose_times(dF, by_dF));
+        Matrix by_gradients = combine(V, transpose_times(F, by_F), V, transpose_times(dF, by_dF));
         add_examples(point, times(V, symmetric_matrix_of(potential.change_by)),
                      times(V, symmetric_matrix_of(potential.by)), by_gradients);
         sums.by_young[cell] += V * potential.change_by[of_E];
@@ -253,15 +251,14 @@ namespace Exemplar
       {
         const std::vector<double> &w = problem.state.weights, &b = direction.weights;
         std::vector<Matrix>        by_strains(poses.size(), Matrix{});
-        poses.for_each_weight(point,
-                              [&](const unsigned int weight, const unsigned int i, const double share)
-                              {
-                                sums.by_weights[weight]
-                                    += share * contract(strains.strain(point, i), by_wish);
-                                by_strains[i] = combine(
-                                    1., by_strains[i], share,
-                                    combine(w[weight], by_wish, b[weight], by_change));
-                              });
+        poses.for_each_weight(
+            point,
+            [&](const unsigned int weight, const unsigned int i, const double share)
+            {
+              sums.by_weights[weight] += share * contract(strains.strain(point, i), by_wish);
+              by_strains[i] = combine(1., by_strains[i], share,
+                                      combine(w[weight], by_wish, b[weight], by_change));
+            });
         for (unsigned int i = 0; i < poses.size(); ++i)
           if (poses.is_strained(i))
             add_pose(point, i, by_strains[i], by_gradients);
@@ -299,18 +296,18 @@ namespace Exemplar
                         times(-1., transpose_times(F, by_F)), sums.by_rest_positions);
       }
 
-      const Problem                            &problem;
-      const Direction                          &direction;
-      const FESpace                            &fe_space;
-      const Patches                            &patches;
-      const ExamplePoses                       &poses;
-      const LawsOfCells                         laws;
-      const PointScene                          scene;
-      const ExampleStrains                      strains;
-      std::vector<PatchTerm>                    factors;     ///< of each patch
-      std::vector<std::optional<unsigned int>>  bound_poses; ///< of each patch
-      double                                    by_guard_bound = 0.;
-      SlopeDerivatives                          sums;
+      const Problem                           &problem;
+      const Direction                         &direction;
+      const FESpace                           &fe_space;
+      const Patches                           &patches;
+      const ExamplePoses                      &poses;
+      const LawsOfCells                        laws;
+      const PointScene                         scene;
+      const ExampleStrains                     strains;
+      std::vector<PatchTerm>                   factors;     ///< of each patch
+      std::vector<std::optional<unsigned int>> bound_poses; ///< of each patch
+      double                                   by_guard_bound = 0.;
+      SlopeDerivatives                         sums;
     };
   } // namespace
 

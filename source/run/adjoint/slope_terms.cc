@@ -31,7 +31,8 @@ namespace Exemplar
     for (int i = 0; i < 3; ++i)
       for (int v = 0; v < 3; ++v)
         edges[i][v] = X[3 * nodes[v + 1] + i] - X[3 * nodes[0] + i];
-    const Matrix3<double> cofactor = cofactors(edges); // its columns over the determinant are grad L_v
+    const Matrix3<double> cofactor
+        = cofactors(edges); // its columns over the determinant are grad L_v
     const Matrix3<double> forces
         = combine(1. / determinant(edges), by_gradient * cofactor, 0., cofactor);
     for (unsigned int c = 0; c < 3; ++c)
@@ -54,16 +55,18 @@ namespace Exemplar
   {
     if (problem.examples.weights.n_unknown() == 0)
       return;
-    const FESpace             &fe_space   = problem.body.fe_space;
-    const Material            &material   = problem.body.material;
-    const ExamplePoses        &poses      = problem.examples.poses;
-    const ExampleParameters   &parameters = problem.parameters.examples;
-    const double               total      = fe_space.total_volume();
-    const double               sigma      = parameters.ridge(unit_energy_of_examples(fe_space, material));
-    const double               by_unit    = parameters.ridge(1.) - parameters.ridge(0.);
-    const std::vector<double>  fractions  = poses.volume_fractions();
+    const FESpace            &fe_space   = problem.body.fe_space;
+    const Material           &material   = problem.body.material;
+    const ExamplePoses       &poses      = problem.examples.poses;
+    const ExampleParameters  &parameters = problem.parameters.examples;
+    const double              total      = fe_space.total_volume();
+    const double              sigma = parameters.ridge(unit_energy_of_examples(fe_space, material));
+    const double              by_unit   = parameters.ridge(1.) - parameters.ridge(0.);
+    const std::vector<double> fractions = poses.volume_fractions();
     const std::vector<double> &w = problem.state.weights, &b = direction.weights;
+    const WeightMemory        &memory = problem.examples.weights.get_memory();
     std::vector<double>        products(fractions.size(), 0.); // w.b of each region
+    std::vector<double>        prices(fractions.size(), 0.);   // of moving along b, over the volume
     double                     mean = 0.;
     for (unsigned int weight = 0; weight < poses.n_weights(); ++weight)
     {
@@ -71,20 +74,27 @@ namespace Exemplar
       sums.by_weights[weight] += sigma * fractions[region] * b[weight];
       products[region] += w[weight] * b[weight];
       mean += fractions[region] * w[weight] * b[weight];
+      if (memory.yields())
+        prices[region]
+            += memory.slopes(weight, w[weight], 0.).up * b[weight] / (fractions[region] * total);
     }
     for (unsigned int point = 0; point < fe_space.n_points(); ++point)
     {
       const unsigned int cell   = fe_space.cell_of(point);
       const double       volume = fe_space.volume(point);
-      double             here   = 0.;
-      poses.get_regions().for_each(point, [&](const unsigned int region, const double share)
-                                   { here += share * products[region]; });
+      double             here = 0., price = 0.;
+      poses.get_regions().for_each(point,
+                                   [&](const unsigned int region, const double share)
+                                   {
+                                     here += share * products[region];
+                                     price += share * prices[region];
+                                   });
       if (!material.elasticity_of_examples().youngs_modulus)
         sums.by_young[cell] += by_unit * volume * mean;
       add_volume(fe_space, cell,
                  volume
                      * (by_unit * material.youngs_modulus_of_examples(cell) * mean
-                        + sigma * (here - mean) / total),
+                        + sigma * (here - mean) / total + price),
                  sums.by_rest_positions);
     }
   }
@@ -96,9 +106,10 @@ namespace Exemplar
     const LoadsParameters &loads    = problem.parameters.loads;
     const double           ramp     = loads.ramp == LoadRamp::increments ? problem.state.time : 1.;
     sums.by_nodal_forces.add(-ramp, direction.positions);
-    const bool        is_consistent = problem.parameters.material.mass_matrix == MassMatrix::consistent;
-    const NodeShares &shares        = traits_of(fe_space.element())
-                                   .in_cell.by(is_consistent ? ShareRule::consistent : ShareRule::lumped);
+    const bool is_consistent = problem.parameters.material.mass_matrix == MassMatrix::consistent;
+    const NodeShares &shares
+        = traits_of(fe_space.element())
+              .in_cell.by(is_consistent ? ShareRule::consistent : ShareRule::lumped);
     for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
     {
       const double volume = fe_space.cell_volume(cell);

@@ -8,6 +8,10 @@
 
 namespace Exemplar
 {
+  /// Whether some have nine constants, which do not follow from Young's modulus and Poisson's ratio.
+  bool
+  has_orthotropic_cells(const Problem &problem);
+
   /// Throws UserError, by name, for what the scene has and gradients do not know.
   void
   require_known_scene(const Problem &problem);

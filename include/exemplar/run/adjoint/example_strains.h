@@ -35,6 +35,7 @@ namespace Exemplar
     Matrix3<double>
     pulled_back(unsigned int point, unsigned int i, const Matrix3<double> &by_strain) const;
 
+    /// An example at a point.
     struct Place
     {
       unsigned int point, pose;
@@ -49,10 +50,10 @@ namespace Exemplar
     pose_of_bound(unsigned int patch) const;
 
   private:
-    const FESpace                &fe_space;
-    const Patches                &patches;
-    const ExamplePoses           &poses;
-    const LawsOfCells            &laws;
+    const FESpace               &fe_space;
+    const Patches               &patches;
+    const ExamplePoses          &poses;
+    const LawsOfCells           &laws;
     std::vector<Matrix3<double>> strains; ///< by point, of all examples
   };
 } // namespace Exemplar

@@ -26,6 +26,7 @@ namespace Exemplar
     bound          ///< |F|^2 of the example that says where the guard (26) begins
   };
 
+  /// All of them.
   template <typename Number>
   struct PatchSums
   {

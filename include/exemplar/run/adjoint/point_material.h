@@ -95,12 +95,11 @@ namespace Exemplar
     MaterialFunctions(const PointMaterial &of, const Number &E, const Number &nu, const Number &eta)
         : of(of), eta(Number(of.importance) * eta),
           body(with_fibres(E, nu, Number(of.body.fibre_stiffness), of.axis)),
-          examples(with_fibres(of.of_examples.youngs_modulus ? Number(*of.of_examples.youngs_modulus)
-                                                             : E,
-                               of.of_examples.poissons_ratio ? Number(*of.of_examples.poissons_ratio)
-                                                             : nu,
-                               Number(0.),
-                               of.axis)),
+          examples(with_fibres(
+              of.of_examples.youngs_modulus ? Number(*of.of_examples.youngs_modulus) : E,
+              of.of_examples.poissons_ratio ? Number(*of.of_examples.poissons_ratio) : nu,
+              Number(0.),
+              of.axis)),
           sum(body)
     {
       if (of.of_examples.is_own())
@@ -248,9 +247,8 @@ namespace Exemplar
       if (of.of_examples.is_own())
         return third;
       if (of.body.is_orthotropic)
-        return constant_matrix<Number>(
-            of.material.part_of_pressure(of.cell, combine(1. / 3., identity_matrix<double>(), 0.,
-                                                          identity_matrix<double>())));
+        return constant_matrix<Number>(of.material.part_of_pressure(
+            of.cell, combine(1. / 3., identity_matrix<double>(), 0., identity_matrix<double>())));
       const Matrix3<Number> strain = compliance(sum, third);
       return times(Number(1.) / trace(strain), strain);
     }
@@ -262,8 +260,8 @@ namespace Exemplar
       if (!(trace(A) > Number(0.)))
         return Matrix3<Number>{};
       if (of.body.is_orthotropic && !of.of_examples.is_own())
-        return times(contract(A, E), constant_matrix<Number>(
-                                         of.material.part_of_tension(of.cell, dyad(of.axis))));
+        return times(contract(A, E),
+                     constant_matrix<Number>(of.material.part_of_tension(of.cell, dyad(of.axis))));
       const Matrix3<Number> strain = compliance(of.of_examples.is_own() ? examples : sum, A);
       return times(contract(A, E) / contract(A, strain), strain);
     }

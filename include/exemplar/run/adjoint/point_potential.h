@@ -17,15 +17,15 @@ namespace Exemplar
 {
   /// Whether forces are the derivative of an energy that knows nothing of earlier steps.
   template <typename Cell>
-  constexpr bool has_potential
-      = Cell::traits.n_history == 0
-        && !(Cell::traits.exact_is_rotated && Cell::traits.has_rotations); // frozen forces have none
+  constexpr bool has_potential = Cell::traits.n_history == 0
+                                 && !(Cell::traits.exact_is_rotated
+                                      && Cell::traits.has_rotations); // frozen forces have none
 
   inline bool
   law_has_potential(const CellLaw law)
   {
-    return with_cell_model<double>(
-        law, [](auto model) { return has_potential<typename decltype(model)::type>; });
+    return with_cell_model<double>(law, [](auto model)
+                                   { return has_potential<typename decltype(model)::type>; });
   }
 
   /// The rotation of F, where that of its value is R. A Newton step makes first derivatives right; from there
@@ -78,7 +78,7 @@ namespace Exemplar
   {
     Matrix3<double>           R; ///< the rotation of the value of F
     Matrix3<Number>           F;
-    Matrix3<Number>           wish;       ///< sum w_i E_i of the examples' strains
+    Matrix3<Number>           wish; ///< sum w_i E_i of the examples' strains
     MaterialFunctions<Number> material;
     Number                    importance; ///< eta of all cells
   };
@@ -87,11 +87,12 @@ namespace Exemplar
   template <typename Number>
   struct PointPotential
   {
-    Number          own;
-    PatchSums<Number> of_patch; ///< what its patch sums up, but for the bound of the guard
-    Number          by_guard_bound; ///< derivative by p_0 of Eq. (16)
+    Number            own;
+    PatchSums<Number> of_patch;       ///< what its patch sums up, but for the bound of the guard
+    Number            by_guard_bound; ///< derivative by p_0 of Eq. (16)
   };
 
+  /// The potential of a point with the law of a cell.
   template <typename Cell, typename Number>
   class PointEvaluation
   {
@@ -150,7 +151,7 @@ namespace Exemplar
           found.own += cell.stretch().energy();
         if (!cell.is_guarded())
           return;
-        const Number       p_0 = Number(scene.examples.guard_bound), p = cell.product_of_sums();
+        const Number p_0 = Number(scene.examples.guard_bound), p = cell.product_of_sums();
         found.by_guard_bound
             = guard_energy(cell.own_material(), Number(1.), cell.stretch_factor(), D)
               * guard(p, p_0).derivative * p / p_0;
@@ -198,8 +199,7 @@ namespace Exemplar
       const ThinTrace<Number> thin(cell.stretch_factor(), cell.product_of_sums());
       if (thin.acts())
         to[PatchSum::trace] += thin.supplement();
-      const Number share
-          = Cell::traits.knows_volume ? at.importance : Number(1.);
+      const Number               share = Cell::traits.knows_volume ? at.importance : Number(1.);
       const StretchGuard<Number> guard(at.material.isotropic_part().scaled(share),
                                        cell.stretch_factor(), cell.product_of_sums());
       if (guard.acts())
@@ -217,10 +217,11 @@ namespace Exemplar
   point_potential(const CellLaw law, const PointScene &scene, const PointPlace<Number> &at)
   {
     PointPotential<Number> found;
-    with_potential<Number>(law, [&](auto model)
-                           { found = PointEvaluation<typename decltype(model)::type, Number>(
-                                         law, scene, at)
-                                         .find(); });
+    with_potential<Number>(
+        law,
+        [&](auto model) {
+          found = PointEvaluation<typename decltype(model)::type, Number>(law, scene, at).find();
+        });
     return found;
   }
 } // namespace Exemplar

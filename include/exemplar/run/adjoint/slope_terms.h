@@ -25,7 +25,7 @@ namespace Exemplar
   void
   add_volume(const FESpace &fe_space, unsigned int cell, double by_volume, Vector &to);
 
-  /// Of the ridge sigma/2 sum w_i^2 on weights that are to be found.
+  /// Of the ridge sigma/2 sum w_i^2 on weights that are to be found, and of what moving them costs, Eq. (27).
   void
   add_slope_of_ridge(const Problem &problem, const Direction &direction, SlopeDerivatives &sums);
 
