@@ -8,7 +8,7 @@
 #include <exemplar/run/adjoint/patch_potential.h>
 #include <exemplar/run/adjoint/point_material.h>
 
-#include <type_traits>
+#include <algorithm>
 
 // The potential of a point as one function of all that it depends on, for numbers that carry derivatives. Laws
 // are those of kernels/cell_model.h: what is written there for registers is taken here for such numbers.
@@ -38,6 +38,35 @@ namespace Exemplar
     for (int step = 0; step < 3; ++step)
       result = Polar::polished(result, F);
     return result;
+  }
+
+  /// The number with its first m derivatives, of which others are 0.
+  template <std::size_t m, std::size_t n>
+  Matrix3<HyperDual<m>>
+  resized(const Matrix3<HyperDual<n>> &A)
+  {
+    Matrix3<HyperDual<m>> result;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+      {
+        const HyperDual<n> &from = A[i][j];
+        HyperDual<m>       &to   = result[i][j];
+        to                       = HyperDual<m>(from.value, from.change);
+        std::copy_n(from.by.begin(), std::min(m, n), to.by.begin());
+        std::copy_n(from.change_by.begin(), std::min(m, n), to.change_by.begin());
+      }
+    return result;
+  }
+
+  /// The same where the first nine derivatives are those by F, and F has no others.
+  template <std::size_t n>
+  Matrix3<HyperDual<n>>
+  rotation_by_F(const Matrix3<double> &R, const Matrix3<HyperDual<n>> &F)
+  {
+    if constexpr (n > 9)
+      return resized<n>(rotation_near(R, resized<9>(F)));
+    else
+      return rotation_near(R, F);
   }
 
   /// Call function(model) with the CellModel of a law that has_potential().
@@ -123,7 +152,7 @@ namespace Exemplar
     rotation() const
     {
       if constexpr (Cell::traits.has_rotations)
-        return rotation_near(at.R, at.F);
+        return rotation_by_F(at.R, at.F);
       return identity_matrix<Number>();
     }
 
@@ -196,6 +225,8 @@ namespace Exemplar
     void
     add_guards_of_patch(PatchSums<Number> &to) const
     {
+      if (!StretchGuard<Number>::may_act(cell.stretch_factor(), cell.product_of_sums()))
+        return; // nearly always
       const ThinTrace<Number> thin(cell.stretch_factor(), cell.product_of_sums());
       if (thin.acts())
         to[PatchSum::trace] += thin.supplement();
