@@ -56,6 +56,17 @@ namespace Exemplar
     return result;
   }
 
+  Material::BodyConstants
+  Material::of_body_alone(const unsigned int cell) const
+  {
+    const unsigned int i     = constants_of_cell[cell];
+    const Constants   &body  = has_examples() ? of_body[i] : constants[i];
+    const auto &[lambda, mu] = body.elasticity;
+    const char *const alpha  = Fibrous<double>::own_constants[0].name;
+    return { body.youngs_modulus, lambda / (2. * (lambda + mu)), body.own->at(alpha),
+             body.is_orthotropic };
+  }
+
   Material::Parts
   Material::parts(const unsigned int cell) const
   {

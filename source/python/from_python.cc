@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
+#include <exemplar/base/nearest_word.h>
 #include <exemplar/base/number_text.h>
 #include <exemplar/prm/assignments.h>
 #include <exemplar/python/arrays_from_python.h>
@@ -8,6 +9,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -144,12 +146,49 @@ namespace Exemplar::Python
                         "and load: \"Handles\": {\"left\": {\"Select\": ...}}.");
     }
 
+    /// Sections that have keys of fixed names.
+    std::vector<std::string>
+    known_sections()
+    {
+      std::vector<std::string> names;
+      for (const DeclaredKey &declared : SceneFile::reference())
+        if (!declared.subsections.empty()
+            && std::find(names.begin(), names.end(), declared.subsections[0]) == names.end())
+          names.push_back(declared.subsections[0]);
+      return names;
+    }
+
+    /// One without keys, of which nothing else would say that there is none of this name.
+    void
+    require_known_section(const std::vector<std::string> &path)
+    {
+      const std::vector<std::string> known   = known_sections();
+      const std::string             &section = path.front();
+      if (std::find(known.begin(), known.end(), section) == known.end())
+      {
+        const std::string nearest = nearest_word(section, known);
+        std::string       all;
+        for (const std::string &name : known)
+          all += (all.empty() ? "" : ", ") + name;
+        throw UserError(fmt::format("scene: there is no section '{}'. {}", section,
+                                    nearest.empty() ? "The sections are " + all + "."
+                                                    : "Did you mean '" + nearest + "'?"));
+      }
+      const bool has_names = section == "Handles" || section == "Loads"
+                             || (section == "Material" && path.back().rfind("region ", 0) == 0);
+      if (path.size() == 2 && !has_names)
+        throw UserError(
+            fmt::format("scene: section {} has no section '{}'. Remove it.", section, path.back()));
+    }
+
     void
     add_section(const py::dict                 &given,
                 const std::vector<std::string> &path,
                 std::vector<Assignment>        &assignments)
     {
       const py::dict section = given.attr("copy")(); // str() of a key or a value may change `given`
+      if (!path.empty() && section.size() == 0)
+        require_known_section(path);
       add_names(section, path, assignments);
       for (const auto &[key, value] : section)
       {

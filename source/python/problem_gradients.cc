@@ -26,8 +26,12 @@ namespace Exemplar::Python
                             std::vector<double>(problem.state.weights.size(), 0.) };
       if (!by_positions.is_none())
       {
-        const auto rows
-            = points_of(by_positions, method + ": dJ_dx", py::ssize_t(problem.body.mesh.n_nodes()));
+        // of the vertices alone, as problem.positions are, or of all nodes
+        const auto given = py::array::ensure(by_positions);
+        const auto n_all = py::ssize_t(problem.body.fe_space.n_nodes());
+        const auto n     = py::ssize_t(problem.body.mesh.n_nodes());
+        const bool all   = given && given.ndim() == 2 && given.shape(0) == n_all;
+        const auto rows  = points_of(by_positions, method + ": dJ_dx", all ? n_all : n);
         for (unsigned int dof = 0; dof < 3 * rows.size(); ++dof)
           functional.positions[dof] = rows[dof / 3][dof % 3];
       }
@@ -46,20 +50,28 @@ namespace Exemplar::Python
     }
 
     py::array
+    rows(const Vector &values, const std::size_t n)
+    {
+      return py::array_t<double>({ py::ssize_t(n), py::ssize_t(3) }, values.begin());
+    }
+
+    py::array
     rows(const Vector &values)
     {
-      return py::array_t<double>({ py::ssize_t(values.size() / 3), py::ssize_t(3) },
-                                 values.begin());
+      return rows(values, values.size() / 3);
     }
 
   } // namespace
 
   py::dict
-  gradients_to_python(const Gradients &found)
+  gradients_to_python(const Gradients &found, const std::size_t n_vertices)
   {
     py::dict result;
-    result["young"]   = numbers(found.young);
-    result["poisson"] = numbers(found.poisson);
+    if (found.young)
+    {
+      result["young"]   = numbers(*found.young);
+      result["poisson"] = numbers(*found.poisson);
+    }
     result["density"] = numbers(found.density);
     if (found.importance)
       result["importance"] = *found.importance;
@@ -68,7 +80,7 @@ namespace Exemplar::Python
       poses.append(rows(pose));
     result["poses"] = poses;
     if (found.rest_positions)
-      result["rest_positions"] = rows(*found.rest_positions);
+      result["rest_positions"] = rows(*found.rest_positions, n_vertices);
     result["handles"]      = rows(found.handles);
     result["nodal_forces"] = rows(found.nodal_forces);
     result["gravity"]      = py::array_t<double>(3, found.gravity.data());
@@ -105,7 +117,7 @@ namespace Exemplar::Python
       const Direction functional = functional_of("vjp", by_positions, by_weights, held.get());
       Gradients       found;
       held.change("vjp()", [&](Problem &problem) { found = gradients(problem, functional); });
-      return gradients_to_python(found);
+      return gradients_to_python(found, held.get().body.mesh.n_nodes());
     }
 
     double
@@ -141,8 +153,14 @@ namespace Exemplar::Python
         "  nodal_forces (n, 3), gravity (3,)\n"
         "  weakly_active           a list of weights that are about to reach or to leave their\n"
         "                          bound: there gradients are one-sided\n"
-        "Raises UserError for scenes whose gradients are not known (doc/gradients.md), for a\n"
-        "deformation at which a guard acts, and where the problem is not in equilibrium;\n"
+        "With quadratic elements rows of poses, handles and nodal_forces are those of gradient(), "
+        "with\n"
+        "the middles of edges; rest_positions has a row for each vertex, and dJ_dx one for each "
+        "vertex\n"
+        "or for each node. young and poisson are not there where some cell is orthotropic.\n"
+        "Raises UserError for scenes whose gradients are not known (doc/gradients.md), and where "
+        "the\n"
+        "problem is not in equilibrium or a cell has no unique rotation;\n"
         "SolverFailure if the tangent there is not positive definite.");
     refuse_other_arguments(problem, "vjp", "vjp is called as vjp(dJ_dx, dJ_dw=None).");
     problem.def(
@@ -153,8 +171,8 @@ namespace Exemplar::Python
         "None: zero. The state may be a loosely solved one, or any other with the held nodes at\n"
         "their places: J + correction is mostly much nearer to the truth than J, and the\n"
         "correction says how far that was. It takes one linear system, as vjp().\n"
-        "Raises UserError for scenes whose gradients are not known (doc/gradients.md) and for a\n"
-        "deformation at which a guard acts; SolverFailure if the tangent is not positive\n"
+        "Raises UserError for scenes whose gradients are not known (doc/gradients.md) and where\n"
+        "a cell has no unique rotation; SolverFailure if the tangent is not positive\n"
         "definite.");
     refuse_other_arguments(problem, "correction",
                            "correction is called as correction(dJ_dx, dJ_dw=None).");

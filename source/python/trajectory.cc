@@ -142,9 +142,9 @@ namespace Exemplar::Python
     }
 
     py::dict
-    to_python(TrajectoryGradients found)
+    to_python(TrajectoryGradients found, const std::size_t n_vertices)
     {
-      py::dict result = gradients_to_python(found.all);
+      py::dict result = gradients_to_python(found.all, n_vertices);
       py::list handles;
       for (const std::vector<double> &of_step : found.handles)
         handles.append(py::array_t<double>({ py::ssize_t(found.held_nodes.size()), py::ssize_t(3) },
@@ -191,7 +191,7 @@ namespace Exemplar::Python
       TrajectoryGradients found;
       trajectory.held->change("vjp()", [&](Problem &changed)
                               { found = trajectory_gradients(changed, steps, by_states); });
-      return to_python(std::move(found));
+      return to_python(std::move(found), problem.body.mesh.n_nodes());
     }
 
     void

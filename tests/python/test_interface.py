@@ -152,6 +152,16 @@ class Suggestions(unittest.TestCase):
             with self.subTest(name), self.assertRaisesRegex(exemplar.UserError, "Did you mean '" + name.replace("NAME", r"\w+")):
                 exemplar.Problem({**BAR, **wrong})
 
+    def test_empty_sections(self):
+        """Nothing is in them that would be refused."""
+        for wrong, message in (({"Exmaples": {}}, "no section 'Exmaples'. Did you mean 'Examples'"),
+                               ({"Handels": {"left": {}}}, "no section 'Handels'. Did you mean 'Handles'"),
+                               ({"Nothing like it": {}}, "no section 'Nothing like it'. The sections are .*Mesh, "),
+                               ({"Mesh": {**BAR["Mesh"], "Poses": {}}}, "section Mesh has no section 'Poses'")):
+            with self.subTest(wrong), self.assertRaisesRegex(exemplar.UserError, message):
+                exemplar.Problem({**BAR, **wrong})
+        exemplar.Problem({**BAR, "Examples": {}, "Loads": {}})
+
 
 @unittest.skipUnless(has("matplotlib"), "needs matplotlib")
 class Plot(unittest.TestCase):

@@ -167,6 +167,32 @@ namespace Exemplar
       return constants[constants_of_cell[cell]].youngs_modulus;
     }
 
+    /// What set_material() changes of the body alone, without an elasticity of its examples.
+    struct BodyConstants
+    {
+      double youngs_modulus;  ///< [Pa]
+      double poissons_ratio;  ///< [-]
+      double fibre_stiffness; ///< [Pa]
+      bool   is_orthotropic;  ///< by nine constants, of which the others are none
+    };
+
+    BodyConstants
+    of_body_alone(unsigned int cell) const;
+
+    /// C_e, where it is not the body's.
+    const ExampleElasticity &
+    elasticity_of_examples() const
+    {
+      return of_examples;
+    }
+
+    /// Zeros where nothing asks for them.
+    GrainAxes
+    grain_axes(const unsigned int cell) const
+    {
+      return axes.empty() ? GrainAxes() : axes[cell];
+    }
+
     /// Of the wish to be like the examples [Pa].
     double
     youngs_modulus_of_examples(const unsigned int cell) const

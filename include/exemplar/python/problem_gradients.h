@@ -13,9 +13,9 @@ namespace Exemplar::Python
   void
   add_gradients(ProblemClass &problem);
 
-  /// What problem.vjp() returns.
+  /// What problem.vjp() returns, of a mesh of so many vertices.
   pybind11::dict
-  gradients_to_python(const Gradients &found);
+  gradients_to_python(const Gradients &found, std::size_t n_vertices);
 
   /// (n, 3) in the memory of the field, which is the array's from now on.
   pybind11::array

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
-#include <exemplar/kernels/cell_model.h>
 #include <exemplar/run/adjoint/adjoint_checks.h>
+#include <exemplar/run/adjoint/point_potential.h>
 
 #include <fmt/core.h>
 
@@ -9,6 +9,15 @@
 
 namespace Exemplar
 {
+  bool
+  has_orthotropic_cells(const Problem &problem)
+  {
+    for (unsigned int cell = 0; cell < problem.body.mesh.n_cells(); ++cell)
+      if (problem.body.material.of_body_alone(cell).is_orthotropic)
+        return true;
+    return false;
+  }
+
   namespace
   {
     void
@@ -20,34 +29,33 @@ namespace Exemplar
     void
     require_known_model(const Problem &problem)
     {
-      const ModelParameters &model = problem.parameters.model;
-      if (model.element != Element::P1)
-        refuse("with quadratic elements", "Set Model/Element = P1.");
       const LawsOfCells laws = laws_of_cells(problem.parameters, problem.body);
-      for (unsigned int cell = 0; cell < problem.body.mesh.n_cells(); ++cell)
-        if (laws[cell] != CellLaw::corotational)
+      for (const CellLaw law : laws.present())
+        if (traits_of(law).n_history > 0)
           refuse(
-              fmt::format("of cells that are {}", traits_of(laws[cell]).name),
-              "Known are those of the corotational strain with consistent forces, without fibres, "
-              "nine constants, a yield stress and a neo-Hookean background.");
+              fmt::format("of cells that are {}, as what they have become depends on the whole way "
+                          "to the equilibrium",
+                          traits_of(law).name),
+              "Set Material/Yield stress to 0.");
+        else if (!law_has_potential(law))
+          refuse(
+              fmt::format("of cells that are {}, as their forces are the derivative of no energy",
+                          traits_of(law).name),
+              "Set Model/Gradient = consistent.");
     }
 
     void
     require_known_examples(const Problem &problem)
     {
-      const ExampleParameters &examples = problem.parameters.examples;
       if (problem.examples.poses.size() == 0)
         return;
-      if (examples.acts_on != ActsOn::all)
-        refuse("of examples that act on a part of the strain", "Set Examples/Acts on = all.");
-      if (problem.body.material.has_examples())
-        refuse("of examples with an elasticity of their own",
+      if (problem.body.material.has_examples() && has_orthotropic_cells(problem))
+        refuse("of examples with an elasticity of their own in an orthotropic body",
                "Leave out Examples/Example modulus and Example Poisson ratio.");
-      if (problem.body.material.importance_varies())
-        refuse("where the importance differs from cell to cell",
-               "Leave out the Importance of regions and maps.");
-      if (problem.examples.weights.get_memory().in_use())
-        refuse("of weights that remember", "Set Examples/Yield and Creep viscosity to 0.");
+      if (problem.examples.weights.get_memory().yields() && problem.state.step > 1)
+        refuse("of weights that remember, as what they have become depends on the whole way to the "
+               "equilibrium",
+               "Take one increment, or set Examples/Yield to 0.");
     }
   } // namespace
 
@@ -59,8 +67,34 @@ namespace Exemplar
              "Set Scene = static, or record the steps: with problem.record() as trajectory.");
     if (problem.body.exchange().n_processes() > 1)
       refuse("for several processes", "Use one.");
+    if (!problem.get_own_terms().empty())
+      refuse("of terms that were added to the potential", "Make the problem without add_term().");
     require_known_model(problem);
     require_known_examples(problem);
+  }
+
+  void
+  require_rotations(const Problem &problem)
+  {
+    const FESpace    &fe_space = problem.body.fe_space;
+    const LawsOfCells laws     = laws_of_cells(problem.parameters, problem.body);
+    for (unsigned int point = 0; point < fe_space.n_points(); ++point)
+    {
+      const unsigned int cell = fe_space.cell_of(point);
+      if (!traits_of(laws[cell]).has_rotations)
+        continue;
+      const Matrix3<double> F = fe_space.deformation_gradient(point, problem.state.positions);
+      const Matrix3<double> S = symmetric_part(transpose_times(closest_rotation(F), F));
+      Matrix3<double>       B = combine(-1., S, 0., S);
+      for (int i = 0; i < 3; ++i)
+        B[i][i] += trace(S);
+      if (!(determinant(B) > 1e-9 * std::pow(contract(F, F), 1.5)))
+        throw UserError(
+            fmt::format("Cell {}, counted from 0, is so deformed that its rotation is not "
+                        "unique, where its "
+                        "energy has no derivative. Deform the body less, or refine the mesh there.",
+                        cell));
+    }
   }
 
   void

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/run/adjoint/adjoint_solve.h>
+#include <exemplar/run/adjoint/conjugate_residuals.h>
 #include <exemplar/solvers/step_system.h>
 
 #include <fmt/core.h>
@@ -16,6 +17,14 @@ namespace Exemplar
     /// one beyond which they are not.
     constexpr double solved = 1e-9, unsolved = 1e-7;
 
+    constexpr unsigned int max_corrections = 96;
+
+    Direction
+    image_of(const SlopeDerivatives &derivatives)
+    {
+      return { derivatives.by_positions, derivatives.by_weights };
+    }
+
     /// The equations with the weights that are at no bound; with Z = A^-1 G they are those of Eq. (11).
     class AdjointSystem
     {
@@ -29,7 +38,7 @@ namespace Exemplar
                 problem.clock,
                 false)
       {
-        system.factorize(problem.state.positions, problem.state.weights, 0.);
+        factorize();
         Z = system.bordered().columns();
         if (!Z.empty())
           system.bordered().apply_inverse(Z);
@@ -71,21 +80,73 @@ namespace Exemplar
           scale = std::max({ scale, std::abs(by_state.positions[dof]),
                              std::abs(derivatives.by_positions[dof]) });
         }
-        double of_weights = 0., scale_of_weights = scale_of_terms(direction);
+        double of_weights = 0., scale_of_all = scale_of_terms(direction);
         for (std::size_t weight = 0; weight < inactive.size(); ++weight)
         {
           rest.weights[weight] -= derivatives.by_weights[weight];
-          scale_of_weights = std::max(scale_of_weights, std::abs(by_state.weights[weight]));
+          scale_of_all = std::max(scale_of_all, std::abs(by_state.weights[weight]));
         }
         subtract_multipliers(rest);
         for (std::size_t weight = 0; weight < inactive.size(); ++weight)
           if (inactive[weight])
             of_weights = std::max(of_weights, std::abs(rest.weights[weight]));
         return std::max(scale > 0. ? sum / scale : 0.,
-                        scale_of_weights > 0. ? of_weights / scale_of_weights : 0.);
+                        scale_of_all > 0. ? of_weights / scale_of_all : 0.);
+      }
+
+      Direction
+      zero() const
+      {
+        return { Vector(problem.state.positions.size()),
+                 std::vector<double>(problem.state.weights.size(), 0.) };
+      }
+
+      /// A residual without what is held, what is at a bound, and the multipliers.
+      Direction
+      projected(Direction rest) const
+      {
+        Vector positions(rest.positions.size());
+        for (const unsigned int dof : free)
+          positions[dof] = rest.positions[dof];
+        rest.positions = std::move(positions);
+        subtract_multipliers(rest);
+        for (std::size_t weight = 0; weight < rest.weights.size(); ++weight)
+          if (weight >= inactive.size() || !inactive[weight])
+            rest.weights[weight] = 0.;
+        return rest;
+      }
+
+      /// What a weight's residual [J] counts beside one of a degree of freedom [N].
+      double
+      scale_of_weights()
+      {
+        double of_columns = 0., of_form = 0.;
+        for (const double entry : system.bordered().columns())
+          of_columns = std::max(of_columns, std::abs(entry));
+        for (unsigned int i = 0; i < form.H.m(); ++i)
+          of_form = std::max(of_form, std::abs(form.H(i, i)));
+        return of_columns > 0. && of_form > 0. ? of_columns / of_form : 1.;
       }
 
     private:
+      /// The exact tangent lacks a part in cells that Eq. (16) guards, where it may be indefinite; the convex
+      /// one is near enough there to begin with.
+      void
+      factorize()
+      {
+        const Vector &positions = problem.state.positions;
+        try
+        {
+          system.factorize(positions, problem.state.weights, 0.);
+        }
+        catch (const SolverFailure &)
+        {
+          if (problem.evaluation.elastic.guarded_cells == 0)
+            throw;
+          system.factorize(positions, problem.state.weights, 1.);
+        }
+      }
+
       /// The greatest sum of magnitudes in G^T a and H b, which may cancel.
       double
       scale_of_terms(const Direction &direction)
@@ -180,16 +241,50 @@ namespace Exemplar
       dealii::FullMatrix<double>       inverse;
       double                           size_of_sums = 1.;
     };
+    /// Go on from a solution that an approximate factor has given, until its derivatives are right; returns
+    /// what is left.
+    double
+    correct(Problem         &problem,
+            const Direction &by_state,
+            AdjointSystem   &system,
+            AdjointSolution &solution)
+    {
+      ConjugateResiduals residuals(system.scale_of_weights());
+      Direction          step = std::move(solution.direction), rest = system.projected(by_state);
+      solution.direction = system.zero();
+      double error       = 1.;
+      for (unsigned int n = 0; n < max_corrections && !(error <= solved); ++n)
+      {
+        if (n > 0)
+        {
+          step = system.zero();
+          system.add_solution(rest, step);
+          solution.derivatives = derivatives_of_slope(problem, step);
+        }
+        residuals.add(step, system.projected(image_of(solution.derivatives)), solution.direction,
+                      rest);
+        if (n == 0 || (n > 3 && n % 4 != 3))
+          continue;
+        solution.derivatives = derivatives_of_slope(problem, solution.direction);
+        error = system.residual(by_state, solution.direction, solution.derivatives, rest);
+        rest  = system.projected(std::move(rest));
+      }
+      return error;
+    }
   } // namespace
 
   std::vector<bool>
   are_inactive(const Problem &problem)
   {
     const std::vector<double> &weights = problem.state.weights;
+    const WeightMemory        &memory  = problem.examples.weights.get_memory();
     const bool is_bounded = !problem.examples.weights.limits_of_changes(weights).lower.empty();
     std::vector<bool> inactive(problem.examples.weights.n_unknown());
     for (std::size_t weight = 0; weight < inactive.size(); ++weight)
-      inactive[weight] = !is_bounded || weights[weight] > 0.;
+    {
+      const auto [up, down] = memory.slopes(weight, weights[weight], 0.);
+      inactive[weight]      = (!is_bounded || weights[weight] > 0.) && !(up > down);
+    }
     return inactive;
   }
 
@@ -197,23 +292,18 @@ namespace Exemplar
   solve_adjoint(Problem &problem, const Direction &by_state)
   {
     AdjointSystem   system(problem);
-    AdjointSolution solution{ { Vector(problem.state.positions.size()),
-                                std::vector<double>(problem.state.weights.size(), 0.) },
-                              {} };
-    Direction       rest  = by_state;
-    double          error = 1.;
-    unsigned int    n     = 0;
-    for (; n < 6 && error > solved; ++n)
-    {
-      system.add_solution(rest, solution.direction);
-      solution.derivatives = derivatives_of_slope(problem, solution.direction);
-      error = system.residual(by_state, solution.direction, solution.derivatives, rest);
-    }
+    AdjointSolution solution{ system.zero(), {} };
+    Direction       rest = by_state;
+    system.add_solution(rest, solution.direction);
+    solution.derivatives = derivatives_of_slope(problem, solution.direction);
+    double error = system.residual(by_state, solution.direction, solution.derivatives, rest);
+    if (!(error <= solved))
+      error = correct(problem, by_state, system, solution);
     if (!(error <= unsolved))
       throw SolverFailure(fmt::format(
-          "vjp: the adjoint equations are left with a residual of {:.2g} after {} "
-          "corrections, because rounding is too large in so stiff a body, or a guard acts.",
-          error, n));
+          "vjp: the adjoint equations are left with a residual of {:.2g} after {} corrections, "
+          "because rounding is too large in so stiff a body, or the equilibrium is not stable.",
+          error, max_corrections));
     return solution;
   }
 } // namespace Exemplar

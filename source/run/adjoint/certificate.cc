@@ -11,7 +11,7 @@ namespace Exemplar
   correction(Problem &problem, const Direction &by_state)
   {
     require_known_scene(problem);
-    require_no_guard(problem);
+    require_rotations(problem);
     Evaluation evaluation;
     problem.potential.evaluate(problem.state, RotationUse::update, evaluation);
     const Direction            adjoint = solve_adjoint(problem, by_state).direction;

@@ -2,7 +2,6 @@
 #include <exemplar/run/adjoint/adjoint_checks.h>
 #include <exemplar/run/adjoint/adjoint_solve.h>
 #include <exemplar/run/adjoint/gradients.h>
-#include <exemplar/run/adjoint/trajectory_checks.h>
 
 #include <algorithm>
 
@@ -13,6 +12,24 @@ namespace Exemplar
     /// Of a weight at its bound the multiplier, and else the weight, below which a small change would
     /// move it off the bound or onto it.
     constexpr double weak = 1e-6;
+
+    /// With the slopes of the potential to both sides, and the multiplier in them.
+    bool
+    is_weak(const WeightMemory &memory,
+            const bool          is_bounded,
+            const unsigned int  weight,
+            const double        w,
+            const double        slope,
+            const double        scale)
+    {
+      const auto [up, down] = memory.slopes(weight, w, slope);
+      if (is_bounded && !(w > 0.))
+        return up < weak * scale;
+      if (up > down) // it stays where it was
+        return std::min(up, -down) < weak * scale;
+      return (is_bounded && w < weak)
+             || memory.slopes(weight, w + weak, 0.).up != memory.slopes(weight, w - weak, 0.).up;
+    }
 
     template <typename Numbers>
     Numbers
@@ -30,16 +47,16 @@ namespace Exemplar
     const ExampleWeights      &rule   = problem.examples.weights;
     const std::vector<double> &w      = problem.state.weights,
                               &slopes = evaluation.elastic.weight_gradient;
+    const bool is_bounded = rule.n_unknown() > 0 && !rule.limits_of_changes(w).lower.empty();
     std::vector<unsigned int> found;
-    if (rule.n_unknown() == 0 || rule.limits_of_changes(w).lower.empty())
+    if (rule.n_unknown() == 0)
       return found;
     const std::vector<double> multipliers = rule.residual(w, slopes).multipliers;
     for (unsigned int weight = 0; weight < w.size(); ++weight)
-    {
-      const double excess = slopes[weight] + multipliers[weight / rule.n_per_region()];
-      if (w[weight] < weak && (w[weight] > 0. || excess < weak * evaluation.elastic.weight_scale))
+      if (is_weak(rule.get_memory(), is_bounded, weight, w[weight],
+                  slopes[weight] + multipliers[weight / rule.n_per_region()],
+                  evaluation.elastic.weight_scale))
         found.push_back(weight);
-    }
     return found;
   }
 
@@ -51,13 +68,15 @@ namespace Exemplar
       difference[dof] = 0.;
     return difference;
   }
-
   Gradients
   gradients_of(const Problem &problem, SlopeDerivatives slope)
   {
     Gradients result;
-    result.young              = negative(std::move(slope.by_young));
-    result.poisson            = negative(std::move(slope.by_poisson));
+    if (!has_orthotropic_cells(problem))
+    {
+      result.young   = negative(std::move(slope.by_young));
+      result.poisson = negative(std::move(slope.by_poisson));
+    }
     result.density            = negative(std::move(slope.by_density));
     result.nodal_forces       = negative(std::move(slope.by_nodal_forces));
     result.gravity            = negative(slope.by_gravity);
@@ -77,7 +96,7 @@ namespace Exemplar
   gradients(Problem &problem, const Direction &by_state)
   {
     require_known_scene(problem);
-    require_no_guard(problem);
+    require_rotations(problem);
     Evaluation evaluation;
     problem.potential.evaluate(problem.state, RotationUse::update, evaluation);
     require_equilibrium(problem, evaluation);

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/kernels/cell_model.h>
+#include <exemplar/run/adjoint/example_strains.h>
+#include <exemplar/run/adjoint/point_potential.h>
 #include <exemplar/run/adjoint/slope_terms.h>
 
-#include <numeric>
-
-// The derivatives of the slope of Psi, Eqs. (5) and (25). In a cell it is
-//
-//   V (T : (de - dD) + pi tr(de - dD) + dpi tr(e - D))  with  T = C:(e - D),  D = eta E(w),  dD = eta E(b),
-//
-// where de is the change of the strain along a, and pi and dpi are the pressure of the patch and its change. Of
-// the weights' own energy it has kappa V E(b):C:E(w), kappa = p eta (1 - eta), and the ridge.
+// The derivatives of the slope of Psi, Eqs. (5), (25), (26), (37) and (38): the potential of each point and of
+// each patch is evaluated with numbers that carry its change along the direction, and the derivatives of both
+// by all that it depends on.
 
 namespace Exemplar
 {
@@ -17,82 +13,101 @@ namespace Exemplar
   {
     using Matrix = Matrix3<double>;
 
-    Matrix
-    scaled(const double factor, const Matrix &A)
+    /// Of which the potential of a point has derivatives: F, the six entries of the wish, E, nu, eta.
+    constexpr std::size_t of_F = 0, of_wish = 9, of_E = 15, of_nu = 16, of_eta = 17,
+                          n_of_point = 18;
+
+    using OfPoint   = HyperDual<n_of_point>;
+    using Changing  = HyperDual<0>;
+    using OfPatch   = HyperDual<PatchSums<double>::size + 1>; // and by eta
+    using PatchTerm = PatchSums<Changing>;
+
+    /// With derivatives number `first` and following.
+    template <typename Number>
+    Matrix3<Number>
+    seeded(const Matrix &A, const Matrix &dA, const std::size_t first)
     {
-      return combine(factor, A, 0., A);
+      Matrix3<Number> result;
+      for (std::size_t k = 0; k < 9; ++k)
+      {
+        Number &entry = result[k / 3][k % 3];
+        entry         = Number(A[k / 3][k % 3], dA[k / 3][k % 3]);
+        if (first + k < entry.by.size())
+          entry.by[first + k] = 1.;
+      }
+      return result;
     }
 
-    /// R (Q + W), the derivative by F of S:Q, with W of Eq. (17).
-    Matrix
-    pull_back(const Matrix &R, const Matrix &S, const Matrix &Q)
+    template <typename Number>
+    Matrix3<Number>
+    seeded_symmetric(const Matrix &A, const Matrix &dA, const std::size_t first)
     {
-      Matrix B = combine(-1., S, 0., S);
-      for (int i = 0; i < 3; ++i)
-        B[i][i] += trace(S);
-      const Matrix inverse = scaled(1. / determinant(B), cofactors(B));
-      const Matrix W       = skew_matrix(inverse * axial_vector(commutator(S, Q)));
-      return R * combine(1., Q, 1., W);
+      const SymmetricEntries<double> value = pack(A), change = pack(dA);
+      SymmetricEntries<Number>       entries;
+      for (std::size_t k = 0; k < n_symmetric; ++k)
+      {
+        entries[k] = Number(value[k], change[k]);
+        if (first + k < entries[k].by.size())
+          entries[k].by[first + k] = 1.;
+      }
+      return unpack(entries);
     }
 
-    Matrix
-    add_identity(Matrix A, const double factor)
+    template <typename Number>
+    Number
+    seeded(const double value, const std::size_t k)
     {
-      for (int i = 0; i < 3; ++i)
-        A[i][i] += factor;
+      Number number(value);
+      if (k < number.by.size())
+        number.by[k] = 1.;
+      return number;
+    }
+
+    template <std::size_t n>
+    Matrix
+    matrix_of(const std::array<double, n> &by)
+    {
+      Matrix A;
+      for (std::size_t k = 0; k < 9; ++k)
+        A[k / 3][k % 3] = by[of_F + k];
       return A;
     }
 
-    void
-    add(Matrix &to, const double factor, const Matrix &A)
+    /// The matrix of which the product with a symmetric one has these derivatives by its entries.
+    template <std::size_t n>
+    Matrix
+    symmetric_matrix_of(const std::array<double, n> &by)
     {
-      to = combine(1., to, factor, A);
+      SymmetricEntries<double> entries;
+      for (std::size_t k = 0; k < n_symmetric; ++k)
+        entries[k] = (k < 3 ? 1. : 0.5) * by[of_wish + k];
+      return unpack(entries);
     }
 
-    /// A cell where the slope is taken.
-    struct PointState
+    template <typename Number>
+    Number
+    constant(const Changing &number)
     {
-      double               volume;
-      CellMaterial<double> C; ///< of the cells' own energy
-      Matrix               F, dF, R, S, dS;
-      Matrix               wish, d_wish; ///< E(w) and E(b)
-      double               eta;
-
-      /// e - D and de - dD.
-      Matrix
-      strain() const
-      {
-        return combine(1., add_identity(S, -1.), -eta, wish);
-      }
-
-      Matrix
-      d_strain() const
-      {
-        return combine(1., dS, -eta, d_wish);
-      }
-    };
-
-    /// sum V tr over a patch, of each.
-    struct PatchSums
-    {
-      double strain = 0., d_strain = 0., wish = 0., d_wish = 0.;
-    };
+      return Number(number.value, number.change);
+    }
 
     class Slope
     {
     public:
       Slope(const Problem &problem, const Direction &direction)
           : problem(problem), direction(direction), fe_space(problem.body.fe_space),
-            material(problem.body.material), patches(problem.body.patches),
-            poses(problem.examples.poses), eta(poses.constants().importance)
+            patches(problem.body.patches), poses(problem.examples.poses),
+            laws(laws_of_cells(problem.parameters, problem.body)),
+            scene{ poses.constants(), blended_part(problem.parameters.examples.energy),
+                   patches.size() > 0 },
+            strains(problem, laws)
       {
-        const double p = blended_part(problem.parameters.examples.energy);
-        kappa          = p * eta * (1. - eta);
-        d_kappa        = p * (1. - 2. * eta);
         initialize();
-        find_patch_sums();
+        find_patches();
         for (unsigned int point = 0; point < fe_space.n_points(); ++point)
           add_point(point);
+        if (by_guard_bound != 0.)
+          add_guard_bound();
       }
 
       SlopeDerivatives
@@ -114,127 +129,124 @@ namespace Exemplar
           cells->assign(m, 0.);
       }
 
-      /// sum_i w_i E_i at a point.
-      Matrix
-      blend(const unsigned int point, const std::vector<double> &weights) const
+      /// The potential of a point, with derivatives where numbers carry them.
+      template <typename Number>
+      PointPotential<Number>
+      potential_of(const unsigned int point) const
       {
-        return weights.empty() ? Matrix{} : scaled(1. / eta, poses.strain(point, weights));
-      }
-
-      PointState
-      at(const unsigned int point) const
-      {
-        PointState at;
-        at.volume      = fe_space.volume(point);
-        at.C           = problem.body.cell_material.elasticity(point);
-        at.F           = fe_space.deformation_gradient(point, problem.state.positions);
-        at.dF          = fe_space.deformation_gradient(point, direction.positions);
-        at.R           = closest_rotation(at.F);
-        at.S           = symmetric_part(transpose_times(at.R, at.F));
-        at.eta         = eta;
-        at.wish        = blend(point, problem.state.weights);
-        at.d_wish      = blend(point, direction.weights);
-        const Matrix M = transpose_times(at.R, at.dF);
-        at.dS          = symmetric_part(combine(1., M, -1., cell(at).turn(M) * at.S));
-        return at;
-      }
-
-      CorotationalCell<double>
-      cell(const PointState &at) const
-      {
-        CorotationalCell<double> cell(at.C, at.R, at.F, poses.constants());
-        cell.set_target(scaled(eta, at.wish));
-        return cell;
+        const unsigned int       cell = fe_space.cell_of(point);
+        const Matrix             F  = fe_space.deformation_gradient(point, problem.state.positions);
+        const Matrix             dF = fe_space.deformation_gradient(point, direction.positions);
+        const PointMaterial      material(problem.body.material, problem.body.cell_material,
+                                          problem.parameters.examples.acts_on, cell);
+        const Number             eta = seeded<Number>(scene.examples.importance, of_eta);
+        const PointPlace<Number> at{
+          closest_rotation(F), seeded<Number>(F, dF, of_F),
+          seeded_symmetric<Number>(strains.wish(point, problem.state.weights),
+                                   strains.wish(point, direction.weights), of_wish),
+          MaterialFunctions<Number>(material, seeded<Number>(material.body.youngs_modulus, of_E),
+                                    seeded<Number>(material.body.poissons_ratio, of_nu), eta),
+          eta
+        };
+        return point_potential<Number>(laws[cell], scene, at);
       }
 
       void
-      find_patch_sums()
+      find_patches()
       {
-        of_patches.assign(patches.size(), {});
         for (unsigned int patch = 0; patch < patches.size(); ++patch)
+        {
+          bound_poses.push_back(strains.pose_of_bound(patch));
+          PatchTerm of_patch;
           for (const unsigned int point : patches.points(patch))
           {
-            const PointState here = at(point);
-            PatchSums       &sum  = of_patches[patch];
-            sum.strain += here.volume * trace(here.strain());
-            sum.d_strain += here.volume * trace(here.d_strain());
-            sum.wish += here.volume * trace(here.wish);
-            sum.d_wish += here.volume * trace(here.d_wish);
+            PatchTerm term        = potential_of<Changing>(point).of_patch;
+            term[PatchSum::bound] = Changing(square_of_bound(patch, point));
+            const Changing volume(fe_space.volume(point));
+            for (std::size_t k = 0; k < PatchTerm::size; ++k)
+              of_patch.numbers[k] += volume * term.numbers[k];
           }
+          factors.push_back(factors_of(patch, of_patch));
+        }
       }
 
-      /// What a patch adds to the derivatives in its cells; nothing without patches.
-      struct Pressures
+      double
+      square_of_bound(const unsigned int patch, const unsigned int point) const
       {
-        double pressure = 0., d_pressure = 0.; ///< pi and dpi
-        double wish = 0., d_wish = 0.;         ///< lambda_p theta_p of E(w) and of E(b)
-        double by_lambda   = 0.;               ///< derivative of the slope by lambda_p over V_p
-        double mean_lambda = 0.;               ///< lambda_p
-      };
+        if (!bound_poses[patch])
+          return 0.;
+        const Matrix F = fe_space.deformation_gradient(point, poses.pose(*bound_poses[patch]));
+        return contract(F, F);
+      }
 
-      Pressures
-      pressures(const unsigned int point) const
+      /// The derivatives of a patch's potential by its sums, and how they change.
+      PatchTerm
+      factors_of(const unsigned int patch, const PatchTerm &of_patch)
       {
+        PatchSums<OfPatch> seeded_sums;
+        for (std::size_t k = 0; k < PatchTerm::size; ++k)
+        {
+          seeded_sums.numbers[k]       = constant<OfPatch>(of_patch.numbers[k]);
+          seeded_sums.numbers[k].by[k] = 1.;
+        }
+        const auto       law = traits_of(laws[fe_space.cell_of(patches.points(patch).front())]);
+        const PatchScene of_scene{ scene.blended_part, law.has_guard_of_patches(), law.knows_volume,
+                                   problem.body.material.has_examples() };
+        const OfPatch    potential = patch_potential(
+               of_scene, seeded_sums, seeded<OfPatch>(scene.examples.importance, PatchTerm::size));
+        sums.by_importance += potential.change_by[PatchTerm::size];
+        PatchTerm result;
+        for (std::size_t k = 0; k < PatchTerm::size; ++k)
+          result.numbers[k] = Changing(potential.by[k], potential.change_by[k]);
+        return result;
+      }
+
+      /// With what its patch makes of it.
+      OfPoint
+      whole_potential(const unsigned int point, const PointPotential<OfPoint> &found) const
+      {
+        OfPoint potential = found.own;
         if (patches.size() == 0)
-          return {};
-        const unsigned int patch  = patches.of_point(point);
-        const PatchSums   &sum    = of_patches[patch];
-        const double       volume = patches.volume(patch), lambda = patches.lambda(patch);
-        const double       stiffness = lambda / volume;
-        return { stiffness * sum.strain,
-                 stiffness * sum.d_strain,
-                 stiffness * sum.wish,
-                 stiffness * sum.d_wish,
-                 (sum.strain * sum.d_strain + kappa * sum.wish * sum.d_wish) / (volume * volume),
-                 lambda };
+          return potential;
+        const unsigned int patch   = patches.of_point(point);
+        const PatchTerm   &factor  = factors[patch];
+        const auto         n_bound = static_cast<std::size_t>(PatchSum::bound);
+        for (std::size_t k = 0; k < n_bound; ++k)
+          potential += constant<OfPoint>(factor.numbers[k]) * found.of_patch.numbers[k];
+        potential
+            += constant<OfPoint>(factor.numbers[n_bound]) * OfPoint(square_of_bound(patch, point));
+        return potential;
       }
 
       void
       add_point(const unsigned int point)
       {
-        const PointState here     = at(point);
-        const Pressures  of_patch = pressures(point);
-        // the derivatives of the slope by E(w) and E(b)
-        const Matrix dT      = add_identity(stress(here.C, here.d_strain()), of_patch.d_pressure);
-        const Matrix T       = add_identity(stress(here.C, here.strain()), of_patch.pressure);
-        const Matrix by_wish = combine(kappa * here.volume,
-                                       add_identity(stress(here.C, here.d_wish), of_patch.d_wish),
-                                       -eta * here.volume, dT);
-        const Matrix by_d_wish
-            = combine(kappa * here.volume, add_identity(stress(here.C, here.wish), of_patch.wish),
-                      -eta * here.volume, T);
-        if (poses.size() > 0)
-          sums.by_importance
-              += d_kappa * here.volume
-                     * contract(here.d_wish, add_identity(stress(here.C, here.wish), of_patch.wish))
-                 - here.volume * (contract(dT, here.wish) + contract(T, here.d_wish));
-        Matrix by_gradients = add_deformation(point, here, of_patch);
-        add_examples(point, by_wish, by_d_wish, by_gradients);
-        add_material(point, here, of_patch);
-        add_rest(point, here, of_patch, by_gradients);
+        const PointPotential<OfPoint> found     = potential_of<OfPoint>(point);
+        const OfPoint                 potential = whole_potential(point, found);
+        const double                  V         = fe_space.volume(point);
+        const unsigned int            cell      = fe_space.cell_of(point);
+        const Matrix F    = fe_space.deformation_gradient(point, problem.state.positions);
+        const Matrix dF   = fe_space.deformation_gradient(point, direction.positions);
+        const Matrix by_F = matrix_of(potential.change_by), by_dF = matrix_of(potential.by);
+        add_forces(fe_space, point, times(V, by_F), sums.by_positions);
+        Matrix by_gradients = combine(V, transpose_times(F, by_F), V, transpose_times(dF, by_dF));
+        add_examples(point, times(V, symmetric_matrix_of(potential.change_by)),
+                     times(V, symmetric_matrix_of(potential.by)), by_gradients);
+        sums.by_young[cell] += V * potential.change_by[of_E];
+        sums.by_poisson[cell] += V * potential.change_by[of_nu];
+        sums.by_importance += V * potential.change_by[of_eta];
+        by_guard_bound += V * found.by_guard_bound.change;
+        add_at_vertices(fe_space, cell,
+                        combine(V * potential.change, identity_matrix<double>(), -1., by_gradients),
+                        sums.by_rest_positions);
       }
 
-      /// By the positions; returns F^T dslope/dF summed over F and dF.
-      Matrix
-      add_deformation(const unsigned int point, const PointState &here, const Pressures &of_patch)
-      {
-        CorotationalCell<double> of_cell = cell(here);
-        of_cell.add_pressure(of_patch.pressure);
-        const Matrix M       = transpose_times(here.R, here.dF);
-        const Matrix of_wish = pull_back(here.R, here.S, stress(here.C, here.d_wish));
-        Matrix       by_F    = here.R * add_identity(of_cell.response(M), of_patch.d_pressure);
-        add(by_F, -eta, of_wish);
-        const Matrix by_dF = here.R * of_cell.force();
-        add_forces(fe_space, point, scaled(here.volume, by_F), sums.by_positions);
-        return combine(here.volume, transpose_times(here.F, by_F), here.volume,
-                       transpose_times(here.dF, by_dF));
-      }
-
-      /// By weights and poses; adds F_i^T dslope/dF_i to `by_gradients`.
+      /// By weights and poses, of the slope's derivatives by the wish and by its change; adds what follows
+      /// from the gradients of shape functions in the poses.
       void
       add_examples(const unsigned int point,
                    const Matrix      &by_wish,
-                   const Matrix      &by_d_wish,
+                   const Matrix      &by_change,
                    Matrix            &by_gradients)
       {
         const std::vector<double> &w = problem.state.weights, &b = direction.weights;
@@ -243,82 +255,59 @@ namespace Exemplar
             point,
             [&](const unsigned int weight, const unsigned int i, const double share)
             {
-              sums.by_weights[weight] += share / eta * contract(poses.strain(point, i), by_wish);
-              add(by_strains[i], share * w[weight], by_wish);
-              add(by_strains[i], share * b[weight], by_d_wish);
+              sums.by_weights[weight] += share * contract(strains.strain(point, i), by_wish);
+              by_strains[i] = combine(1., by_strains[i], share,
+                                      combine(w[weight], by_wish, b[weight], by_change));
             });
         for (unsigned int i = 0; i < poses.size(); ++i)
-        {
-          if (!poses.is_strained(i))
-            continue;
-          const Matrix F    = fe_space.deformation_gradient(point, poses.pose(i));
-          const Matrix R    = closest_rotation(F);
-          const Matrix by_F = pull_back(R, symmetric_part(transpose_times(R, F)), by_strains[i]);
-          add_forces(fe_space, point, by_F, sums.by_poses[i]);
-          add(by_gradients, 1., transpose_times(F, by_F));
-        }
-      }
-
-      /// V (e - D):C:(de - dD) + kappa V E(w):C:E(b) for this C.
-      double
-      own_slope(const PointState &here, const CellMaterial<double> &C) const
-      {
-        return here.volume
-               * (contract(stress(C, here.strain()), here.d_strain())
-                  + kappa * contract(stress(C, here.wish), here.d_wish));
+          if (poses.is_strained(i))
+            add_pose(point, i, by_strains[i], by_gradients);
       }
 
       void
-      add_material(const unsigned int point, const PointState &here, const Pressures &of_patch)
+      add_pose(const unsigned int point,
+               const unsigned int i,
+               const Matrix      &by_strain,
+               Matrix            &by_gradients)
       {
-        const CellMaterial<double> all = material.elasticity(point);
-        const double               E   = material.youngs_modulus(point);
-        const double         nu = 0.5 * all.lambda / (all.lambda + all.mu), lateral = 1. - 2. * nu;
-        CellMaterial<double> by_nu{
-          E * (1. + 2. * nu * nu) / ((1. + nu) * (1. + nu) * lateral * lateral), -all.mu / (1. + nu)
-        };
-        const double of_patches = here.volume * of_patch.by_lambda;
-        sums.by_young[point] += (own_slope(here, here.C) + all.lambda * of_patches) / E;
-        sums.by_poisson[point] += by_nu.lambda * of_patches;
+        const Matrix F    = fe_space.deformation_gradient(point, poses.pose(i));
+        Matrix       by_F = strains.pulled_back(point, i, by_strain);
         if (patches.size() > 0)
-          by_nu.lambda = 0.;
-        sums.by_poisson[point] += own_slope(here, by_nu);
+          if (const unsigned int patch = patches.of_point(point); bound_poses[patch] == i)
+            by_F = combine(1., by_F,
+                           2. * fe_space.volume(point) * factors[patch][PatchSum::bound].change, F);
+        add_forces(fe_space, point, by_F, sums.by_poses[i]);
+        by_gradients = combine(1., by_gradients, 1., transpose_times(F, by_F));
       }
 
-      /// By the rest positions, on which the volumes and the gradients of shape functions depend.
+      /// p_0 of Eq. (16) follows from the example that it must leave as it is.
       void
-      add_rest(const unsigned int point,
-               const PointState  &here,
-               const Pressures   &of_patch,
-               const Matrix      &by_gradients)
+      add_guard_bound()
       {
-        double by_volume = own_slope(here, here.C); // times the volume
-        if (patches.size() > 0)
-        {
-          by_volume += here.volume
-                       * (of_patch.pressure * trace(here.d_strain())
-                          + of_patch.d_pressure * trace(here.strain())
-                          + kappa
-                                * (of_patch.wish * trace(here.d_wish)
-                                   + of_patch.d_wish * trace(here.wish)));
-          // of the patch's volume, and of its lambda, which is a mean over the volumes
-          by_volume += here.volume * of_patch.by_lambda
-                       * (material.lambda_of_patches(point) - 2. * of_patch.mean_lambda);
-        }
-        add_forces(fe_space, point, add_identity(scaled(-1., by_gradients), by_volume),
-                   sums.by_rest_positions);
+        const auto where = strains.place_of_guard_bound();
+        if (!where)
+          return;
+        const Matrix by_strain
+            = times(0.5 * by_guard_bound, p_derivative(strains.stretch(where->point, where->pose)));
+        const Matrix by_F = strains.pulled_back(where->point, where->pose, by_strain);
+        const Matrix F    = fe_space.deformation_gradient(where->point, poses.pose(where->pose));
+        add_forces(fe_space, where->point, by_F, sums.by_poses[where->pose]);
+        add_at_vertices(fe_space, fe_space.cell_of(where->point),
+                        times(-1., transpose_times(F, by_F)), sums.by_rest_positions);
       }
 
-      const Problem         &problem;
-      const Direction       &direction;
-      const FESpace         &fe_space;
-      const Material        &material;
-      const Patches         &patches;
-      const ExamplePoses    &poses;
-      const double           eta;
-      double                 kappa, d_kappa; ///< kappa and its derivative by eta
-      std::vector<PatchSums> of_patches;
-      SlopeDerivatives       sums;
+      const Problem                           &problem;
+      const Direction                         &direction;
+      const FESpace                           &fe_space;
+      const Patches                           &patches;
+      const ExamplePoses                      &poses;
+      const LawsOfCells                        laws;
+      const PointScene                         scene;
+      const ExampleStrains                     strains;
+      std::vector<PatchTerm>                   factors;     ///< of each patch
+      std::vector<std::optional<unsigned int>> bound_poses; ///< of each patch
+      double                                   by_guard_bound = 0.;
+      SlopeDerivatives                         sums;
     };
   } // namespace
 

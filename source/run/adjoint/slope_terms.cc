@@ -20,10 +20,34 @@ namespace Exemplar
   }
 
   void
-  add_volume(const FESpace &fe_space, const unsigned int point, const double by_volume, Vector &to)
+  add_at_vertices(const FESpace         &fe_space,
+                  const unsigned int     cell,
+                  const Matrix3<double> &by_gradient,
+                  Vector                &to)
   {
-    add_forces(fe_space, point,
-               combine(by_volume, identity_matrix<double>(), 0., Matrix3<double>{}), to);
+    const auto      nodes = fe_space.nodes(cell);
+    const Vector   &X     = fe_space.rest_positions();
+    Matrix3<double> edges; // columns from vertex 0
+    for (int i = 0; i < 3; ++i)
+      for (int v = 0; v < 3; ++v)
+        edges[i][v] = X[3 * nodes[v + 1] + i] - X[3 * nodes[0] + i];
+    const Matrix3<double> cofactor
+        = cofactors(edges); // its columns over the determinant are grad L_v
+    const Matrix3<double> forces
+        = combine(1. / determinant(edges), by_gradient * cofactor, 0., cofactor);
+    for (unsigned int c = 0; c < 3; ++c)
+      for (unsigned int v = 0; v < 3; ++v)
+      {
+        to[3 * nodes[v + 1] + c] += forces[c][v];
+        to[3 * nodes[0] + c] -= forces[c][v];
+      }
+  }
+
+  void
+  add_volume(const FESpace &fe_space, const unsigned int cell, const double by_volume, Vector &to)
+  {
+    add_at_vertices(fe_space, cell,
+                    combine(by_volume, identity_matrix<double>(), 0., Matrix3<double>{}), to);
   }
 
   void
@@ -31,16 +55,18 @@ namespace Exemplar
   {
     if (problem.examples.weights.n_unknown() == 0)
       return;
-    const FESpace             &fe_space   = problem.body.fe_space;
-    const Material            &material   = problem.body.material;
-    const ExamplePoses        &poses      = problem.examples.poses;
-    const ExampleParameters   &parameters = problem.parameters.examples;
-    const double               total      = fe_space.total_volume();
-    const double               sigma      = parameters.ridge(unit_energy(fe_space, material));
-    const double               by_unit    = parameters.ridge(1.) - parameters.ridge(0.);
-    const std::vector<double>  fractions  = poses.volume_fractions();
+    const FESpace            &fe_space   = problem.body.fe_space;
+    const Material           &material   = problem.body.material;
+    const ExamplePoses       &poses      = problem.examples.poses;
+    const ExampleParameters  &parameters = problem.parameters.examples;
+    const double              total      = fe_space.total_volume();
+    const double              sigma = parameters.ridge(unit_energy_of_examples(fe_space, material));
+    const double              by_unit   = parameters.ridge(1.) - parameters.ridge(0.);
+    const std::vector<double> fractions = poses.volume_fractions();
     const std::vector<double> &w = problem.state.weights, &b = direction.weights;
+    const WeightMemory        &memory = problem.examples.weights.get_memory();
     std::vector<double>        products(fractions.size(), 0.); // w.b of each region
+    std::vector<double>        prices(fractions.size(), 0.);   // of moving along b, over the volume
     double                     mean = 0.;
     for (unsigned int weight = 0; weight < poses.n_weights(); ++weight)
     {
@@ -48,19 +74,28 @@ namespace Exemplar
       sums.by_weights[weight] += sigma * fractions[region] * b[weight];
       products[region] += w[weight] * b[weight];
       mean += fractions[region] * w[weight] * b[weight];
+      if (memory.yields())
+        prices[region]
+            += memory.slopes(weight, w[weight], 0.).up * b[weight] / (fractions[region] * total);
     }
     for (unsigned int point = 0; point < fe_space.n_points(); ++point)
     {
-      const double volume = fe_space.volume(point);
-      double       here   = 0.;
-      poses.get_regions().for_each(point, [&](const unsigned int region, const double share)
-                                   { here += share * products[region]; });
-      sums.by_young[point] += by_unit * volume * mean;
-      add_volume(
-          fe_space, point,
-          volume
-              * (by_unit * material.youngs_modulus(point) * mean + sigma * (here - mean) / total),
-          sums.by_rest_positions);
+      const unsigned int cell   = fe_space.cell_of(point);
+      const double       volume = fe_space.volume(point);
+      double             here = 0., price = 0.;
+      poses.get_regions().for_each(point,
+                                   [&](const unsigned int region, const double share)
+                                   {
+                                     here += share * products[region];
+                                     price += share * prices[region];
+                                   });
+      if (!material.elasticity_of_examples().youngs_modulus)
+        sums.by_young[cell] += by_unit * volume * mean;
+      add_volume(fe_space, cell,
+                 volume
+                     * (by_unit * material.youngs_modulus_of_examples(cell) * mean
+                        + sigma * (here - mean) / total + price),
+                 sums.by_rest_positions);
     }
   }
 
@@ -71,19 +106,26 @@ namespace Exemplar
     const LoadsParameters &loads    = problem.parameters.loads;
     const double           ramp     = loads.ramp == LoadRamp::increments ? problem.state.time : 1.;
     sums.by_nodal_forces.add(-ramp, direction.positions);
-    for (unsigned int point = 0; point < fe_space.n_points(); ++point)
+    const bool is_consistent = problem.parameters.material.mass_matrix == MassMatrix::consistent;
+    const NodeShares &shares
+        = traits_of(fe_space.element())
+              .in_cell.by(is_consistent ? ShareRule::consistent : ShareRule::lumped);
+    for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
     {
-      const double mass = fe_space.volume(point) * problem.body.material.density(point);
-      double       work = 0.; // of gravity on a unit of mass, along the direction
-      for (const unsigned int node : fe_space.nodes(point))
+      const double volume = fe_space.cell_volume(cell);
+      const double mass   = volume * problem.body.material.density(cell);
+      const auto   nodes  = fe_space.nodes(cell);
+      double       work   = 0.; // of gravity on a unit of mass, along the direction
+      for (unsigned int a = 0; a < nodes.size(); ++a)
         for (unsigned int c = 0; c < 3; ++c)
         {
-          const double mean = -0.25 * ramp * direction.positions[3 * node + c];
-          sums.by_gravity[c] += mass * mean;
-          work += mean * loads.gravity[c];
+          const double part = -ramp * (a < 4 ? shares.of_vertex(1.) : shares.of_edge(1.))
+                              * direction.positions[3 * nodes[a] + c];
+          sums.by_gravity[c] += mass * part;
+          work += part * loads.gravity[c];
         }
-      sums.by_density[point] += fe_space.volume(point) * work;
-      add_volume(fe_space, point, mass * work, sums.by_rest_positions);
+      sums.by_density[cell] += volume * work;
+      add_volume(fe_space, cell, mass * work, sums.by_rest_positions);
     }
   }
 } // namespace Exemplar

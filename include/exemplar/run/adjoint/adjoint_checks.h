@@ -8,9 +8,17 @@
 
 namespace Exemplar
 {
+  /// Whether some have nine constants, which do not follow from Young's modulus and Poisson's ratio.
+  bool
+  has_orthotropic_cells(const Problem &problem);
+
   /// Throws UserError, by name, for what the scene has and gradients do not know.
   void
   require_known_scene(const Problem &problem);
+
+  /// Throws UserError where the rotation of a cell is not unique, so that its energy has a kink.
+  void
+  require_rotations(const Problem &problem);
 
   /// Throws UserError for a state that is not in equilibrium.
   void

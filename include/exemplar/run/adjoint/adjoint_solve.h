@@ -19,7 +19,7 @@ namespace Exemplar
   AdjointSolution
   solve_adjoint(Problem &problem, const Direction &by_state);
 
-  /// Whether steps find this weight and no bound holds it.
+  /// Whether steps find this weight and neither a bound holds it nor what it remembers.
   std::vector<bool>
   are_inactive(const Problem &problem);
 } // namespace Exemplar

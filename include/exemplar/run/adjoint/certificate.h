@@ -10,7 +10,7 @@ namespace Exemplar
   /// first order: -(a.dPhi/dx + b.dPhi/dw) with the adjoint direction (a, b) of its derivatives, which is
   /// what a Newton step with the exact tangent would change of J. The state need be no equilibrium; held
   /// nodes and weights at their bounds stay. Throws UserError for scenes whose gradients are not known and
-  /// where a guard acts, and SolverFailure if the exact tangent is not positive definite. The problem stays
+  /// where the rotation of a cell is not unique, and SolverFailure if the exact tangent is not positive definite. The problem stays
   /// as it is.
   double
   correction(Problem &problem, const Direction &by_state);

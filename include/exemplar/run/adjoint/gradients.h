@@ -12,13 +12,14 @@ namespace Exemplar
   /// equilibrium depends on; doc/gradients.md.
   struct Gradients
   {
-    std::vector<double>       young, poisson, density; ///< by cell
-    std::optional<double>     importance;              ///< with examples
-    std::vector<Vector>       poses;                   ///< of all examples but the rest pose
-    std::optional<Vector>     rest_positions;          ///< unless shares of regions follow them
-    Vector                    handles;                 ///< zero where nothing is held
-    Vector                    nodal_forces;
-    std::array<double, 3>     gravity{};
+    std::optional<std::vector<double>> young, poisson; ///< by cell; unless some cell is orthotropic
+    std::vector<double>                density;        ///< by cell
+    std::optional<double>              importance;     ///< with examples
+    std::vector<Vector>                poses;          ///< of all examples but the rest pose
+    std::optional<Vector>              rest_positions; ///< unless shares of regions follow them
+    Vector                             handles;        ///< zero where nothing is held
+    Vector                             nodal_forces;
+    std::array<double, 3>              gravity{};
     std::vector<unsigned int> weakly_active; ///< weights at which the gradient is one-sided
   };
 

@@ -30,8 +30,7 @@ namespace Exemplar
     std::array<double, 3> by_gravity{};
   };
 
-  /// Of a static problem with linear elements whose cells are corotational and beyond no guard; see
-  /// require_gradients().
+  /// Of a static problem that adjoint_checks.h knows.
   SlopeDerivatives
   derivatives_of_slope(const Problem &problem, const Direction &direction);
 } // namespace Exemplar

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_hyper_dual_h
+#define exemplar_hyper_dual_h
+
+#include <exemplar/kernels/neo_hookean_cell.h>
+
+#include <array>
+#include <cmath>
+
+// Numbers that carry derivatives, for the laws of a cell, which are written for any number type. No deal.II
+// header here: see matrix3.h.
+
+namespace Exemplar
+{
+  /// A number f(t, p) where t = 0, with df/dt, the derivatives by n parameters p, and the derivatives of df/dt
+  /// by them: hyper-dual numbers (Fike and Alonso 2011), of which one direction is t. What is computed with
+  /// them is exact but for rounding.
+  template <std::size_t n>
+  struct HyperDual
+  {
+    double                value     = 0.;
+    double                change    = 0.; ///< by t
+    std::array<double, n> by        = {};
+    std::array<double, n> change_by = {};
+
+    HyperDual() = default;
+
+    /// A constant.
+    explicit HyperDual(const double value) : value(value) {}
+
+    /// One that changes with t.
+    HyperDual(const double value, const double change) : value(value), change(change) {}
+
+    HyperDual &
+    operator+=(const HyperDual &x)
+    {
+      value += x.value;
+      change += x.change;
+      for (std::size_t k = 0; k < n; ++k)
+        by[k] += x.by[k];
+      for (std::size_t k = 0; k < n; ++k)
+        change_by[k] += x.change_by[k];
+      return *this;
+    }
+
+    HyperDual &
+    operator-=(const HyperDual &x)
+    {
+      value -= x.value;
+      change -= x.change;
+      for (std::size_t k = 0; k < n; ++k)
+        by[k] -= x.by[k];
+      for (std::size_t k = 0; k < n; ++k)
+        change_by[k] -= x.change_by[k];
+      return *this;
+    }
+
+    HyperDual &
+    operator*=(const HyperDual &x)
+    {
+      for (std::size_t k = 0; k < n; ++k)
+        change_by[k]
+            = change_by[k] * x.value + by[k] * x.change + change * x.by[k] + value * x.change_by[k];
+      for (std::size_t k = 0; k < n; ++k)
+        by[k] = by[k] * x.value + value * x.by[k];
+      change = change * x.value + value * x.change;
+      value *= x.value;
+      return *this;
+    }
+
+    HyperDual &
+    operator/=(const HyperDual &x)
+    {
+      return *this *= inverse(x);
+    }
+  };
+
+  /// g(x), of which the value and the first two derivatives are these.
+  template <std::size_t n>
+  HyperDual<n>
+  chained(const HyperDual<n> &x, const double g, const double first, const double second)
+  {
+    HyperDual<n> result(g, first * x.change);
+    for (std::size_t k = 0; k < n; ++k)
+      result.by[k] = first * x.by[k];
+    for (std::size_t k = 0; k < n; ++k)
+      result.change_by[k] = first * x.change_by[k] + second * x.change * x.by[k];
+    return result;
+  }
+
+  template <std::size_t n>
+  HyperDual<n>
+  inverse(const HyperDual<n> &x)
+  {
+    const double i = 1. / x.value;
+    return chained(x, i, -i * i, 2. * i * i * i);
+  }
+
+  template <std::size_t n>
+  HyperDual<n>
+  sqrt(const HyperDual<n> &x)
+  {
+    const double root = std::sqrt(x.value);
+    return chained(x, root, 0.5 / root, -0.25 / (root * x.value));
+  }
+
+  template <std::size_t n>
+  HyperDual<n>
+  operator-(const HyperDual<n> &x)
+  {
+    return HyperDual<n>() -= x;
+  }
+
+  template <std::size_t n>
+  HyperDual<n>
+  operator+(HyperDual<n> x, const HyperDual<n> &y)
+  {
+    return x += y;
+  }
+
+  template <std::size_t n>
+  HyperDual<n>
+  operator-(HyperDual<n> x, const HyperDual<n> &y)
+  {
+    return x -= y;
+  }
+
+  template <std::size_t n>
+  HyperDual<n>
+  operator*(HyperDual<n> x, const HyperDual<n> &y)
+  {
+    return x *= y;
+  }
+
+  template <std::size_t n>
+  HyperDual<n>
+  operator/(HyperDual<n> x, const HyperDual<n> &y)
+  {
+    return x /= y;
+  }
+
+  // Decisions depend on values alone.
+
+  template <std::size_t n>
+  bool
+  operator<(const HyperDual<n> &x, const HyperDual<n> &y)
+  {
+    return x.value < y.value;
+  }
+
+  template <std::size_t n>
+  bool
+  operator>(const HyperDual<n> &x, const HyperDual<n> &y)
+  {
+    return x.value > y.value;
+  }
+
+  template <std::size_t n>
+  bool
+  operator<=(const HyperDual<n> &x, const HyperDual<n> &y)
+  {
+    return x.value <= y.value;
+  }
+
+  template <std::size_t n>
+  bool
+  operator>=(const HyperDual<n> &x, const HyperDual<n> &y)
+  {
+    return x.value >= y.value;
+  }
+
+  template <std::size_t n>
+  HyperDual<n>
+  max(const HyperDual<n> &x, const HyperDual<n> &y)
+  {
+    return x.value < y.value ? y : x;
+  }
+
+  template <std::size_t n>
+  HyperDual<n>
+  abs(const HyperDual<n> &x)
+  {
+    return x.value < 0. ? -x : x;
+  }
+
+  template <std::size_t n>
+  HyperDual<n>
+  select(const bool condition, const HyperDual<n> &x, const HyperDual<n> &y)
+  {
+    return condition ? x : y;
+  }
+
+  /// x - log(1 + x).
+  template <std::size_t n>
+  HyperDual<n>
+  beyond_logarithm(const HyperDual<n> &x)
+  {
+    const double i = 1. / (1. + x.value);
+    return chained(x, x.value - std::log1p(x.value), x.value * i, i * i);
+  }
+} // namespace Exemplar
+
+#endif

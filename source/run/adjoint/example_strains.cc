@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/run/adjoint/example_strains.h>
+#include <exemplar/run/adjoint/point_potential.h>
+
+namespace Exemplar
+{
+  PointMaterial::PointMaterial(const Material    &material,
+                               const Material    &cell_material,
+                               const ActsOn       acts_on,
+                               const unsigned int cell)
+      : material(material), cell_material(cell_material), cell(cell), acts_on(acts_on),
+        body(material.of_body_alone(cell)), of_examples(material.elasticity_of_examples()),
+        importance(material.importance(cell)), axis{}
+  {
+    const GrainAxes axes = material.grain_axes(cell);
+    for (int i = 0; i < 3; ++i)
+      axis[i] = axes.along[static_cast<std::size_t>(i)];
+  }
+
+  ExampleStrains::ExampleStrains(const Problem &problem, const LawsOfCells &laws)
+      : fe_space(problem.body.fe_space), patches(problem.body.patches),
+        poses(problem.examples.poses), laws(laws)
+  {
+    strains.assign(fe_space.n_points() * poses.size(), Matrix3<double>{});
+    for (unsigned int point = 0; point < fe_space.n_points(); ++point)
+      for (unsigned int i = 0; i < poses.size(); ++i)
+        if (poses.is_strained(i))
+        {
+          const CellLaw         law         = laws[fe_space.cell_of(point)];
+          const Matrix3<double> F           = fe_space.deformation_gradient(point, poses.pose(i));
+          strains[point * poses.size() + i] = model_strain(law, model_rotation(law, F), F);
+        }
+  }
+
+  Matrix3<double>
+  ExampleStrains::stretch(const unsigned int point, const unsigned int i) const
+  {
+    return combine(1., strain(point, i), 1., identity_matrix<double>());
+  }
+
+  Matrix3<double>
+  ExampleStrains::wish(const unsigned int point, const std::vector<double> &weights) const
+  {
+    Matrix3<double> sum{};
+    poses.for_each_weight(point,
+                          [&](const unsigned int weight, const unsigned int i, const double share)
+                          { sum = combine(1., sum, share * weights[weight], strain(point, i)); });
+    return sum;
+  }
+
+  Matrix3<double>
+  ExampleStrains::pulled_back(const unsigned int     point,
+                              const unsigned int     i,
+                              const Matrix3<double> &by_strain) const
+  {
+    using Number            = HyperDual<9>;
+    const Matrix3<double> F = fe_space.deformation_gradient(point, poses.pose(i));
+    Matrix3<Number>       seeded;
+    for (std::size_t k = 0; k < 9; ++k)
+    {
+      seeded[k / 3][k % 3]       = Number(F[k / 3][k % 3]);
+      seeded[k / 3][k % 3].by[k] = 1.;
+    }
+    Matrix3<double> result{};
+    with_potential<Number>(laws[fe_space.cell_of(point)],
+                           [&](auto model)
+                           {
+                             using Cell = typename decltype(model)::type;
+                             const Number product
+                                 = contract(strain_near<Cell>(closest_rotation(F), seeded),
+                                            constant_matrix<Number>(by_strain));
+                             for (std::size_t k = 0; k < 9; ++k)
+                               result[k / 3][k % 3] = product.by[k];
+                           });
+    return result;
+  }
+
+  std::optional<ExampleStrains::Place>
+  ExampleStrains::place_of_guard_bound() const
+  {
+    double               minimum = 2. * ExampleConstants().guard_bound;
+    std::optional<Place> place;
+    for (unsigned int point = 0; point < fe_space.n_points(); ++point)
+      for (unsigned int i = 0; i < poses.size(); ++i)
+      {
+        if (!poses.is_strained(i) || !traits_of(laws[fe_space.cell_of(point)]).has_guard)
+          continue;
+        const Matrix3<double> S = stretch(point, i);
+        Matrix3<double>       B = combine(-1., S, 0., S);
+        for (int k = 0; k < 3; ++k)
+          B[k][k] += trace(S);
+        if (const double p = determinant(B); p < minimum)
+        {
+          minimum = p;
+          place   = Place{ point, i };
+        }
+      }
+    return place;
+  }
+
+  std::optional<unsigned int>
+  ExampleStrains::pose_of_bound(const unsigned int patch) const
+  {
+    double                      maximum = min_stretched_square / 1.2;
+    std::optional<unsigned int> result;
+    for (unsigned int i = 0; i < poses.size(); ++i)
+    {
+      double mean = 0.;
+      for (const unsigned int point : patches.points(patch))
+      {
+        const Matrix3<double> F = fe_space.deformation_gradient(point, poses.pose(i));
+        mean += fe_space.volume(point) / patches.volume(patch) * contract(F, F);
+      }
+      if (mean > maximum)
+      {
+        maximum = mean;
+        result  = i;
+      }
+    }
+    return result;
+  }
+} // namespace Exemplar
