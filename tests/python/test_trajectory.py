@@ -302,7 +302,7 @@ class Refusals(unittest.TestCase):
         self.refuse("while the problem was recorded its state was set", within=lambda problem: problem.reset())
 
     def test_scenes(self):
-        scenes = {"of steps of one pass": scene(Solver={"Method": "one pass"}),
+        scenes = {"through steps of one pass": scene(Solver={"Method": "one pass"}),
                   "cells that are frozen": scene(Model={"Gradient": "frozen"}, Solver={"Method": "fixed point", "Tolerance": 1e-4}),
                   "quadratic": scene(Model={"Element": "P2"}), "plastic": scene(Material={"Yield stress": 1e4}, Examples={"Energy": "blended"}),
                   "weights that remember": scene(Examples={"Yield": 1e-3}), "part of the strain": scene(Examples={"Acts on": "shape"})}

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/algebra/long_vectors.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/run/adjoint/step_adjoint.h>
+#include <exemplar/solvers/step_system.h>
 
 #include <fmt/core.h>
 
@@ -12,16 +12,9 @@ namespace Exemplar
 {
   namespace
   {
-    /// Conjugate gradients are ended where they leave this part of what is allowed, as the exact
-    /// derivatives have rounding of their own.
-    constexpr double margin = 0.3;
-
-    /// After so many iterations the next state gets a factor of its own, and this one if it comes to the
-    /// second number. A factorisation costs as much as some ten of them.
-    constexpr unsigned int many_iterations = 8, max_iterations = 25;
-
-    /// The same of a factor that is not of an earlier state: what single precision loses.
-    constexpr unsigned int max_iterations_of_own = 300;
+    /// A residual of the adjoint equations, relative to their right side, at which they are solved, and
+    /// one beyond which they are not.
+    constexpr double solved_step = 1e-9, unsolved_step = 1e-7;
 
     /// UMFPACK has no factor of the positions' part alone.
     SolverParameters
@@ -32,45 +25,17 @@ namespace Exemplar
         solver.linear_solver = LinearSolver::automatic;
       return solver;
     }
-
-    double
-    product_of(const BorderedVector &a, const BorderedVector &b)
-    {
-      return Exemplar::dot(a.positions, b.positions) + Exemplar::dot(a.weights, b.weights);
-    }
-
-    void
-    add_vector(BorderedVector &a, const double factor, const BorderedVector &b)
-    {
-      Exemplar::add(a.positions, factor, b.positions);
-      Exemplar::add(a.weights, factor, b.weights);
-    }
-
-    /// out += A x, of a matrix of which the lower triangle is given.
-    void
-    add_product(const SymmetricPattern    &pattern,
-                const std::vector<double> &values,
-                const std::vector<double> &x,
-                std::vector<double>       &out)
-    {
-      for (unsigned int j = 0; j < pattern.n(); ++j)
-      {
-        const int diagonal = pattern.column_start[j];
-        double    sum      = values[diagonal] * x[j];
-        for (int k = diagonal + 1; k < pattern.column_start[j + 1]; ++k)
-        {
-          sum += values[k] * x[pattern.row[k]];
-          out[pattern.row[k]] += values[k] * x[j];
-        }
-        out[j] += sum;
-      }
-    }
   } // namespace
 
-  StepAdjoint::StepAdjoint(Problem &problem, const double tolerance)
-      : problem(problem), tolerance(tolerance), free(problem.potential.get_free_dofs().list()),
+  StepAdjoint::StepAdjoint(Problem &problem)
+      : problem(problem), free(problem.potential.get_free_dofs().list()),
         form(problem.potential.get_weights().weight_form()),
-        system(make_bordered_system(solver_of_steps(problem), problem.potential))
+        system(
+            problem.potential,
+            [&problem]
+            { return make_bordered_system(solver_of_steps(problem), problem.potential); },
+            problem.clock,
+            false)
   {
   }
 
@@ -78,164 +43,131 @@ namespace Exemplar
   StepAdjoint::go_to_state()
   {
     inactive = are_inactive(problem);
-    problem.potential.assemble(problem.state.positions, problem.state.weights, 0.,
-                               system->matrix_values(), system->columns(),
-                               system->outer_products());
-    problem.potential.get_free_dofs().assemble_columns(system->columns());
-    is_own = false;
-    if (is_worn || system->outer_products() != nullptr)
-      factorize();
-    else
-      inverse.set_inactive(inactive);
+    system.factorize(problem.state.positions, problem.state.weights, 0.);
+    Z = system.bordered().columns();
+    if (!Z.empty())
+      system.bordered().apply_inverse(Z);
+    make_weight_matrix();
   }
 
   void
-  StepAdjoint::factorize()
+  StepAdjoint::add_solution(const Direction &right_side, Direction &direction)
   {
-    inverse.reinit(*system, problem.state.positions, problem.potential.get_free_dofs().exchange());
-    inverse.set_inactive(inactive);
-    is_worn = false;
-    is_own  = true;
-    ++factorizations;
-  }
-
-  BorderedVector
-  StepAdjoint::free_part(const Direction &direction) const
-  {
-    BorderedVector part;
-    part.positions.reserve(free.size());
+    std::vector<double> z;
+    z.reserve(free.size());
     for (const unsigned int dof : free)
-      part.positions.push_back(direction.positions[dof]);
-    part.weights.assign(form.H.m(), 0.);
-    std::copy_n(direction.weights.begin(), part.weights.size(), part.weights.begin());
-    return part;
-  }
-
-  BorderedVector
-  StepAdjoint::product(const BorderedVector &vector) const
-  {
-    const std::size_t          n = free.size();
-    const std::vector<double> &G = system->columns(), &b = vector.weights;
-    BorderedVector result{ std::vector<double>(n, 0.), std::vector<double>(form.H.m(), 0.), {} };
-    add_product(problem.potential.matrix_pattern(), system->matrix_values(), vector.positions,
-                result.positions);
+      z.push_back(right_side.positions[dof]);
+    system.bordered().apply_inverse(z);
+    const std::vector<double> b = solve_weights(right_side);
     for (std::size_t j = 0; j < form.coupled.size(); ++j)
-    {
-      const unsigned int weight = form.coupled[j];
-      add(result.positions, -b[weight], G.data() + j * n);
-      result.weights[weight] -= dot(vector.positions, G.data() + j * n);
-    }
-    for (unsigned int i = 0; i < form.H.m(); ++i)
-      for (unsigned int j = 0; j < form.H.m(); ++j)
-        result.weights[i] += form.H(i, j) * b[j];
-    return result;
+      for (std::size_t i = 0; i < free.size(); ++i)
+        z[i] += b[form.coupled[j]] * Z[j * free.size() + i];
+    for (std::size_t i = 0; i < free.size(); ++i)
+      direction.positions[free[i]] += z[i];
+    for (std::size_t weight = 0; weight < b.size(); ++weight)
+      direction.weights[weight] += b[weight];
   }
 
   double
-  StepAdjoint::residual(const BorderedVector &rest,
-                        const Direction      &by_state,
-                        const BorderedVector &direction) const
+  StepAdjoint::residual(const Direction        &by_state,
+                        const Direction        &direction,
+                        const SlopeDerivatives &derivatives,
+                        Direction              &rest)
   {
-    const std::size_t          n = free.size();
-    const std::vector<double> &G = system->columns();
-    std::vector<double>        of_weights(form.H.m(), 0.); // |H| |b| + |G|^T |a|
-    double                     scale = 0., scale_of_weights = 0.;
+    rest       = by_state;
+    double sum = 0., scale = 0.;
+    rest.positions -= derivatives.by_positions;
     for (const unsigned int dof : free)
-      scale = std::max(scale, std::abs(by_state.positions[dof]));
+    {
+      sum   = std::max(sum, std::abs(rest.positions[dof]));
+      scale = std::max(
+          { scale, std::abs(by_state.positions[dof]), std::abs(derivatives.by_positions[dof]) });
+    }
+    double of_weights = 0., scale_of_weights = scale_of_terms(direction);
+    for (std::size_t weight = 0; weight < inactive.size(); ++weight)
+    {
+      rest.weights[weight] -= derivatives.by_weights[weight];
+      scale_of_weights = std::max(scale_of_weights, std::abs(by_state.weights[weight]));
+    }
+    subtract_multipliers(rest);
+    for (std::size_t weight = 0; weight < inactive.size(); ++weight)
+      if (inactive[weight])
+        of_weights = std::max(of_weights, std::abs(rest.weights[weight]));
+    return std::max(scale > 0. ? sum / scale : 0.,
+                    scale_of_weights > 0. ? of_weights / scale_of_weights : 0.);
+  }
+
+  double
+  StepAdjoint::scale_of_terms(const Direction &direction)
+  {
+    std::vector<double>        sums(form.H.m(), 0.);
+    const std::vector<double> &G = system.bordered().columns();
+    for (std::size_t j = 0; j < form.coupled.size(); ++j)
+      for (std::size_t i = 0; i < free.size(); ++i)
+        sums[form.coupled[j]] += std::abs(G[j * free.size() + i] * direction.positions[free[i]]);
     for (unsigned int i = 0; i < form.H.m(); ++i)
       for (unsigned int j = 0; j < form.H.m(); ++j)
-        of_weights[i] += std::abs(form.H(i, j) * direction.weights[j]);
-    for (std::size_t j = 0; j < form.coupled.size(); ++j)
-    {
-      const double b = std::abs(direction.weights[form.coupled[j]]);
-      for (std::size_t i = 0; i < n; ++i)
-      {
-        scale = std::max(scale, std::abs(G[j * n + i]) * b);
-        of_weights[form.coupled[j]] += std::abs(G[j * n + i] * direction.positions[i]);
-      }
-    }
-    for (unsigned int weight = 0; weight < form.H.m(); ++weight)
-      scale_of_weights
-          = std::max({ scale_of_weights, of_weights[weight], std::abs(by_state.weights[weight]) });
-    const double of_rest  = max_entry(rest.positions.begin(), rest.positions.end());
-    double       greatest = scale > 0. ? of_rest / scale : 0.;
+        sums[i] += std::abs(form.H(i, j) * direction.weights[j]);
+    return sums.empty() ? 0. : *std::max_element(sums.begin(), sums.end());
+  }
+
+  /// The region's mean, over the weights at no bound.
+  void
+  StepAdjoint::subtract_multipliers(Direction &rest) const
+  {
     for (unsigned int region = 0; region < form.N.m(); ++region)
     {
-      double sum = 0., n_inactive = 0.;
+      double sum = 0., n = 0.;
       for (unsigned int weight = 0; weight < form.N.n(); ++weight)
         if (form.N(region, weight) != 0. && inactive[weight])
         {
           sum += rest.weights[weight];
-          ++n_inactive;
+          ++n;
         }
       for (unsigned int weight = 0; weight < form.N.n(); ++weight)
-        if (form.N(region, weight) != 0. && inactive[weight] && scale_of_weights > 0.)
-          greatest = std::max(greatest,
-                              std::abs(rest.weights[weight] - sum / n_inactive) / scale_of_weights);
+        if (form.N(region, weight) != 0. && n > 0.)
+          rest.weights[weight] -= sum / n;
     }
-    return greatest;
   }
 
-  bool
-  StepAdjoint::find_solution(BorderedVector   right_side,
-                             const Direction &by_state,
-                             BorderedVector  &solution)
-  {
-    const unsigned int limit = is_own ? max_iterations_of_own : max_iterations;
-    BorderedVector    &rest  = right_side;
-    solution = { std::vector<double>(free.size(), 0.), std::vector<double>(form.H.m(), 0.), {} };
-    BorderedVector next = rest;
-    inverse.apply(next);
-    BorderedVector along = next;
-    double         slope = product_of(rest, next);
-    for (unsigned int n = 1; n <= limit; ++n)
-    {
-      const BorderedVector of_along  = product(along);
-      const double         curvature = product_of(along, of_along);
-      if (!(curvature > 0. && slope > 0.))
-        return slope == 0.;
-      const double length = slope / curvature;
-      add_vector(solution, length, along);
-      add_vector(rest, -length, of_along);
-      if (residual(rest, by_state, solution) <= margin * tolerance)
-      {
-        is_worn = !is_own && n > many_iterations;
-        return true;
-      }
-      next = rest;
-      inverse.apply(next);
-      // by the change of the residual, as the inverse is not quite symmetric
-      const double turn = -length * product_of(next, of_along) / slope;
-      slope             = product_of(rest, next);
-      for (auto *part : { &along.positions, &along.weights })
-        for (double &number : *part)
-          number *= turn;
-      add_vector(along, 1., next);
-    }
-    return false;
-  }
-
+  /// The inverse of the Schur complement, bordered by the sums; of a weight at a bound, 1 on the diagonal.
   void
-  StepAdjoint::add_solution(const Direction &right_side,
-                            const Direction &by_state,
-                            Direction       &direction)
+  StepAdjoint::make_weight_matrix()
   {
-    BorderedVector solution = free_part(right_side);
-    if (system->outer_products() != nullptr)
-      inverse.apply(solution); // of its own matrix, with all of its products
-    else
+    const unsigned int k = form.H.m(), m = form.N.m();
+    if (k == 0)
+      return;
+    const auto schur
+        = make_schur_complement(form, system.bordered().columns(), Z.data(), free.size(),
+                                problem.potential.get_free_dofs().exchange());
+    size_of_sums = schur.linfty_norm();
+    inverse.reinit(k + m, k + m);
+    for (unsigned int i = 0; i < k; ++i)
     {
-      const BorderedVector right = solution;
-      if (!find_solution(right, by_state, solution) && !is_own)
-      {
-        factorize();
-        find_solution(right, by_state, solution);
-      }
+      for (unsigned int j = 0; j < k; ++j)
+        inverse(i, j) = inactive[i] && inactive[j] ? schur(i, j) : 0.;
+      if (!inactive[i])
+        inverse(i, i) = size_of_sums;
+      for (unsigned int region = 0; region < m; ++region)
+        inverse(i, k + region) = inverse(k + region, i)
+            = inactive[i] ? size_of_sums * form.N(region, i) : 0.;
     }
-    for (std::size_t i = 0; i < free.size(); ++i)
-      direction.positions[free[i]] += solution.positions[i];
-    for (std::size_t weight = 0; weight < solution.weights.size(); ++weight)
-      direction.weights[weight] += solution.weights[weight];
+    inverse.gauss_jordan();
+  }
+
+  std::vector<double>
+  StepAdjoint::solve_weights(const Direction &right_side) const
+  {
+    const unsigned int     k = form.H.m();
+    dealii::Vector<double> right(inverse.m()), solution(inverse.m());
+    for (unsigned int weight = 0; weight < k; ++weight)
+      right[weight] = inactive[weight] ? right_side.weights[weight] : 0.;
+    for (std::size_t j = 0; j < form.coupled.size(); ++j)
+      for (std::size_t i = 0; inactive[form.coupled[j]] && i < free.size(); ++i)
+        right[form.coupled[j]] += Z[j * free.size() + i] * right_side.positions[free[i]];
+    if (k > 0)
+      inverse.vmult(solution, right);
+    return { solution.begin(), solution.begin() + k };
   }
 
   AdjointSolution
@@ -247,17 +179,13 @@ namespace Exemplar
     Direction       rest  = by_state;
     double          error = 1.;
     unsigned int    n     = 0;
-    for (; n < 6 && error > tolerance; ++n)
+    for (; n < 6 && error > solved_step; ++n)
     {
-      add_solution(rest, by_state, solution.direction);
+      add_solution(rest, solution.direction);
       solution.derivatives = find(solution.direction);
-      rest                 = by_state;
-      rest.positions -= solution.derivatives.by_positions;
-      for (std::size_t weight = 0; weight < rest.weights.size(); ++weight)
-        rest.weights[weight] -= solution.derivatives.by_weights[weight];
-      error = residual(free_part(rest), by_state, free_part(solution.direction));
+      error                = residual(by_state, solution.direction, solution.derivatives, rest);
     }
-    if (!(error <= 100. * tolerance))
+    if (!(error <= unsolved_step))
       throw SolverFailure(fmt::format(
           "vjp: the adjoint equations are left with a residual of {:.2g} after {} "
           "corrections, because rounding is too large in so stiff a body, or a guard acts.",

@@ -26,7 +26,7 @@ namespace Exemplar
       if (problem.parameters.scene == SceneKind::interpolation)
         refuse_steps("of interpolations", "Set Scene = static or dynamic.");
       if (problem.parameters.solver.method == Method::one_pass)
-        refuse_steps("of one pass, which find no minimum", "Set Solver/Method = auto.");
+        refuse_steps("of one pass", "Set Solver/Method = auto.");
       if (problem.body.exchange().n_processes() > 1)
         refuse_steps("of several processes", "Use one.");
       if (!problem.get_own_terms().empty())

@@ -89,21 +89,14 @@ namespace Exemplar
       Vector positions, velocities;
     };
 
-    /// Of the adjoint equations. In steps that are solved roughly they need not be solved to the last digit.
-    double
-    tolerance(const Problem &problem)
-    {
-      return std::clamp(1e-3 * required_residual(problem.parameters.solver), 1e-9, 1e-6);
-    }
-
     class Backward
     {
     public:
       Backward(Problem                             &problem,
                const RecordedSteps                 &steps,
                const std::vector<StateDerivatives> &by_states)
-          : problem(problem), steps(steps), by_states(by_states), visit(problem),
-            system(problem, tolerance(problem)), is_dynamic(problem.actions.integrator != nullptr)
+          : problem(problem), steps(steps), by_states(by_states), visit(problem), system(problem),
+            is_dynamic(problem.actions.integrator != nullptr)
       {
         for (Carried &state : carried)
           state = { zeros(), zeros() };

@@ -2,8 +2,8 @@
 #ifndef exemplar_step_adjoint_h
 #define exemplar_step_adjoint_h
 
-#include <exemplar/run/adjoint/adjoint_inverse.h>
 #include <exemplar/run/adjoint/adjoint_solve.h>
+#include <exemplar/solvers/step_system.h>
 
 #include <functional>
 
@@ -12,67 +12,58 @@ namespace Exemplar
   /// All derivatives of the slope along a direction.
   using FindDerivatives = std::function<SlopeDerivatives(const Direction &)>;
 
-  /// The equations of AdjointSolution at one state after the other. The pattern of the matrix is analysed once,
-  /// and conjugate gradients with the exact tangent of a state go on with the factor of an earlier one as
-  /// long as it serves.
+  /// The equations of AdjointSolution at one state after the other; with Z = A^-1 G they are those of Eq. (11).
+  /// The pattern of the matrix is analysed once.
   class StepAdjoint
   {
   public:
-    /// Solved to a residual of `tolerance` times the right side. The problem must outlive it, and hold the
-    /// same nodes.
-    explicit StepAdjoint(Problem &problem, double tolerance);
+    /// The problem must outlive it, and hold the same nodes.
+    explicit StepAdjoint(Problem &problem);
 
-    /// Go to the problem's state, at which its potential was evaluated last.
+    /// Go to the problem's state, at which its potential was evaluated last. Throws SolverFailure if the
+    /// exact tangent there is not positive definite.
     void
     go_to_state();
 
-    /// Solved until what `find` tells agrees with the right side. Throws SolverFailure if it does not come
-    /// to agree, or the exact tangent is not positive definite.
+    /// Solved by the factor, and corrected until what `find` tells agrees with the right side. Throws
+    /// SolverFailure if it does not come to agree.
     AdjointSolution
     solve(const Direction &by_state, const FindDerivatives &find);
 
-    unsigned int
-    n_factorizations() const
-    {
-      return factorizations;
-    }
-
   private:
+    /// Add to the direction what takes this right side to zero.
     void
-    factorize();
+    add_solution(const Direction &right_side, Direction &direction);
 
-    /// Add to the direction what takes a right side to zero, beside by_state.
-    void
-    add_solution(const Direction &right_side, const Direction &by_state, Direction &direction);
-
-    /// Conjugate gradients from zero: whether they come to an end.
-    bool
-    find_solution(BorderedVector right_side, const Direction &by_state, BorderedVector &solution);
-
-    /// Phi'' times a vector on free degrees of freedom.
-    BorderedVector
-    product(const BorderedVector &vector) const;
-
-    /// What is left of a right side, over its size and that of terms that cancel in it for this direction.
-    /// Of the weights at no bound the mean of each region is no residual, but its multiplier.
+    /// What a direction with these derivatives leaves of a right side, with the multiplier of each region
+    /// that takes most of it; returns its size relative to that of `by_state`.
     double
-    residual(const BorderedVector &rest,
-             const Direction      &by_state,
-             const BorderedVector &direction) const;
+    residual(const Direction        &by_state,
+             const Direction        &direction,
+             const SlopeDerivatives &derivatives,
+             Direction              &rest);
 
-    BorderedVector
-    free_part(const Direction &direction) const;
+    /// The greatest sum of magnitudes in G^T a and H b, which may cancel.
+    double
+    scale_of_terms(const Direction &direction);
 
-    Problem                              &problem;
-    const double                          tolerance;
-    const std::vector<unsigned int>      &free;
-    const WeightForm                     &form;
-    const std::unique_ptr<BorderedSystem> system;
-    std::vector<bool>                     inactive;
-    AdjointInverse                        inverse;
-    bool                                  is_worn        = true;  ///< the inverse, or there is none
-    bool                                  is_own         = false; ///< it is of this state
-    unsigned int                          factorizations = 0;
+    void
+    subtract_multipliers(Direction &rest) const;
+
+    void
+    make_weight_matrix();
+
+    std::vector<double>
+    solve_weights(const Direction &right_side) const;
+
+    Problem                         &problem;
+    const std::vector<unsigned int> &free;
+    const WeightForm                &form;
+    StepSystem                       system;
+    std::vector<bool>                inactive;
+    std::vector<double>              Z; ///< A^-1 G
+    dealii::FullMatrix<double>       inverse;
+    double                           size_of_sums = 1.;
   };
 } // namespace Exemplar
 
