@@ -121,9 +121,7 @@ namespace Exemplar::Python
     }
 
     double
-    find_correction(HeldProblem      &held,
-                    const py::object &by_positions,
-                    const py::object &by_weights)
+    find_correction(HeldProblem &held, const py::object &by_positions, const py::object &by_weights)
     {
       const Direction functional
           = functional_of("correction", by_positions, by_weights, held.get());

@@ -49,7 +49,7 @@ class Examples(unittest.TestCase):
 
     @unittest.skipUnless(importlib.util.find_spec("scipy"), "needs scipy")
     def test_find_drag(self):
-        (distance, work, *drags), = rows_of("find_drag.py", "2")
+        (distance, work, *drags), = rows_of("find_drag.py", "4")
         self.assertLess(distance, 30)  # mm, of 150 at first; 9 iterations bring it to 0
         self.assertGreater(work, 1)
         self.assertEqual(len(drags), 6)

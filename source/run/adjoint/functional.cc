@@ -58,7 +58,7 @@ namespace Exemplar
             held.positions[3 * node + component] = 1.;
         Evaluation evaluation;
         problem.potential.evaluate(problem.state, RotationUse::update, evaluation);
-        FunctionalValue result{ held.positions * evaluation.gradient, zero_direction(problem) };
+        FunctionalValue  result{ held.positions * evaluation.gradient, zero_direction(problem) };
         SlopeDerivatives slope = derivatives_of_slope(problem, held);
         result.by_state        = { std::move(slope.by_positions), std::move(slope.by_weights) };
         return result;
@@ -74,9 +74,9 @@ namespace Exemplar
         for (const unsigned int node : nodes)
         {
           const unsigned int dof = 3 * node + component;
-          result.value += (problem.state.positions[dof]
-                           - problem.body.fe_space.rest_positions()[dof])
-                          / static_cast<double>(nodes.size());
+          result.value
+              += (problem.state.positions[dof] - problem.body.fe_space.rest_positions()[dof])
+                 / static_cast<double>(nodes.size());
           result.by_state.positions[dof] = 1. / static_cast<double>(nodes.size());
         }
         return result;
