@@ -216,6 +216,14 @@ class Answers(unittest.TestCase):
                 other = middle
         self.assertEqual(at(part).vjp(BY_POSITIONS)["weakly_active"], [weight])
 
+    def test_functions_of_positions_and_weights_alone(self):
+        """Their gradients add up to that of the sum."""
+        problem, by_weights = solved(SCENE), np.array([0.3, -1, 0.5, 0.8])
+        both, *parts = (problem.vjp(*by) for by in ((BY_POSITIONS, by_weights), (BY_POSITIONS, None), (None, by_weights)))
+        for key in "young", "nodal_forces", "handles", "rest_positions":
+            self.assertGreater(np.abs(parts[1][key]).max(), 1e-6 * np.abs(both[key]).max())
+            np.testing.assert_allclose(parts[0][key] + parts[1][key], both[key], atol=1e-7 * np.abs(both[key]).max())
+
     def test_problem_stays(self):
         asked, other = solved({**SCENE, "Time": {"Increments": 3}}), solved({**SCENE, "Time": {"Increments": 3}})
         positions = asked.positions.copy()

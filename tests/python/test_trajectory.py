@@ -235,6 +235,16 @@ class Answers(unittest.TestCase):
                 self.assertEqual(asked.positions.tobytes(), other.positions.tobytes())
                 self.assertEqual(asked.statistics, other.statistics)
 
+    def test_functions_of_weights_alone(self):
+        """Their gradients and those of positions add up to those of both."""
+        problem, trajectory = recorded(SCENE)
+        by_weights = [np.linspace(-1, 1, len(problem.weights))] * len(trajectory)
+        both, of_positions, of_weights = (trajectory.vjp(*by) for by in (
+            (list(BY_POSITIONS), by_weights), (list(BY_POSITIONS),), ([None] * len(trajectory), by_weights)))
+        for key in "young", "initial_positions", "handles":
+            self.assertGreater(np.abs(of_weights[key]).max(), 0)
+            np.testing.assert_allclose(of_positions[key] + of_weights[key], both[key], atol=1e-7 * np.abs(both[key]).max())
+
     def test_steps_on_which_nothing_depends(self):
         _, trajectory = recorded(SCENE, lengths=3 * [None])
         zero = trajectory.vjp(3 * [None])

@@ -17,10 +17,10 @@ STUDIES = sorted((REPOSITORY / "prm/studies").glob("stability_*.prm"))
 N_CASES = 644
 ELEMENTS = "P1 + cells", "P1 + patches", "P2 + cells", "P2 + patches"
 # studies of a few seconds, of all elements
-QUICK = {"stability_cells", "stability_contrast", "stability_density", "stability_fibrous_plastic", "stability_memory", "stability_node", "stability_plastic",
+QUICK = {"stability_cells", "stability_contrast", "stability_density", "stability_memory", "stability_node", "stability_plastic",
          "stability_poses", "stability_size"}
 # others of which the linear elements are quick with patches as well
-QUICK_IF_LINEAR = {"stability_fibres", "stability_importance", "stability_pull", "stability_start", "stability_stiffness"}
+QUICK_IF_LINEAR = {"stability_fibres", "stability_fibrous_plastic", "stability_importance", "stability_pull", "stability_start", "stability_stiffness"}
 AXIS = re.compile(r"(Model/Element \+ Model/Dilatation(?: \+ Time/End)?: )(.*)")
 # By what the study varies: cases that may end with status 2. All others must be done.
 MAY_FAIL = {

@@ -72,7 +72,7 @@ namespace Exemplar
                Direction              &rest)
       {
         rest       = by_state;
-        double sum = 0., scale = 0.;
+        double sum = 0., scale = greatest_of_columns(direction);
         rest.positions -= derivatives.by_positions;
         for (const unsigned int dof : free)
         {
@@ -129,8 +129,8 @@ namespace Exemplar
       }
 
     private:
-      /// The exact tangent lacks a part in cells that Eq. (16) guards, where it may be indefinite; the convex
-      /// one is near enough there to begin with.
+      /// The exact tangent may be indefinite in cells that Eq. (16) guards; the convex one is near enough there to
+      /// begin with.
       void
       factorize()
       {
@@ -145,6 +145,19 @@ namespace Exemplar
             throw;
           system.factorize(positions, problem.state.weights, 1.);
         }
+      }
+
+      /// The greatest entry of G b, which a function of the weights alone has for its forces.
+      double
+      greatest_of_columns(const Direction &direction)
+      {
+        double                     greatest = 0.;
+        const std::vector<double> &G        = system.bordered().columns();
+        for (std::size_t j = 0; j < form.coupled.size(); ++j)
+          for (std::size_t i = 0; i < free.size(); ++i)
+            greatest = std::max(
+                greatest, std::abs(G[j * free.size() + i] * direction.weights[form.coupled[j]]));
+        return greatest;
       }
 
       /// The greatest sum of magnitudes in G^T a and H b, which may cancel.

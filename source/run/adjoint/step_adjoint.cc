@@ -75,7 +75,7 @@ namespace Exemplar
                         Direction              &rest)
   {
     rest       = by_state;
-    double sum = 0., scale = 0.;
+    double sum = 0., scale = greatest_of_columns(direction);
     rest.positions -= derivatives.by_positions;
     for (const unsigned int dof : free)
     {
@@ -95,6 +95,18 @@ namespace Exemplar
         of_weights = std::max(of_weights, std::abs(rest.weights[weight]));
     return std::max(scale > 0. ? sum / scale : 0.,
                     scale_of_weights > 0. ? of_weights / scale_of_weights : 0.);
+  }
+
+  double
+  StepAdjoint::greatest_of_columns(const Direction &direction)
+  {
+    double                     greatest = 0.;
+    const std::vector<double> &G        = system.bordered().columns();
+    for (std::size_t j = 0; j < form.coupled.size(); ++j)
+      for (std::size_t i = 0; i < free.size(); ++i)
+        greatest = std::max(greatest,
+                            std::abs(G[j * free.size() + i] * direction.weights[form.coupled[j]]));
+    return greatest;
   }
 
   double

@@ -43,6 +43,10 @@ namespace Exemplar
              const SlopeDerivatives &derivatives,
              Direction              &rest);
 
+    /// The greatest entry of G b, which a function of the weights alone has for its forces.
+    double
+    greatest_of_columns(const Direction &direction);
+
     /// The greatest sum of magnitudes in G^T a and H b, which may cancel.
     double
     scale_of_terms(const Direction &direction);
