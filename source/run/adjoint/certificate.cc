@@ -3,8 +3,6 @@
 #include <exemplar/run/adjoint/adjoint_solve.h>
 #include <exemplar/run/adjoint/certificate.h>
 
-#include <numeric>
-
 namespace Exemplar
 {
   double
@@ -14,10 +12,15 @@ namespace Exemplar
     require_rotations(problem);
     Evaluation evaluation;
     problem.potential.evaluate(problem.state, RotationUse::update, evaluation);
-    const Direction            adjoint = solve_adjoint(problem, by_state).direction;
-    const std::vector<double> &slopes  = evaluation.elastic.weight_gradient;
-    // a is zero on held nodes, and b adds up to zero in each region, so that multipliers drop out
-    return -(adjoint.positions * evaluation.gradient)
-           - std::inner_product(slopes.begin(), slopes.end(), adjoint.weights.begin(), 0.);
+    const Direction     adjoint = solve_adjoint(problem, by_state).direction;
+    const WeightMemory &memory  = problem.examples.weights.get_memory();
+    // a is zero on held nodes, and b adds up to zero in each region, so that multipliers drop out; b is zero
+    // where the slopes to both sides differ
+    double slope = adjoint.positions * evaluation.gradient;
+    for (std::size_t i = 0; i < evaluation.elastic.weight_gradient.size(); ++i)
+      slope
+          += adjoint.weights[i]
+             * memory.slopes(i, problem.state.weights[i], evaluation.elastic.weight_gradient[i]).up;
+    return -slope;
   }
 } // namespace Exemplar
