@@ -37,7 +37,39 @@ namespace Exemplar
              Bounds::positive());
     keys.add("Cache start", cache_start,
              "t [s] of the first sample of the cache; file: as the file has it.");
+    keys.add("From", from,
+             "t [s] from which on the nodes are held: caught where they are then, they move from "
+             "there as Motion does from this time on. 0: from the beginning, at their places.",
+             Bounds{ 0. });
+    keys.add("Until", until,
+             "t [s] at which the nodes are let go, with the velocities that they have; end: never. "
+             "Before From: let go first, and caught again at From. Steps that begin in between are "
+             "free.");
     keys.leave_subsection();
+  }
+
+  HoldingTime
+  HandleParameters::holding_time() const
+  {
+    HoldingTime time;
+    time.from = from;
+    if (until != "end")
+      time.until = parse_number(until);
+    return time;
+  }
+
+  void
+  HandleParameters::check_time(const std::string &key) const
+  {
+    if (until == "end")
+      return;
+    if (!(std::isfinite(parse_number(until)) && parse_number(until) > 0.))
+      throw UserError(key + "/Until = '" + until
+                      + "' is not allowed. Allowed: end, or a time [s] greater than 0.");
+    if (from == parse_number(until))
+      throw UserError(
+          key + "/From and " + key + "/Until are both " + until
+          + ", so nothing is ever let go. Set From to 0 and Until to end, or other times.");
   }
 
   void
@@ -59,6 +91,7 @@ namespace Exemplar
       throw UserError(key + "/" + (cache_start != "file" ? "Cache start" : "Frames per second")
                       + " is given, but no " + key
                       + "/Follow cache. Give the cache that is followed, or remove it.");
+    check_time(key);
     if (!follow_pose.empty() && has_motion)
       throw UserError(key + "/Follow pose and " + key + "/Motion = '" + motion
                       + "' are both given, but only one of them can say where the nodes go. Remove "

@@ -79,7 +79,7 @@ namespace Exemplar
                    const NamedPoses                    &poses,
                    const NamedNodes                    &nodes,
                    const NamedMotions                  &motions)
-      : mesh(mesh), fe_space(fe_space)
+      : mesh(mesh), fe_space(fe_space), rounding(1e-9 * axis.step_size(1))
   {
     for (const HandleParameters &p : parameters)
     {
@@ -90,12 +90,11 @@ namespace Exemplar
     dealii::Vector<double> anywhere(fe_space.n_dofs());
     move(axis.time(0), anywhere); // are the formulas finite?
     move(axis.time(axis.n_steps()), anywhere);
-    const std::set<unsigned int> shared = shared_nodes();
-    for (unsigned int step = 0; step <= axis.n_steps() && !shared.empty(); ++step)
-      check_agreement(shared, displacements(axis.time(step)), axis.time(step));
+    check_overlaps(axis);
     look_for_straight_turns(axis);
     look_for_large_turns(axis);
     look_for_progress_beyond(axis);
+    look_for_idle_times(axis);
   }
 
   Handles::Handle
@@ -111,7 +110,8 @@ namespace Exemplar
                    Expression(key + "/Motion", p.motion, "xyzt", 3),
                    Expression(key + "/Progress", p.progress, "t", 1),
                    {},
-                   {} };
+                   {},
+                   p.holding_time() };
     if (!p.follow_pose.empty())
     {
       const auto pose = fe_space.numbering().complete(
@@ -153,7 +153,11 @@ namespace Exemplar
     try
     {
       for (const Handle &handle : handles)
+      {
         all.push_back(handle.displacements(rest_positions(handle), time));
+        for (std::size_t point = 0; point < handle.offsets.size(); ++point)
+          all.back()[point] += handle.offsets[point];
+      }
     }
     catch (const SolverFailure &error)
     {
@@ -214,6 +218,8 @@ namespace Exemplar
   {
     const auto named = std::find_if(handles.begin(), handles.end(),
                                     [&](const Handle &handle) { return handle.name == name; });
+    if (named != handles.end())
+      find_untimed(name);
     if (named != handles.end() && named->holds)
       throw UserError("There is a handle '" + name
                       + "' already. Give another name, or let that one go first.");
@@ -238,17 +244,6 @@ namespace Exemplar
                         Expression(key + "/Progress", "t", "t", 1),
                         {},
                         std::move(moving) });
-  }
-
-  std::set<unsigned int>
-  Handles::shared_nodes() const
-  {
-    std::set<unsigned int> seen, shared;
-    for (const Handle &handle : handles)
-      for (const unsigned int node : handle.held_nodes())
-        if (!seen.insert(node).second)
-          shared.insert(node);
-    return shared;
   }
 
   void

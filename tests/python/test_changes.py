@@ -133,6 +133,20 @@ class Numbers(unittest.TestCase):
         back.step()
         self.assert_same(back, solved(STATIC))
 
+    def test_handles_with_a_time_hold_as_it_says(self):
+        timed = exemplar.Problem(scene(DYNAMIC, Handles={"right": {**HANDLES["right"], "Until": 0.2}}))
+        with self.assertRaisesRegex(exemplar.UserError, "From and Until"):
+            timed.let_go("right")
+        timed.run()
+        called = exemplar.Problem(DYNAMIC)
+        called.goto(0.2)
+        called.let_go("right")
+        called.run()
+        self.assertEqual(timed.positions.tobytes(), called.positions.tobytes())
+        with self.assertRaisesRegex(exemplar.UserError, "with handles that let go or catch"):
+            with exemplar.Problem(scene(DYNAMIC, Handles={"right": {**HANDLES["right"], "From": 0.2}})).record():
+                pass
+
     def test_what_is_refused_changes_nothing(self):
         problem = exemplar.Problem(STATIC)
         before = problem.energies

@@ -176,10 +176,14 @@ SCENES = [
      ["Handles/Names", "'left' twice", "differ"]),
     ("empty handle name", {**BAR, "Handles/Names": "left,,right"},
      ["Handles/Names", "'' is no name", "letters"]),
-    ("handle not in Names", {**BAR, "Handles/right/Select": "boundary 2"},
-     ["scene.prm:", "Handles/right", "not in Handles/Names", "left", "Add it"]),
-    ("load not in Names", {**BAR, "Loads/tip/Force": "0; 0; 1"},
+    ("misspelt handle in Names", {**TWO_HANDLES, "Handles/rihgt/Select": "boundary 2"},
+     ["scene.prm:", "Handles/rihgt", "not in Handles/Names", "Did you mean Handles/right"]),
+    ("load without Names", {**BAR, "Loads/tip/Force": "0; 0; 1"},
      ["scene.prm:", "Loads/tip", "not in Loads/Names", "Add it"]),
+    ("handle let go before it holds", {**BAR, "Handles/left/Until": "-1"},
+     ["Handles/left/Until = '-1'", "end, or a time"]),
+    ("handle that lets the body go", {**BAR, "Handles/left/Until": "0.5"},
+     ["6 of 6 rigid motions free"]),
     ("misspelt handle key", {**BAR, "Handles/left/Motions": "0; 0; 0"},
      ["scene.prm:", "'Handles/left/Motions'", "Did you mean 'Handles/left/Motion'"]),
     ("handle without Select", {**BAR, "Handles/left/Select": None},
@@ -322,6 +326,16 @@ class BadScenes(BadInputTest):
                 self.write("scene.prm", scene if isinstance(scene, str) else prm(scene))
                 before = self.tree()
                 self.check(self.attempt(scene), expected, before)
+
+    def test_unused_subsections_are_warned_of(self):
+        self.write("scene.prm", prm({**LOADED, "Loads/Names": "tip", "Handles/right/Select": "boundary 2", "Loads/side/Force": "0; 0; 1"}))
+        run = self.call("scene.prm", "--validate")
+        self.assertEqual(run.status, 0, run.stderr)
+        for words in ("Handles/right is not in Handles/Names (there: left), so it is not used", "Loads/side is not in Loads/Names (there: tip)"):
+            self.assertIn(words, run.stdout + run.stderr)
+        run = self.call("scene.prm", "--validate", "--set", "Handles/right/Motion=0; 0; t")
+        self.assertEqual(run.status, 1)
+        self.assertIn("--set: subsection Handles/right is not in Handles/Names", run.stderr)
 
     def test_the_scenes_that_the_table_changes_are_good(self):
         weights = {"Examples/Prescribed weights": "1-t; t"}

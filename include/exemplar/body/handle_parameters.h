@@ -4,11 +4,42 @@
 
 #include <exemplar/mesh/selection.h>
 
+#include <limits>
 #include <string>
 
 namespace Exemplar
 {
   class KeyTable;
+
+  /// When a handle holds its nodes: in steps that begin in this span of time or, where it ends before it
+  /// begins, outside of the span between.
+  struct HoldingTime
+  {
+    double from  = 0.; ///< [s]
+    double until = std::numeric_limits<double>::infinity();
+
+    bool
+    is_always() const
+    {
+      return from <= 0. && until == std::numeric_limits<double>::infinity();
+    }
+
+    /// Whether a step that begins at time t [s] holds; `rounding` is what times may be off.
+    bool
+    holds(const double time, const double rounding) const
+    {
+      const bool is_caught = time >= from - rounding, is_let_go = time >= until - rounding;
+      return from < until ? is_caught && !is_let_go : is_caught || !is_let_go;
+    }
+
+    /// Whether the nodes are caught in a step that begins then or before, instead of held from the
+    /// beginning.
+    bool
+    has_caught(const double time, const double rounding) const
+    {
+      return from > 0. && time >= from - rounding;
+    }
+  };
 
   /// A subsection of Handles.
   struct HandleParameters
@@ -22,14 +53,24 @@ namespace Exemplar
     std::string follow_cache; ///< a file of places of the surface's vertices in time; empty: none
     double      frames_per_second = 24.;
     std::string cache_start       = "file"; ///< t of the first sample [s], or as the file has it
+    double      from              = 0.;     ///< [s]
+    std::string until             = "end";  ///< [s], or the end of the scene
 
     void
     declare(KeyTable &keys);
 
     /// Throws UserError if more than one of a motion, a pose and a cache to follow is given, or
-    /// what belongs to one that is not.
+    /// what belongs to one that is not, and for a time to let go that is none.
     void
     check() const;
+
+    /// What From and Until say. check() must have passed.
+    HoldingTime
+    holding_time() const;
+
+  private:
+    void
+    check_time(const std::string &key) const;
   };
 } // namespace Exemplar
 

@@ -61,19 +61,34 @@ namespace Exemplar
     void
     grab(const std::string &name, const std::vector<unsigned int> &nodes, Motion motion);
 
-    /// From now on a handle holds nothing, until hold(). Throws UserError if no handle has this name.
+    /// From now on a handle holds nothing, until hold(). Throws UserError if no handle has this name, or if
+    /// its From and Until say when it holds.
     void
     let_go(const std::string &name)
     {
-      find(name).holds = false;
+      find_untimed(name).holds = false;
     }
 
-    /// From now on a handle holds its nodes again.
+    /// From now on a handle holds its nodes again. Throws as let_go().
     void
     hold(const std::string &name)
     {
-      find(name).holds = true;
+      find_untimed(name).holds = true;
     }
+
+    /// Whether some From or Until says when a handle holds.
+    bool
+    have_times() const;
+
+    /// Handles with a time hold as they do in a step that begins at time t [s]. Returns whether another
+    /// one than before holds.
+    bool
+    follow_time(double time);
+
+    /// A step begins from these positions at this time: handles that have caught their nodes move them on
+    /// from there.
+    void
+    begin_step(double time, const dealii::Vector<double> &positions);
 
     /// What may change of a handle.
     struct Holding
@@ -158,6 +173,7 @@ namespace Exemplar
       Expression                progress; ///< on the path, if there is one
       std::optional<RigidPath>  path;     ///< of all of the handle to the pose that is followed
       Motion                    function; ///< a program's, instead of all these
+      HoldingTime               time  = {};
       bool                      holds = true;
 
       /// What it holds now: its nodes, or none.
@@ -170,12 +186,15 @@ namespace Exemplar
 
       std::vector<unsigned int> places_in_path = {}; ///< of each node, among those of all processes
 
+      /// How far caught nodes are from where their motion would have them; empty if none are caught.
+      std::vector<dealii::Tensor<1, 3>> offsets = {};
+
       /// The angle [rad] by which `motion` turns points of the handle as a rigid body from one time to
       /// another, to and fro summed up.
       double
       turn_between(const std::vector<dealii::Point<3>> &rest, double begin, double end) const;
 
-      /// Of `nodes`, which are at `rest` at rest, at time t [s].
+      /// Of `nodes`, which are at `rest` at rest, at time t [s], by the motion alone.
       std::vector<dealii::Tensor<1, 3>>
       displacements(const std::vector<dealii::Point<3>> &rest, double time) const;
     };
@@ -190,6 +209,23 @@ namespace Exemplar
     /// Throws UserError if no handle has this name.
     Handle &
     find(const std::string &name);
+
+    /// The same, and for one with a time.
+    Handle &
+    find_untimed(const std::string &name);
+
+    /// Throws UserError if handles hold the same and disagree in a step of the axis, or one of them has
+    /// caught it.
+    void
+    check_overlaps(const TimeAxis &axis);
+
+    /// Throws UserError if a handle shares what it has caught with another one.
+    void
+    refuse_shared_catches(double time) const;
+
+    /// Warn of handles that hold in no step.
+    void
+    look_for_idle_times(const TimeAxis &axis);
 
     std::vector<dealii::Point<3>>
     rest_positions(const Handle &handle) const;
@@ -221,6 +257,7 @@ namespace Exemplar
 
     const Mesh              &mesh;
     const FESpace           &fe_space;
+    const double             rounding; ///< by which times of steps may be off [s]
     std::vector<Handle>      handles;
     std::vector<std::string> warnings;
   };

@@ -29,6 +29,8 @@ namespace Exemplar
         refuse_steps("of one pass", "Set Solver/Method = auto.");
       if (problem.body.exchange().n_processes() > 1)
         refuse_steps("of several processes", "Use one.");
+      if (problem.constraints.handles.have_times())
+        refuse_steps("with handles that let go or catch", "Leave out From and Until of Handles.");
       if (!problem.get_own_terms().empty())
         refuse_steps("with terms of one's own", "Make the problem without add_term().");
     }

@@ -53,7 +53,7 @@ namespace Exemplar
                             parameters.scene == SceneKind::dynamic,
                             given.fields.poses))
   {
-    constraints.check(parameters, body);
+    constraints.check(parameters, body, time_axis);
     if (parameters.scene == SceneKind::interpolation)
       start_interpolation();
     state.history = potential.get_cells().get_field().get_batches().history();
@@ -131,6 +131,8 @@ namespace Exemplar
   Problem::advance(const StepInterval &interval)
   {
     check_weights(*this, interval);
+    follow_time(state.time);
+    constraints.handles.begin_step(state.time, state.positions);
     State next = state;
     next.step  = state.step + 1;
     if (turns_freely()
@@ -167,6 +169,15 @@ namespace Exemplar
   }
 
   void
+  Problem::follow_time(const double time)
+  {
+    if (!constraints.follow_time(time, parameters, body))
+      return;
+    potential.renew_pattern();
+    solver->forget(); // what it remembers is of other unknowns
+  }
+
+  void
   Problem::refuse_what_is_not_finite(const State &next, SolveReport &report)
   {
     std::string what
@@ -197,8 +208,10 @@ namespace Exemplar
   {
     state = earlier;
     solver->forget();
+    follow_time(state.time);
     if (!solver_memory.empty())
     {
+      follow_time(time_axis.time(std::max(state.step, 1U) - 1)); // memory is of the last step
       std::istringstream              bytes(solver_memory);
       boost::archive::binary_iarchive archive(bytes);
       solver->load(archive);

@@ -12,11 +12,11 @@ namespace Exemplar
 {
   namespace
   {
-    /// What to say of a subsection that Names does not list.
+    /// Which of `names` may have been meant by that of a subsection, in sentences; empty if none.
     std::string
-    remedy_of_name(const std::string              &name,
-                   const std::string              &section,
-                   const std::vector<std::string> &names)
+    meant_name(const std::string              &name,
+               const std::string              &section,
+               const std::vector<std::string> &names)
     {
       for (const std::string &several : names) // such as 'left right', which might be one name
       {
@@ -27,7 +27,17 @@ namespace Exemplar
       if (const std::string nearest = nearest_word(name, names); !nearest.empty())
         return "Did you mean " + section + "/" + nearest
                + "? Else add it there, or remove the subsection.";
-      return "Add it there, or remove the subsection.";
+      return "";
+    }
+
+    /// What to say of a subsection that Names does not list.
+    std::string
+    remedy_of_name(const std::string              &name,
+                   const std::string              &section,
+                   const std::vector<std::string> &names)
+    {
+      const std::string meant = meant_name(name, section, names);
+      return meant.empty() ? "Add it there, or remove the subsection." : meant;
     }
   } // namespace
 
@@ -48,17 +58,46 @@ namespace Exemplar
     }
   }
 
-  void
-  check_listed(const std::vector<Assignment>  &assignments,
-               const std::string              &section,
-               const std::vector<std::string> &names)
+  std::vector<std::string>
+  drop_unlisted(std::vector<Assignment>        &named,
+                const std::vector<Assignment>  &others,
+                const std::vector<Assignment>  &overrides,
+                const std::string              &section,
+                const std::vector<std::string> &names)
   {
-    for (const Assignment &a : assignments)
-      if (a.subsections[0] == section
-          && std::find(names.begin(), names.end(), a.subsections[1]) == names.end())
-        throw UnknownKey(a.place + ": subsection " + section + "/" + a.subsections[1]
-                         + " is not in " + section
-                         + "/Names (there: " + (names.empty() ? "none" : joined(names)) + "). "
-                         + remedy_of_name(a.subsections[1], section, names));
+    const auto is_unlisted = [&](const Assignment &a)
+    {
+      return a.subsections.size() > 1 && a.subsections[0] == section
+             && std::find(names.begin(), names.end(), a.subsections[1]) == names.end();
+    };
+    std::vector<std::string> unused_names; // listed, but without a subsection
+    for (const std::string &name : names)
+      if (std::none_of(named.begin(), named.end(),
+                       [&](const Assignment &a)
+                       { return a.subsections[0] == section && a.subsections[1] == name; }))
+        unused_names.push_back(name);
+    const auto told = [&](const Assignment &a)
+    {
+      return a.place + ": subsection " + section + "/" + a.subsections[1] + " is not in " + section
+             + "/Names (there: " + (names.empty() ? "none" : joined(names)) + ")";
+    };
+    for (const Assignment &a : overrides)
+      if (is_unlisted(a))
+        throw UnknownKey(told(a) + ". " + remedy_of_name(a.subsections[1], section, names));
+    const bool               is_forgotten = find_assignment(others, section + "/Names") == nullptr;
+    std::set<std::string>    seen;
+    std::vector<std::string> warnings;
+    for (const Assignment &a : named)
+    {
+      if (!is_unlisted(a) || !seen.insert(a.subsections[1]).second)
+        continue;
+      if (const std::string meant = meant_name(a.subsections[1], section, unused_names);
+          is_forgotten || !meant.empty())
+        throw UnknownKey(told(a) + ". "
+                         + (is_forgotten ? "Add it there, or remove the subsection." : meant));
+      warnings.push_back(told(a) + ", so it is not used. Add it there, or remove the subsection.");
+    }
+    named.erase(std::remove_if(named.begin(), named.end(), is_unlisted), named.end());
+    return warnings;
   }
 } // namespace Exemplar

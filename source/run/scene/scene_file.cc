@@ -119,7 +119,7 @@ namespace Exemplar
 
     const auto first_named = std::stable_partition(
         assignments.begin(), assignments.end(), [](const Assignment &a) { return !is_named(a); });
-    const std::vector<Assignment> named(first_named, assignments.end());
+    std::vector<Assignment> named(first_named, assignments.end());
     assignments.erase(first_named, assignments.end());
 
     // refused when the named subsections are declared, so that their keys can be suggested, too
@@ -132,8 +132,11 @@ namespace Exemplar
     check_names(handle_names, "Handles");
     check_names(load_names, "Loads");
     refuse_misspelt_names(unknown);
-    check_listed(named, "Handles", handle_names);
-    check_listed(named, "Loads", load_names);
+    std::vector<std::string> warnings
+        = drop_unlisted(named, assignments, overrides, "Handles", handle_names);
+    for (const std::string &warning :
+         drop_unlisted(named, assignments, overrides, "Loads", load_names))
+      warnings.push_back(warning);
     declare_named_subsections(named);
     keys.apply(unknown, directory());
     keys.apply(named, directory());
@@ -154,8 +157,9 @@ namespace Exemplar
     { return !text.empty() && find_assignment(overrides, key) != nullptr; };
     if (!is_overridden("Scene") && !is_overridden("Mesh/Generator")) // else the rest may stay
       complete->warnings = warn_of_ignored_keys(*complete, keys, assignments);
-    const std::vector<std::string> doubles = warnings_of_doubles(overrides);
-    complete->warnings.insert(complete->warnings.end(), doubles.begin(), doubles.end());
+    for (const std::string &double_warning : warnings_of_doubles(overrides))
+      warnings.push_back(double_warning);
+    complete->warnings.insert(complete->warnings.end(), warnings.begin(), warnings.end());
   }
 
   void

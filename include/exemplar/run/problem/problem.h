@@ -173,6 +173,10 @@ namespace Exemplar
     void
     check_start();
 
+    /// Handles hold as they do in a step that begins at this time.
+    void
+    follow_time(double time);
+
     /// Make a failure of a report on a step to `next` if that, evaluated, is not finite.
     void
     refuse_what_is_not_finite(const State &next, SolveReport &report);

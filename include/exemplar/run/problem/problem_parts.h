@@ -63,9 +63,9 @@ namespace Exemplar
                 const TimeAxis        &axis,
                 const BodyInputs      &inputs);
 
-    /// Throws UserError for a static scene in which the body could move rigidly.
+    /// Throws UserError for a static scene in which the body could move rigidly, in a step of the axis.
     void
-    check(const SceneParameters &parameters, const Body &body) const;
+    check(const SceneParameters &parameters, const Body &body, const TimeAxis &axis);
 
     /// Let `change` change which nodes handles hold. Throws UserError, with nothing changed, for what
     /// would hold everything or, in statics, leave the body free to move rigidly. All processes must
@@ -74,6 +74,11 @@ namespace Exemplar
     change_handles(const std::function<void(Handles &)> &change,
                    const SceneParameters                &parameters,
                    const Body                           &body);
+
+    /// Let handles with a time hold as they do in a step that begins at this time [s]. Returns whether
+    /// that changes what is held. All processes must call this.
+    bool
+    follow_time(double time, const SceneParameters &parameters, const Body &body);
 
     /// A warning of each handle of one node, and how to enlarge it. All processes must call this.
     std::vector<std::string>

@@ -11,13 +11,16 @@ namespace Exemplar
   void
   check_names(const std::vector<std::string> &names, const std::string &section);
 
-  /// Throws UnknownKey if `assignments`, which are all in subsections of sections, set something in
-  /// a subsection of `section` that is not among the names that its Names lists: as an unknown key
-  /// this would have no hint.
-  void
-  check_listed(const std::vector<Assignment>  &assignments,
-               const std::string              &section,
-               const std::vector<std::string> &names);
+  /// Of `named`, which are all in subsections of sections, take out those in a subsection of `section` that
+  /// is not among the names that its Names lists, and return a warning of each such subsection. Throws
+  /// UnknownKey for one that `overrides` set, where `others` do not set Names at all, and for one that may be
+  /// a listed name without a subsection, misspelt.
+  std::vector<std::string>
+  drop_unlisted(std::vector<Assignment>        &named,
+                const std::vector<Assignment>  &others,
+                const std::vector<Assignment>  &overrides,
+                const std::string              &section,
+                const std::vector<std::string> &names);
 } // namespace Exemplar
 
 #endif
