@@ -14,6 +14,11 @@ namespace Exemplar
   LoadsParameters::declare(KeyTable &keys)
   {
     keys.add("Gravity", gravity, "Acceleration of gravity [m/s^2].");
+    keys.add("Balanced", balanced,
+             "Whether the body stands under its loads in its rest pose, as a character that is "
+             "drawn as it stands: "
+             "its cells carry from the beginning the stresses that bear the loads of t = 0. "
+             "Handles must hold it.");
     keys.add("Ramp", ramp, ramps,
              "none: gravity acts in full from the start, and forces are what their formulas say. "
              "increments, in static scenes: both are multiplied by t, which goes from 0 to 1 in "

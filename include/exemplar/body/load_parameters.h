@@ -35,6 +35,7 @@ namespace Exemplar
   {
     LoadRamp                    ramp = LoadRamp::none;
     std::array<double, 3>       gravity{}; ///< acceleration [m/s^2]
+    bool                        balanced = false;
     std::vector<LoadParameters> named;
 
     void

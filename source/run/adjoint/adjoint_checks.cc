@@ -69,6 +69,9 @@ namespace Exemplar
       refuse("for several processes", "Use one.");
     if (!problem.get_own_terms().empty())
       refuse("of terms that were added to the potential", "Make the problem without add_term().");
+    if (!problem.actions.initial_stresses.empty())
+      refuse("of balanced bodies, whose initial stresses depend on all that they are made of",
+             "Set Loads/Balanced = false.");
     require_known_model(problem);
     require_known_examples(problem);
   }

@@ -31,6 +31,8 @@ namespace Exemplar
         refuse_steps("of several processes", "Use one.");
       if (problem.constraints.handles.have_times())
         refuse_steps("with handles that let go or catch", "Leave out From and Until of Handles.");
+      if (!problem.actions.initial_stresses.empty())
+        refuse_steps("of balanced bodies", "Set Loads/Balanced = false.");
       if (!problem.get_own_terms().empty())
         refuse_steps("with terms of one's own", "Make the problem without add_term().");
     }

@@ -62,6 +62,8 @@ namespace Exemplar
       { "gravity", has_gravity, has_gravity ? loads : 0 }, // one vector holds both
       { "loads", actions.loads != nullptr && actions.loads->has_named_loads(),
         has_gravity ? 0 : loads },
+      { "initial stresses", !actions.initial_stresses.empty(),
+        memory_of_term(problem, "initial stress") },
       { "plastic cells",
         problem.potential.get_cells().get_field().get_batches().has_trait(
             &ModelTraits::plastic_strain),

@@ -3,6 +3,7 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
 #include <exemplar/body/pose_checks.h>
+#include <exemplar/run/problem/balance.h>
 #include <exemplar/run/problem/finiteness.h>
 #include <exemplar/run/problem/initial_state.h>
 #include <exemplar/run/problem/problem.h>
@@ -54,11 +55,22 @@ namespace Exemplar
                             given.fields.poses))
   {
     constraints.check(parameters, body, time_axis);
+    if (parameters.loads.balanced)
+      balance();
     if (parameters.scene == SceneKind::interpolation)
       start_interpolation();
     state.history = potential.get_cells().get_field().get_batches().history();
     start(state);
     check_start();
+  }
+
+  void
+  Problem::balance()
+  {
+    actions.initial_stresses = initial_stresses(parameters, body, examples, constraints,
+                                                actions.loads.get(), actions.warnings);
+    potential.add_term(
+        std::make_unique<InitialStressTerm>(body.fe_space, actions.initial_stresses));
   }
 
   void
@@ -297,6 +309,7 @@ namespace Exemplar
     if (body.made != nullptr)
       for (const std::string &warning : warnings_of(*body.made))
         all.push_back(warning);
+    all.insert(all.end(), actions.warnings.begin(), actions.warnings.end());
     append(&constraints.handles);
     // statics refuse what can turn
     for (const std::string &warning : actions.mass != nullptr

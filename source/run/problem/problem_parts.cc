@@ -170,6 +170,8 @@ namespace Exemplar
           std::make_unique<InertiaTerm>(*mass, *integrator_of_terms, energy_is_bounded));
     if (loads != nullptr)
       terms.push_back(std::make_unique<LoadTerm>(*loads, body.fe_space));
+    if (!initial_stresses.empty())
+      terms.push_back(std::make_unique<InitialStressTerm>(body.fe_space, initial_stresses));
     return terms;
   }
 } // namespace Exemplar

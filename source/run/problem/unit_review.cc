@@ -138,6 +138,8 @@ namespace Exemplar
     Warning
     review_weight(const Problem &problem, const BodyMeasures &measures)
     {
+      if (problem.parameters.loads.balanced)
+        return {}; // it does not sag
       const WeightEstimate estimate = estimate_weight(problem, measures);
       const double         sag      = estimate.sag / measures.length();
       if (!(sag >= great_sag) && !(estimate.strain >= great_strain))

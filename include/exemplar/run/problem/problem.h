@@ -169,6 +169,10 @@ namespace Exemplar
     std::string
     agreed(const std::string &what) const;
 
+    /// The body carries its loads in its rest pose.
+    void
+    balance();
+
     /// Throws UserError if the initial state is nothing to begin with.
     void
     check_start();

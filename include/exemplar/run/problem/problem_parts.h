@@ -9,6 +9,7 @@
 #include <exemplar/body/supports.h>
 #include <exemplar/body/time_integrator.h>
 #include <exemplar/potential/incremental_potential.h>
+#include <exemplar/potential/initial_stress_term.h>
 #include <exemplar/run/inputs/body_inputs.h>
 #include <exemplar/run/scene/scene_parameters.h>
 
@@ -131,8 +132,10 @@ namespace Exemplar
     make_terms(const Body &body, const TimeIntegrator *integrator_of_terms) const;
 
     std::unique_ptr<Loads>                loads;
-    const std::unique_ptr<Mass>           mass;       ///< in dynamic scenes
-    const std::unique_ptr<TimeIntegrator> integrator; ///< in dynamic scenes
+    const std::unique_ptr<Mass>           mass;             ///< in dynamic scenes
+    const std::unique_ptr<TimeIntegrator> integrator;       ///< in dynamic scenes
+    PointStresses                         initial_stresses; ///< empty unless the body is balanced
+    std::vector<std::string>              warnings;         ///< of them
 
     /// Whether the energy bound of doc/dynamics.md, Eq. (12), holds where handles rest.
     const bool energy_is_bounded;

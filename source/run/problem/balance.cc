@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/long_vectors.h>
+#include <exemplar/base/errors.h>
+#include <exemplar/base/number_text.h>
+#include <exemplar/kernels/cell_model.h>
+#include <exemplar/run/problem/balance.h>
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <limits>
+
+namespace Exemplar
+{
+  namespace
+  {
+    void
+    refuse_balance(const std::string &why, const std::string &remedy)
+    {
+      throw UserError("Loads/Balanced = true, but " + why + ". " + remedy);
+    }
+
+    void
+    check_balance(const SceneParameters &parameters,
+                  const Body            &body,
+                  const Constraints     &constraints,
+                  const Loads           *loads)
+    {
+      const std::string without = " or set Loads/Balanced = false.";
+      if (loads == nullptr)
+        refuse_balance("no load acts on the body", "Set Loads/Gravity," + without);
+      if (parameters.loads.ramp == LoadRamp::increments)
+        refuse_balance("with Loads/Ramp = increments no load acts in the beginning",
+                       "Set Loads/Ramp = none," + without);
+      if (parameters.model.law() == CellLaw::green)
+        refuse_balance("a body with Model/Strain = green cannot be",
+                       "Set Model/Strain = corotational," + without);
+      if (parameters.model.is_frozen())
+        refuse_balance("a stress that turns with the cells needs Model/Gradient = consistent",
+                       "Set that," + without);
+      if (parameters.solver.linear_solver == LinearSolver::umfpack)
+        refuse_balance("Solver/Linear solver = umfpack has no factor of the positions alone",
+                       "Set Solver/Linear solver = auto," + without);
+      if (const unsigned int n_free = n_free_rigid_motions(
+              body.mesh, body.fe_space.rest_positions(), constraints.handles.held_dofs()))
+        refuse_balance(
+            fmt::format("the handles leave {} of 6 rigid motions free in the beginning, so that "
+                        "nothing bears the body",
+                        n_free),
+            "Hold its feet: add a handle that holds three nodes not on a line," + without);
+    }
+
+    /// C : sym M of the law of a point at rest, the dilatation of patches aside.
+    Matrix3<double>
+    stress_at_rest(const CellBatches &batches, const unsigned int point, const Matrix3<double> &M)
+    {
+      const auto I = identity_matrix<double>();
+      return batches.with_cell(point, I, I,
+                               [&](auto state) -> Matrix3<double>
+                               {
+                                 using Cell = std::decay_t<decltype(state)>;
+                                 if constexpr (Cell::traits.exact_is_rotated)
+                                   return stress(batches.constants<typename Cell::Constants>(point),
+                                                 symmetric_part(M));
+                                 else
+                                 {
+                                   state.set_target(Matrix3<double>{});
+                                   return symmetric_part(state.response(M));
+                                 }
+                               });
+    }
+
+    /// The body at rest, without loads and inertia: what its linear stiffness answers to forces.
+    class RestingBody
+    {
+    public:
+      RestingBody(const SceneParameters &parameters,
+                  const Body            &body,
+                  Examples              &examples,
+                  const FreeDofs        &free_dofs)
+          : body(body), exchange(body.exchange()), free_dofs(free_dofs),
+            weights(examples.weights.size(), 0.),
+            potential({ laws_of_cells(parameters, body), body.fe_space, body.material,
+                        body.cell_material, examples.poses, examples.weights, free_dofs,
+                        parameters.solver.n_threads },
+                      make_elastic_terms(body, examples),
+                      {},
+                      nullptr,
+                      is_assembled_in_parts(parameters.solver, exchange)),
+            system(make_bordered_system(parameters.solver, potential))
+      {
+        ElasticEvaluation evaluation; // which finds the rotations
+        potential.get_cells().evaluate(rest(), weights, evaluation, RotationUse::update);
+        assemble();
+        if (!is_iterative())
+          stiffness = system->matrix_values();
+        system->factorize(rest());
+      }
+
+      /// tau with sum V tau g = force on the free degrees of freedom.
+      PointStresses
+      stresses_of(const Vector &force)
+      {
+        PointStresses stresses(body.fe_space.n_points(), Matrix3<double>{});
+        Vector        missing = force;
+        double        before  = std::numeric_limits<double>::infinity();
+        for (unsigned int correction = 0; correction < max_corrections; ++correction)
+        {
+          const double size = free_dofs.max_magnitude(missing);
+          if (!(size > 0.) || !(size < 0.5 * before))
+            break; // nothing but rounding is left
+          before = size;
+          add_stresses(displacement_of(missing), stresses);
+          missing = force;
+          missing -= forces_of(stresses);
+        }
+        return stresses;
+      }
+
+      /// The least factor of the elasticity with which the body stands under these stresses, 1 if it does as
+      /// it is; none where no factor is made.
+      double
+      least_factor(const PointStresses &stresses)
+      {
+        if (is_iterative())
+          return 1.;
+        InitialStressTerm term(body.fe_space, stresses);
+        term.attach(potential.matrix_pattern(), free_dofs, potential.get_cells().get_field());
+        std::vector<double> of_stresses(stiffness.size(), 0.), none;
+        term.add_tangent({ rest(), weights }, Tangent::exact, of_stresses, none);
+        double high = 1.;
+        while (!stands(high, of_stresses) && high < 1e12)
+          high *= 2.;
+        if (high == 1.)
+          return high;
+        double low = 0.5 * high;
+        while (high > 1.01 * low)
+        {
+          const double middle                        = std::sqrt(low * high);
+          (stands(middle, of_stresses) ? high : low) = middle;
+        }
+        return high;
+      }
+
+    private:
+      static constexpr unsigned int max_corrections = 30;
+
+      const Vector &
+      rest() const
+      {
+        return body.fe_space.rest_positions();
+      }
+
+      /// Whether the system has no factor.
+      bool
+      is_iterative() const
+      {
+        return system->outer_products() != nullptr;
+      }
+
+      void
+      assemble()
+      {
+        potential.assemble(rest(), weights, 1., system->matrix_values(), system->columns(),
+                           system->outer_products());
+        free_dofs.assemble_columns(system->columns());
+      }
+
+      Vector
+      displacement_of(const Vector &force)
+      {
+        std::vector<double> unknowns;
+        for (const unsigned int dof : free_dofs.list())
+          unknowns.push_back(force[dof]);
+        system->apply_inverse(unknowns);
+        Vector displacement(force.size());
+        for (std::size_t i = 0; i < unknowns.size(); ++i)
+          displacement[free_dofs.list()[i]] = unknowns[i];
+        exchange.share(displacement);
+        return displacement;
+      }
+
+      void
+      add_stresses(const Vector &displacement, PointStresses &stresses)
+      {
+        const FESpace      &fe_space = body.fe_space;
+        const Patches      &patches  = body.patches;
+        std::vector<double> means(patches.size(), 0.);
+        for (unsigned int point = 0; point < stresses.size(); ++point)
+        {
+          const Matrix3<double> M = fe_space.deformation_gradient(point, displacement);
+          stresses[point]
+              = combine(1., stresses[point], 1.,
+                        stress_at_rest(potential.get_cells().get_field().get_batches(), point, M));
+          if (patches.size() > 0)
+            means[patches.of_point(point)] += fe_space.volume(point) * trace(M);
+        }
+        for (unsigned int patch = 0; patch < patches.size(); ++patch)
+          for (const unsigned int point : patches.points(patch))
+            for (int i = 0; i < 3; ++i)
+              stresses[point][i][i] += patches.lambda(patch) * means[patch] / patches.volume(patch);
+      }
+
+      Vector
+      forces_of(const PointStresses &stresses) const
+      {
+        const FESpace      &fe_space = body.fe_space;
+        Vector              sum(fe_space.n_dofs());
+        std::vector<double> forces;
+        for (unsigned int point = 0; point < stresses.size(); ++point)
+        {
+          fe_space.nodal_forces(point, stresses[point], forces);
+          const auto nodes = fe_space.nodes(fe_space.cell_of(point));
+          for (unsigned int a = 0; a < nodes.size(); ++a)
+            for (unsigned int c = 0; c < 3; ++c)
+              sum[3 * nodes[a] + c] += forces[3 * a + c];
+        }
+        exchange.assemble(sum.begin(), 3);
+        return sum;
+      }
+
+      bool
+      stands(const double factor, const std::vector<double> &of_stresses)
+      {
+        std::vector<double> &values = system->matrix_values();
+        for (std::size_t i = 0; i < values.size(); ++i)
+          values[i] = factor * stiffness[i] + of_stresses[i];
+        try
+        {
+          system->factorize(rest());
+        }
+        catch (const SolverFailure &)
+        {
+          return false;
+        }
+        return true;
+      }
+
+      const Body                           &body;
+      const Exchange                       &exchange;
+      const FreeDofs                       &free_dofs;
+      const std::vector<double>             weights; ///< none of an example
+      IncrementalPotential                  potential;
+      const std::unique_ptr<BorderedSystem> system;
+      std::vector<double>                   stiffness; ///< K; empty where no factor is made
+    };
+  } // namespace
+
+  PointStresses
+  initial_stresses(const SceneParameters    &parameters,
+                   const Body               &body,
+                   Examples                 &examples,
+                   const Constraints        &constraints,
+                   const Loads              *loads,
+                   std::vector<std::string> &warnings)
+  {
+    check_balance(parameters, body, constraints, loads);
+    Vector force(body.fe_space.n_dofs());
+    if (loads->has_named_loads())
+      loads->named_loads(0., force);
+    if (loads->has_gravity())
+      force += loads->gravity();
+    RestingBody         resting(parameters, body, examples, constraints.free_dofs);
+    const PointStresses stresses = resting.stresses_of(force);
+    if (const double factor = resting.least_factor(stresses); factor > 1.)
+      warnings.push_back(fmt::format(
+          "Loads/Balanced: the rest pose is an equilibrium, but no stable one: the body is too "
+          "soft "
+          "for its loads and falls from there at the least disturbance. It stands with {:.3g} "
+          "times "
+          "its stiffness: Material/Young's modulus = {:.3g}, and those of regions and maps alike.",
+          factor, factor * parameters.material.everywhere.youngs_modulus));
+    return stresses;
+  }
+} // namespace Exemplar
