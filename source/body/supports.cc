@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace Exemplar
 {
@@ -179,5 +180,29 @@ namespace Exemplar
     move_rigidly(best_rigid_motion(nodes_of(whole(exchange, positions, true)),
                                    nodes_of(whole(exchange, reference, true))),
                  positions);
+  }
+
+  void
+  align_at(const std::vector<unsigned int> &dofs,
+           const dealii::Vector<double>    &reference,
+           dealii::Vector<double>          &positions,
+           const Exchange                  &exchange)
+  {
+    const auto                           all     = nodes_of(whole(exchange, positions, true));
+    const auto                           targets = nodes_of(whole(exchange, reference, true));
+    std::map<unsigned int, unsigned int> n_components;
+    for (const unsigned int dof : in_whole(exchange, positions.size(), dofs))
+      ++n_components[dof / 3];
+    std::vector<dealii::Point<3>> from, to;
+    for (const auto &[node, n] : n_components)
+      if (n == 3)
+      {
+        from.push_back(all[node]);
+        to.push_back(targets[node]);
+      }
+    if (from.size() < 3 || are_collinear(from) || are_collinear(to))
+      align(reference, positions, exchange);
+    else
+      move_rigidly(best_rigid_motion(from, to), positions);
   }
 } // namespace Exemplar

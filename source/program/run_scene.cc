@@ -148,6 +148,9 @@ namespace Exemplar
       }
       progress.finish();
       log.warn(review.warnings());
+      log.warn(missed_example_warnings(problem));
+      if (const std::string starts = starts_text(problem); !starts.empty())
+        log.say(starts);
       writer.finish(status_name(problem.parameters.solver.method == Method::one_pass
                                     ? SolveStatus::one_pass
                                     : SolveStatus::converged),

@@ -200,6 +200,18 @@ namespace Exemplar
   }
 
   std::string
+  starts_text(const Problem &problem)
+  {
+    std::string text;
+    for (const ExampleStart &start : problem.get_starts())
+      text += fmt::format("From {}: {}{}\n", start.from,
+                          is_success(start.status) ? fmt::format("{:.6g} J", start.energy)
+                                                   : status_name(start.status),
+                          start.is_kept ? ", which is kept" : "");
+    return text;
+  }
+
+  std::string
   progress_text(const SolveReport &report)
   {
     std::ostringstream text;

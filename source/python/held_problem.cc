@@ -202,7 +202,11 @@ namespace Exemplar::Python
       diagnostics.add_step();
       review.add_step(report);
       if (!is_extra && has_reached(*problem, end_of_scene(*problem)))
+      {
         at_end = review.warnings();
+        for (const std::string &warning : missed_example_warnings(*problem))
+          at_end.push_back(warning);
+      }
     }
     log_step(*problem, report);
     warn(at_end);

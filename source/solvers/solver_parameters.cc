@@ -18,6 +18,9 @@ namespace Exemplar
                                                      { LinearSolver::iterative, "iterative" },
                                                      { LinearSolver::umfpack, "umfpack" } };
 
+    const EnumTable<Starts> all_starts
+        = { { Starts::state, "state" }, { Starts::examples, "examples" } };
+
     const EnumTable<PassRotations> pass_rotations
         = { { PassRotations::last, "last" }, { PassRotations::predicted, "predicted" } };
   } // namespace
@@ -50,6 +53,11 @@ namespace Exemplar
              "2; newton first tries half the step, up to six times, with as many each, or goes "
              "on for eight times as many where nothing moves or changes. Not used by one pass.",
              Bounds{ 1 });
+    keys.add(
+        "Starts", starts, all_starts,
+        "From where static scenes with examples look for their equilibrium: state: where the steps "
+        "lead to; examples: after the last increment from each example, too, turned and moved to "
+        "the held nodes, which stay at their places. That of least energy is kept.");
     keys.add(
         "Rotations", rotations, pass_rotations,
         "Rotations of the cells in one pass, and in the first pass of fixed point: last: those of "

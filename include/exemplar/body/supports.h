@@ -65,6 +65,14 @@ namespace Exemplar
   align(const dealii::Vector<double> &reference,
         dealii::Vector<double>       &positions,
         const Exchange               &exchange);
+
+  /// The same by the nodes alone of which all three of these degrees of freedom of this process are there,
+  /// unless they are on a line.
+  void
+  align_at(const std::vector<unsigned int> &dofs,
+           const dealii::Vector<double>    &reference,
+           dealii::Vector<double>          &positions,
+           const Exchange                  &exchange);
 } // namespace Exemplar
 
 #endif

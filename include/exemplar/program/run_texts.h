@@ -23,6 +23,10 @@ namespace Exemplar
   std::string
   closing_text(const Problem &problem, const RunWriter &writer);
 
+  /// From where the last step was solved and what was found, a line each; empty unless Solver/Starts asks.
+  std::string
+  starts_text(const Problem &problem);
+
   /// What a step, or its last iteration, has come to.
   std::string
   progress_text(const SolveReport &report);

@@ -25,6 +25,13 @@ namespace Exemplar
     predicted
   };
 
+  /// From where static scenes look for their equilibrium.
+  enum class Starts
+  {
+    state,
+    examples
+  };
+
   /// How a linear system is solved.
   enum class LinearSolver
   {
@@ -43,6 +50,7 @@ namespace Exemplar
     double        step_tolerance     = 1e-3;
     unsigned int  maximum_iterations = 50;
     PassRotations rotations          = PassRotations::last;
+    Starts        starts             = Starts::state;
     LinearSolver  linear_solver      = LinearSolver::automatic;
     unsigned int  n_threads = 1; ///< at work; no key of scene files, as no result depends on it
 

@@ -220,6 +220,11 @@ namespace Exemplar
               json["status"]         = status;
               json["warnings"]       = warnings_of(warnings);
               json["worst_residual"] = totals.worst_residual;
+              for (const ExampleStart &start : problem.get_starts())
+                json["starts"].push_back({ { "from", printable(start.from) },
+                                           { "status", status_name(start.status) },
+                                           { "energy", start.energy },
+                                           { "kept", start.is_kept } });
               if (last.space_error)
                 json["space_error"] = errors_of(*last.space_error);
               if (last.functional)

@@ -56,21 +56,17 @@ namespace Exemplar
   {
     constraints.check(parameters, body, time_axis);
     if (parameters.loads.balanced)
-      balance();
+    {
+      actions.initial_stresses = initial_stresses(parameters, body, examples, constraints,
+                                                  actions.loads.get(), actions.warnings);
+      potential.add_term(
+          std::make_unique<InitialStressTerm>(body.fe_space, actions.initial_stresses));
+    }
     if (parameters.scene == SceneKind::interpolation)
       start_interpolation();
     state.history = potential.get_cells().get_field().get_batches().history();
     start(state);
     check_start();
-  }
-
-  void
-  Problem::balance()
-  {
-    actions.initial_stresses = initial_stresses(parameters, body, examples, constraints,
-                                                actions.loads.get(), actions.warnings);
-    potential.add_term(
-        std::make_unique<InitialStressTerm>(body.fe_space, actions.initial_stresses));
   }
 
   void
@@ -166,6 +162,8 @@ namespace Exemplar
         align(state.positions, next.positions, body.exchange());
         start(next);
       }
+      if (parameters.solver.starts == Starts::examples && interval.end == end_of_scene(*this))
+        start_from_examples(next, interval, report);
       refuse_what_is_not_finite(next, report);
     }
     if (is_success(report.status))

@@ -254,4 +254,18 @@ namespace Exemplar
           + " J, where the rest pose has less: Initial/Pose may be too far from it.");
     return all;
   }
+
+  std::vector<std::string>
+  missed_example_warnings(Problem &problem)
+  {
+    const std::optional<ExampleStart> missed = problem.missed_example();
+    if (!missed)
+      return {};
+    return { fmt::format(
+        "The body has come to rest at {:.3g} J, but in example {}, with the held nodes at "
+        "their places, it has {:.3g} J: the pose that was meant may be another one's "
+        "neighbour. Set Solver/Starts = examples, which looks from there, too, or "
+        "Initial/Pose.",
+        problem.evaluation.potential, missed->from, missed->energy) };
+  }
 } // namespace Exemplar

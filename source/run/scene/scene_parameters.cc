@@ -162,8 +162,31 @@ namespace Exemplar
   }
 
   void
+  SceneParameters::check_starts() const
+  {
+    if (solver.starts == Starts::state)
+      return;
+    const auto refuse = [](const std::string &why)
+    {
+      throw UserError(
+          "Solver/Starts = examples looks for the equilibrium of least energy from each "
+          "example, "
+          + why + " Solver/Starts = state.");
+    };
+    if (scene != SceneKind::statics || !examples.in_use()
+        || examples.weights == WeightRule::prescribed)
+      refuse("which is for static scenes with examples whose weights are unknown. Set");
+    if (model.is_frozen() || solver.method != Method::newton)
+      refuse("which needs a descent on the energy. Set Solver/Method = newton and Model/Gradient = "
+             "consistent, or");
+    if (material.may_yield() || examples.yield > 0.)
+      refuse("but what yields depends on the whole way. Set");
+  }
+
+  void
   SceneParameters::check_solver() const
   {
+    check_starts();
     const bool descends = solver.method == Method::newton || solver.method == Method::quasi_newton;
     if (descends && model.is_frozen())
       throw UserError("Solver/Method = " + method_name(solver.method)

@@ -4,6 +4,7 @@
 
 #include <exemplar/algebra/conditioning.h>
 #include <exemplar/base/step_clock.h>
+#include <exemplar/run/problem/example_start.h>
 #include <exemplar/run/problem/laboratory.h>
 #include <exemplar/run/problem/problem_parts.h>
 #include <exemplar/run/problem/step_interval.h>
@@ -11,6 +12,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -117,6 +119,19 @@ namespace Exemplar
       return changes;
     }
 
+    /// Of a static scene that stands at its end, the example that has least energy, and clearly less than
+    /// the state, where it is placed with the held nodes at their places and the best weights; none if there
+    /// is no such. One evaluation an example. All processes must call this.
+    std::optional<ExampleStart>
+    missed_example();
+
+    /// From where the last step of the scene was solved, with Solver/Starts = examples.
+    const std::vector<ExampleStart> &
+    get_starts() const
+    {
+      return starts;
+    }
+
     /// Go on from a state of an earlier run.
     void
     resume_from(const State &earlier, const std::string &solver_memory = "");
@@ -169,10 +184,6 @@ namespace Exemplar
     std::string
     agreed(const std::string &what) const;
 
-    /// The body carries its loads in its rest pose.
-    void
-    balance();
-
     /// Throws UserError if the initial state is nothing to begin with.
     void
     check_start();
@@ -180,6 +191,14 @@ namespace Exemplar
     /// Handles hold as they do in a step that begins at this time.
     void
     follow_time(double time);
+
+    /// An example with the held nodes where they are in `end`, and the weight 1 of its own.
+    State
+    at_example(unsigned int i, const State &end) const;
+
+    /// `end` becomes the equilibrium of least energy of those found from the examples and itself.
+    void
+    start_from_examples(State &end, const StepInterval &interval, SolveReport &report);
 
     /// Make a failure of a report on a step to `next` if that, evaluated, is not finite.
     void
@@ -203,6 +222,7 @@ namespace Exemplar
 
     Changes                     changes;
     std::vector<OwnTerm>        own_terms;
+    std::vector<ExampleStart>   starts;
     std::unique_ptr<Laboratory> lab; ///< null until it is asked for
   };
 

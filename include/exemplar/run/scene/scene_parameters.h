@@ -70,6 +70,9 @@ namespace Exemplar
     check_background() const;
 
     void
+    check_starts() const;
+
+    void
     check_solver() const;
 
     void
