@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/base/errors.h>
 #include <exemplar/run/problem/problem.h>
-
-#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,11 +11,12 @@ namespace Exemplar
 {
   namespace
   {
-    /// Less than rounding and tolerances make of an energy.
+    /// By more than rounding, tolerances and the ridge of the weights make of an energy.
     bool
-    is_clearly_less(const double energy, const double other)
+    is_clearly_less(const double energy, const double other, const Body &body)
     {
-      return energy < other - 1e-6 * std::abs(other);
+      return energy
+             < other - 1e-6 * std::abs(other) - 1e-10 * unit_energy(body.fe_space, body.material);
     }
 
     /// The only example whose weight is 1, in all regions.
@@ -57,7 +55,7 @@ namespace Exemplar
       Evaluation of_example;
       potential.minimize_over_weights(at, RotationUse::update, of_example);
       if (const double energy = of_example.potential;
-          is_clearly_less(energy, best ? best->energy : evaluation.potential))
+          is_clearly_less(energy, best ? best->energy : evaluation.potential, body))
         best = { examples.poses.name(i), SolveStatus::initial, energy, false };
     }
     start(state); // the rotations are its own again
@@ -80,7 +78,8 @@ namespace Exemplar
       SolveReport of_example = solver->solve(at, found, interval.end, interval.size);
       report.iterations += of_example.iterations;
       starts.push_back({ examples.poses.name(i), of_example.status, found.potential, false });
-      if (!is_success(of_example.status) || !is_clearly_less(found.potential, starts[kept].energy))
+      if (!is_success(of_example.status)
+          || !is_clearly_less(found.potential, starts[kept].energy, body))
         continue;
       kept                  = starts.size() - 1;
       of_example.iterations = report.iterations;
