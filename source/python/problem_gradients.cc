@@ -27,11 +27,10 @@ namespace Exemplar::Python
       if (!by_positions.is_none())
       {
         // of the vertices alone, as problem.positions are, or of all nodes
-        const auto given = py::array::ensure(by_positions);
         const auto n_all = py::ssize_t(problem.body.fe_space.n_nodes());
         const auto n     = py::ssize_t(problem.body.mesh.n_nodes());
-        const bool all   = given && given.ndim() == 2 && given.shape(0) == n_all;
-        const auto rows  = points_of(by_positions, method + ": dJ_dx", all ? n_all : n);
+        const auto rows  = points_of(by_positions, method + ": dJ_dx",
+                                    has_rows(by_positions, n_all) ? n_all : n);
         for (unsigned int dof = 0; dof < 3 * rows.size(); ++dof)
           functional.positions[dof] = rows[dof / 3][dof % 3];
       }
@@ -98,6 +97,13 @@ namespace Exemplar::Python
     return py::array_t<double>(
         { py::ssize_t(kept->size() / 3), py::ssize_t(3) }, kept->begin(),
         py::capsule(kept, [](void *memory) { delete static_cast<Vector *>(memory); }));
+  }
+
+  bool
+  has_rows(const py::object &array, const py::ssize_t n)
+  {
+    const auto given = py::array::ensure(array);
+    return given && given.ndim() == 2 && given.shape(0) == n;
   }
 
   void

@@ -7,6 +7,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace Exemplar::Python
@@ -81,14 +82,15 @@ namespace Exemplar::Python
                               [](Problem &problem) { problem.on_step = nullptr; });
     }
 
-    /// (n, 3) in the memory of a step, which the array keeps.
+    /// Of the vertices, (n, 3), in the memory of a step, which the array keeps.
     py::array
-    rows(const std::shared_ptr<RecordedSteps> &steps, const Vector &field)
+    rows(const Trajectory &trajectory, const Vector &field)
     {
-      const py::capsule   owner(new std::shared_ptr<RecordedSteps>(steps), [](void *kept)
+      const std::size_t n
+          = std::min<std::size_t>(field.size() / 3, trajectory.held->get().body.mesh.n_nodes());
+      const py::capsule   owner(new std::shared_ptr<RecordedSteps>(trajectory.steps), [](void *kept)
                                 { delete static_cast<std::shared_ptr<RecordedSteps> *>(kept); });
-      py::array_t<double> array({ py::ssize_t(field.size() / 3), py::ssize_t(3) }, field.begin(),
-                                owner);
+      py::array_t<double> array({ py::ssize_t(n), py::ssize_t(3) }, field.begin(), owner);
       array.attr("flags").attr("writeable") = false;
       return std::move(array);
     }
@@ -177,9 +179,10 @@ namespace Exemplar::Python
       if (problem.actions.integrator == nullptr && !by_velocities.is_none())
         throw UserError("vjp: dJ_dv must be None, as the scene is not dynamic.");
       const auto n         = py::ssize_t(problem.body.mesh.n_nodes());
+      const auto n_all     = py::ssize_t(problem.body.fe_space.n_nodes());
       const auto n_weights = problem.state.weights.size();
-      const auto of_nodes
-          = [n](const py::object &entry, const std::string &what) { points_of(entry, what, n); };
+      const auto of_nodes  = [n, n_all](const py::object &entry, const std::string &what)
+      { points_of(entry, what, has_rows(entry, n_all) ? n_all : n); };
       const auto of_weights = [n_weights](const py::object &entry, const std::string &what)
       { check_weight_derivatives(entry, what, n_weights); };
       const auto                    x = arrays_of(by_positions, "dJ_dx", steps.size(), of_nodes);
@@ -209,7 +212,7 @@ namespace Exemplar::Python
           [](const Trajectory &trajectory)
           {
             return of_steps(trajectory, [&](const RecordedStep &step)
-                            { return rows(trajectory.steps, step.positions); });
+                            { return rows(trajectory, step.positions); });
           },
           "A list with the positions of all nodes, n rows of 3 [m], at the end of each step. Read "
           "only,\nno copies.");
@@ -218,7 +221,7 @@ namespace Exemplar::Python
           [](const Trajectory &trajectory)
           {
             return of_steps(trajectory, [&](const RecordedStep &step)
-                            { return rows(trajectory.steps, step.velocities); });
+                            { return rows(trajectory, step.velocities); });
           },
           "A list with the velocities [m/s], as positions; with empty arrays unless dynamic.");
       type.def_property_readonly(

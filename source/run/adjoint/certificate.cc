@@ -12,7 +12,7 @@ namespace Exemplar
     require_rotations(problem);
     Evaluation evaluation;
     problem.potential.evaluate(problem.state, RotationUse::update, evaluation);
-    const Direction     adjoint = solve_adjoint(problem, by_state).direction;
+    const Direction     adjoint = solve_adjoint(problem, evaluation, by_state).direction;
     const WeightMemory &memory  = problem.examples.weights.get_memory();
     // a is zero on held nodes, and b adds up to zero in each region, so that multipliers drop out; b is zero
     // where the slopes to both sides differ

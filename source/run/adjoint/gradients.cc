@@ -100,7 +100,7 @@ namespace Exemplar
     Evaluation evaluation;
     problem.potential.evaluate(problem.state, RotationUse::update, evaluation);
     require_equilibrium(problem, evaluation);
-    SlopeDerivatives slope   = solve_adjoint(problem, by_state).derivatives;
+    SlopeDerivatives slope   = solve_adjoint(problem, evaluation, by_state).derivatives;
     Vector           handles = of_held(problem, by_state.positions, slope.by_positions);
     Gradients        result  = gradients_of(problem, std::move(slope));
     result.handles           = std::move(handles);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/run/adjoint/adjoint_checks.h>
+#include <exemplar/run/adjoint/adjoint_solve.h>
 #include <exemplar/run/adjoint/slope_of_motion.h>
-#include <exemplar/run/adjoint/step_adjoint.h>
 #include <exemplar/run/adjoint/trajectory_checks.h>
 #include <exemplar/run/adjoint/trajectory_gradients.h>
 
@@ -107,7 +108,6 @@ namespace Exemplar
       TrajectoryGradients
       run()
       {
-        check_start();
         for (unsigned int i = steps.size(); i-- > 0;)
           add_step(i);
         result.all         = gradients_of(problem, sums());
@@ -131,21 +131,6 @@ namespace Exemplar
       zeros() const
       {
         return Vector(problem.body.fe_space.n_dofs());
-      }
-
-      /// Damping compares strains of the states before the first step, too.
-      void
-      check_start()
-      {
-        if (!is_dynamic || !(problem.parameters.time.stiffness_damping > 0.))
-          return;
-        const State start = steps.start(0);
-        for (const Vector *positions : { &start.positions, &start.previous_positions })
-          if (positions->size() > 0)
-          {
-            problem.state.positions = *positions;
-            require_no_guard(problem);
-          }
       }
 
       void
@@ -174,7 +159,7 @@ namespace Exemplar
         const State start = steps.start(i);
         Evaluation  evaluation;
         visit.go_to(start, steps.step(i), evaluation);
-        require_no_guard(problem);
+        require_rotations(problem);
         require_solved_step(problem, evaluation, i);
         const std::vector<unsigned int> weak = weakly_active(problem, evaluation);
         for (auto weight = weak.rbegin(); weight != weak.rend(); ++weight)
@@ -186,12 +171,12 @@ namespace Exemplar
           carry({});
           return;
         }
-        system.go_to_state();
+        system.go_to_state(evaluation);
         MotionDerivatives      of_motion;
         const SlopeDerivatives slope
-            = system
-                  .solve(by_state, [&](const Direction &direction)
-                         { return derivatives(start, direction, of_motion); })
+            = solve_adjoint(system, by_state,
+                            [&](const Direction &direction)
+                            { return derivatives(start, direction, of_motion); })
                   .derivatives;
         const Vector of_handles = of_held(problem, by_state.positions, slope.by_positions);
         for (std::size_t k = 0; k < result.handles[i].size(); ++k)
@@ -269,7 +254,7 @@ namespace Exemplar
       const RecordedSteps                 &steps;
       const std::vector<StateDerivatives> &by_states;
       Visit                                visit;
-      StepAdjoint                          system;
+      AdjointSystem                        system;
       const bool                           is_dynamic;
       std::array<Carried, 2>               carried; ///< by the last states, the later one first
       Vector                               by_velocities; ///< at the end of a step
