@@ -30,12 +30,18 @@ X, Y, Z = NODES.T
 POSES = [np.stack([X, Y + 0.1 * X * (Z - 0.5), Z - 0.1 * X * (Y - 0.5)], axis=1),
          np.stack([X, Y, Z + 0.06 * X**2], axis=1),
          np.stack([1.15 * X, 0.95 * Y, 0.95 * Z + 0.02 * X * Y], axis=1)]
-EDGES = np.unique(np.sort(CELLS[:, list(itertools.combinations(range(4), 2))].reshape(-1, 2), axis=1), axis=0)
 
 
-def with_middles(nodes):
+def edges_of(cells):
+    return np.unique(np.sort(cells[:, list(itertools.combinations(range(4), 2))].reshape(-1, 2), axis=1), axis=0)
+
+
+EDGES = edges_of(CELLS)
+
+
+def with_middles(nodes, edges=EDGES):
     """As quadratic elements have them, behind the vertices."""
-    return np.concatenate([nodes, nodes[EDGES].mean(axis=1)])
+    return np.concatenate([nodes, nodes[edges].mean(axis=1)])
 
 
 def targets_of(nodes):
