@@ -92,7 +92,7 @@ class Case:
     """Steps, a function of them, and what both depend on."""
 
     def __init__(self, base, lengths=LENGTHS, **changes):
-        self.base, self.changes = base, {"lengths": lengths, **changes}
+        self.base, self.changes, self.are_at_bounds = base, {"lengths": lengths, **changes}, set()
         self.is_quadratic, self.is_dynamic, n = is_quadratic(base), base["Scene"] == "dynamic", len(lengths)
         self.problem, self.trajectory = recorded(base, **self.changes)
         self.by_weights = random.normal(size=(n, len(self.problem.weights)))
@@ -178,14 +178,16 @@ class Differences(unittest.TestCase):
         return case
 
     def check_rules(self, damping):
+        """Half of all combinations; doc/scripts/measure_gradients.py has the others, too."""
         n_at_bounds = 0
-        for scheme, dilatation, (name, rule), energy in itertools.product(["implicit euler", "bdf2"], ["cells", "patches"],
-                                                                          RULES.items(), ["scaled", "blended"]):
+        every = itertools.product(["implicit euler", "bdf2"], ["cells", "patches"], RULES.items(), ["scaled", "blended"])
+        places = itertools.product(*map(range, (2, 2, 4, 2)))
+        for scheme, dilatation, (name, rule), energy in (one for one, place in zip(every, places) if sum(place) % 2 == bool(damping)):
             with self.subTest(f"{scheme}, {dilatation}, {name}, {energy}"):
                 case = self.check(scene(Time={"Scheme": scheme, **damping}, Model={"Dilatation": dilatation},
                                         Examples={**rule, "Energy": energy}))
                 n_at_bounds += np.count_nonzero(np.array(case.trajectory.weights) == 0)
-        self.assertGreater(n_at_bounds, 50)
+        self.assertGreater(n_at_bounds, 25)
 
     def test_undamped(self):
         self.check_rules({})
