@@ -214,8 +214,9 @@ namespace Exemplar::Python
             return of_steps(trajectory, [&](const RecordedStep &step)
                             { return rows(trajectory, step.positions); });
           },
-          "A list with the positions of all nodes, n rows of 3 [m], at the end of each step. Read "
-          "only,\nno copies.");
+          "A list with the positions of the mesh's nodes, n rows of 3 [m], at the end of each "
+          "step.\n"
+          "Read only, no copies.");
       type.def_property_readonly(
           "velocities",
           [](const Trajectory &trajectory)
@@ -272,10 +273,15 @@ namespace Exemplar::Python
           "and of a dynamic scene, with all else where it is,\n"
           "  mass_damping, stiffness_damping          floats\n"
           "  initial_positions, initial_velocities    (n, 3), of the state at the beginning\n"
-          "Raises UserError for scenes whose gradients are not known (doc/gradients.md), for\n"
-          "deformations at which a guard acts, where the problem was changed or its state set\n"
-          "meanwhile or since, and for lists and arrays of other sizes; SolverFailure if a "
-          "tangent is\nnot positive definite. The problem stays as it is.");
+          "With quadratic elements rows are those of problem.vjp(): dJ_dx and dJ_dv have one for "
+          "each\n"
+          "vertex or for each node, initial_positions and initial_velocities one for each node.\n"
+          "Raises UserError for scenes whose gradients are not known (doc/gradients.md), where a "
+          "cell\n"
+          "has no unique rotation, where the problem was changed or its state set meanwhile or "
+          "since,\n"
+          "and for lists and arrays of other sizes; SolverFailure if a tangent is not positive\n"
+          "definite. The problem stays as it is.");
       type.def("vjp",
                [](const Trajectory &, const py::args &, const py::kwargs &) -> py::dict
                { throw py::type_error("vjp is called as vjp(dJ_dx, dJ_dw=None, dJ_dv=None)."); });

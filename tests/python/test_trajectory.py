@@ -178,16 +178,16 @@ class Differences(unittest.TestCase):
         return case
 
     def check_rules(self, damping):
-        """Half of all combinations; doc/scripts/measure_gradients.py has the others, too."""
+        """A quarter of all combinations; doc/scripts/measure_gradients.py has the others, too."""
         n_at_bounds = 0
         every = itertools.product(["implicit euler", "bdf2"], ["cells", "patches"], RULES.items(), ["scaled", "blended"])
         places = itertools.product(*map(range, (2, 2, 4, 2)))
-        for scheme, dilatation, (name, rule), energy in (one for one, place in zip(every, places) if sum(place) % 2 == bool(damping)):
+        for scheme, dilatation, (name, rule), energy in (one for one, place in zip(every, places) if sum(place) % 4 == 2 * bool(damping)):
             with self.subTest(f"{scheme}, {dilatation}, {name}, {energy}"):
                 case = self.check(scene(Time={"Scheme": scheme, **damping}, Model={"Dilatation": dilatation},
                                         Examples={**rule, "Energy": energy}))
                 n_at_bounds += np.count_nonzero(np.array(case.trajectory.weights) == 0)
-        self.assertGreater(n_at_bounds, 25)
+        self.assertGreater(n_at_bounds, 10)
 
     def test_undamped(self):
         self.check_rules({})

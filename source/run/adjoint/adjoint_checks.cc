@@ -2,7 +2,7 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/run/adjoint/adjoint_checks.h>
 #include <exemplar/run/adjoint/example_strains.h>
-#include <exemplar/run/adjoint/point_potential.h>
+#include <exemplar/run/adjoint/laws_with_derivatives.h>
 
 #include <fmt/core.h>
 

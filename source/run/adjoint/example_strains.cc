@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/kernels/patch_cell.h>
 #include <exemplar/run/adjoint/example_strains.h>
-#include <exemplar/run/adjoint/point_potential.h>
+#include <exemplar/run/adjoint/laws_with_derivatives.h>
 
 namespace Exemplar
 {
