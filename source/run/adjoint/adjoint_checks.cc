@@ -49,7 +49,7 @@ namespace Exemplar
     {
       if (problem.examples.poses.size() == 0)
         return;
-      if (problem.body.material.has_examples() && has_orthotropic_cells(problem))
+      if (problem.body.material.has_elasticity_of_examples() && has_orthotropic_cells(problem))
         refuse("of examples with an elasticity of their own in an orthotropic body",
                "Leave out Examples/Example modulus and Example Poisson ratio.");
       if (problem.examples.weights.get_memory().yields() && problem.state.step > 1)

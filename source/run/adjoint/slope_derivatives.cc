@@ -191,7 +191,7 @@ namespace Exemplar
         }
         const auto       law = traits_of(laws[fe_space.cell_of(patches.points(patch).front())]);
         const PatchScene of_scene{ scene.blended_part, law.has_guard_of_patches(), law.knows_volume,
-                                   problem.body.material.has_examples() };
+                                   problem.body.material.has_elasticity_of_examples() };
         const OfPatch    potential = patch_potential(
                of_scene, seeded_sums, seeded<OfPatch>(scene.examples.importance, PatchTerm::size));
         sums.by_importance += potential.change_by[PatchTerm::size];

@@ -55,7 +55,7 @@ namespace Exemplar
         return;
       if (examples.acts_on != ActsOn::all)
         refuse_steps("of examples that act on a part of the strain", "Set Examples/Acts on = all.");
-      if (problem.body.material.has_examples())
+      if (problem.body.material.has_elasticity_of_examples())
         refuse_steps("of examples with an elasticity of their own",
                      "Leave out Examples/Example modulus and Example Poisson ratio.");
       if (problem.body.material.importance_varies())
