@@ -48,7 +48,7 @@ namespace Exemplar
     void
     require_known_examples(const Problem &problem)
     {
-      if (problem.body.material.has_examples() && has_orthotropic_cells(problem))
+      if (problem.body.material.has_elasticity_of_examples() && has_orthotropic_cells(problem))
         refuse("of examples with an elasticity of their own in an orthotropic body",
                "Leave out Examples/Example modulus and Example Poisson ratio.");
     }

@@ -52,7 +52,7 @@ namespace Exemplar
       patch_scene(const PointScene &scene, const ModelTraits &law) const
       {
         return { scene.blended_part, law.has_guard_of_patches(), law.knows_volume,
-                 problem.body.material.has_examples() };
+                 problem.body.material.has_elasticity_of_examples() };
       }
 
       double
