@@ -22,7 +22,7 @@ KEYS = ["young", "poisson", "density", "importance", "poses", "rest_positions", 
 ELEMENTS = {"P1 cells": {"Dilatation": "cells"}, "P1 patches": {"Dilatation": "patches"}, "P2": {"Element": "P2"}}
 ENERGIES = "scaled", "blended"
 BY_TIME = {**laws.PRESCRIBED, "Prescribed weights": "0.1+t; 0.2; 0.3-t; 0.4"}
-STEPS = 2e-4, 3e-5, 5e-6
+STEPS = 1e-2, 2e-3, 2e-4, 3e-5, 5e-6, 1e-6
 
 
 def static(**sections):
@@ -64,6 +64,17 @@ def merged(*all_sections):
     return result
 
 
+def difference(case, function, at, direction):
+    """Of those steps between which it changes least, and over which the same weights are at their bounds in all motions."""
+    found = []
+    for step in STEPS:
+        case.are_at_bounds = set()
+        value = motions.difference(function, at, direction, step)
+        if len(case.are_at_bounds) <= 1:
+            found.append(value)
+    return min(zip(found, found[1:]), key=lambda pair: abs(pair[0] - pair[1]))[1]
+
+
 def differences(case):
     """{key: relative difference}"""
     result = {}
@@ -71,7 +82,7 @@ def differences(case):
         if key not in case.found:
             continue
         direction = case.direction(key)
-        expected = equilibria.converged_difference(function, at, direction, STEPS, motions.difference)
+        expected = difference(case, function, at, direction)
         result[key] = abs(case.derivative(key, direction) - expected) / abs(expected)
     return result
 
