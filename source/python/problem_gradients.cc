@@ -109,10 +109,12 @@ namespace Exemplar::Python
   void
   check_weight_derivatives(const py::object &array, const std::string &what, const std::size_t n)
   {
-    if (numbers_of(array, what, py::ssize_t(n)).size() != n || py::array::ensure(array).ndim() != 1)
+    const auto any = py::array::ensure(array);
+    if (!any || any.ndim() != 1 || any.shape(0) != py::ssize_t(n))
       throw UserError(fmt::format("{} must be an array of shape ({},), one number for each of "
                                   "problem.weights, but is {}.",
                                   what, n, description(array)));
+    numbers_of(array, what, py::ssize_t(n)); // or it throws
   }
 
   namespace

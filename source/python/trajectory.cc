@@ -67,6 +67,9 @@ namespace Exemplar::Python
       trajectory.held->change("record()",
                               [&](Problem &problem)
                               {
+                                if (trajectory.steps != nullptr)
+                                  throw UserError("record(): this trajectory has its steps. Record "
+                                                  "others by a call of record() of their own.");
                                 if (is_recorded(problem))
                                   throw UserError("record(): the problem is being recorded. Leave "
                                                   "the with statement that does it first.");
@@ -79,7 +82,13 @@ namespace Exemplar::Python
     end(Trajectory &trajectory)
     {
       trajectory.held->change("the end of record()",
-                              [](Problem &problem) { problem.on_step = nullptr; });
+                              [&](Problem &problem)
+                              {
+                                const Recorder *recorder = problem.on_step.target<Recorder>();
+                                if (recorder != nullptr
+                                    && recorder->steps.lock() == trajectory.steps)
+                                  problem.on_step = nullptr;
+                              });
     }
 
     /// Of the vertices, (n, 3), in the memory of a step, which the array keeps.

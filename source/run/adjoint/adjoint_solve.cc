@@ -84,7 +84,7 @@ namespace Exemplar
       error = correct(system, by_state, find, solution);
     if (!(error <= unsolved))
       throw SolverFailure(fmt::format(
-          "vjp: the adjoint equations are left with a residual of {:.2g} after {} corrections, "
+          "The adjoint equations are left with a residual of {:.2g} after {} corrections, "
           "because rounding is too large in so stiff a body, or the equilibrium is not stable.",
           error, max_corrections));
     return solution;

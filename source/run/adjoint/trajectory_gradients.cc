@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
 #include <exemplar/run/adjoint/adjoint_checks.h>
 #include <exemplar/run/adjoint/adjoint_solve.h>
 #include <exemplar/run/adjoint/slope_of_motion.h>
@@ -32,7 +33,7 @@ namespace Exemplar
       ~Visit()
       {
         std::swap(own_state, problem.state);
-        Evaluation evaluation; // for the rotations alone
+        Evaluation evaluation; // for the rotations alone, of a state that was evaluated before
         problem.potential.leave_step(problem.state);
         problem.potential.set_time(problem.state.time, problem.state);
         problem.potential.evaluate(problem.state, RotationUse::update, evaluation);
@@ -110,7 +111,8 @@ namespace Exemplar
       {
         for (unsigned int i = steps.size(); i-- > 0;)
           add_step(i);
-        result.all         = gradients_of(problem, sums());
+        result.all = gradients_of(problem, sums());
+        require_finite(result.all);
         result.all.handles = zeros();
         for (const std::vector<double> &of_step : result.handles)
           for (std::size_t i = 0; i < of_step.size(); ++i)
@@ -269,6 +271,9 @@ namespace Exemplar
                        const RecordedSteps                 &steps,
                        const std::vector<StateDerivatives> &by_states)
   {
+    if (steps.size() == 0)
+      throw UserError("vjp: no step was recorded. Call step() or run() in the with statement of "
+                      "record().");
     steps.require_one_problem(problem);
     return Backward(problem, steps, by_states).run();
   }
