@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Print how far the rest pose of a balanced body moves: the cat on its four paws under its weight, Young's moduli of three decades.
 
-Usage: python3 doc/scripts/measure_balance.py [BINARY]     (a minute)
+Usage: python3 doc/scripts/measure_balance.py [BINARY]     (some minutes of one core)
 """
 import math
 import sys

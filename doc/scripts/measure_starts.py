@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Print how often a static scene ends in the pose that was meant: the cat with four examples, of which some parts follow one pose.
 
-Usage: python3 doc/scripts/measure_starts.py [BINARY]     (two minutes)
+Usage: python3 doc/scripts/measure_starts.py [BINARY]     (ten minutes of one core)
 Forty scenes: ten choices of parts that follow, each of the four poses.
 """
 import sys
