@@ -135,9 +135,7 @@ namespace Exemplar
   }
 
   void
-  Constraints::check(const SceneParameters &parameters,
-                     const Body            &body,
-                     const TimeAxis        &axis)
+  Constraints::check(const SceneParameters &parameters, const Body &body, const TimeAxis &axis)
   {
     check_rigid_motions(parameters, body, held_dofs(parameters, body, handles, support));
     for (unsigned int step = 1; step < axis.n_steps() && handles.have_times(); ++step)
