@@ -9,7 +9,7 @@ from exemplar import UserError
 MATERIAL = ("young", "poisson", "density")
 ATTRIBUTES = ("importance", "gravity", "nodal_forces")
 ALLOWED = (*MATERIAL, *ATTRIBUTES, "poses")
-names_of_last_solve = weakref.WeakKeyDictionary()  # by problem
+names_of_last_solve: weakref.WeakKeyDictionary = weakref.WeakKeyDictionary()  # by problem
 
 
 def check_poses(problem, poses):

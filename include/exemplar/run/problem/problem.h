@@ -113,6 +113,7 @@ namespace Exemplar
       std::string  last;
     };
 
+    /// Those since the problem was made; whoever remembers their number sees whether there were more.
     const Changes &
     get_changes() const
     {
