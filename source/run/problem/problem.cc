@@ -31,7 +31,8 @@ namespace Exemplar
   Problem::Problem(const CompleteScene &scene, BodyInputs given, StepClock running_clock)
       : parameters(scene), clock(std::move(running_clock)), inputs(given.undivided.inputs),
         time_axis(make_time_axis(parameters)), body(parameters, given),
-        surface(given.undivided.surface), constraints(parameters, body, time_axis, given),
+        surface(given.undivided.surface), carried(given.undivided.carried),
+        constraints(parameters, body, time_axis, given),
         examples(parameters, body, time_axis, given), actions(parameters, body, given),
         potential({ laws_of_cells(parameters, body), body.fe_space, body.material,
                     body.cell_material, examples.poses, examples.weights, constraints.free_dofs,

@@ -144,6 +144,7 @@ namespace Exemplar
     const TimeAxis                           time_axis;
     Body                                     body;
     const std::shared_ptr<const SurfaceMesh> surface; ///< of the body; null unless it is needed
+    const std::vector<CarriedSurface>        carried; ///< of Mesh/Carry
     Constraints                              constraints;
     Examples                                 examples;
     Actions                                  actions;
