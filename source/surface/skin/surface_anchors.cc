@@ -64,11 +64,28 @@ namespace Exemplar
       return { x[0], x[1], x[2] };
     }
 
+    /// Nodes that share a cell with each node.
+    std::vector<std::vector<unsigned int>>
+    nodes_around_nodes(const Mesh &mesh)
+    {
+      std::vector<std::vector<unsigned int>> neighbours(mesh.n_nodes());
+      for (const auto &cell : mesh.get_cells())
+        for (const unsigned int node : cell)
+          neighbours[node].insert(neighbours[node].end(), cell.begin(), cell.end());
+      for (auto &of_node : neighbours)
+      {
+        std::sort(of_node.begin(), of_node.end());
+        of_node.erase(std::unique(of_node.begin(), of_node.end()), of_node.end());
+      }
+      return neighbours;
+    }
+
     class AnchorFinder
     {
     public:
       explicit AnchorFinder(const Mesh &mesh)
-          : mesh(mesh), cells(mesh), boundary(boundary_triangles(mesh))
+          : mesh(mesh), neighbours(nodes_around_nodes(mesh)), cells(mesh),
+            boundary(boundary_triangles(mesh))
       {
       }
 
@@ -83,8 +100,14 @@ namespace Exemplar
       bool
       has_gap(const dealii::Point<3> &a, const dealii::Point<3> &b) const;
 
-      const Mesh           &mesh;
-      const CellFinder      cells;
+      /// Whether a cell hangs together with a triangle of the boundary by at most two edges: where
+      /// sheets overlap at rest, a vertex lies in cells of the other one, too.
+      bool
+      is_near(const std::array<unsigned int, 4> &cell, const SurfacePoint &point) const;
+
+      const Mesh                            &mesh;
+      std::vector<std::vector<unsigned int>> neighbours; ///< of each node, itself included
+      const CellFinder                       cells;
       const TriangleSurface boundary;
     };
 
@@ -98,6 +121,18 @@ namespace Exemplar
       for (int a = 0; a < 3; ++a)
         anchor.place += point.share[a] * mesh.get_nodes()[t[a]];
       return anchor;
+    }
+
+    bool
+    AnchorFinder::is_near(const std::array<unsigned int, 4> &cell, const SurfacePoint &point) const
+    {
+      const auto touches = [&](const unsigned int node)
+      { return std::find(cell.begin(), cell.end(), node) != cell.end(); };
+      for (const unsigned int corner : boundary.triangles[point.triangle])
+        for (const unsigned int node : neighbours[corner])
+          if (std::any_of(neighbours[node].begin(), neighbours[node].end(), touches))
+            return true;
+      return false;
     }
 
     bool
@@ -135,6 +170,10 @@ namespace Exemplar
         if (!is_inside || has_gap(X, other.place))
           anchors[v] = other;
       }
+      for (std::size_t v = 0; v < anchors.size(); ++v)
+        if (const SurfacePoint &own = facing[v] ? *facing[v] : nearest[v];
+            !is_near(anchors[v].nodes, own))
+          anchors[v] = on_boundary(own);
       return anchors;
     }
 

@@ -5,6 +5,7 @@
 #include <exemplar/mesh/mesh_inputs.h>
 #include <exemplar/run/inputs/made_of_surfaces.h>
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 
@@ -47,6 +48,10 @@ namespace Exemplar
 
   private:
     struct Poses;
+
+    /// Of the poses that have been read, by name.
+    std::vector<std::filesystem::path>
+    pose_files() const;
 
     MadeOfSurfaces &
     get_made_anew();
