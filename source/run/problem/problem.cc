@@ -59,6 +59,11 @@ namespace Exemplar
     state.history = potential.get_cells().get_field().get_batches().history();
     start(state);
     check_start();
+    if (!parameters.session.empty())
+    {
+      session = std::make_unique<SessionPlayer>(*this);
+      session->play(read_session(parameters.session));
+    }
   }
 
   void
@@ -130,6 +135,8 @@ namespace Exemplar
   SolveReport
   Problem::advance(const StepInterval &interval)
   {
+    if (session != nullptr)
+      session->begin_step();
     check_weights(*this, interval);
     State next = state;
     next.step  = state.step + 1;
@@ -195,6 +202,8 @@ namespace Exemplar
   void
   Problem::resume_from(const State &earlier, const std::string &solver_memory)
   {
+    if (session != nullptr)
+      session->catch_up(earlier.step);
     state = earlier;
     solver->forget();
     if (!solver_memory.empty())
