@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/exemplar.h>
+#include <exemplar/live/server.h>
+
+#include <CLI/CLI.hpp>
+#include <boost/asio/post.hpp>
+#include <deal.II/base/exceptions.h>
+#include <deal.II/base/multithread_info.h>
+
+#include <csignal>
+#include <exception>
+#include <iostream>
+#include <thread>
+
+namespace Exemplar::Live
+{
+  namespace
+  {
+    /// What the command line says.
+    struct Arguments
+    {
+      std::string              scene, record;
+      std::vector<std::string> overrides, hosts;
+      ListenAt                    place;
+      unsigned int             n_threads = 1;
+    };
+
+    void
+    declare(CLI::App &app, Arguments &arguments)
+    {
+      app.add_option("SCENE", arguments.scene, "scene file (.prm)")->required();
+      app.add_option("--set", arguments.overrides, "'Section/Key=value' instead of the scene's; repeatable")
+          ->allow_extra_args(false);
+      app.add_option("--port", arguments.place.port, "port; 0: one that is free")
+          ->check(CLI::Range(0, 65535));
+      app.add_option("--bind", arguments.place.address,
+                     "address to listen at, or unix:PATH for a socket of the file system")
+          ->capture_default_str();
+      app.add_option("--allow-host", arguments.hosts, "name under which a proxy asks; repeatable")
+          ->allow_extra_args(false);
+      app.add_option("--record", arguments.record,
+                     "directory in which the session is kept as a scene that plays it again");
+      app.add_option("--threads", arguments.n_threads, "threads of the solver")
+          ->check(CLI::Range(1, 1024))
+          ->capture_default_str();
+      app.footer("Example:\n  $ exemplar live prm/live/cat.prm\n\nCtrl-C ends it.");
+    }
+
+    /// Steps of the pace of displays, unless the command line says another.
+    std::vector<std::string>
+    with_step(std::vector<std::string> overrides)
+    {
+      overrides.insert(overrides.begin(), "Time/Step=0.016666666666666666");
+      return overrides;
+    }
+
+    /// The solver's thread; its error, if it ends by one, ends the server, too.
+    class SolverThread
+    {
+    public:
+      SolverThread(Simulation &simulation, Mailbox &mailbox, boost::asio::io_context &context)
+          : mailbox(mailbox), thread(
+                                  [&simulation, &context, this]
+                                  {
+                                    try
+                                    {
+                                      simulation.run();
+                                    }
+                                    catch (...)
+                                    {
+                                      error = std::current_exception();
+                                      context.stop();
+                                    }
+                                  })
+      {
+      }
+
+      SolverThread(const SolverThread &) = delete;
+      SolverThread &
+      operator=(const SolverThread &)
+          = delete;
+
+      ~SolverThread()
+      {
+        end();
+      }
+
+      void
+      end()
+      {
+        mailbox.stop();
+        if (thread.joinable())
+          thread.join();
+      }
+
+      void
+      rethrow() const
+      {
+        if (error)
+          std::rethrow_exception(error);
+      }
+
+    private:
+      Mailbox           &mailbox;
+      std::exception_ptr error;
+      std::thread        thread;
+    };
+
+    void
+    serve(const Arguments &arguments)
+    {
+      const SceneFile scene(arguments.scene, with_step(arguments.overrides));
+      const Access    access(arguments.hosts);
+      const Site      site;
+      Stage           stage(scene, arguments.record, arguments.n_threads);
+      Mailbox         mailbox;
+      ServerLog       log;
+      Audience        audience(mailbox, log);
+      Server          server(arguments.place, access, site, audience);
+      auto           &context = server.get_context();
+      const Outbox    outbox  = {
+        [&](Bytes frame) { boost::asio::post(context, [&audience, frame] { audience.show(frame); }); },
+        [&](std::string text) { boost::asio::post(context, [&audience, text] { audience.tell(text); }); }
+      };
+      Simulation simulation(stage, mailbox, outbox);
+      audience.set_welcome(simulation.welcome());
+      for (const std::string &warning : stage.get_problem().warnings())
+        std::cerr << "Warning: " << warning << std::endl;
+      std::cout << server.invitation() << std::endl;
+      SolverThread solver(simulation, mailbox, context);
+      server.run();
+      solver.end();
+      solver.rethrow();
+    }
+  } // namespace
+
+  /// Returns the exit status.
+  static int
+  run_live(const int argc, char *argv[])
+  {
+    Arguments arguments;
+    CLI::App  app("Pull the body of a scene with the mouse, in a browser", "exemplar live");
+    declare(app, arguments);
+    try
+    {
+      app.parse(argc, argv);
+      serve(arguments);
+      return 0;
+    }
+    catch (const CLI::Success &request)
+    {
+      return app.exit(request);
+    }
+    catch (const CLI::ParseError &error)
+    {
+      std::cerr << "exemplar: " << error.what() << ". exemplar live --help lists the options."
+                << std::endl;
+      return 1;
+    }
+    catch (const UserError &error)
+    {
+      std::cerr << "exemplar: " << error.what() << std::endl;
+      return 1;
+    }
+    catch (const std::exception &error)
+    {
+      std::cerr << "exemplar: " << error.what() << std::endl;
+      return 2;
+    }
+  }
+} // namespace Exemplar::Live
+
+int
+main(int argc, char *argv[])
+{
+  Exemplar::restart_with_right_core_type(argv);
+  Exemplar::use_one_blas_thread();
+  dealii::MultithreadInfo::set_thread_limit(1);
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+  dealii::deal_II_exceptions::disable_abort_on_exception();
+  const Exemplar::MpiSession mpi;
+  return Exemplar::Live::run_live(argc, argv);
+}
