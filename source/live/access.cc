@@ -61,10 +61,9 @@ namespace Exemplar::Live
       const auto colon = host.rfind(':');
       if (colon == std::string_view::npos || host.find(']', colon) != std::string_view::npos)
         return host;
-      const std::string_view port = host.substr(colon + 1);
-      const bool             is_port
-          = !port.empty() && port.size() <= 5
-            && port.find_first_not_of("0123456789") == std::string_view::npos;
+      const std::string_view port    = host.substr(colon + 1);
+      const bool             is_port = !port.empty() && port.size() <= 5
+                           && port.find_first_not_of("0123456789") == std::string_view::npos;
       return is_port ? host.substr(0, colon) : std::string_view();
     }
   } // namespace
@@ -93,7 +92,8 @@ namespace Exemplar::Live
   Access::is_own_origin(const std::string_view origin, const std::string_view host)
   {
     return !host.empty()
-           && (lower(origin) == "http://" + lower(host) || lower(origin) == "https://" + lower(host));
+           && (lower(origin) == "http://" + lower(host)
+               || lower(origin) == "https://" + lower(host));
   }
 
   bool

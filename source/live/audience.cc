@@ -107,9 +107,8 @@ namespace Exemplar::Live
       mailbox.put({ "let go of all" });
     holder = viewer;
     for (const auto &other : std::set<std::shared_ptr<Viewer>>(viewers))
-      other->send_text(Json{ { "type", "mouse" },
-                             { "yours", other.get() == holder },
-                             { "viewers", viewers.size() } }
+      other->send_text(Json{
+          { "type", "mouse" }, { "yours", other.get() == holder }, { "viewers", viewers.size() } }
                            .dump());
   }
 
@@ -149,7 +148,8 @@ namespace Exemplar::Live
     }
     catch (const std::invalid_argument &error)
     {
-      viewer->send_text(told("refused", std::string("This message is none: ") + error.what() + "."));
+      viewer->send_text(
+          told("refused", std::string("This message is none: ") + error.what() + "."));
       if (++viewer->n_mistakes < max_mistakes)
         return true;
       log.refuse("a viewer whose messages are none");

@@ -24,8 +24,8 @@ namespace Exemplar::Live
     };
 
     const std::map<std::string, Shape> shapes = {
-      { "grab", { true, 7, true, false, true } },     // shares, anchor, stiffness; on: hard
-      { "move", { true, 3, false, false, false } },   // anchor
+      { "grab", { true, 7, true, false, true } },   // shares, anchor, stiffness; on: hard
+      { "move", { true, 3, false, false, false } }, // anchor
       { "release", { true, 0, false, false, false } },
       { "pin", { true, 0, false, true, false } },
       { "unpin", { true, 0, false, false, false } },
@@ -52,8 +52,8 @@ namespace Exemplar::Live
       std::vector<Number> numbers;
       for (const Json &entry : list)
       {
-        const bool is_right = std::is_same_v<Number, double> ? entry.is_number()
-                                                             : entry.is_number_unsigned();
+        const bool is_right
+            = std::is_same_v<Number, double> ? entry.is_number() : entry.is_number_unsigned();
         if (!is_right || !(std::abs(entry.get<double>()) < 1e30))
           throw std::invalid_argument(std::string(key) + " holds what is no number");
         if (!std::is_same_v<Number, double> && entry.get<double>() > 4e9)

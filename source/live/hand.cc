@@ -78,8 +78,8 @@ namespace Exemplar::Live
     std::vector<unsigned int>
     free_ones(const Problem &problem, std::vector<unsigned int> nodes)
     {
-      nodes.erase(std::remove_if(nodes.begin(), nodes.end(), [&](const unsigned int node)
-                                 { return !is_free(problem, node); }),
+      nodes.erase(std::remove_if(nodes.begin(), nodes.end(),
+                                 [&](const unsigned int node) { return !is_free(problem, node); }),
                   nodes.end());
       return nodes;
     }
@@ -99,10 +99,11 @@ namespace Exemplar::Live
 
   Hand::Hand(const Problem &problem, const BodySurface &surface)
       : surface(surface), diameter(problem.body.mesh.diameter()),
-        stiffness(relative_stiffness * mean_young(problem) * diameter),
-        bounds{ { "young", { 1e-3 * mean_young(problem), 1e3 * mean_young(problem) } },
-                { "poisson", { 0., 0.495 } },
-                { "importance", { 1e-3, 1. } } }
+        stiffness(relative_stiffness * mean_young(problem) * diameter), bounds{
+          { "young", { 1e-3 * mean_young(problem), 1e3 * mean_young(problem) } },
+          { "poisson", { 0., 0.495 } },
+          { "importance", { 1e-3, 1. } }
+        }
   {
   }
 
@@ -154,7 +155,7 @@ namespace Exemplar::Live
       throw std::invalid_argument("the body is held by as many pointers as may be");
     if (command.triangle >= surface.triangles.size())
       throw std::invalid_argument("there is no such triangle");
-    std::vector<double> numbers = command.numbers; // shares, anchor, strength
+    std::vector<double> numbers  = command.numbers; // shares, anchor, strength
     const auto          is_share = [](const double share) { return share >= 0. && share <= 1.; };
     if (!std::all_of(numbers.begin(), numbers.begin() + 3, is_share)
         || std::abs(numbers[0] + numbers[1] + numbers[2] - 1.) > 1e-6)
@@ -247,7 +248,8 @@ namespace Exemplar::Live
         if (held.handles.insert(command.name).second)
         {
           std::vector<unsigned int> nodes = all.nodes(handle);
-          nodes.erase(std::remove_if(nodes.begin(), nodes.end(), [&](const unsigned int node)
+          nodes.erase(std::remove_if(nodes.begin(), nodes.end(),
+                                     [&](const unsigned int node)
                                      { return node >= problem.body.mesh.n_nodes(); }),
                       nodes.end());
           events.push_back(hold_here(problem, command.name, nodes));
@@ -268,7 +270,8 @@ namespace Exemplar::Live
       throw std::invalid_argument("this cannot be set");
     const auto &[min, max] = bound->second;
     if (!(command.numbers[0] >= min && command.numbers[0] <= max))
-      throw std::invalid_argument(fmt::format("{} must be between {} and {}", command.name, min, max));
+      throw std::invalid_argument(
+          fmt::format("{} must be between {} and {}", command.name, min, max));
     return { before_next_step(problem, command.name, "", {}, command.numbers) };
   }
 } // namespace Exemplar::Live

@@ -15,9 +15,8 @@ namespace Exemplar::Live
   {
     const std::lock_guard<std::mutex> lock(mutex);
     // only within one run of moves: what was grabbed and let go in between is not to be mixed
-    for (auto before = commands.rbegin(); before != commands.rend() && command.type == "move"
-                                          && before->type == "move";
-         ++before)
+    for (auto before = commands.rbegin();
+         before != commands.rend() && command.type == "move" && before->type == "move"; ++before)
       if (before->name == command.name)
       {
         *before = std::move(command);

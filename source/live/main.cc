@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/exemplar.h>
+#include <exemplar/live/export_page.h>
 #include <exemplar/live/server.h>
 
 #include <CLI/CLI.hpp>
 #include <boost/asio/post.hpp>
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/multithread_info.h>
+#include <fmt/core.h>
 
+#include <algorithm>
 #include <csignal>
 #include <exception>
 #include <iostream>
@@ -19,17 +22,20 @@ namespace Exemplar::Live
     /// What the command line says.
     struct Arguments
     {
-      std::string              scene, record;
+      std::string              scene, record, output, html;
       std::vector<std::string> overrides, hosts;
-      ListenAt                    place;
+      ListenAt                 place;
       unsigned int             n_threads = 1;
     };
 
     void
-    declare(CLI::App &app, Arguments &arguments)
+    declare_live(CLI::App &main, Arguments &arguments)
     {
+      CLI::App &app
+          = *main.add_subcommand("live", "pull the body of a scene with the mouse, in a browser");
       app.add_option("SCENE", arguments.scene, "scene file (.prm)")->required();
-      app.add_option("--set", arguments.overrides, "'Section/Key=value' instead of the scene's; repeatable")
+      app.add_option("--set", arguments.overrides,
+                     "'Section/Key=value' instead of the scene's; repeatable")
           ->allow_extra_args(false);
       app.add_option("--port", arguments.place.port, "port; 0: one that is free")
           ->check(CLI::Range(0, 65535));
@@ -50,8 +56,32 @@ namespace Exemplar::Live
     std::vector<std::string>
     with_step(std::vector<std::string> overrides)
     {
-      overrides.insert(overrides.begin(), "Time/Step=0.016666666666666666");
+      const std::string key = "Time/Step=";
+      if (std::none_of(overrides.begin(), overrides.end(),
+                       [&](const std::string &given)
+                       { return given.compare(0, key.size(), key) == 0; }))
+        overrides.push_back(key + "0.016666666666666666");
       return overrides;
+    }
+
+    void
+    declare_export(CLI::App &main, Arguments &arguments)
+    {
+      CLI::App &app = *main.add_subcommand(
+          "export", "write the frames of a finished run as one page of HTML");
+      app.add_option("OUTPUT", arguments.output, "output directory of the run")->required();
+      app.add_option("--html", arguments.html, "the page to write")->required();
+      app.footer("Example:\n  $ exemplar export output/cat --html cat.html");
+    }
+
+    void
+    do_export(const Arguments &arguments)
+    {
+      const ExportedPage page = export_page(arguments.output, arguments.html);
+      std::cout << fmt::format(
+          "{}: {} frames, {:.1f} MB; coordinates are rounded by {:.1e} m at most", arguments.html,
+          page.n_frames, 1e-6 * page.n_bytes, page.error)
+                << std::endl;
     }
 
     /// The solver's thread; its error, if it ends by one, ends the server, too.
@@ -118,10 +148,11 @@ namespace Exemplar::Live
       Audience        audience(mailbox, log);
       Server          server(arguments.place, access, site, audience);
       auto           &context = server.get_context();
-      const Outbox    outbox  = {
-        [&](Bytes frame) { boost::asio::post(context, [&audience, frame] { audience.show(frame); }); },
-        [&](std::string text) { boost::asio::post(context, [&audience, text] { audience.tell(text); }); }
-      };
+      const Outbox    outbox
+          = { [&](Bytes frame)
+              { boost::asio::post(context, [&audience, frame] { audience.show(frame); }); },
+              [&](std::string text)
+              { boost::asio::post(context, [&audience, text] { audience.tell(text); }); } };
       Simulation simulation(stage, mailbox, outbox);
       audience.set_welcome(simulation.welcome());
       for (const std::string &warning : stage.get_problem().warnings())
@@ -139,12 +170,14 @@ namespace Exemplar::Live
   run_live(const int argc, char *argv[])
   {
     Arguments arguments;
-    CLI::App  app("Pull the body of a scene with the mouse, in a browser", "exemplar live");
-    declare(app, arguments);
+    CLI::App  app("What exemplar shows in a browser", "exemplar");
+    app.require_subcommand(1);
+    declare_live(app, arguments);
+    declare_export(app, arguments);
     try
     {
       app.parse(argc, argv);
-      serve(arguments);
+      app.got_subcommand("live") ? serve(arguments) : do_export(arguments);
       return 0;
     }
     catch (const CLI::Success &request)
@@ -153,8 +186,8 @@ namespace Exemplar::Live
     }
     catch (const CLI::ParseError &error)
     {
-      std::cerr << "exemplar: " << error.what() << ". exemplar live --help lists the options."
-                << std::endl;
+      std::cerr << "exemplar: " << error.what() << ". exemplar " << (argc > 1 ? argv[1] : "live")
+                << " --help lists the options." << std::endl;
       return 1;
     }
     catch (const UserError &error)

@@ -59,8 +59,8 @@ namespace Exemplar::Live
     const auto    now     = Clock::now();
     const Summary summary = { n_steps * seconds(step) / std::max(1e-9, seconds(now - last_summary)),
                               1e3 * seconds(longest_step), seconds(most_behind) / seconds(step) };
-    last_summary = now;
-    n_steps      = 0;
+    last_summary          = now;
+    n_steps               = 0;
     longest_step = most_behind = Clock::duration{};
     return summary;
   }

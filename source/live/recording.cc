@@ -12,7 +12,8 @@ namespace Exemplar::Live
 
   namespace
   {
-    const std::string mark = "# A session that exemplar live has recorded; it is played again by: exemplar ";
+    const std::string mark_of_recording
+        = "# A session that exemplar live has recorded; it is played again by: exemplar ";
 
     /// Whether the directory is of a recording, or empty, or not there.
     bool
@@ -22,7 +23,8 @@ namespace Exemplar::Live
         return true;
       std::ifstream scene(directory / "scene.prm");
       std::string   first;
-      return std::getline(scene, first) && first.compare(0, mark.size(), mark) == 0;
+      return std::getline(scene, first)
+             && first.compare(0, mark_of_recording.size(), mark_of_recording) == 0;
     }
   } // namespace
 
@@ -86,7 +88,7 @@ namespace Exemplar::Live
     const fs::path file = directory / "scene.prm", temporary = directory / "scene.prm.tmp";
     {
       std::ofstream out(temporary, std::ios::binary);
-      out << mark << file.string() << "\n";
+      out << mark_of_recording << file.string() << "\n";
       print_keys(out, keys, false);
       out.flush();
       require_written(out, file);
@@ -97,7 +99,7 @@ namespace Exemplar::Live
   fs::path
   Recording::save_pose(const Problem &problem)
   {
-    const fs::path file = directory / fmt::format("pose_{:04}.msh", ++n_poses);
+    const fs::path                file = directory / fmt::format("pose_{:04}.msh", ++n_poses);
     std::vector<dealii::Point<3>> places;
     const Vector                 &x = problem.state.positions;
     for (unsigned int node = 0; node < problem.body.mesh.n_nodes(); ++node)

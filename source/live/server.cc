@@ -46,17 +46,17 @@ namespace Exemplar::Live
         parser->header_limit(8192);
         parser->body_limit(1024);
         stream.expires_after(max_wait);
-        http::async_read(stream, buffer, *parser,
-                         [self = shared_from_this()](const beast::error_code error, std::size_t)
-                         {
-                           if (!error)
-                             self->take(self->parser->release());
-                           else if (error != http::error::end_of_stream
-                                    && error.category() == http::make_error_code(
-                                           http::error::bad_method).category())
-                             self->audience.get_log().refuse("what is no request: "
-                                                             + error.message());
-                         });
+        http::async_read(
+            stream, buffer, *parser,
+            [self = shared_from_this()](const beast::error_code error, std::size_t)
+            {
+              if (!error)
+                self->take(self->parser->release());
+              else if (error != http::error::end_of_stream
+                       && error.category()
+                              == http::make_error_code(http::error::bad_method).category())
+                self->audience.get_log().refuse("what is no request: " + error.message());
+            });
       }
 
     private:
@@ -83,15 +83,15 @@ namespace Exemplar::Live
                           });
       }
 
-      Stream                                                stream;
-      const Access                                         &access;
-      const Site                                           &site;
-      Audience                                             &audience;
-      std::shared_ptr<void>                                 count;
-      beast::flat_buffer                                    buffer{ 16384 };
+      Stream                                                 stream;
+      const Access                                          &access;
+      const Site                                            &site;
+      Audience                                              &audience;
+      std::shared_ptr<void>                                  count;
+      beast::flat_buffer                                     buffer{ 16384 };
       std::optional<http::request_parser<http::string_body>> parser;
-      Response                                              response;
-      unsigned int                                          n_requests = 0;
+      Response                                               response;
+      unsigned int                                           n_requests = 0;
     };
 
     /// Counts down when it goes.
@@ -105,10 +105,7 @@ namespace Exemplar::Live
     const std::string unix_prefix = "unix:";
   } // namespace
 
-  Server::Server(const ListenAt  &place,
-                 const Access &access,
-                 const Site   &site,
-                 Audience     &audience)
+  Server::Server(const ListenAt &place, const Access &access, const Site &site, Audience &audience)
       : acceptor(context), access(access), site(site), audience(audience)
   {
     try
@@ -117,9 +114,10 @@ namespace Exemplar::Live
     }
     catch (const boost::system::system_error &error)
     {
-      throw UserError(fmt::format("Nobody can listen at {}, port {}: {}. Give another --port or --bind; "
-                                  "--port 0 takes one that is free.",
-                                  place.address, place.port, error.code().message()));
+      throw UserError(
+          fmt::format("Nobody can listen at {}, port {}: {}. Give another --port or --bind; "
+                      "--port 0 takes one that is free.",
+                      place.address, place.port, error.code().message()));
     }
     accept_next();
   }
@@ -190,7 +188,8 @@ namespace Exemplar::Live
           if (!error)
             return accept_next();
           // no descriptors are left, say
-          auto timer = std::make_shared<asio::steady_timer>(context, std::chrono::milliseconds(100));
+          auto timer
+              = std::make_shared<asio::steady_timer>(context, std::chrono::milliseconds(100));
           timer->async_wait([this, timer](const beast::error_code) { accept_next(); });
         });
   }

@@ -80,30 +80,30 @@ namespace Exemplar::Live
   Welcome
   Simulation::welcome() const
   {
-    const Problem          &problem    = stage.get_problem();
-    const CompleteScene    &parameters = problem.parameters;
-    std::vector<Bytes>      binaries   = { topology_message(surface) };
-    const ExamplePoses     &poses      = problem.examples.poses;
+    const Problem       &problem    = stage.get_problem();
+    const CompleteScene &parameters = problem.parameters;
+    std::vector<Bytes>   binaries   = { topology_message(surface) };
+    const ExamplePoses  &poses      = problem.examples.poses;
     for (unsigned int i = 0; i < poses.size(); ++i)
       binaries.push_back(frame_message({ BinaryKind::pose, i }, surface, poses.pose(i)));
     binaries.push_back(frame_message({}, surface, problem.state.positions));
-    const Json text = { { "type", "scene" },
-                        { "name", std::filesystem::path(parameters.name).stem().string() },
-                        { "step_size", stage.get_step_size() },
-                        { "diameter", problem.body.mesh.diameter() },
-                        { "cells", problem.body.mesh.n_cells() },
-                        { "vertices", surface.nodes.size() },
-                        { "triangles", surface.triangles.size() },
-                        { "examples", names_of_examples(problem) },
-                        { "handles", handles_of(problem, surface) },
-                        { "stiffness", hand.unit_stiffness() },
-                        { "young", parameters.material.everywhere.youngs_modulus },
-                        { "poisson", parameters.material.everywhere.poissons_ratio },
-                        { "importance", parameters.examples.importance },
-                        { "gravity", parameters.loads.gravity },
-                        { "damping",
-                          { parameters.time.mass_damping, parameters.time.stiffness_damping } },
-                        { "tolerance", parameters.solver.tolerance } };
+    const Json text
+        = { { "type", "scene" },
+            { "name", std::filesystem::path(parameters.name).stem().string() },
+            { "step_size", stage.get_step_size() },
+            { "diameter", problem.body.mesh.diameter() },
+            { "cells", problem.body.mesh.n_cells() },
+            { "vertices", surface.nodes.size() },
+            { "triangles", surface.triangles.size() },
+            { "examples", names_of_examples(problem) },
+            { "handles", handles_of(problem, surface) },
+            { "stiffness", hand.unit_stiffness() },
+            { "young", parameters.material.everywhere.youngs_modulus },
+            { "poisson", parameters.material.everywhere.poissons_ratio },
+            { "importance", parameters.examples.importance },
+            { "gravity", parameters.loads.gravity },
+            { "damping", { parameters.time.mass_damping, parameters.time.stiffness_damping } },
+            { "tolerance", parameters.solver.tolerance } };
     return { text_of(text), binaries };
   }
 
@@ -163,9 +163,9 @@ namespace Exemplar::Live
   void
   Simulation::touch(const Command &command)
   {
-    const bool begins = !hand.pulls()
-                        && (command.type == "grab" || command.type == "pin"
-                            || command.type == "unpin");
+    const bool begins
+        = !hand.pulls()
+          && (command.type == "grab" || command.type == "pin" || command.type == "unpin");
     const Hand::Held before = hand.get_held();
     try
     {
@@ -274,9 +274,9 @@ namespace Exemplar::Live
   Simulation::show_frame()
   {
     const State &state = stage.get_problem().state;
-    outbox.frame(frame_message({ BinaryKind::frame, ++shown.n_frames, state.step, shown.pointer,
-                                 state.time },
-                               surface, state.positions, colours()));
+    outbox.frame(frame_message(
+        { BinaryKind::frame, ++shown.n_frames, state.step, shown.pointer, state.time }, surface,
+        state.positions, colours()));
   }
 
   void
@@ -284,7 +284,7 @@ namespace Exemplar::Live
   {
     const Pace::Summary summary = pace.summary();
     const Problem      &problem = stage.get_problem();
-    const auto finite = [](const double x) { return std::isfinite(x) ? Json(x) : Json(); };
+    const auto          finite = [](const double x) { return std::isfinite(x) ? Json(x) : Json(); };
     outbox.text(text_of({ { "type", "status" },
                           { "step", problem.state.step },
                           { "time", problem.state.time },

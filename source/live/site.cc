@@ -52,7 +52,7 @@ namespace Exemplar::Live
     std::string
     content_policy(const std::string &host)
     {
-      return "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob:; "
+      return "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; "
              "connect-src 'self' ws://"
              + host + " wss://" + host
              + "; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
@@ -97,8 +97,9 @@ namespace Exemplar::Live
                              "Open the address that exemplar live has printed.\n");
       if (request.method() != http::verb::get && request.method() != http::verb::head)
         return text_response(request, http::status::method_not_allowed, "Only GET.\n");
-      if (path_of(request) == "/" && access.is_token(value_in_query(
-              { request.target().data(), request.target().size() }, "token")))
+      if (path_of(request) == "/"
+          && access.is_token(
+              value_in_query({ request.target().data(), request.target().size() }, "token")))
         return redirect_with_cookie(request, access);
       const Site::File *file = site.find(std::string(path_of(request)));
       if (file == nullptr)
@@ -107,20 +108,29 @@ namespace Exemplar::Live
     }
   } // namespace
 
+  std::string
+  page_file(const std::string &name)
+  {
+    return bytes_of(directory_of_page() / name, "Install exemplar anew.");
+  }
+
+  std::string
+  three_file(const std::string &name)
+  {
+    return bytes_of(fs::path("/usr/share/javascript/three") / name,
+                    "Install three.js (Debian: libjs-three).");
+  }
+
   Site::Site()
   {
-    const fs::path    page   = directory_of_page();
-    const fs::path    three  = "/usr/share/javascript/three";
     const std::string script = "text/javascript; charset=utf-8";
-    const std::string whole  = "Install exemplar anew.";
-    files["/"] = { "text/html; charset=utf-8", bytes_of(page / "index.html", whole) };
-    files["/style.css"] = { "text/css; charset=utf-8", bytes_of(page / "style.css", whole) };
+    files["/"]               = { "text/html; charset=utf-8", page_file("index.html") };
+    files["/style.css"]      = { "text/css; charset=utf-8", page_file("style.css") };
     for (const std::string name : { "app.js", "view.js", "messages.js", "pointer.js", "panel.js" })
-      files["/" + name] = { script, bytes_of(page / name, whole) };
+      files["/" + name] = { script, page_file(name) };
     for (const std::string name :
          { "build/three.module.js", "examples/jsm/controls/OrbitControls.js" })
-      files["/three/" + name]
-          = { script, bytes_of(three / name, "Install three.js (Debian: libjs-three).") };
+      files["/three/" + name] = { script, three_file(name) };
   }
 
   const Site::File *

@@ -17,10 +17,10 @@ namespace Exemplar::Live
         throw UserError(parameters.name
                         + ": only dynamic scenes are live. Add --set Scene=dynamic.");
       if (!parameters.session.empty())
-        throw UserError(parameters.name
-                        + ": this is a recorded session. It is played by: exemplar "
-                        + parameters.name + ". To go on by hand, take the scene without "
-                                            "Session/File.");
+        throw UserError(parameters.name + ": this is a recorded session. It is played by: exemplar "
+                        + parameters.name
+                        + ". To go on by hand, take the scene without "
+                          "Session/File.");
       parameters.solver.n_threads = n_threads;
       return parameters;
     }
@@ -63,8 +63,9 @@ namespace Exemplar::Live
   SolveReport
   Stage::advance()
   {
-    const unsigned int next   = problem->state.step + 1;
-    const SolveReport  report = problem->advance({ next * step_size, step_size }); // as TimeAxis has it
+    const unsigned int next = problem->state.step + 1;
+    const SolveReport  report
+        = problem->advance({ next * step_size, step_size }); // as TimeAxis has it
     if (recording && is_success(report.status) && next % steps_until_saved == 0)
       recording->save_scene(next);
     return report;

@@ -41,16 +41,17 @@ namespace Exemplar::Live
     };
 
     void
-    append_places(std::string        &bytes,
-                  const BodySurface  &surface,
-                  const Vector       &positions,
-                  const Range *const  box)
+    append_places(std::string       &bytes,
+                  const BodySurface &surface,
+                  const Vector      &positions,
+                  const Range *const box)
     {
       for (const unsigned int node : surface.nodes)
         for (unsigned int c = 0; c < 3; ++c)
         {
           // by what viewers know of the box, which is in single precision
-          const double min = static_cast<float>(box[c].min), size = static_cast<float>(box[c].size());
+          const double min  = static_cast<float>(box[c].min),
+                       size = static_cast<float>(box[c].size());
           const double part = size > 0. ? (positions[3 * node + c] - min) / size : 0.5;
           append(bytes, static_cast<std::int16_t>(std::lround(
                             std::clamp((2. * part - 1.) * max_short, -max_short, max_short))));
@@ -68,7 +69,7 @@ namespace Exemplar::Live
 
   BodySurface::BodySurface(const Mesh &mesh)
   {
-    constexpr unsigned int none = -1;
+    constexpr unsigned int    none = -1;
     std::vector<unsigned int> vertex(mesh.n_nodes(), none);
     for (const auto &face : mesh.get_boundary_faces())
       for (const unsigned int node : face.nodes)
@@ -127,6 +128,22 @@ namespace Exemplar::Live
     append_places(bytes, surface, positions, box);
     append_colours(bytes, colours, range);
     return std::make_shared<const std::string>(std::move(bytes));
+  }
+
+  double
+  rounding_of_frame(const BodySurface &surface, const Vector &positions)
+  {
+    double largest = 0., farthest = 0.;
+    for (unsigned int c = 0; c < 3; ++c)
+    {
+      Range along;
+      for (const unsigned int node : surface.nodes)
+        along.add(positions[3 * node + c]);
+      largest  = std::max(largest, along.size());
+      farthest = std::max({ farthest, std::abs(along.min), std::abs(along.max) });
+    }
+    // half of an integer's step; and the box is in single precision
+    return largest / (4. * max_short) + 2. * farthest * std::numeric_limits<float>::epsilon();
   }
 
   std::vector<double>

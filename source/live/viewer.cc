@@ -53,26 +53,26 @@ namespace Exemplar::Live
   Viewer::read_next()
   {
     buffer.clear();
-    socket.async_read(buffer,
-                      [self = shared_from_this()](const beast::error_code error, std::size_t)
-                      {
-                        if (error == websocket::error::message_too_big
-                            || error == websocket::error::buffer_overflow)
-                          self->audience.get_log().refuse("a message of more than 64 kB");
-                        if (error)
-                          return self->end();
-                        if (self->is_closing)
-                          return self->read_next(); // until the other one has closed, too
-                        if (!self->socket.got_text())
-                        {
-                          self->audience.get_log().refuse("a message that is no text");
-                          self->close(websocket::close_code::unknown_data);
-                        }
-                        else if (!self->audience.hear(self.get(),
-                                                      beast::buffers_to_string(self->buffer.data())))
-                          self->close(websocket::close_code::policy_error);
-                        self->read_next();
-                      });
+    socket.async_read(
+        buffer,
+        [self = shared_from_this()](const beast::error_code error, std::size_t)
+        {
+          if (error == websocket::error::message_too_big
+              || error == websocket::error::buffer_overflow)
+            self->audience.get_log().refuse("a message of more than 64 kB");
+          if (error)
+            return self->end();
+          if (self->is_closing)
+            return self->read_next(); // until the other one has closed, too
+          if (!self->socket.got_text())
+          {
+            self->audience.get_log().refuse("a message that is no text");
+            self->close(websocket::close_code::unknown_data);
+          }
+          else if (!self->audience.hear(self.get(), beast::buffers_to_string(self->buffer.data())))
+            self->close(websocket::close_code::policy_error);
+          self->read_next();
+        });
   }
 
   void
@@ -147,7 +147,8 @@ namespace Exemplar::Live
     if (is_closing)
       return;
     is_closing = true;
-    socket.async_close(reason, [self = shared_from_this()](const beast::error_code) { self->end(); });
+    socket.async_close(reason,
+                       [self = shared_from_this()](const beast::error_code) { self->end(); });
   }
 
   void

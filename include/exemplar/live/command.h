@@ -14,9 +14,9 @@ namespace Exemplar::Live
   struct Command
   {
     std::string               type;
-    std::string               name;         ///< of a spring, a pin, a handle or a number
-    std::vector<unsigned int> vertices;     ///< of the surface
-    std::vector<double>       numbers;
+    std::string               name     = {}; ///< of a spring, a pin, a handle or a number
+    std::vector<unsigned int> vertices = {}; ///< of the surface
+    std::vector<double>       numbers  = {};
     unsigned int              triangle = 0; ///< of the surface
     unsigned int              sequence = 0; ///< of the pointer, which frames give back
     bool                      on       = false;

@@ -83,8 +83,8 @@ namespace Exemplar::Live
     void
     check_place(const std::vector<double> &numbers, std::size_t first) const;
 
-    const BodySurface             &surface;
-    const double                   diameter, stiffness;
+    const BodySurface                                     &surface;
+    const double                                           diameter, stiffness;
     const std::map<std::string, std::pair<double, double>> bounds; ///< of numbers to set
     Held                                                   held;
   };

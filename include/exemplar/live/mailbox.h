@@ -42,7 +42,7 @@ namespace Exemplar::Live
     mutable std::mutex      mutex;
     std::condition_variable news;
     std::vector<Command>    commands;
-    unsigned int            n_viewers  = 0;
+    unsigned int            n_viewers = 0;
     bool                    has_ended = false;
   };
 } // namespace Exemplar::Live

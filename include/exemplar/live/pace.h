@@ -59,7 +59,7 @@ namespace Exemplar::Live
   private:
     const Clock::duration step;
     Clock::time_point     due, last_summary;
-    unsigned int          n_steps = 0;                     ///< since then
+    unsigned int          n_steps = 0;                   ///< since then
     Clock::duration       longest_step{}, most_behind{}; ///< since then
   };
 } // namespace Exemplar::Live

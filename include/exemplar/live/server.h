@@ -119,14 +119,14 @@ namespace Exemplar::Live
     void
     accept_next();
 
-    boost::asio::io_context                     context;
+    boost::asio::io_context                      context;
     boost::asio::basic_socket_acceptor<Protocol> acceptor;
-    const Access                               &access;
-    const Site                                 &site;
-    Audience                                   &audience;
-    std::string                                 socket_file; ///< to remove at the end; may be empty
-    unsigned int                                port          = 0;
-    std::shared_ptr<unsigned int>               n_connections = std::make_shared<unsigned int>(0);
+    const Access                                &access;
+    const Site                                  &site;
+    Audience                                    &audience;
+    std::string                   socket_file; ///< to remove at the end; may be empty
+    unsigned int                  port          = 0;
+    std::shared_ptr<unsigned int> n_connections = std::make_shared<unsigned int>(0);
   };
 } // namespace Exemplar::Live
 

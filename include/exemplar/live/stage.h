@@ -15,9 +15,7 @@ namespace Exemplar::Live
   {
   public:
     /// `record_to`: a directory, or empty. Throws UserError for what is no dynamic scene, and what Recording refuses.
-    Stage(const SceneFile             &scene,
-          const std::filesystem::path &record_to,
-          unsigned int                 n_threads);
+    Stage(const SceneFile &scene, const std::filesystem::path &record_to, unsigned int n_threads);
 
     const Problem &
     get_problem() const

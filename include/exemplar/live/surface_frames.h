@@ -26,9 +26,11 @@ namespace Exemplar::Live
   /// What is seen of a body: its boundary, with vertices of its own numbering.
   struct BodySurface
   {
+    BodySurface() = default;
+
     explicit BodySurface(const Mesh &mesh);
 
-    std::vector<unsigned int>                nodes; ///< of the mesh, of each vertex, ascending
+    std::vector<unsigned int>                nodes;     ///< of the mesh, of each vertex, ascending
     std::vector<std::array<unsigned int, 3>> triangles; ///< of vertices, outwards
   };
 
@@ -39,11 +41,11 @@ namespace Exemplar::Live
   /// What stands in a frame beside the places.
   struct FrameHead
   {
-    BinaryKind    kind     = BinaryKind::frame;
-    std::uint32_t number   = 0;
-    std::uint32_t step     = 0;
-    std::uint32_t pointer  = 0; ///< the newest that the step knew
-    double        time     = 0.; ///< [s]
+    BinaryKind    kind    = BinaryKind::frame;
+    std::uint32_t number  = 0;
+    std::uint32_t step    = 0;
+    std::uint32_t pointer = 0;  ///< the newest that the step knew
+    double        time    = 0.; ///< [s]
   };
 
   /// A frame: places as 16-bit integers in the box of the frame, so that each coordinate is known to
@@ -54,6 +56,10 @@ namespace Exemplar::Live
                 const BodySurface         &surface,
                 const Vector              &positions,
                 const std::vector<double> &colours = {});
+
+  /// How far a coordinate of such a frame is from what it stands for, at most [m].
+  double
+  rounding_of_frame(const BodySurface &surface, const Vector &positions);
 
   /// The mean at the surface's vertices of what the cells have.
   std::vector<double>
