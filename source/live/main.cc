@@ -28,6 +28,19 @@ namespace Exemplar::Live
       unsigned int             n_threads = 1;
     };
 
+    /// What --help ends with.
+    std::string
+    footer(const std::string &example)
+    {
+      return "Examples:\n  $ exemplar " + example + R"(
+
+Exit status:
+  0    done
+  1    the input or the command line is wrong, and nothing is written
+  2    memory or disk ran out, or what a step needs; what was recorded is on disk
+  130  stopped by a signal, as a server always is)";
+    }
+
     void
     declare_live(CLI::App &main, Arguments &arguments)
     {
@@ -49,7 +62,7 @@ namespace Exemplar::Live
       app.add_option("--threads", arguments.n_threads, "threads of the solver")
           ->check(CLI::Range(1, 1024))
           ->capture_default_str();
-      app.footer("Example:\n  $ exemplar live prm/live/cat.prm\n\nCtrl-C ends it.");
+      app.footer(footer("live prm/live/cat.prm --record session"));
     }
 
     /// Steps of the pace of displays, unless the command line says another.
@@ -71,10 +84,10 @@ namespace Exemplar::Live
           "export", "write the frames of a finished run as one page of HTML");
       app.add_option("OUTPUT", arguments.output, "output directory of the run")->required();
       app.add_option("--html", arguments.html, "the page to write")->required();
-      app.footer("Example:\n  $ exemplar export output/cat --html cat.html");
+      app.footer(footer("export output/cat --html cat.html"));
     }
 
-    void
+    int
     do_export(const Arguments &arguments)
     {
       const ExportedPage page = export_page(arguments.output, arguments.html);
@@ -82,6 +95,7 @@ namespace Exemplar::Live
           "{}: {} frames, {:.1f} MB; coordinates are rounded by {:.1e} m at most", arguments.html,
           page.n_frames, 1e-6 * page.n_bytes, page.error)
                 << std::endl;
+      return 0;
     }
 
     /// The solver's thread; its error, if it ends by one, ends the server, too.
@@ -136,7 +150,8 @@ namespace Exemplar::Live
       std::thread        thread;
     };
 
-    void
+    /// Returns the exit status: a signal ends it.
+    int
     serve(const Arguments &arguments)
     {
       const SceneFile scene(arguments.scene, with_step(arguments.overrides));
@@ -162,6 +177,7 @@ namespace Exemplar::Live
       server.run();
       solver.end();
       solver.rethrow();
+      return 130;
     }
   } // namespace
 
@@ -177,8 +193,7 @@ namespace Exemplar::Live
     try
     {
       app.parse(argc, argv);
-      app.got_subcommand("live") ? serve(arguments) : do_export(arguments);
-      return 0;
+      return app.got_subcommand("live") ? serve(arguments) : do_export(arguments);
     }
     catch (const CLI::Success &request)
     {

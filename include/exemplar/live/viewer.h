@@ -44,6 +44,7 @@ namespace Exemplar::Live
     unsigned int n_mistakes = 0;
 
   private:
+    /// What is to be sent.
     struct Message
     {
       Bytes bytes;
