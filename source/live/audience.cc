@@ -101,6 +101,13 @@ namespace Exemplar::Live
   }
 
   void
+  Audience::dismiss()
+  {
+    viewers.clear();
+    holder = nullptr;
+  }
+
+  void
   Audience::give_mouse_to(Viewer *viewer)
   {
     if (holder != nullptr && holder != viewer)

@@ -34,7 +34,9 @@ namespace Exemplar::Live
   {
     std::unique_lock<std::mutex> lock(mutex);
     if (waits)
-      news.wait_until(lock, until, [this] { return has_ended || !commands.empty(); });
+      news.wait_until(lock, until,
+                      [this] { return has_ended || viewers_are_new || !commands.empty(); });
+    viewers_are_new = false;
     std::vector<Command> taken;
     std::swap(taken, commands);
     return taken;
@@ -59,7 +61,8 @@ namespace Exemplar::Live
   Mailbox::set_n_viewers(const unsigned int n)
   {
     const std::lock_guard<std::mutex> lock(mutex);
-    n_viewers = n;
+    n_viewers       = n;
+    viewers_are_new = true;
     news.notify_one();
   }
 

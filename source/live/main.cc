@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <csignal>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <thread>
 
@@ -154,6 +155,11 @@ Exit status:
     int
     serve(const Arguments &arguments)
     {
+      if (std::filesystem::is_directory(arguments.scene))
+        throw UserError(
+            arguments.scene
+            + " is a directory. The frames of a finished run become a page by: exemplar export "
+            + arguments.scene + " --html FILE.");
       const SceneFile scene(arguments.scene, with_step(arguments.overrides));
       const Access    access(arguments.hosts);
       const Site      site;

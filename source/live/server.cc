@@ -10,7 +10,9 @@
 #include <fmt/core.h>
 
 #include <csignal>
+#include <cstring>
 #include <filesystem>
+#include <optional>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -200,5 +202,6 @@ namespace Exemplar::Live
     asio::signal_set signals(context, SIGINT, SIGTERM, SIGHUP);
     signals.async_wait([this](const beast::error_code, int) { context.stop(); });
     context.run();
+    audience.dismiss(); // whose sockets must not outlive the context
   }
 } // namespace Exemplar::Live

@@ -158,6 +158,11 @@ namespace Exemplar::Live
     {
       tell("refused", command.type + ": " + refusal.what());
     }
+    catch (const SolverFailure &failure) // with the body perhaps changed by half
+    {
+      begin_anew();
+      tell("warning", std::string(failure.what()) + " The body is at its beginning again.");
+    }
   }
 
   void
@@ -189,17 +194,29 @@ namespace Exemplar::Live
   void
   Simulation::make_step()
   {
-    const auto begin = Pace::Clock::now();
-    shown.report     = stage.advance();
+    const auto  begin = Pace::Clock::now();
+    std::string failure;
+    try
+    {
+      shown.report = stage.advance();
+      if (!is_success(shown.report.status))
+        failure = stage.get_problem().failure_message(shown.report);
+    }
+    catch (const UserError &error) // of handles that disagree, say
+    {
+      failure = error.what();
+    }
+    catch (const SolverFailure &error)
+    {
+      failure = error.what();
+    }
     n_single_steps -= n_single_steps > 0 ? 1 : 0;
     pace.add_step(begin);
-    if (is_success(shown.report.status))
-    {
-      n_failures = 0;
+    n_failures = failure.empty() ? 0 : n_failures + 1;
+    if (failure.empty())
       show_frame();
-    }
     else
-      recover(stage.get_problem().failure_message(shown.report));
+      recover(failure);
     if (pace.wants_status())
       show_status();
   }
@@ -207,7 +224,6 @@ namespace Exemplar::Live
   void
   Simulation::recover(const std::string &message)
   {
-    ++n_failures;
     if (n_failures > 2)
     {
       begin_anew();

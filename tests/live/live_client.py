@@ -59,8 +59,10 @@ class Server:
     def __exit__(self, *_):
         if self.process.poll() is None:
             self.process.send_signal(signal.SIGINT)
-        self.process.wait(timeout=60)
+        status = self.process.wait(timeout=60)
         self.process.stdout.close()
+        if status != 130:
+            raise RuntimeError(f"the server ended with {status}: {self.log.read_text()}")
 
     def connect(self):
         return socket.create_connection(("127.0.0.1", self.port), timeout=30)

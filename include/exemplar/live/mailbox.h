@@ -20,7 +20,8 @@ namespace Exemplar::Live
     bool
     put(Command command);
 
-    /// All commands, oldest first. If `waits`, not before there is one, or stop() was called, or it is `until`.
+    /// All commands, oldest first. If `waits`, not before there is one, viewers came or went, stop() was
+    /// called, or it is `until`.
     std::vector<Command>
     take(bool waits, std::chrono::steady_clock::time_point until);
 
@@ -42,8 +43,9 @@ namespace Exemplar::Live
     mutable std::mutex      mutex;
     std::condition_variable news;
     std::vector<Command>    commands;
-    unsigned int            n_viewers = 0;
-    bool                    has_ended = false;
+    unsigned int            n_viewers       = 0;
+    bool                    viewers_are_new = false;
+    bool                    has_ended       = false;
   };
 } // namespace Exemplar::Live
 

@@ -51,6 +51,10 @@ namespace Exemplar::Live
     void
     leave(Viewer *viewer);
 
+    /// The server ends: nobody looks any more.
+    void
+    dismiss();
+
     void
     show(const Bytes &frame);
 
