@@ -27,7 +27,7 @@ export class View {
     this.controls = new OrbitControls(this.camera, canvas);
     this.marks = new THREE.Group();
     this.scene.add(this.marks);
-    this.spring = new THREE.Line(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: "#e5484d" }));
+    this.spring = new THREE.Line(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: "#e5484d", depthTest: false }));
     this.spring.geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(6), 3));
     this.spring.frustumCulled = false;
     this.spring.visible = false;
