@@ -44,12 +44,12 @@ namespace Exemplar
     compute_patch_dilatations(poses, fe_space, patches);
     const unsigned int n      = poses.n_weights();
     const bool         varies = fe_space.exchange().any(cell_material.importance_varies())
-                        && !cell_material.has_examples();
+                        && !cell_material.has_elasticity_of_examples();
     gram.reinit(n, n);
     blended.reinit(varies ? n : 0, varies ? n : 0);
     add_cells(poses, fe_space, laws, cell_material);
     add_patches(fe_space, cell_material, patches);
-    if (cell_material.has_examples())
+    if (cell_material.has_elasticity_of_examples())
       compute_excess(poses, fe_space, cell_material, patches);
     for (auto *const matrix : { &gram, &blended })
       if (matrix->m() > 0)

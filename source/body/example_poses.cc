@@ -212,7 +212,8 @@ namespace Exemplar
   void
   ExamplePoses::set_material(const Material &cell_material, const Patches &patches)
   {
-    if (rule.acts_on != ActsOn::all || cell_material.has_examples()) // their strains depend on it
+    if (rule.acts_on != ActsOn::all
+        || cell_material.has_elasticity_of_examples()) // their strains depend on it
       set_parameters(example_constants.importance, cell_material, patches);
     else if (!poses.empty())
       gram.compute(*this, fe_space, laws, cell_material, patches);
@@ -241,7 +242,7 @@ namespace Exemplar
         const Matrix3<double> E    = model_strain(law, model_rotation(law, F), F);
         const unsigned int    cell = fe_space.cell_of(point);
         const Matrix3<double> part = acting_part(rule.acts_on, material, cell, E);
-        const bool            own  = material.has_examples();
+        const bool            own  = material.has_elasticity_of_examples();
         add_to_stored(strains.data(), point, n_strained(), i - first_strained,
                       own ? 1. : example_constants.importance * material.importance(cell),
                       own ? material.drawn_strain(cell, part) : part);

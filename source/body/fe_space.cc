@@ -172,6 +172,21 @@ namespace Exemplar
     }
   }
 
+  dealii::FullMatrix<double>
+  FESpace::unit_mass_matrix() const
+  {
+    const dealii::Quadrature<3> quadrature = quadratures_of(kind).mass;
+    const auto                  n          = static_cast<unsigned int>(nodes_per_cell(kind));
+    dealii::FullMatrix<double>  mass(n, n);
+    const auto                  shape = [&](const unsigned int a, const unsigned int q)
+    { return fe.shape_value(fe.component_to_system_index(0, a), quadrature.point(q)); };
+    for (unsigned int a = 0; a < n; ++a)
+      for (unsigned int b = 0; b < n; ++b)
+        for (unsigned int q = 0; q < quadrature.size(); ++q)
+          mass(a, b) += 6. * quadrature.weight(q) * shape(a, q) * shape(b, q);
+    return mass;
+  }
+
   std::size_t
   FESpace::memory_consumption() const
   {

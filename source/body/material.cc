@@ -242,7 +242,7 @@ namespace Exemplar
   Material
   Material::with(const ChangedConstants &changed) const
   {
-    if (has_examples())
+    if (has_elasticity_of_examples())
     {
       Material body    = *this;
       body.constants   = of_body;

@@ -28,7 +28,7 @@ namespace Exemplar
   Material::part_of_pressure(const unsigned int cell, const Matrix3<double> &strain) const
   {
     const Constants &of_cell = constants[constants_of_cell[cell]];
-    if (has_examples() || axes.empty() || axes[cell].along == GrainAxes().along)
+    if (has_elasticity_of_examples() || axes.empty() || axes[cell].along == GrainAxes().along)
       return combine(trace(strain) / 3., identity_matrix<double>(), 0., strain);
     return strain_in(axes[cell], of_cell.grain.strain_of_pressure(), trace(strain));
   }
@@ -43,8 +43,9 @@ namespace Exemplar
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
         stretch += a[i] * strain[i][j] * a[j];
-    const Orthotropy grain
-        = has_examples() ? parts(cell).examples : constants[constants_of_cell[cell]].grain;
+    const Orthotropy grain = has_elasticity_of_examples()
+                                 ? parts(cell).examples
+                                 : constants[constants_of_cell[cell]].grain;
     return strain_in(axes[cell], grain.strain_of_tension(), stretch);
   }
 } // namespace Exemplar

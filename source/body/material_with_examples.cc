@@ -25,7 +25,7 @@ namespace Exemplar
     Material result         = *this;
     result.of_examples      = own;
     result.importance_there = importance;
-    if (!has_examples())
+    if (!has_elasticity_of_examples())
       result.of_body = constants;
     const char *const alpha = Fibrous<double>::own_constants[0].name;
     for (std::size_t i = 0; i < result.constants.size(); ++i)
@@ -60,7 +60,7 @@ namespace Exemplar
   Material::of_body_alone(const unsigned int cell) const
   {
     const unsigned int i     = constants_of_cell[cell];
-    const Constants   &body  = has_examples() ? of_body[i] : constants[i];
+    const Constants   &body  = has_elasticity_of_examples() ? of_body[i] : constants[i];
     const auto &[lambda, mu] = body.elasticity;
     const char *const alpha  = Fibrous<double>::own_constants[0].name;
     return { body.youngs_modulus, lambda / (2. * (lambda + mu)), body.own->at(alpha),

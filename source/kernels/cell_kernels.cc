@@ -10,19 +10,19 @@ namespace Exemplar
     std::vector<const CellKernels *>
     all_kernels_of(const ElementConstant<element> of)
     {
-      static const CellKernels         scalar   = cell_kernels_scalar(of);
-      static const CellKernels         baseline = cell_kernels_baseline(of);
+      static const CellKernels         scalar   = cell_kernels<Instructions::scalar>(of);
+      static const CellKernels         baseline = cell_kernels<Instructions::baseline>(of);
       std::vector<const CellKernels *> all      = { &scalar, &baseline };
 #ifdef __x86_64__
       // even the function that names the loops is compiled with the instructions of its set
       if (best_instruction_set() >= InstructionSet::avx2)
       {
-        static const CellKernels avx2 = cell_kernels_avx2(of);
+        static const CellKernels avx2 = cell_kernels<Instructions::avx2>(of);
         all.push_back(&avx2);
       }
       if (best_instruction_set() >= InstructionSet::avx512)
       {
-        static const CellKernels avx512 = cell_kernels_avx512(of);
+        static const CellKernels avx512 = cell_kernels<Instructions::avx512>(of);
         all.push_back(&avx512);
       }
 #endif

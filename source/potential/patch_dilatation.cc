@@ -17,6 +17,21 @@ namespace Exemplar
       const auto thin = ThinTrace<double>::of_strain(strain);
       return trace(strain) + (thin.acts() ? thin.supplement() : 0.);
     }
+
+    /// The means over the patches of numbers of the points.
+    void
+    find_means(const PatchScatter  &scatter,
+               const unsigned int   n_threads,
+               const double        *of_points,
+               std::vector<double> &means)
+    {
+      for_each_part(n_threads, means.size(), n_threads,
+                    [&](std::size_t /*part*/, const std::size_t begin, const std::size_t end)
+                    {
+                      for (std::size_t patch = begin; patch < end; ++patch)
+                        means[patch] = scatter.mean(patch, of_points);
+                    });
+    }
   } // namespace
 
   PatchDilatation::PatchDilatation(const Patches      &patches,
@@ -65,24 +80,13 @@ namespace Exemplar
   PatchDilatation::hear_cells(const Vector &positions)
   {
     const DilatationField &dilatation = cells->get_dilatation();
-    find_means(dilatation.traces.data(), means);
+    find_means(*scatter, cells->n_threads(), dilatation.traces.data(), means);
     std::vector<double> mean_squares(patches.size(), 0.);
     if (dilatation.has(long_cells))
-      find_means(dilatation.squares.data(), mean_squares);
+      find_means(*scatter, cells->n_threads(), dilatation.squares.data(), mean_squares);
     guard.find(*cells, positions, means, mean_squares, share());
     if (volumes)
       volumes->find(*cells, *scatter);
-  }
-
-  void
-  PatchDilatation::find_means(const double *of_points, std::vector<double> &of_patches) const
-  {
-    for_each_part(cells->n_threads(), patches.size(), cells->n_threads(),
-                  [&](std::size_t /*part*/, const std::size_t begin, const std::size_t end)
-                  {
-                    for (std::size_t patch = begin; patch < end; ++patch)
-                      of_patches[patch] = scatter->mean(patch, of_points);
-                  });
   }
 
   double
@@ -138,15 +142,9 @@ namespace Exemplar
   void
   PatchDilatation::add(const TermPoint &at, ElasticSums &sums)
   {
-    add_energies(at.weights, sums);
-  }
-
-  void
-  PatchDilatation::add_energies(const std::vector<double> &weights, ElasticSums &sums) const
-  {
     for (unsigned int patch = 0; patch < patches.size(); ++patch)
     {
-      const double deviation = means[patch] - target(patch, weights);
+      const double deviation = means[patch] - target(patch, at.weights);
       sums->energy_elastic += 0.5 * patches.stiffness(patch) * means[patch] * means[patch];
       sums->energy += 0.5 * patches.stiffness(patch) * deviation * deviation;
       for (unsigned int weight = 0; weight < sums->weight_gradient.size(); ++weight)
@@ -194,15 +192,6 @@ namespace Exemplar
     return (share() + s) * patches.stiffness(patch);
   }
 
-  bool
-  PatchDilatation::is_special(const unsigned int point) const
-  {
-    const DilatationField &dilatation = cells->get_dilatation();
-    return ((dilatation.flags[point / batch_size] & thin_cells) != 0
-            || (dilatation.stretch.acts && dilatation.stretch.transitions[point] > 0.))
-           && traits_of(cells->get_batches().law(point)).has_guard_of_patches();
-  }
-
   void
   PatchDilatation::find_gradients(const Vector &positions, PatchVectors &b) const
   {
@@ -212,7 +201,7 @@ namespace Exemplar
     std::vector<double> forces;
     for (unsigned int point = 0; point < fe_space.n_points(); ++point)
     {
-      if (!is_special(point))
+      if (!has_special_patch(*cells, point))
         continue;
       const PatchCell<double> cell
           = patch_cell(*cells, point, fe_space.deformation_gradient(point, positions));

@@ -208,4 +208,13 @@ namespace Exemplar
     cell.set_target(Matrix3<double>{});
     return { cell, patch };
   }
+
+  bool
+  has_special_patch(const CellField &cells, const unsigned int point)
+  {
+    const DilatationField &dilatation = cells.get_dilatation();
+    return ((dilatation.flags[point / batch_size] & thin_cells) != 0
+            || (dilatation.stretch.acts && dilatation.stretch.transitions[point] > 0.))
+           && traits_of(cells.get_batches().law(point)).has_guard_of_patches();
+  }
 } // namespace Exemplar

@@ -29,15 +29,6 @@ namespace Exemplar
                   });
   }
 
-  double
-  PatchVolumes::energy() const
-  {
-    double sum = 0.;
-    for (unsigned int patch = 0; patch < patches.size(); ++patch)
-      sum += patches.volume(patch) * density(patch);
-    return sum;
-  }
-
   void
   PatchVolumes::tell_cells(CellField &cells) const
   {

@@ -35,9 +35,11 @@ namespace Exemplar::Python
       if (std::is_integral_v<Number> && kind != 'i' && kind != 'u')
         throw UserError(what + " must be an array of integers.");
       py::array_t<Number, py::array::c_style | py::array::forcecast> rows;
-      if (kind != 'c') // of which the real parts alone would be taken
+      // numpy would take the real parts alone, texts of digits and truths
+      const bool is_number = kind == 'f' || kind == 'i' || kind == 'u' || kind == 'O';
+      if (is_number)
         rows = decltype(rows)::ensure(any);
-      if (kind == 'c' || !rows)
+      if (!is_number || !rows)
         throw UserError(what + " must be an array of real numbers.");
       return rows;
     }

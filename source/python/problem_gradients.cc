@@ -27,11 +27,10 @@ namespace Exemplar::Python
       if (!by_positions.is_none())
       {
         // of the vertices alone, as problem.positions are, or of all nodes
-        const auto given = py::array::ensure(by_positions);
         const auto n_all = py::ssize_t(problem.body.fe_space.n_nodes());
         const auto n     = py::ssize_t(problem.body.mesh.n_nodes());
-        const bool all   = given && given.ndim() == 2 && given.shape(0) == n_all;
-        const auto rows  = points_of(by_positions, method + ": dJ_dx", all ? n_all : n);
+        const auto rows  = points_of(by_positions, method + ": dJ_dx",
+                                    has_rows(by_positions, n_all) ? n_all : n);
         for (unsigned int dof = 0; dof < 3 * rows.size(); ++dof)
           functional.positions[dof] = rows[dof / 3][dof % 3];
       }
@@ -100,13 +99,22 @@ namespace Exemplar::Python
         py::capsule(kept, [](void *memory) { delete static_cast<Vector *>(memory); }));
   }
 
+  bool
+  has_rows(const py::object &array, const py::ssize_t n)
+  {
+    const auto given = py::array::ensure(array);
+    return given && given.ndim() == 2 && given.shape(0) == n;
+  }
+
   void
   check_weight_derivatives(const py::object &array, const std::string &what, const std::size_t n)
   {
-    if (numbers_of(array, what, py::ssize_t(n)).size() != n || py::array::ensure(array).ndim() != 1)
+    const auto any = py::array::ensure(array);
+    if (!any || any.ndim() != 1 || any.shape(0) != py::ssize_t(n))
       throw UserError(fmt::format("{} must be an array of shape ({},), one number for each of "
                                   "problem.weights, but is {}.",
                                   what, n, description(array)));
+    numbers_of(array, what, py::ssize_t(n)); // or it throws
   }
 
   namespace

@@ -7,6 +7,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace Exemplar::Python
@@ -66,6 +67,9 @@ namespace Exemplar::Python
       trajectory.held->change("record()",
                               [&](Problem &problem)
                               {
+                                if (trajectory.steps != nullptr)
+                                  throw UserError("record(): this trajectory has its steps. Record "
+                                                  "others by a call of record() of their own.");
                                 if (is_recorded(problem))
                                   throw UserError("record(): the problem is being recorded. Leave "
                                                   "the with statement that does it first.");
@@ -78,17 +82,24 @@ namespace Exemplar::Python
     end(Trajectory &trajectory)
     {
       trajectory.held->change("the end of record()",
-                              [](Problem &problem) { problem.on_step = nullptr; });
+                              [&](Problem &problem)
+                              {
+                                const Recorder *recorder = problem.on_step.target<Recorder>();
+                                if (recorder != nullptr
+                                    && recorder->steps.lock() == trajectory.steps)
+                                  problem.on_step = nullptr;
+                              });
     }
 
-    /// (n, 3) in the memory of a step, which the array keeps.
+    /// Of the vertices, (n, 3), in the memory of a step, which the array keeps.
     py::array
-    rows(const std::shared_ptr<RecordedSteps> &steps, const Vector &field)
+    rows(const Trajectory &trajectory, const Vector &field)
     {
-      const py::capsule   owner(new std::shared_ptr<RecordedSteps>(steps), [](void *kept)
+      const std::size_t n
+          = std::min<std::size_t>(field.size() / 3, trajectory.held->get().body.mesh.n_nodes());
+      const py::capsule   owner(new std::shared_ptr<RecordedSteps>(trajectory.steps), [](void *kept)
                                 { delete static_cast<std::shared_ptr<RecordedSteps> *>(kept); });
-      py::array_t<double> array({ py::ssize_t(field.size() / 3), py::ssize_t(3) }, field.begin(),
-                                owner);
+      py::array_t<double> array({ py::ssize_t(n), py::ssize_t(3) }, field.begin(), owner);
       array.attr("flags").attr("writeable") = false;
       return std::move(array);
     }
@@ -177,9 +188,10 @@ namespace Exemplar::Python
       if (problem.actions.integrator == nullptr && !by_velocities.is_none())
         throw UserError("vjp: dJ_dv must be None, as the scene is not dynamic.");
       const auto n         = py::ssize_t(problem.body.mesh.n_nodes());
+      const auto n_all     = py::ssize_t(problem.body.fe_space.n_nodes());
       const auto n_weights = problem.state.weights.size();
-      const auto of_nodes
-          = [n](const py::object &entry, const std::string &what) { points_of(entry, what, n); };
+      const auto of_nodes  = [n, n_all](const py::object &entry, const std::string &what)
+      { points_of(entry, what, has_rows(entry, n_all) ? n_all : n); };
       const auto of_weights = [n_weights](const py::object &entry, const std::string &what)
       { check_weight_derivatives(entry, what, n_weights); };
       const auto                    x = arrays_of(by_positions, "dJ_dx", steps.size(), of_nodes);
@@ -209,16 +221,17 @@ namespace Exemplar::Python
           [](const Trajectory &trajectory)
           {
             return of_steps(trajectory, [&](const RecordedStep &step)
-                            { return rows(trajectory.steps, step.positions); });
+                            { return rows(trajectory, step.positions); });
           },
-          "A list with the positions of all nodes, n rows of 3 [m], at the end of each step. Read "
-          "only,\nno copies.");
+          "A list with the positions of the mesh's nodes, n rows of 3 [m], at the end of each "
+          "step.\n"
+          "Read only, no copies.");
       type.def_property_readonly(
           "velocities",
           [](const Trajectory &trajectory)
           {
             return of_steps(trajectory, [&](const RecordedStep &step)
-                            { return rows(trajectory.steps, step.velocities); });
+                            { return rows(trajectory, step.velocities); });
           },
           "A list with the velocities [m/s], as positions; with empty arrays unless dynamic.");
       type.def_property_readonly(
@@ -269,10 +282,15 @@ namespace Exemplar::Python
           "and of a dynamic scene, with all else where it is,\n"
           "  mass_damping, stiffness_damping          floats\n"
           "  initial_positions, initial_velocities    (n, 3), of the state at the beginning\n"
-          "Raises UserError for scenes whose gradients are not known (doc/gradients.md), for\n"
-          "deformations at which a guard acts, where the problem was changed or its state set\n"
-          "meanwhile or since, and for lists and arrays of other sizes; SolverFailure if a "
-          "tangent is\nnot positive definite. The problem stays as it is.");
+          "With quadratic elements rows are those of problem.vjp(): dJ_dx and dJ_dv have one for "
+          "each\n"
+          "vertex or for each node, initial_positions and initial_velocities one for each node.\n"
+          "Raises UserError for scenes whose gradients are not known (doc/gradients.md), where a "
+          "cell\n"
+          "has no unique rotation, where the problem was changed or its state set meanwhile or "
+          "since,\n"
+          "and for lists and arrays of other sizes; SolverFailure if a tangent is not positive\n"
+          "definite. The problem stays as it is.");
       type.def("vjp",
                [](const Trajectory &, const py::args &, const py::kwargs &) -> py::dict
                { throw py::type_error("vjp is called as vjp(dJ_dx, dJ_dw=None, dJ_dv=None)."); });

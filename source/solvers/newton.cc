@@ -17,6 +17,14 @@ namespace Exemplar
     /// Residual after a prediction up to which its factor serves for more steps: as much as forces
     /// differ from those that the tangent predicts, the tangent itself has changed.
     constexpr double nearly_linear = 1e-3;
+
+    /// Inertia holds a body and predicts its motion; without it small forces can move soft or thin parts far,
+    /// and factors of exact tangents serve the next prediction.
+    bool
+    is_without_inertia(const IncrementalPotential &potential)
+    {
+      return potential.inertial_positions() == nullptr;
+    }
   } // namespace
 
   Newton::Newton(const SolverParameters &parameters,
@@ -128,7 +136,7 @@ namespace Exemplar
         system.factorize(from.positions, from.weights, tangent == Tangent::convex ? 1. : 0.);
       system.add(system.solve(from, evaluation), trial.state);
       keep_within_max_step(potential, from.positions, trial.state.positions);
-      if (tangent == Tangent::exact && !has_factor && predicts_with_factors())
+      if (tangent == Tangent::exact && !has_factor && is_without_inertia(potential))
         start.linearization
             = { from.positions, from.weights, from.history, system.n_factorizations() };
       return true;
@@ -207,8 +215,7 @@ namespace Exemplar
   bool
   Newton::is_placed(const State &state, const Evaluation &evaluation)
   {
-    // inertia holds a body, but in statics small forces can move soft or thin parts far
-    if (potential.inertial_positions() != nullptr || !system.has_factor())
+    if (!is_without_inertia(potential) || !system.has_factor())
       return true;
     try
     {
@@ -236,14 +243,8 @@ namespace Exemplar
       correct_with_same_factor(trial.state, evaluation);
     here.factor = system.n_factorizations();
     // if it is that of the exact tangent
-    const bool is_used_again = predicts_with_factors() && report.convexity == 0.;
+    const bool is_used_again = is_without_inertia(potential) && report.convexity == 0.;
     trial.linearization      = is_used_again ? std::move(here) : Linearization();
-  }
-
-  bool
-  Newton::predicts_with_factors() const
-  {
-    return potential.inertial_positions() == nullptr;
   }
 
   void

@@ -72,7 +72,8 @@ namespace Exemplar
     try_to(
         [&]
         {
-          is_still  = !is_driven(start.state, time);
+          is_still = !potential.is_driven(start.state, time)
+                     && !handles.are_elsewhere(time, start.state.positions);
           can_halve = !is_still && halvings < max_halvings_of_increment;
           predict(start, time, halvings == 0, trial, evaluation);
           iterate((can_halve ? 1 : patience) * parameters.maximum_iterations, trial, evaluation,
@@ -147,11 +148,5 @@ namespace Exemplar
     const Vector    moved    = system.displacement(start, step);
     const double    maximum  = exchange.max(max_entry(moved.begin(), moved.end()));
     return std::min(1., 0.25 * extent(start.positions, exchange) / maximum);
-  }
-
-  bool
-  Newton::is_driven(const State &from, const double time) const
-  {
-    return potential.is_driven(from, time) || handles.are_elsewhere(time, from.positions);
   }
 } // namespace Exemplar

@@ -78,6 +78,12 @@ class Corrections(unittest.TestCase):
         np.testing.assert_array_equal(problem.positions, positions)
 
     def test_refused(self):
+        moved = solved(BENT)
+        moved.set_motion("right", lambda rest, t: 0 * rest + [0, 0, 0.1])
+        with self.assertRaisesRegex(exemplar.UserError, "not where their motions put them"):
+            moved.correction(None)
+        with self.assertRaisesRegex(exemplar.SolverFailure, "Scale J"):
+            solved(BENT).correction(np.full(moved.positions.shape, 1e308))
         with self.assertRaisesRegex(exemplar.UserError, "not static"):
             solved({**BENT, "Scene": "dynamic", "Time": {"Step": 0.1, "End": 0.1}}).correction(None)
         problem = solved(BENT)

@@ -30,12 +30,18 @@ X, Y, Z = NODES.T
 POSES = [np.stack([X, Y + 0.1 * X * (Z - 0.5), Z - 0.1 * X * (Y - 0.5)], axis=1),
          np.stack([X, Y, Z + 0.06 * X**2], axis=1),
          np.stack([1.15 * X, 0.95 * Y, 0.95 * Z + 0.02 * X * Y], axis=1)]
-EDGES = np.unique(np.sort(CELLS[:, list(itertools.combinations(range(4), 2))].reshape(-1, 2), axis=1), axis=0)
 
 
-def with_middles(nodes):
+def edges_of(cells):
+    return np.unique(np.sort(cells[:, list(itertools.combinations(range(4), 2))].reshape(-1, 2), axis=1), axis=0)
+
+
+EDGES = edges_of(CELLS)
+
+
+def with_middles(nodes, edges=EDGES):
     """As quadratic elements have them, behind the vertices."""
-    return np.concatenate([nodes, nodes[EDGES].mean(axis=1)])
+    return np.concatenate([nodes, nodes[edges].mean(axis=1)])
 
 
 def targets_of(nodes):
@@ -100,6 +106,20 @@ class Case:
         problem = self.solved(**changes, state=self.problem.state if self.is_near else None)
         return (BY_POSITIONS * problem.positions).sum() + self.by_weights @ problem.weights
 
+    def direction(self, name):
+        """Of a change, at random; where little moves by weight, nothing cancels in it."""
+        at, size, _ = self.parameters()[name]
+        direction = size * random.uniform(0.5, 1, at.shape) * random.choice([-1, 1], at.shape)
+        if not self.is_near:
+            return direction
+        signs = np.array([np.sign(rows[:at.shape[-2]]) for rows in self.found[name]]) if name == "poses" else np.sign(self.found[name])
+        return {"handles": 0.1, "density": 10, "gravity": 10}.get(name, 1) * np.abs(direction) * signs
+
+    def derivative(self, name, direction):
+        if name == "poses" and self.is_quadratic:
+            return sum(np.sum(of_pose * with_middles(change)) for of_pose, change in zip(self.found[name], direction))
+        return np.sum(np.array(self.found[name]) * direction)
+
     def parameters(self):
         """{name: (value, size of its changes, function of a value)}"""
         def material(name):
@@ -121,9 +141,9 @@ def difference(function, at, direction, step=5e-4):
     return np.dot(values, [1, -8, 8, -1]) / (12 * step)
 
 
-def converged_difference(function, at, direction):
+def converged_difference(function, at, direction, steps=(1.6e-3, 4e-4, 1e-4, 2.5e-5), difference=difference):
     """Of those steps between which it changes least: large ones leave a remainder, small ones rounding."""
-    found = [difference(function, at, direction, step) for step in (1.6e-3, 4e-4, 1e-4, 2.5e-5)]
+    found = [difference(function, at, direction, step) for step in steps]
     return min(zip(found, found[1:]), key=lambda pair: abs(pair[0] - pair[1]))[1]
 
 
@@ -132,20 +152,12 @@ class Differences(unittest.TestCase):
         case = Case(base, **of_case)
         self.assertEqual(case.found["weakly_active"], [])
         self.assertFalse(np.any(case.found["handles"][~held(with_middles(NODES)[:len(case.targets)])]))
-        for name, (at, size, function) in case.parameters().items():
+        for name, (at, _, function) in case.parameters().items():
             if name not in case.found:
                 continue
-            direction = size * random.uniform(0.5, 1, at.shape) * random.choice([-1, 1], at.shape)
-            if case.is_near:  # where little moves by weight, let nothing cancel
-                signs = np.array([np.sign(rows[:at.shape[-2]]) for rows in case.found[name]]) if name == "poses" \
-                    else np.sign(case.found[name])
-                direction = {"handles": 0.1, "density": 10, "gravity": 10}.get(name, 1) * np.abs(direction) * signs
+            direction = case.direction(name)
             expected = (converged_difference if case.is_near else difference)(function, at, direction)
-            if name == "poses" and case.is_quadratic:
-                found = sum(np.sum(of_pose * with_middles(change))
-                            for of_pose, change in zip(case.found[name], direction))
-            else:
-                found = np.sum(np.array(case.found[name]) * direction)
+            found = case.derivative(name, direction)
             with self.subTest(name):
                 self.assertLess(abs(found - expected), 1e-6 * abs(expected), (found, expected))
         return case

@@ -6,6 +6,7 @@ import unittest
 import numpy as np
 
 import exemplar
+from exemplar import _equilibrium
 
 BOX = {"Scene": "static", "Mesh": {"Generator": "box", "Box size": [3, 1, 1], "Box cells": [3, 1, 1]}, "Time": {"Increments": 1},
        "Material": {"Poisson's ratio": 0.4}, "Examples": {"Pose functions": [["x", "y", "z + 0.1*x^2"]], "Importance": 0.7},
@@ -38,6 +39,34 @@ class Wrapper:
             with self.subTest(name):
                 self.assertEqual(np.shape(found[name]), value.shape)
                 self.assertAlmostEqual(np.sum(found[name] * change) / expected, 1, delta=1e-6)
+
+
+class Shared(unittest.TestCase):
+    """What both do, which needs neither."""
+
+    def test_refused(self):
+        poses = PARAMETERS["poses"]
+        for message, parameters in {"no parameter 'yuong'": {"yuong": 1.}, r"poses must .*shape \(\d+, 3\)": {"poses": poses[0]},
+                                    "poses must": {"poses": np.concatenate(3 * [poses])}}.items():
+            with self.subTest(message), self.assertRaisesRegex(exemplar.UserError, message):
+                _equilibrium.solve(make(), parameters)
+        dynamic = exemplar.Problem({**BOX, "Scene": "dynamic", "Time": {"Step": 0.1, "End": 1}})
+        with self.assertRaisesRegex(exemplar.UserError, "dynamic"):
+            _equilibrium.solve(dynamic, {"young": 1e5})
+        self.assertEqual(dynamic.time, 0)
+
+    def test_other_parameters_since(self):
+        problem = make()
+        solved = _equilibrium.solve(problem, {"young": 1e5})
+        _equilibrium.solve(problem, {"gravity": [0, 0, -1]})
+        with self.assertRaisesRegex(exemplar.UserError, "since this solve, by young, .*: gravity"):
+            _equilibrium.pull_back(problem, solved, BY_POSITIONS, None)
+
+    def test_shapes(self):
+        problem = make()
+        values = {"importance": [0.6], "gravity": PARAMETERS["gravity"], "poses": PARAMETERS["poses"]}
+        found = _equilibrium.pull_back(problem, _equilibrium.solve(problem, values), BY_POSITIONS, BY_WEIGHTS)
+        self.assertEqual({name: by.shape for name, by in found.items()}, {"importance": (1,), "gravity": (3,), "poses": (1, N, 3)})
 
 
 @unittest.skipUnless(importlib.util.find_spec("torch"), "needs torch")

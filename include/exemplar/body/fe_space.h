@@ -8,6 +8,7 @@
 #include <deal.II/base/tensor.h>
 #include <deal.II/fe/fe_system.h>
 #include <deal.II/fe/mapping_fe.h>
+#include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/sparse_matrix.h>
 #include <deal.II/lac/vector.h>
 
@@ -168,6 +169,10 @@ namespace Exemplar
     void
     compute_mass_matrix(const std::vector<double>    &density_of_cell,
                         dealii::SparseMatrix<double> &mass) const;
+
+    /// The same for the nodes() of a cell with a volume and a density of 1.
+    dealii::FullMatrix<double>
+    unit_mass_matrix() const;
 
     /// In bytes.
     std::size_t

@@ -111,7 +111,7 @@ namespace Exemplar
 
     /// Whether with_examples() has made it.
     bool
-    has_examples() const
+    has_elasticity_of_examples() const
     {
       return of_examples.is_own();
     }

@@ -109,43 +109,24 @@ namespace Exemplar
     void (*multiply_nodes)(const NodalMatrix &, std::size_t n, const double *x, double *product);
   };
 
-  // Those of one instruction set; the scalar ones are for comparison.
+  /// For which loops are compiled; the scalar ones are for comparison.
+  namespace Instructions
+  {
+    struct scalar;
+    struct baseline;
+    struct avx2;
+    struct avx512;
+  } // namespace Instructions
 
-  template <Element element>
-  CellKernels cell_kernels_scalar(ElementConstant<element>);
+  // CMake makes a file of source/kernels/*_kernels.cc.in for each of these functions: how much a compiler inlines depends
+  // on all that it sees.
 
-  template <Element element>
-  CellKernels cell_kernels_baseline(ElementConstant<element>);
+  template <typename Set, Element element>
+  CellKernels cell_kernels(ElementConstant<element>);
 
-  template <Element element>
-  CellKernels cell_kernels_avx2(ElementConstant<element>);
-
-  template <Element element>
-  CellKernels cell_kernels_avx512(ElementConstant<element>);
-
-  template <Element element>
-  LawKernels rare_law_kernels_scalar(ElementConstant<element>);
-
-  template <Element element>
-  LawKernels rare_law_kernels_baseline(ElementConstant<element>);
-
-  template <Element element>
-  LawKernels rare_law_kernels_avx2(ElementConstant<element>);
-
-  template <Element element>
-  LawKernels rare_law_kernels_avx512(ElementConstant<element>);
-
-  template <Element element>
-  LawKernels sum_kernels_scalar(ElementConstant<element>);
-
-  template <Element element>
-  LawKernels sum_kernels_baseline(ElementConstant<element>);
-
-  template <Element element>
-  LawKernels sum_kernels_avx2(ElementConstant<element>);
-
-  template <Element element>
-  LawKernels sum_kernels_avx512(ElementConstant<element>);
+  /// Of the groups of laws beside the usual ones.
+  template <typename Set, typename Laws, Element element>
+  LawKernels law_kernels(Laws, ElementConstant<element>);
 
   /// The kernels of an element for the best instruction set that this CPU has.
   const CellKernels &

@@ -13,13 +13,12 @@
 
 namespace Exemplar::Loops
 {
-  // See loops_io.h for which files may call these. Each element, and each group of laws, has files of
-  // its own, because how much a compiler inlines depends on all that it sees.
+  // See loops_io.h for which files may call these.
 
-  /// The loops of loops_*.h for a number type, an element and a group of laws.
-  template <typename Laws, typename Number, Element element>
+  /// The loops of loops_*.h for a number type, a group of laws and an element.
+  template <typename Number, typename Laws, Element element>
   LawKernels
-  make_law_kernels(ElementConstant<element>)
+  make_law_kernels(const Laws /*laws*/, const ElementConstant<element> /*element*/)
   {
     constexpr int n_nodes = nodes_per_cell(element);
     return { update_rotations<Laws, Number, n_nodes>,      evaluate<Laws, Number, n_nodes>,
@@ -29,19 +28,16 @@ namespace Exemplar::Loops
              add_patch_tangent<Laws, Number, n_nodes>,     coupling<Laws, Number, n_nodes> };
   }
 
-  /// All loops, with those for rare laws and for sums of laws.
-  template <typename Number, Element element>
+  /// All loops: with those of other groups of laws, which files of their own have.
+  template <typename Set, typename Number, Element element>
   CellKernels
-  make_kernels(const ElementConstant<element> of,
-               const char                    *name,
-               const LawKernels              &of_rare_laws,
-               const LawKernels              &of_sums)
+  make_kernels(const ElementConstant<element> of, const char *name)
   {
     constexpr int n_nodes = nodes_per_cell(element);
     return { name,
-             make_law_kernels<UsualLaws, Number>(of),
-             of_rare_laws,
-             of_sums,
+             make_law_kernels<Number>(UsualLaws(), of),
+             law_kernels<Set>(RareLaws(), of),
+             law_kernels<Set>(SumsOfLaws(), of),
              add_rotations<Number, n_nodes>,
              closest_rotations<Number>,
              patch_gradients<Number, n_nodes>,

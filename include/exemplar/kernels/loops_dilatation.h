@@ -48,6 +48,25 @@ namespace Exemplar::Loops
         cell.add_volume_pressure(load(task.dilatation.volume.pressures, group, 1, 0));
   }
 
+  /// What a patch adds to the stress of its cells; zero where the cells have none.
+  template <typename Number>
+  struct PatchStress
+  {
+    bool   acts = false;
+    Number pressure = Number(0.), scale = Number(0.);
+  };
+
+  template <typename Cell, typename Number>
+  inline PatchStress<Number>
+  patch_stress(const CellTask &task, const LaneGroup<Number> &group)
+  {
+    if constexpr (Cell::traits.trace_gradient_is_R)
+      if (task.dilatation.pressures != nullptr)
+        return { true, load(task.dilatation.pressures, group, 1, 0),
+                 load(task.dilatation.scales, group, 1, 0) };
+    return {};
+  }
+
   template <typename Cell, typename Number>
   [[gnu::always_inline]] inline void
   store_dilatation(const CellTask          &task,

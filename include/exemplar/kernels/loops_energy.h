@@ -200,13 +200,11 @@ namespace Exemplar::Loops
                  double                    *weight_sums,
                  LaneSums<Number, n_nodes> &sums)
   {
-    const bool has_examples = task.examples.n_weights > 0;
-    const bool has_patches
-        = Cell::traits.trace_gradient_is_R && task.dilatation.pressures != nullptr;
-    const auto            tet     = load_tetrahedron<n_nodes>(task.cells, group);
-    const Matrix3<Number> F       = deformation_gradient(task, group, tet);
-    const Matrix3<Number> R       = rotation<Cell>(task, group, F);
-    const auto            is_real = tet.volume > Number(0.);
+    const bool            has_examples = task.examples.n_weights > 0;
+    const auto            tet          = load_tetrahedron<n_nodes>(task.cells, group);
+    const Matrix3<Number> F            = deformation_gradient(task, group, tet);
+    const Matrix3<Number> R            = rotation<Cell>(task, group, F);
+    const auto            is_real      = tet.volume > Number(0.);
 
     const Number det
         = task.cells.has_other_laws
@@ -223,16 +221,15 @@ namespace Exemplar::Loops
     if constexpr (Cell::traits.n_history > 0)
       sums.inelastic += tet.volume * cell.inelastic_density();
 
-    const Number patch_scale = has_patches ? load(task.dilatation.scales, group, 1, 0) : Number(0.);
-    Matrix3<Number> P; // R^T P
-    Matrix3<Number> D;
+    const PatchStress<Number> patch = patch_stress<Cell>(task, group);
+    Matrix3<Number>           P; // R^T P
+    Matrix3<Number>           D;
     if (has_examples)
     {
       D = target(task, group); // eta E(w)
       scale += cell.scale_of(D);
       sums.stress_square += tet.volume * scale * scale;
-      if (has_patches)
-        sums.stress_square += tet.volume * patch_scale * patch_scale;
+      sums.stress_square += tet.volume * patch.scale * patch.scale;
       sums.energy += tet.volume * cell.energy(D);
       sums.guarded.add(group, is_real & cell.is_guarded());
       if (task.with_weight_sums)
@@ -267,16 +264,16 @@ namespace Exemplar::Loops
       cell.set_target(D);
       P = cell.force();
     }
-    if (has_patches)
+    if (patch.acts)
       for (int i = 0; i < 3; ++i)
-        P[i][i] += load(task.dilatation.pressures, group, 1, 0);
+        P[i][i] += patch.pressure;
     Matrix3<Number> RP = R * P;
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
         RP[i][j] *= tet.volume;
-    add_forces(task, group, tet, RP, tet.volume * (cell.force_factor() * scale + patch_scale),
+    add_forces(task, group, tet, RP, tet.volume * (cell.force_factor() * scale + patch.scale),
                nodal_sums);
-    if (has_patches) // the guard is the patch's, then
+    if (patch.acts) // the guard is the patch's, then
       add_patch_stress<Cell, n_nodes>(task, group, nodal_sums);
     else if (cell.may_be_stretched(density))
       add_stretch_guard<Cell, n_nodes>(task, group, nodal_sums, sums);

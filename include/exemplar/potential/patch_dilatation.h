@@ -114,12 +114,6 @@ namespace Exemplar
     memory_consumption() const override;
 
   private:
-    void
-    find_means(const double *of_points, std::vector<double> &of_patches) const;
-
-    void
-    add_energies(const std::vector<double> &weights, ElasticSums &sums) const;
-
     /// b = dtheta_p/dx of Eq. (25) [1/m].
     void
     find_gradients(const Vector &positions, PatchVectors &b) const;
@@ -136,18 +130,6 @@ namespace Exemplar
                     const PatchProducts &products,
                     const Vector        &displacement,
                     ElasticSums         &sums) const;
-
-    /// What of that couples the nodes of one cell.
-    void
-    add_response_of_points(unsigned int     patch,
-                           Tangent          kind,
-                           const TermPoint &at,
-                           const Vector    &displacement,
-                           ElasticSums     &sums) const;
-
-    /// Whether a patch does more at a point than to press.
-    bool
-    is_special(unsigned int point) const;
 
     /// Of theta_p^2 in the energy: 1, or eta beside a background that knows J.
     double

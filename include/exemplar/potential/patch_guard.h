@@ -103,6 +103,10 @@ namespace Exemplar
   /// A point at which patches do more than to press.
   PatchCell<double>
   patch_cell(const CellField &cells, unsigned int point, const Matrix3<double> &F);
+
+  /// Whether a patch does more at a point than to press: where the cell is thin or the guard (26) acts.
+  bool
+  has_special_patch(const CellField &cells, unsigned int point);
 } // namespace Exemplar
 
 #endif

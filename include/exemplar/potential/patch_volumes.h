@@ -37,10 +37,6 @@ namespace Exemplar
       return 0.5 * pressure(patch) * changes[patch];
     }
 
-    /// sum V_p lambda_p (J_p - 1)^2 / 2 [J].
-    double
-    energy() const;
-
     /// Let the pressures act in the cells, which have the share of the background in their energy.
     void
     tell_cells(CellField &cells) const;

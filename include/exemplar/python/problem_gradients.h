@@ -21,6 +21,10 @@ namespace Exemplar::Python
   pybind11::array
   array_of_nodes(Vector field);
 
+  /// Whether it is an array with so many rows.
+  bool
+  has_rows(const pybind11::object &array, pybind11::ssize_t n);
+
   /// Throws UserError for what is no array of a finite number for each of n weights; `what` stands for it.
   void
   check_weight_derivatives(const pybind11::object &array, const std::string &what, std::size_t n);

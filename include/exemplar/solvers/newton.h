@@ -89,11 +89,6 @@ namespace Exemplar
     double
     first_stage(const State &start, const Evaluation &evaluation, SolveReport &report);
 
-    /// Whether handles, loads or prescribed weights have another place or value at `time`, so that
-    /// half the way there is another problem.
-    bool
-    is_driven(const State &from, double time) const;
-
     /// Put `trial`, a copy of `start`, near its minimum at `time`.
     void
     predict(Trial &start, double time, bool is_whole_step, Trial &trial, Evaluation &evaluation);
@@ -162,10 +157,6 @@ namespace Exemplar
 
     bool
     has_residual(double bound, const State &state, const Evaluation &evaluation) const;
-
-    /// Whether factors of exact tangents serve the next prediction: in statics.
-    bool
-    predicts_with_factors() const;
 
     const SolverParameters parameters;
     IncrementalPotential  &potential;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/run/adjoint/adjoint_checks.h>
-#include <exemplar/run/adjoint/point_potential.h>
+#include <exemplar/run/adjoint/example_strains.h>
+#include <exemplar/run/adjoint/laws_with_derivatives.h>
 
 #include <fmt/core.h>
 
@@ -47,11 +48,14 @@ namespace Exemplar
     void
     require_known_examples(const Problem &problem)
     {
-      if (problem.examples.poses.size() == 0)
-        return;
-      if (problem.body.material.has_examples() && has_orthotropic_cells(problem))
+      if (problem.body.material.has_elasticity_of_examples() && has_orthotropic_cells(problem))
         refuse("of examples with an elasticity of their own in an orthotropic body",
                "Leave out Examples/Example modulus and Example Poisson ratio.");
+    }
+
+    void
+    require_known_way(const Problem &problem)
+    {
       if (problem.examples.weights.get_memory().yields() && problem.state.step > 1)
         refuse("of weights that remember, as what they have become depends on the whole way to the "
                "equilibrium",
@@ -60,17 +64,24 @@ namespace Exemplar
   } // namespace
 
   void
-  require_known_scene(const Problem &problem)
+  require_known_potential(const Problem &problem)
   {
-    if (problem.parameters.scene != SceneKind::statics)
-      refuse("of scenes that are not static",
-             "Set Scene = static, or record the steps: with problem.record() as trajectory.");
     if (problem.body.exchange().n_processes() > 1)
       refuse("for several processes", "Use one.");
     if (!problem.get_own_terms().empty())
       refuse("of terms that were added to the potential", "Make the problem without add_term().");
     require_known_model(problem);
     require_known_examples(problem);
+  }
+
+  void
+  require_known_scene(const Problem &problem)
+  {
+    if (problem.parameters.scene != SceneKind::statics)
+      refuse("of scenes that are not static",
+             "Set Scene = static, or record the steps: with problem.record() as trajectory.");
+    require_known_potential(problem);
+    require_known_way(problem);
   }
 
   void
@@ -85,10 +96,7 @@ namespace Exemplar
         continue;
       const Matrix3<double> F = fe_space.deformation_gradient(point, problem.state.positions);
       const Matrix3<double> S = symmetric_part(transpose_times(closest_rotation(F), F));
-      Matrix3<double>       B = combine(-1., S, 0., S);
-      for (int i = 0; i < 3; ++i)
-        B[i][i] += trace(S);
-      if (!(determinant(B) > 1e-9 * std::pow(contract(F, F), 1.5)))
+      if (!(product_of_sums(S) > 1e-9 * std::pow(contract(F, F), 1.5)))
         throw UserError(
             fmt::format("Cell {}, counted from 0, is so deformed that its rotation is not "
                         "unique, where its "

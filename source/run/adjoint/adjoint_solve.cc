@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/run/adjoint/adjoint_solve.h>
+#include <exemplar/run/adjoint/adjoint_system.h>
 #include <exemplar/run/adjoint/conjugate_residuals.h>
-#include <exemplar/solvers/step_system.h>
 
 #include <fmt/core.h>
 
@@ -25,242 +25,13 @@ namespace Exemplar
       return { derivatives.by_positions, derivatives.by_weights };
     }
 
-    /// The equations with the weights that are at no bound; with Z = A^-1 G they are those of Eq. (11).
-    class AdjointSystem
-    {
-    public:
-      AdjointSystem(Problem &problem)
-          : problem(problem), free(problem.potential.get_free_dofs().list()),
-            form(problem.potential.get_weights().weight_form()), inactive(are_inactive(problem)),
-            system(
-                problem.potential,
-                [&problem] { return make_bordered_system(solver_for(problem), problem.potential); },
-                problem.clock,
-                false)
-      {
-        factorize();
-        Z = system.bordered().columns();
-        if (!Z.empty())
-          system.bordered().apply_inverse(Z);
-        make_weight_matrix();
-      }
-
-      /// Add to the direction what takes this right side to zero.
-      void
-      add_solution(const Direction &right_side, Direction &direction)
-      {
-        std::vector<double> z;
-        for (const unsigned int dof : free)
-          z.push_back(right_side.positions[dof]);
-        system.bordered().apply_inverse(z);
-        const std::vector<double> b = solve_weights(right_side);
-        for (std::size_t j = 0; j < form.coupled.size(); ++j)
-          for (std::size_t i = 0; i < free.size(); ++i)
-            z[i] += b[form.coupled[j]] * Z[j * free.size() + i];
-        for (std::size_t i = 0; i < free.size(); ++i)
-          direction.positions[free[i]] += z[i];
-        for (std::size_t weight = 0; weight < b.size(); ++weight)
-          direction.weights[weight] += b[weight];
-      }
-
-      /// What a direction with these derivatives leaves of a right side, with the multiplier of each region
-      /// that takes most of it; returns its size relative to that of `by_state`.
-      double
-      residual(const Direction        &by_state,
-               const Direction        &direction,
-               const SlopeDerivatives &derivatives,
-               Direction              &rest)
-      {
-        rest       = by_state;
-        double sum = 0., scale = greatest_of_columns(direction);
-        rest.positions -= derivatives.by_positions;
-        for (const unsigned int dof : free)
-        {
-          sum   = std::max(sum, std::abs(rest.positions[dof]));
-          scale = std::max({ scale, std::abs(by_state.positions[dof]),
-                             std::abs(derivatives.by_positions[dof]) });
-        }
-        double of_weights = 0., scale_of_all = scale_of_terms(direction);
-        for (std::size_t weight = 0; weight < inactive.size(); ++weight)
-        {
-          rest.weights[weight] -= derivatives.by_weights[weight];
-          scale_of_all = std::max(scale_of_all, std::abs(by_state.weights[weight]));
-        }
-        subtract_multipliers(rest);
-        for (std::size_t weight = 0; weight < inactive.size(); ++weight)
-          if (inactive[weight])
-            of_weights = std::max(of_weights, std::abs(rest.weights[weight]));
-        return std::max(scale > 0. ? sum / scale : 0.,
-                        scale_of_all > 0. ? of_weights / scale_of_all : 0.);
-      }
-
-      Direction
-      zero() const
-      {
-        return { Vector(problem.state.positions.size()),
-                 std::vector<double>(problem.state.weights.size(), 0.) };
-      }
-
-      /// A residual without what is held, what is at a bound, and the multipliers.
-      Direction
-      projected(Direction rest) const
-      {
-        Vector positions(rest.positions.size());
-        for (const unsigned int dof : free)
-          positions[dof] = rest.positions[dof];
-        rest.positions = std::move(positions);
-        subtract_multipliers(rest);
-        for (std::size_t weight = 0; weight < rest.weights.size(); ++weight)
-          if (weight >= inactive.size() || !inactive[weight])
-            rest.weights[weight] = 0.;
-        return rest;
-      }
-
-      /// What a weight's residual [J] counts beside one of a degree of freedom [N].
-      double
-      scale_of_weights()
-      {
-        double of_columns = 0., of_form = 0.;
-        for (const double entry : system.bordered().columns())
-          of_columns = std::max(of_columns, std::abs(entry));
-        for (unsigned int i = 0; i < form.H.m(); ++i)
-          of_form = std::max(of_form, std::abs(form.H(i, i)));
-        return of_columns > 0. && of_form > 0. ? of_columns / of_form : 1.;
-      }
-
-    private:
-      /// The exact tangent may be indefinite in cells that Eq. (16) guards; the convex one is near enough there to
-      /// begin with.
-      void
-      factorize()
-      {
-        const Vector &positions = problem.state.positions;
-        try
-        {
-          system.factorize(positions, problem.state.weights, 0.);
-        }
-        catch (const SolverFailure &)
-        {
-          if (problem.evaluation.elastic.guarded_cells == 0)
-            throw;
-          system.factorize(positions, problem.state.weights, 1.);
-        }
-      }
-
-      /// The greatest entry of G b, which a function of the weights alone has for its forces.
-      double
-      greatest_of_columns(const Direction &direction)
-      {
-        double                     greatest = 0.;
-        const std::vector<double> &G        = system.bordered().columns();
-        for (std::size_t j = 0; j < form.coupled.size(); ++j)
-          for (std::size_t i = 0; i < free.size(); ++i)
-            greatest = std::max(
-                greatest, std::abs(G[j * free.size() + i] * direction.weights[form.coupled[j]]));
-        return greatest;
-      }
-
-      /// The greatest sum of magnitudes in G^T a and H b, which may cancel.
-      double
-      scale_of_terms(const Direction &direction)
-      {
-        std::vector<double>        sums(form.H.m(), 0.);
-        const std::vector<double> &G = system.bordered().columns();
-        for (std::size_t j = 0; j < form.coupled.size(); ++j)
-          for (std::size_t i = 0; i < free.size(); ++i)
-            sums[form.coupled[j]]
-                += std::abs(G[j * free.size() + i] * direction.positions[free[i]]);
-        for (unsigned int i = 0; i < form.H.m(); ++i)
-          for (unsigned int j = 0; j < form.H.m(); ++j)
-            sums[i] += std::abs(form.H(i, j) * direction.weights[j]);
-        return sums.empty() ? 0. : *std::max_element(sums.begin(), sums.end());
-      }
-
-      /// UMFPACK has no factor of the positions' part alone.
-      static SolverParameters
-      solver_for(const Problem &problem)
-      {
-        SolverParameters solver = problem.parameters.solver;
-        if (solver.linear_solver == LinearSolver::umfpack)
-          solver.linear_solver = LinearSolver::automatic;
-        return solver;
-      }
-
-      /// The region's mean, over the weights at no bound.
-      void
-      subtract_multipliers(Direction &rest) const
-      {
-        for (unsigned int region = 0; region < form.N.m(); ++region)
-        {
-          double sum = 0., n = 0.;
-          for (unsigned int weight = 0; weight < form.N.n(); ++weight)
-            if (form.N(region, weight) != 0. && inactive[weight])
-            {
-              sum += rest.weights[weight];
-              ++n;
-            }
-          for (unsigned int weight = 0; weight < form.N.n(); ++weight)
-            if (form.N(region, weight) != 0. && n > 0.)
-              rest.weights[weight] -= sum / n;
-        }
-      }
-
-      /// The inverse of the Schur complement, bordered by the sums; of a weight at a bound, 1 on the diagonal.
-      void
-      make_weight_matrix()
-      {
-        const unsigned int k = form.H.m(), m = form.N.m();
-        if (k == 0)
-          return;
-        const auto schur
-            = make_schur_complement(form, system.bordered().columns(), Z.data(), free.size(),
-                                    problem.potential.get_free_dofs().exchange());
-        size_of_sums = schur.linfty_norm();
-        inverse.reinit(k + m, k + m);
-        for (unsigned int i = 0; i < k; ++i)
-        {
-          for (unsigned int j = 0; j < k; ++j)
-            inverse(i, j) = inactive[i] && inactive[j] ? schur(i, j) : 0.;
-          if (!inactive[i])
-            inverse(i, i) = size_of_sums;
-          for (unsigned int region = 0; region < m; ++region)
-            inverse(i, k + region) = inverse(k + region, i)
-                = inactive[i] ? size_of_sums * form.N(region, i) : 0.;
-        }
-        inverse.gauss_jordan();
-      }
-
-      std::vector<double>
-      solve_weights(const Direction &right_side) const
-      {
-        const unsigned int     k = form.H.m();
-        dealii::Vector<double> right(inverse.m()), solution(inverse.m());
-        for (unsigned int weight = 0; weight < k; ++weight)
-          right[weight] = inactive[weight] ? right_side.weights[weight] : 0.;
-        for (std::size_t j = 0; j < form.coupled.size(); ++j)
-          for (std::size_t i = 0; inactive[form.coupled[j]] && i < free.size(); ++i)
-            right[form.coupled[j]] += Z[j * free.size() + i] * right_side.positions[free[i]];
-        if (k > 0)
-          inverse.vmult(solution, right);
-        return { solution.begin(), solution.begin() + k };
-      }
-
-      Problem                         &problem;
-      const std::vector<unsigned int> &free;
-      const WeightForm                &form;
-      const std::vector<bool>          inactive;
-      StepSystem                       system;
-      std::vector<double>              Z; ///< A^-1 G
-      dealii::FullMatrix<double>       inverse;
-      double                           size_of_sums = 1.;
-    };
     /// Go on from a solution that an approximate factor has given, until its derivatives are right; returns
     /// what is left.
     double
-    correct(Problem         &problem,
-            const Direction &by_state,
-            AdjointSystem   &system,
-            AdjointSolution &solution)
+    correct(AdjointSystem         &system,
+            const Direction       &by_state,
+            const FindDerivatives &find,
+            AdjointSolution       &solution)
     {
       ConjugateResiduals residuals(system.scale_of_weights());
       Direction          step = std::move(solution.direction), rest = system.projected(by_state);
@@ -272,13 +43,13 @@ namespace Exemplar
         {
           step = system.zero();
           system.add_solution(rest, step);
-          solution.derivatives = derivatives_of_slope(problem, step);
+          solution.derivatives = find(step);
         }
         residuals.add(step, system.projected(image_of(solution.derivatives)), solution.direction,
                       rest);
         if (n == 0 || (n > 3 && n % 4 != 3))
           continue;
-        solution.derivatives = derivatives_of_slope(problem, solution.direction);
+        solution.derivatives = find(solution.direction);
         error = system.residual(by_state, solution.direction, solution.derivatives, rest);
         rest  = system.projected(std::move(rest));
       }
@@ -302,21 +73,30 @@ namespace Exemplar
   }
 
   AdjointSolution
-  solve_adjoint(Problem &problem, const Direction &by_state)
+  solve_adjoint(AdjointSystem &system, const Direction &by_state, const FindDerivatives &find)
   {
-    AdjointSystem   system(problem);
     AdjointSolution solution{ system.zero(), {} };
     Direction       rest = by_state;
     system.add_solution(rest, solution.direction);
-    solution.derivatives = derivatives_of_slope(problem, solution.direction);
+    solution.derivatives = find(solution.direction);
     double error = system.residual(by_state, solution.direction, solution.derivatives, rest);
     if (!(error <= solved))
-      error = correct(problem, by_state, system, solution);
+      error = correct(system, by_state, find, solution);
     if (!(error <= unsolved))
       throw SolverFailure(fmt::format(
-          "vjp: the adjoint equations are left with a residual of {:.2g} after {} corrections, "
+          "The adjoint equations are left with a residual of {:.2g} after {} corrections, "
           "because rounding is too large in so stiff a body, or the equilibrium is not stable.",
           error, max_corrections));
     return solution;
+  }
+
+  AdjointSolution
+  solve_adjoint(Problem &problem, const Evaluation &evaluation, const Direction &by_state)
+  {
+    AdjointSystem system(problem);
+    system.go_to_state(evaluation);
+    return solve_adjoint(system, by_state,
+                         [&problem](const Direction &direction)
+                         { return derivatives_of_slope(problem, direction); });
   }
 } // namespace Exemplar

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
 #include <exemplar/run/adjoint/adjoint_checks.h>
 #include <exemplar/run/adjoint/adjoint_solve.h>
 #include <exemplar/run/adjoint/certificate.h>
+#include <exemplar/run/adjoint/gradients.h>
+
+#include <cmath>
 
 namespace Exemplar
 {
@@ -10,9 +14,13 @@ namespace Exemplar
   {
     require_known_scene(problem);
     require_rotations(problem);
+    if (problem.constraints.handles.are_elsewhere(problem.state.time, problem.state.positions))
+      throw UserError(
+          "correction: held nodes are not where their motions put them. Call step() first, "
+          "as a correction leaves them where they are.");
     Evaluation evaluation;
     problem.potential.evaluate(problem.state, RotationUse::update, evaluation);
-    const Direction     adjoint = solve_adjoint(problem, by_state).direction;
+    const Direction     adjoint = solve_adjoint(problem, evaluation, by_state).direction;
     const WeightMemory &memory  = problem.examples.weights.get_memory();
     // a is zero on held nodes, and b adds up to zero in each region, so that multipliers drop out; b is zero
     // where the slopes to both sides differ
@@ -21,6 +29,8 @@ namespace Exemplar
       slope
           += adjoint.weights[i]
              * memory.slopes(i, problem.state.weights[i], evaluation.elastic.weight_gradient[i]).up;
+    if (!std::isfinite(slope))
+      throw SolverFailure(too_large);
     return -slope;
   }
 } // namespace Exemplar

@@ -1,20 +1,55 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/kernels/patch_cell.h>
 #include <exemplar/run/adjoint/example_strains.h>
-#include <exemplar/run/adjoint/point_potential.h>
+#include <exemplar/run/adjoint/laws_with_derivatives.h>
 
 namespace Exemplar
 {
   PointMaterial::PointMaterial(const Material    &material,
                                const Material    &cell_material,
                                const ActsOn       acts_on,
+                               const double       part_of_patches,
                                const unsigned int cell)
       : material(material), cell_material(cell_material), cell(cell), acts_on(acts_on),
         body(material.of_body_alone(cell)), of_examples(material.elasticity_of_examples()),
-        importance(material.importance(cell)), axis{}
+        importance(material.importance(cell)), axis{}, part_of_patches(part_of_patches)
   {
     const GrainAxes axes = material.grain_axes(cell);
     for (int i = 0; i < 3; ++i)
       axis[i] = axes.along[static_cast<std::size_t>(i)];
+  }
+
+  Matrix3<double>
+  pulled_back(const CellLaw law, const Matrix3<double> &F, const Matrix3<double> &by_strain)
+  {
+    using Number = HyperDual<9>;
+    Matrix3<Number> seeded;
+    for (std::size_t k = 0; k < 9; ++k)
+    {
+      seeded[k / 3][k % 3]       = Number(F[k / 3][k % 3]);
+      seeded[k / 3][k % 3].by[k] = 1.;
+    }
+    Matrix3<double> result{};
+    with_potential<Number>(law,
+                           [&](auto model)
+                           {
+                             using Cell = typename decltype(model)::type;
+                             const Number product
+                                 = contract(strain_near<Cell>(closest_rotation(F), seeded),
+                                            constant_matrix<Number>(by_strain));
+                             for (std::size_t k = 0; k < 9; ++k)
+                               result[k / 3][k % 3] = product.by[k];
+                           });
+    return result;
+  }
+
+  double
+  product_of_sums(const Matrix3<double> &S)
+  {
+    Matrix3<double> B = combine(-1., S, 0., S);
+    for (int k = 0; k < 3; ++k)
+      B[k][k] += trace(S);
+    return determinant(B);
   }
 
   ExampleStrains::ExampleStrains(const Problem &problem, const LawsOfCells &laws)
@@ -53,26 +88,8 @@ namespace Exemplar
                               const unsigned int     i,
                               const Matrix3<double> &by_strain) const
   {
-    using Number            = HyperDual<9>;
-    const Matrix3<double> F = fe_space.deformation_gradient(point, poses.pose(i));
-    Matrix3<Number>       seeded;
-    for (std::size_t k = 0; k < 9; ++k)
-    {
-      seeded[k / 3][k % 3]       = Number(F[k / 3][k % 3]);
-      seeded[k / 3][k % 3].by[k] = 1.;
-    }
-    Matrix3<double> result{};
-    with_potential<Number>(laws[fe_space.cell_of(point)],
-                           [&](auto model)
-                           {
-                             using Cell = typename decltype(model)::type;
-                             const Number product
-                                 = contract(strain_near<Cell>(closest_rotation(F), seeded),
-                                            constant_matrix<Number>(by_strain));
-                             for (std::size_t k = 0; k < 9; ++k)
-                               result[k / 3][k % 3] = product.by[k];
-                           });
-    return result;
+    return Exemplar::pulled_back(laws[fe_space.cell_of(point)],
+                                 fe_space.deformation_gradient(point, poses.pose(i)), by_strain);
   }
 
   std::optional<ExampleStrains::Place>
@@ -85,11 +102,7 @@ namespace Exemplar
       {
         if (!poses.is_strained(i) || !traits_of(laws[fe_space.cell_of(point)]).has_guard)
           continue;
-        const Matrix3<double> S = stretch(point, i);
-        Matrix3<double>       B = combine(-1., S, 0., S);
-        for (int k = 0; k < 3; ++k)
-          B[k][k] += trace(S);
-        if (const double p = determinant(B); p < minimum)
+        if (const double p = product_of_sums(stretch(point, i)); p < minimum)
         {
           minimum = p;
           place   = Place{ point, i };

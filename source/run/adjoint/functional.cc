@@ -102,7 +102,15 @@ namespace Exemplar
     find_nodes(const std::string &text, const std::string &name, const Problem &problem)
     {
       const Selection selection{ text };
-      if (selection.is_of_surface() || !selection.file().empty())
+      bool            is_of_nodes = false;
+      try
+      {
+        is_of_nodes = !selection.is_of_surface() && selection.file().empty();
+      }
+      catch (const UserError &) // a text that no handle could have either
+      {
+      }
+      if (!is_of_nodes)
         fail(name, "it has to select by box, sphere, boundary or region.");
       try
       {
@@ -160,7 +168,7 @@ namespace Exemplar
     {
       report.correction = correction(problem, found.by_state);
     }
-    catch (const std::runtime_error &error) // UserError where a guard acts
+    catch (const std::runtime_error &error) // UserError where a rotation is not unique
     {
       report.failure = error.what();
     }

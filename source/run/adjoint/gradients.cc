@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
 #include <exemplar/run/adjoint/adjoint_checks.h>
 #include <exemplar/run/adjoint/adjoint_solve.h>
 #include <exemplar/run/adjoint/gradients.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace Exemplar
 {
@@ -92,6 +94,24 @@ namespace Exemplar
     return result;
   }
 
+  void
+  require_finite(const Gradients &found)
+  {
+    const auto is_finite = [](const auto &numbers)
+    {
+      return std::all_of(numbers.begin(), numbers.end(),
+                         [](const double x) { return std::isfinite(x); });
+    };
+    bool all = is_finite(found.density) && is_finite(found.handles) && is_finite(found.nodal_forces)
+               && is_finite(found.gravity) && std::isfinite(found.importance.value_or(0.));
+    for (const auto *numbers : { &found.young, &found.poisson })
+      all = all && (!*numbers || is_finite(**numbers));
+    for (const Vector &pose : found.poses)
+      all = all && is_finite(pose);
+    if (!all || (found.rest_positions && !is_finite(*found.rest_positions)))
+      throw SolverFailure(too_large);
+  }
+
   Gradients
   gradients(Problem &problem, const Direction &by_state)
   {
@@ -100,11 +120,12 @@ namespace Exemplar
     Evaluation evaluation;
     problem.potential.evaluate(problem.state, RotationUse::update, evaluation);
     require_equilibrium(problem, evaluation);
-    SlopeDerivatives slope   = solve_adjoint(problem, by_state).derivatives;
+    SlopeDerivatives slope   = solve_adjoint(problem, evaluation, by_state).derivatives;
     Vector           handles = of_held(problem, by_state.positions, slope.by_positions);
     Gradients        result  = gradients_of(problem, std::move(slope));
     result.handles           = std::move(handles);
-    result.weakly_active     = weakly_active(problem, evaluation);
+    require_finite(result);
+    result.weakly_active = weakly_active(problem, evaluation);
     return result;
   }
 } // namespace Exemplar

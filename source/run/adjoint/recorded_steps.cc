@@ -25,6 +25,12 @@ namespace Exemplar
     const double  time     = is_first ? initial.time : steps.back().time;
     if (start.positions != x || start.velocities != v || start.time != time)
       broken = "its state was set";
+    // BDF2 looks at the state before, too
+    if (has_two_steps && !is_first
+        && (start.previous_step != steps.back().size
+            || start.previous_positions
+                   != (steps.size() == 1 ? initial.positions : steps[steps.size() - 2].positions)))
+      broken = "its state was set";
     if (problem.get_changes().n != n_changes)
       broken = "it was changed by " + problem.get_changes().last;
     const State &end = problem.state;

@@ -1,247 +1,125 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/kernels/cell_model.h>
+#include <exemplar/run/adjoint/example_strains.h>
 #include <exemplar/run/adjoint/slope_of_motion.h>
-#include <exemplar/run/adjoint/slope_terms.h>
-
-// With s = b gamma, d = e - e_star and de the change of the strain e along a, the slope of damping is
-//
-//   s sum V d:C:de + s sum_p V_p lambda_p theta_p(d) theta_p(de),
-//
-// where theta_p is the mean of the trace over a patch, and lambda = 0 in the cells of patches.
+#include <exemplar/run/adjoint/slope_of_points.h>
 
 namespace Exemplar
 {
   namespace
   {
-    using Matrix = Matrix3<double>;
-    using Cell   = CorotationalCell<double>;
-
-    Matrix
-    add_pressure(const Matrix &A, const double p)
-    {
-      return combine(1., A, p, identity_matrix<double>());
-    }
-
-    /// The derivative of a cell's elasticity by Poisson's ratio.
-    CellMaterial<double>
-    elasticity_by_poisson(const Material &material, const unsigned int point)
-    {
-      const CellMaterial<double> C  = material.elasticity(point);
-      const double               nu = 0.5 * C.lambda / (C.lambda + C.mu), lateral = 1. - 2. * nu;
-      return { material.youngs_modulus(point) * (1. + 2. * nu * nu)
-                   / ((1. + nu) * (1. + nu) * lateral * lateral),
-               -C.mu / (1. + nu) };
-    }
-
-    /// A cell where the slope is taken.
-    struct MovingCell
-    {
-      double volume;
-      Matrix F, dF, R;
-      Cell   cell; ///< with the target e_star, so that its stress is C:d
-      Matrix d, de;
-    };
-
-    /// sum V tr over a patch, of d and of de.
-    struct RateSums
-    {
-      double d = 0., de = 0.;
-    };
-
-    class SlopeOfDamping
+    /// The part of a slope that is stiffness damping: points are drawn to the strains of earlier positions.
+    class DampingPart
     {
     public:
-      SlopeOfDamping(const Problem &problem, const State &start, const Direction &direction)
-          : problem(problem), direction(direction), integrator(*problem.actions.integrator),
-            fe_space(problem.body.fe_space), material(problem.body.material),
-            patches(problem.body.patches), history(integrator.history(start)),
-            s(integrator.stiffness_damping_factor())
-      {
-        of_patches.assign(patches.size(), {});
-        for (unsigned int patch = 0; patch < patches.size(); ++patch)
-          for (const unsigned int point : patches.points(patch))
-          {
-            const MovingCell here = at(point);
-            of_patches[patch].d += here.volume * trace(here.d);
-            of_patches[patch].de += here.volume * trace(here.de);
-          }
-      }
+      template <typename Cell, typename Number>
+      using Evaluation = DampingPoint<Cell, Number>;
 
-      /// Without s.
-      double
-      unit_slope() const
+      /// With s of Eq. (22), in a step with these earlier positions.
+      DampingPart(const Problem &problem, std::vector<WeightedPositions> history, const double s)
+          : problem(problem), fe_space(problem.body.fe_space), history(std::move(history)),
+            laws(laws_of_cells(problem.parameters, problem.body)),
+            by_past(this->history.size(), Vector(fe_space.n_dofs())),
+            shares(fe_space.n_points(), s), shares_of_patches(problem.body.patches.size(), s),
+            strains(fe_space.n_points(), Matrix3<double>{})
       {
-        double sum = 0.;
         for (unsigned int point = 0; point < fe_space.n_points(); ++point)
-          sum += own_slope(at(point), elasticity(point));
-        for (unsigned int patch = 0; patch < patches.size(); ++patch)
-          sum += patches.lambda(patch) / patches.volume(patch) * of_patches[patch].d
-                 * of_patches[patch].de;
-        return sum;
+          for (const WeightedPositions &past : this->history)
+            look_back(point, past);
       }
 
-      void
-      add_to(SlopeDerivatives &sums, MotionDerivatives &of_motion) const
+      const LawsOfCells &
+      get_laws() const
       {
-        of_motion.by_past.assign(history.size(), Vector(fe_space.n_dofs()));
-        for (unsigned int point = 0; point < fe_space.n_points(); ++point)
-        {
-          const MovingCell here     = at(point);
-          const Pressures  of_patch = pressures(point);
-          add_material(point, here, of_patch, sums);
-          Matrix by_gradients = add_deformation(point, here, of_patch, sums);
-          add_past(point, here, of_patch, of_motion, by_gradients);
-          add_forces(fe_space, point,
-                     add_pressure(combine(-1., by_gradients, 0., by_gradients),
-                                  by_volume(point, here, of_patch)),
-                     sums.by_rest_positions);
-        }
-      }
-
-    private:
-      const CellMaterial<double>
-      elasticity(const unsigned int point) const
-      {
-        return problem.body.cell_material.elasticity(point);
-      }
-
-      Cell
-      cell(const unsigned int point, const Matrix &R, const Matrix &F) const
-      {
-        return Cell(elasticity(point), R, F, problem.examples.poses.constants());
-      }
-
-      MovingCell
-      at(const unsigned int point) const
-      {
-        const Matrix F  = fe_space.deformation_gradient(point, problem.state.positions);
-        const Matrix dF = fe_space.deformation_gradient(point, direction.positions);
-        const Matrix R  = closest_rotation(F);
-        Matrix       e_star{};
-        for (const WeightedPositions &past : history)
-        {
-          const Matrix F_past = fe_space.deformation_gradient(point, *past.positions);
-          e_star              = combine(1., e_star, past.weight,
-                                        corotated_strain(closest_rotation(F_past), F_past));
-        }
-        MovingCell here{ fe_space.volume(point),
-                         F,
-                         dF,
-                         R,
-                         cell(point, R, F),
-                         combine(1., corotated_strain(R, F), -1., e_star),
-                         {} };
-        here.cell.set_target(e_star);
-        const Matrix M = transpose_times(R, dF);
-        here.de
-            = symmetric_part(combine(1., M, -1., here.cell.turn(M) * here.cell.stretch_factor()));
-        return here;
+        return laws;
       }
 
       double
-      own_slope(const MovingCell &here, const CellMaterial<double> &C) const
+      share(const unsigned int point) const
       {
-        return here.volume * contract(stress(C, here.d), here.de);
+        return shares[point];
       }
 
-      /// lambda_p theta_p of d and of de, and the derivative of the slope by lambda_p over V_p, without s.
-      struct Pressures
+      double
+      share_of_patch(const unsigned int patch) const
       {
-        double d = 0., de = 0., by_lambda = 0., mean_lambda = 0.;
-      };
-
-      Pressures
-      pressures(const unsigned int point) const
-      {
-        if (patches.size() == 0)
-          return {};
-        const unsigned int patch  = patches.of_point(point);
-        const RateSums    &sum    = of_patches[patch];
-        const double       volume = patches.volume(patch), lambda = patches.lambda(patch);
-        return { lambda / volume * sum.d, lambda / volume * sum.de,
-                 sum.d * sum.de / (volume * volume), lambda };
+        return shares_of_patches[patch];
       }
 
+      Wish
+      wish(const unsigned int point) const
+      {
+        return { strains[point], {} };
+      }
+
+      static PatchScene
+      patch_scene(const PointScene & /*scene*/, const ModelTraits & /*law*/)
+      {
+        return { 0., false, false, false };
+      }
+
+      static double
+      square_of_bound(const unsigned int /*patch*/, const unsigned int /*point*/)
+      {
+        return 0.;
+      }
+
+      /// By the earlier positions.
       void
-      add_material(const unsigned int point,
-                   const MovingCell  &here,
-                   const Pressures   &of_patch,
-                   SlopeDerivatives  &sums) const
+      add_wish(const unsigned int point,
+               const Wish        &by_wish,
+               const FactorsAtPoint & /*of_patches*/,
+               SlopeDerivatives & /*sums*/,
+               Matrix3<double> &by_gradients)
       {
-        const double               E          = material.youngs_modulus(point);
-        const double               of_patches = here.volume * of_patch.by_lambda;
-        const CellMaterial<double> by_nu      = elasticity_by_poisson(material, point);
-        sums.by_young[point] += s
-                                * (own_slope(here, elasticity(point))
-                                   + material.elasticity(point).lambda * of_patches)
-                                / E;
-        sums.by_poisson[point] += s
-                                  * (patches.size() == 0 ? own_slope(here, by_nu)
-                                                         : by_nu.lambda * of_patches
-                                                               + own_slope(here, { 0., by_nu.mu }));
-      }
-
-      /// By the positions at the end; returns F^T dslope/dF summed over F and dF.
-      Matrix
-      add_deformation(const unsigned int point,
-                      const MovingCell  &here,
-                      const Pressures   &of_patch,
-                      SlopeDerivatives  &sums) const
-      {
-        Cell of_cell = here.cell;
-        of_cell.add_pressure(of_patch.d);
-        const double factor = s * here.volume;
-        const Matrix M      = transpose_times(here.R, here.dF);
-        const Matrix by_F   = here.R * add_pressure(of_cell.response(M), of_patch.de);
-        const Matrix by_dF  = here.R * of_cell.force();
-        add_forces(fe_space, point, combine(factor, by_F, 0., by_F), sums.by_positions);
-        return combine(factor, transpose_times(here.F, by_F), factor,
-                       transpose_times(here.dF, by_dF));
-      }
-
-      /// By the earlier positions, through e_star.
-      void
-      add_past(const unsigned int point,
-               const MovingCell  &here,
-               const Pressures   &of_patch,
-               MotionDerivatives &of_motion,
-               Matrix            &by_gradients) const
-      {
-        for (std::size_t i = 0; i < history.size(); ++i)
+        if (shares[point] == 0.)
+          return; // rotations may be ambiguous there, and its patch is left out, too
+        for (std::size_t m = 0; m < history.size(); ++m)
         {
-          const Matrix F    = fe_space.deformation_gradient(point, *history[i].positions);
-          const Matrix R    = closest_rotation(F);
-          Cell         past = cell(point, R, F);
-          past.set_target({});
-          Matrix by_F = R * add_pressure(past.example_response(here.de), of_patch.de);
-          by_F        = combine(-s * here.volume * history[i].weight, by_F, 0., by_F);
-          add_forces(fe_space, point, by_F, of_motion.by_past[i]);
+          const Matrix3<double> F    = fe_space.deformation_gradient(point, *history[m].positions);
+          const Matrix3<double> by_F = times(
+              history[m].weight, pulled_back(laws[fe_space.cell_of(point)], F, by_wish.value));
+          add_forces(fe_space, point, by_F, by_past[m]);
           by_gradients = combine(1., by_gradients, 1., transpose_times(F, by_F));
         }
       }
 
-      /// Times the volume.
-      double
-      by_volume(const unsigned int point, const MovingCell &here, const Pressures &of_patch) const
+      void
+      add_guard_bound(const double by_bound, SlopeDerivatives &sums) const
       {
-        double sum = own_slope(here, elasticity(point));
-        if (patches.size() > 0)
-          sum += here.volume
-                 * (of_patch.d * trace(here.de) + of_patch.de * trace(here.d)
-                    + of_patch.by_lambda
-                          * (material.lambda_of_patches(point) - 2. * of_patch.mean_lambda));
-        return s * sum;
+        add_slope_of_guard_bound(problem, ExampleStrains(problem, laws), by_bound, sums);
+      }
+
+      std::vector<Vector>
+      take_by_past()
+      {
+        return std::move(by_past);
+      }
+
+    private:
+      /// As StrainDamping does: points that a guard held are left out, and their patches.
+      void
+      look_back(const unsigned int point, const WeightedPositions &past)
+      {
+        const CellLaw         law = laws[fe_space.cell_of(point)];
+        const Matrix3<double> F   = fe_space.deformation_gradient(point, *past.positions);
+        const Matrix3<double> R   = model_rotation(law, F);
+        strains[point]   = combine(1., strains[point], past.weight, model_strain(law, R, F));
+        const double p_0 = problem.examples.poses.constants().guard_bound;
+        if (!traits_of(law).has_guard
+            || product_of_sums(symmetric_part(transpose_times(R, F))) >= p_0)
+          return;
+        shares[point] = 0.;
+        if (!shares_of_patches.empty())
+          shares_of_patches[problem.body.patches.of_point(point)] = 0.;
       }
 
       const Problem                       &problem;
-      const Direction                     &direction;
-      const TimeIntegrator                &integrator;
       const FESpace                       &fe_space;
-      const Material                      &material;
-      const Patches                       &patches;
       const std::vector<WeightedPositions> history;
-      const double                         s;
-      std::vector<RateSums>                of_patches;
+      const LawsOfCells                    laws;
+      std::vector<Vector>                  by_past;
+      std::vector<double>                  shares, shares_of_patches; ///< s, or 0
+      std::vector<Matrix3<double>>         strains;                   ///< sum c_m e(x_m)
     };
   } // namespace
 
@@ -252,9 +130,16 @@ namespace Exemplar
                        SlopeDerivatives  &sums,
                        MotionDerivatives &of_motion)
   {
-    const SlopeOfDamping slope(problem, start, direction);
-    of_motion.by_stiffness_damping = problem.actions.integrator->rate_factor() * slope.unit_slope();
-    if (problem.actions.integrator->stiffness_damping_factor() > 0.)
-      slope.add_to(sums, of_motion);
+    const TimeIntegrator &integrator = *problem.actions.integrator;
+    const auto            history    = integrator.history(start);
+    DampingPart           unit(problem, history, integrator.rate_factor());
+    of_motion.by_stiffness_damping
+        = SlopeOfPoints<DampingPart>(problem, direction.positions, unit).slope();
+    const double s = integrator.stiffness_damping_factor();
+    if (!(s > 0.))
+      return;
+    DampingPart part(problem, history, s);
+    SlopeOfPoints<DampingPart>(problem, direction.positions, part).add_to(sums);
+    of_motion.by_past = part.take_by_past();
   }
 } // namespace Exemplar

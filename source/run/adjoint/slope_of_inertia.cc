@@ -2,30 +2,39 @@
 #include <exemplar/run/adjoint/slope_of_motion.h>
 #include <exemplar/run/adjoint/slope_terms.h>
 
+#include <deal.II/lac/full_matrix.h>
+
 namespace Exemplar
 {
   namespace
   {
-    /// sum_ij m_ij a_i.q_j over the nodes of a cell with a mass of 1.
-    double
-    product_in_cell(const dealii::ArrayView<const unsigned int> &nodes,
-                    const MassMatrix                             kind,
-                    const Vector                                &a,
-                    const Vector                                &q)
+    /// Of the nodes of a cell with a mass of 1.
+    dealii::FullMatrix<double>
+    unit_matrix(const FESpace &fe_space, const MassMatrix kind)
     {
-      double of_nodes = 0., of_sums = 0.;
-      for (unsigned int c = 0; c < 3; ++c)
-      {
-        double sum_a = 0., sum_q = 0.;
-        for (const unsigned int node : nodes)
-        {
-          of_nodes += a[3 * node + c] * q[3 * node + c];
-          sum_a += a[3 * node + c];
-          sum_q += q[3 * node + c];
-        }
-        of_sums += sum_a * sum_q;
-      }
-      return kind == MassMatrix::lumped ? of_nodes / 4. : (of_nodes + of_sums) / 20.;
+      dealii::FullMatrix<double> m = fe_space.unit_mass_matrix();
+      if (kind == MassMatrix::consistent)
+        return m;
+      const NodeShares &shares = traits_of(fe_space.element()).in_cell.by(ShareRule::lumped);
+      m                        = 0.;
+      for (unsigned int a = 0; a < m.m(); ++a)
+        m(a, a) = a < 4 ? shares.of_vertex(1.) : shares.of_edge(1.);
+      return m;
+    }
+
+    /// sum_ij m_ij a_i.q_j over these nodes.
+    double
+    product(const dealii::ArrayView<const unsigned int> &nodes,
+            const dealii::FullMatrix<double>            &m,
+            const Vector                                &a,
+            const Vector                                &q)
+    {
+      double sum = 0.;
+      for (unsigned int i = 0; i < nodes.size(); ++i)
+        for (unsigned int j = 0; j < nodes.size(); ++j)
+          for (unsigned int c = 0; c < 3; ++c)
+            sum += m(i, j) * a[3 * nodes[i] + c] * q[3 * nodes[j] + c];
+      return sum;
     }
 
     void
@@ -35,18 +44,13 @@ namespace Exemplar
                SlopeDerivatives &sums)
     {
       const FESpace &fe_space = problem.body.fe_space;
+      const auto     m        = unit_matrix(fe_space, problem.parameters.material.mass_matrix);
       for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
       {
-        const auto   nodes  = fe_space.nodes(cell);
-        const double volume = fe_space.volume(cell);
-        const double product
-            = volume
-              * product_in_cell({ nodes.data(), nodes.size() },
-                                problem.parameters.material.mass_matrix, direction.positions, q);
-        sums.by_density[cell] += product;
-        add_forces(fe_space, cell,
-                   combine(problem.body.material.density(cell) * product, identity_matrix<double>(),
-                           0., {}),
+        const double by_density
+            = fe_space.cell_volume(cell) * product(fe_space.nodes(cell), m, direction.positions, q);
+        sums.by_density[cell] += by_density;
+        add_volume(fe_space, cell, problem.body.material.density(cell) * by_density,
                    sums.by_rest_positions);
       }
     }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
+#include <exemplar/run/adjoint/adjoint_checks.h>
+#include <exemplar/run/adjoint/adjoint_solve.h>
 #include <exemplar/run/adjoint/slope_of_motion.h>
-#include <exemplar/run/adjoint/step_adjoint.h>
 #include <exemplar/run/adjoint/trajectory_checks.h>
 #include <exemplar/run/adjoint/trajectory_gradients.h>
 
@@ -31,7 +33,7 @@ namespace Exemplar
       ~Visit()
       {
         std::swap(own_state, problem.state);
-        Evaluation evaluation; // for the rotations alone
+        Evaluation evaluation; // for the rotations alone, of a state that was evaluated before
         problem.potential.leave_step(problem.state);
         problem.potential.set_time(problem.state.time, problem.state);
         problem.potential.evaluate(problem.state, RotationUse::update, evaluation);
@@ -107,10 +109,10 @@ namespace Exemplar
       TrajectoryGradients
       run()
       {
-        check_start();
         for (unsigned int i = steps.size(); i-- > 0;)
           add_step(i);
-        result.all         = gradients_of(problem, sums());
+        result.all = gradients_of(problem, sums());
+        require_finite(result.all);
         result.all.handles = zeros();
         for (const std::vector<double> &of_step : result.handles)
           for (std::size_t i = 0; i < of_step.size(); ++i)
@@ -131,21 +133,6 @@ namespace Exemplar
       zeros() const
       {
         return Vector(problem.body.fe_space.n_dofs());
-      }
-
-      /// Damping compares strains of the states before the first step, too.
-      void
-      check_start()
-      {
-        if (!is_dynamic || !(problem.parameters.time.stiffness_damping > 0.))
-          return;
-        const State start = steps.start(0);
-        for (const Vector *positions : { &start.positions, &start.previous_positions })
-          if (positions->size() > 0)
-          {
-            problem.state.positions = *positions;
-            require_no_guard(problem);
-          }
       }
 
       void
@@ -174,7 +161,7 @@ namespace Exemplar
         const State start = steps.start(i);
         Evaluation  evaluation;
         visit.go_to(start, steps.step(i), evaluation);
-        require_no_guard(problem);
+        require_rotations(problem);
         require_solved_step(problem, evaluation, i);
         const std::vector<unsigned int> weak = weakly_active(problem, evaluation);
         for (auto weight = weak.rbegin(); weight != weak.rend(); ++weight)
@@ -186,12 +173,12 @@ namespace Exemplar
           carry({});
           return;
         }
-        system.go_to_state();
+        system.go_to_state(evaluation);
         MotionDerivatives      of_motion;
         const SlopeDerivatives slope
-            = system
-                  .solve(by_state, [&](const Direction &direction)
-                         { return derivatives(start, direction, of_motion); })
+            = solve_adjoint(system, by_state,
+                            [&](const Direction &direction)
+                            { return derivatives(start, direction, of_motion); })
                   .derivatives;
         const Vector of_handles = of_held(problem, by_state.positions, slope.by_positions);
         for (std::size_t k = 0; k < result.handles[i].size(); ++k)
@@ -269,7 +256,7 @@ namespace Exemplar
       const RecordedSteps                 &steps;
       const std::vector<StateDerivatives> &by_states;
       Visit                                visit;
-      StepAdjoint                          system;
+      AdjointSystem                        system;
       const bool                           is_dynamic;
       std::array<Carried, 2>               carried; ///< by the last states, the later one first
       Vector                               by_velocities; ///< at the end of a step
@@ -284,6 +271,9 @@ namespace Exemplar
                        const RecordedSteps                 &steps,
                        const std::vector<StateDerivatives> &by_states)
   {
+    if (steps.size() == 0)
+      throw UserError("vjp: no step was recorded. Call step() or run() in the with statement of "
+                      "record().");
     steps.require_one_problem(problem);
     return Backward(problem, steps, by_states).run();
   }

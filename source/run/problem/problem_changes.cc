@@ -58,7 +58,7 @@ namespace Exemplar
                       + ", but must be above 0 and at most 1.");
     count_change("importance");
     parameters.examples.importance = importance;
-    if (body.material.has_examples())
+    if (body.material.has_elasticity_of_examples())
       body.material = body.material.with_examples(parameters.examples.elasticity(), importance);
     body.follow_material();
     examples.poses.set_parameters(importance, body.cell_material, body.patches);

@@ -48,7 +48,7 @@ namespace Exemplar
   {
     if (!(size > 0. && std::isfinite(size)))
       throw UserError(fmt::format("A step of {} s is none. Its length must be a number above 0.",
-                                  shortest_text(size)));
+                                  short_text(size)));
     const StepInterval next = next_step(problem);
     if (size == next.size)
       return next;

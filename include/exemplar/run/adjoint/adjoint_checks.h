@@ -12,7 +12,11 @@ namespace Exemplar
   bool
   has_orthotropic_cells(const Problem &problem);
 
-  /// Throws UserError, by name, for what the scene has and gradients do not know.
+  /// Throws UserError, by name, for what the potential has and derivatives_of_slope() does not know.
+  void
+  require_known_potential(const Problem &problem);
+
+  /// The same for a static scene whose equilibrium has been found.
   void
   require_known_scene(const Problem &problem);
 

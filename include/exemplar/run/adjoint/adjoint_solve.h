@@ -2,7 +2,9 @@
 #ifndef exemplar_adjoint_solve_h
 #define exemplar_adjoint_solve_h
 
-#include <exemplar/run/adjoint/slope_derivatives.h>
+#include <exemplar/run/adjoint/adjoint_system.h>
+
+#include <functional>
 
 namespace Exemplar
 {
@@ -16,8 +18,16 @@ namespace Exemplar
     SlopeDerivatives derivatives; ///< of the slope along it
   };
 
+  /// All derivatives of the slope along a direction.
+  using FindDerivatives = std::function<SlopeDerivatives(const Direction &)>;
+
+  /// At the state to which the system went last. `find` is called with the direction of the solution last.
   AdjointSolution
-  solve_adjoint(Problem &problem, const Direction &by_state);
+  solve_adjoint(AdjointSystem &system, const Direction &by_state, const FindDerivatives &find);
+
+  /// At the state of a static problem, where its potential has this evaluation.
+  AdjointSolution
+  solve_adjoint(Problem &problem, const Evaluation &evaluation, const Direction &by_state);
 
   /// Whether steps find this weight and neither a bound holds it nor what it remembers.
   std::vector<bool>

@@ -2,12 +2,20 @@
 #ifndef exemplar_example_strains_h
 #define exemplar_example_strains_h
 
-#include <exemplar/run/problem/problem.h>
+#include <exemplar/run/adjoint/slope_derivatives.h>
 
 #include <optional>
 
 namespace Exemplar
 {
+  /// The derivative by F of what has the derivative `by_strain` by the strain of F.
+  Matrix3<double>
+  pulled_back(CellLaw law, const Matrix3<double> &F, const Matrix3<double> &by_strain);
+
+  /// (s_1+s_2)(s_2+s_3)(s_3+s_1) of a stretch S.
+  double
+  product_of_sums(const Matrix3<double> &S);
+
   /// The strains of example poses as they are, before a part of them acts, and what the bounds of guards have
   /// from them.
   class ExampleStrains
@@ -56,6 +64,14 @@ namespace Exemplar
     const LawsOfCells           &laws;
     std::vector<Matrix3<double>> strains; ///< by point, of all examples
   };
+
+  /// Of a slope with this derivative by p_0 of Eq. (16), which follows from the example that it must leave as
+  /// it is.
+  void
+  add_slope_of_guard_bound(const Problem        &problem,
+                           const ExampleStrains &strains,
+                           double                by_bound,
+                           SlopeDerivatives     &sums);
 } // namespace Exemplar
 
 #endif

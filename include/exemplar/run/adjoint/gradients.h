@@ -37,6 +37,14 @@ namespace Exemplar
   Vector
   of_held(const Problem &problem, Vector by_state, const Vector &slope_by_positions);
 
+  /// What a SolverFailure says where derivatives are beyond what numbers hold.
+  constexpr const char *too_large
+      = "The derivatives of J lead to numbers that are too large to be held. Scale J.";
+
+  /// Throws SolverFailure if one is not finite.
+  void
+  require_finite(const Gradients &found);
+
   /// Weights at the problem's state at which gradients are one-sided.
   std::vector<unsigned int>
   weakly_active(const Problem &problem, const Evaluation &evaluation);

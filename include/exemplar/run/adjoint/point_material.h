@@ -17,6 +17,7 @@ namespace Exemplar
     PointMaterial(const Material &material,
                   const Material &cell_material,
                   ActsOn          acts_on,
+                  double          part_of_patches,
                   unsigned int    cell);
 
     const Material         &material, &cell_material;
@@ -24,8 +25,9 @@ namespace Exemplar
     ActsOn                  acts_on;
     Material::BodyConstants body;
     ExampleElasticity       of_examples;
-    double                  importance; ///< factor of that of all
-    Vector3<double>         axis;       ///< along fibres; 0 where nothing asks for it
+    double                  importance;      ///< factor of that of all
+    Vector3<double>         axis;            ///< along fibres; 0 where nothing asks for it
+    double                  part_of_patches; ///< 1 where patches take the volume part, and else 0
   };
 
   /// Isotropic, with fibres where alpha is not 0.
@@ -150,7 +152,7 @@ namespace Exemplar
     /// Of the cells' own energy.
     template <typename Constants>
     Constants
-    of_law(const CellLaw law, const bool has_patches) const
+    of_law(const CellLaw law) const
     {
       return Constants::from_numbers(
           [&](const std::size_t k)
@@ -160,7 +162,7 @@ namespace Exemplar
             switch (k)
             {
             case 0:
-              return has_patches ? without_patches() : sum.lambda;
+              return without_patches();
             case 1:
               return sum.mu;
             case 2:
@@ -187,13 +189,13 @@ namespace Exemplar
     };
 
     Excess
-    excess(const Matrix3<Number> &D, const bool has_patches) const
+    excess(const Matrix3<Number> &D) const
     {
       if (!(eta > Number(0.)))
         return { Number(0.), Number(0.) };
       Number lambda = Number(0.);
-      if (has_patches && !(body.alpha > Number(0.)))
-        lambda = excess_stress(stretch())[1][1];
+      if (!(body.alpha > Number(0.)))
+        lambda = Number(of.part_of_patches) * excess_stress(stretch())[1][1];
       const Number tr = trace(D);
       return { contract(excess_stress(D), D) - lambda * tr * tr, lambda };
     }
@@ -202,7 +204,7 @@ namespace Exemplar
     Number
     without_patches() const
     {
-      return sum.alpha > Number(0.) ? sum.lambda - lambda_of_patches() : Number(0.);
+      return sum.lambda - Number(of.part_of_patches) * lambda_of_patches();
     }
 
     static Matrix3<Number>

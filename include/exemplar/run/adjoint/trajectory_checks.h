@@ -12,11 +12,6 @@ namespace Exemplar
   void
   require_known_steps(const Problem &problem);
 
-  /// Throws UserError where a guard acts at the problem's state, Eqs. (16), (24) and (26), or a patch has
-  /// continued the dilatation of a thin cell.
-  void
-  require_no_guard(const Problem &problem);
-
   /// The residual to which steps are solved.
   double
   required_residual(const SolverParameters &solver);

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
-#include <exemplar/run/adjoint/step_adjoint.h>
+#include <exemplar/run/adjoint/adjoint_solve.h>
+#include <exemplar/run/adjoint/adjoint_system.h>
 #include <exemplar/solvers/step_system.h>
-
-#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,13 +11,9 @@ namespace Exemplar
 {
   namespace
   {
-    /// A residual of the adjoint equations, relative to their right side, at which they are solved, and
-    /// one beyond which they are not.
-    constexpr double solved_step = 1e-9, unsolved_step = 1e-7;
-
     /// UMFPACK has no factor of the positions' part alone.
     SolverParameters
-    solver_of_steps(const Problem &problem)
+    solver_for(const Problem &problem)
     {
       SolverParameters solver = problem.parameters.solver;
       if (solver.linear_solver == LinearSolver::umfpack)
@@ -27,31 +22,79 @@ namespace Exemplar
     }
   } // namespace
 
-  StepAdjoint::StepAdjoint(Problem &problem)
+  AdjointSystem::AdjointSystem(Problem &problem)
       : problem(problem), free(problem.potential.get_free_dofs().list()),
         form(problem.potential.get_weights().weight_form()),
         system(
             problem.potential,
-            [&problem]
-            { return make_bordered_system(solver_of_steps(problem), problem.potential); },
+            [&problem] { return make_bordered_system(solver_for(problem), problem.potential); },
             problem.clock,
             false)
   {
   }
 
   void
-  StepAdjoint::go_to_state()
+  AdjointSystem::go_to_state(const Evaluation &evaluation)
   {
     inactive = are_inactive(problem);
-    system.factorize(problem.state.positions, problem.state.weights, 0.);
+    factorize(evaluation.elastic.guarded_cells);
     Z = system.bordered().columns();
     if (!Z.empty())
       system.bordered().apply_inverse(Z);
     make_weight_matrix();
   }
 
+  /// The exact tangent may be indefinite in cells that Eq. (16) guards; the convex one is near enough there to
+  /// begin with.
   void
-  StepAdjoint::add_solution(const Direction &right_side, Direction &direction)
+  AdjointSystem::factorize(const unsigned int guarded_cells)
+  {
+    try
+    {
+      system.factorize(problem.state.positions, problem.state.weights, 0.);
+    }
+    catch (const SolverFailure &)
+    {
+      if (guarded_cells == 0)
+        throw;
+      system.factorize(problem.state.positions, problem.state.weights, 1.);
+    }
+  }
+
+  Direction
+  AdjointSystem::zero() const
+  {
+    return { Vector(problem.state.positions.size()),
+             std::vector<double>(problem.state.weights.size(), 0.) };
+  }
+
+  Direction
+  AdjointSystem::projected(Direction rest) const
+  {
+    Vector positions(rest.positions.size());
+    for (const unsigned int dof : free)
+      positions[dof] = rest.positions[dof];
+    rest.positions = std::move(positions);
+    subtract_multipliers(rest);
+    for (std::size_t weight = 0; weight < rest.weights.size(); ++weight)
+      if (weight >= inactive.size() || !inactive[weight])
+        rest.weights[weight] = 0.;
+    return rest;
+  }
+
+  double
+  AdjointSystem::scale_of_weights()
+  {
+    double of_columns = 0., of_form = 0.;
+    for (const double entry : system.bordered().columns())
+      of_columns = std::max(of_columns, std::abs(entry));
+    for (unsigned int i = 0; i < form.H.m(); ++i)
+      of_form = std::max(of_form, std::abs(form.H(i, i)));
+    return of_columns > 0. && of_form > 0. ? of_columns / of_form : 1.;
+  }
+
+  void
+  AdjointSystem::add_solution(const Direction &right_side, Direction &direction)
   {
     std::vector<double> z;
     z.reserve(free.size());
@@ -69,10 +112,10 @@ namespace Exemplar
   }
 
   double
-  StepAdjoint::residual(const Direction        &by_state,
-                        const Direction        &direction,
-                        const SlopeDerivatives &derivatives,
-                        Direction              &rest)
+  AdjointSystem::residual(const Direction        &by_state,
+                          const Direction        &direction,
+                          const SlopeDerivatives &derivatives,
+                          Direction              &rest)
   {
     rest       = by_state;
     double sum = 0., scale = greatest_of_columns(direction);
@@ -98,7 +141,7 @@ namespace Exemplar
   }
 
   double
-  StepAdjoint::greatest_of_columns(const Direction &direction)
+  AdjointSystem::greatest_of_columns(const Direction &direction)
   {
     double                     greatest = 0.;
     const std::vector<double> &G        = system.bordered().columns();
@@ -110,7 +153,7 @@ namespace Exemplar
   }
 
   double
-  StepAdjoint::scale_of_terms(const Direction &direction)
+  AdjointSystem::scale_of_terms(const Direction &direction)
   {
     std::vector<double>        sums(form.H.m(), 0.);
     const std::vector<double> &G = system.bordered().columns();
@@ -125,7 +168,7 @@ namespace Exemplar
 
   /// The region's mean, over the weights at no bound.
   void
-  StepAdjoint::subtract_multipliers(Direction &rest) const
+  AdjointSystem::subtract_multipliers(Direction &rest) const
   {
     for (unsigned int region = 0; region < form.N.m(); ++region)
     {
@@ -144,7 +187,7 @@ namespace Exemplar
 
   /// The inverse of the Schur complement, bordered by the sums; of a weight at a bound, 1 on the diagonal.
   void
-  StepAdjoint::make_weight_matrix()
+  AdjointSystem::make_weight_matrix()
   {
     const unsigned int k = form.H.m(), m = form.N.m();
     if (k == 0)
@@ -168,7 +211,7 @@ namespace Exemplar
   }
 
   std::vector<double>
-  StepAdjoint::solve_weights(const Direction &right_side) const
+  AdjointSystem::solve_weights(const Direction &right_side) const
   {
     const unsigned int     k = form.H.m();
     dealii::Vector<double> right(inverse.m()), solution(inverse.m());
@@ -180,28 +223,5 @@ namespace Exemplar
     if (k > 0)
       inverse.vmult(solution, right);
     return { solution.begin(), solution.begin() + k };
-  }
-
-  AdjointSolution
-  StepAdjoint::solve(const Direction &by_state, const FindDerivatives &find)
-  {
-    AdjointSolution solution{ { Vector(problem.state.positions.size()),
-                                std::vector<double>(problem.state.weights.size(), 0.) },
-                              {} };
-    Direction       rest  = by_state;
-    double          error = 1.;
-    unsigned int    n     = 0;
-    for (; n < 6 && error > solved_step; ++n)
-    {
-      add_solution(rest, solution.direction);
-      solution.derivatives = find(solution.direction);
-      error                = residual(by_state, solution.direction, solution.derivatives, rest);
-    }
-    if (!(error <= unsolved_step))
-      throw SolverFailure(fmt::format(
-          "vjp: the adjoint equations are left with a residual of {:.2g} after {} "
-          "corrections, because rounding is too large in so stiff a body, or a guard acts.",
-          error, n));
-    return solution;
   }
 } // namespace Exemplar

@@ -1,37 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef exemplar_step_adjoint_h
-#define exemplar_step_adjoint_h
+#ifndef exemplar_adjoint_system_h
+#define exemplar_adjoint_system_h
 
-#include <exemplar/run/adjoint/adjoint_solve.h>
+#include <exemplar/run/adjoint/slope_derivatives.h>
 #include <exemplar/solvers/step_system.h>
-
-#include <functional>
 
 namespace Exemplar
 {
-  /// All derivatives of the slope along a direction.
-  using FindDerivatives = std::function<SlopeDerivatives(const Direction &)>;
-
   /// The equations of AdjointSolution at one state after the other; with Z = A^-1 G they are those of Eq. (11).
   /// The pattern of the matrix is analysed once.
-  class StepAdjoint
+  class AdjointSystem
   {
   public:
     /// The problem must outlive it, and hold the same nodes.
-    explicit StepAdjoint(Problem &problem);
+    explicit AdjointSystem(Problem &problem);
 
-    /// Go to the problem's state, at which its potential was evaluated last. Throws SolverFailure if the
-    /// exact tangent there is not positive definite.
+    /// Go to the problem's state, where its potential has this evaluation. Throws SolverFailure if the exact
+    /// tangent there is not positive definite, unless cells are guarded by Eq. (16).
     void
-    go_to_state();
+    go_to_state(const Evaluation &evaluation);
 
-    /// Solved by the factor, and corrected until what `find` tells agrees with the right side. Throws
-    /// SolverFailure if it does not come to agree.
-    AdjointSolution
-    solve(const Direction &by_state, const FindDerivatives &find);
-
-  private:
-    /// Add to the direction what takes this right side to zero.
+    /// Add to the direction what takes this right side to zero, by the factor.
     void
     add_solution(const Direction &right_side, Direction &direction);
 
@@ -42,6 +31,21 @@ namespace Exemplar
              const Direction        &direction,
              const SlopeDerivatives &derivatives,
              Direction              &rest);
+
+    Direction
+    zero() const;
+
+    /// A residual without what is held, what is at a bound, and the multipliers.
+    Direction
+    projected(Direction rest) const;
+
+    /// What a weight's residual [J] counts beside one of a degree of freedom [N].
+    double
+    scale_of_weights();
+
+  private:
+    void
+    factorize(unsigned int guarded_cells);
 
     /// The greatest entry of G b, which a function of the weights alone has for its forces.
     double
