@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How exemplar live keeps up with hands: the figures of doc/live.md.
+"""How exemplar live keeps up with hands.
 
 Usage: python3 doc/scripts/measure_live.py [--seconds 60] [--scene prm/live/cat.prm] [--set KEY=VALUE]...
 Hands that are slow, fast and jerked pull the muzzle, or whatever is farthest along x, for that long each. Printed for each: the share of
@@ -43,7 +43,7 @@ def percentile(values, share):
 def drag(viewer, hand, seconds):
     """Pull as the hand does; (statuses, latencies, frames, bytes, warnings)."""
     hit = viewer.farthest()
-    viewer.grab(hit, strength=3.)
+    viewer.grab(hit)
     sent, latencies, draw = {}, [], random.Random(1)
     n_texts, n_frames, n_bytes = len(viewer.texts), len(viewer.frames), viewer.n_bytes
     begin = time.perf_counter()
