@@ -19,17 +19,16 @@ namespace Exemplar
   void
   RecordedSteps::add(const Problem &problem, const State &start, const double size)
   {
-    const bool    is_first = steps.empty();
-    const Vector &x        = is_first ? initial.positions : steps.back().positions;
-    const Vector &v        = is_first ? initial.velocities : steps.back().velocities;
-    const double  time     = is_first ? initial.time : steps.back().time;
-    if (start.positions != x || start.velocities != v || start.time != time)
-      broken = "its state was set";
-    // BDF2 looks at the state before, too
-    if (has_two_steps && !is_first
-        && (start.previous_step != steps.back().size
-            || start.previous_positions
-                   != (steps.size() == 1 ? initial.positions : steps[steps.size() - 2].positions)))
+    const unsigned int i        = steps.size();
+    const bool         is_first = i == 0;
+    const Vector      &v        = is_first ? initial.velocities : steps.back().velocities;
+    const double       time     = is_first ? initial.time : steps.back().time;
+    // of two states before a step the time scheme looks at the earlier one, too
+    const bool has_its_past = !has_two_steps || is_first
+                              || (start.previous_step == steps.back().size
+                                  && start.previous_positions == positions_before(i - 1));
+    if (start.positions != positions_before(i) || start.velocities != v || start.time != time
+        || !has_its_past)
       broken = "its state was set";
     if (problem.get_changes().n != n_changes)
       broken = "it was changed by " + problem.get_changes().last;
@@ -64,7 +63,7 @@ namespace Exemplar
     state.weights             = last.weights;
     if (has_two_steps)
     {
-      state.previous_positions  = i == 1 ? initial.positions : steps[i - 2].positions;
+      state.previous_positions  = positions_before(i - 1);
       state.previous_velocities = i == 1 ? initial.velocities : steps[i - 2].velocities;
       state.previous_weights    = i == 1 ? initial.weights : steps[i - 2].weights;
       state.previous_step       = last.size;

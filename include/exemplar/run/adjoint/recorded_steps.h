@@ -51,6 +51,13 @@ namespace Exemplar
     start(unsigned int i) const;
 
   private:
+    /// Where step i begins.
+    const Vector &
+    positions_before(const unsigned int i) const
+    {
+      return i == 0 ? initial.positions : steps[i - 1].positions;
+    }
+
     const State              initial;
     const bool               has_two_steps; ///< the time scheme, which looks at two states
     const unsigned int       n_changes;     ///< of the problem, before
