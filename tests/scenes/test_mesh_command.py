@@ -48,6 +48,19 @@ class MeshCommandTest(SceneTest):
         self.made("ball.obj", 2000, "--quiet")
         self.assertEqual((self.directory / "body.msh").read_bytes(), first)
 
+    def test_finer_triangles_give_the_same_mesh(self):
+        """Of a ring with a narrow hole, where surfaces made anew intersect."""
+        vertices, faces = surfaces.torus(60, 40, .5, .46)
+        for times in range(2):
+            self.surface(f"ring_{times}.obj", vertices, faces)
+            run = self.mesh(f"ring_{times}.obj", 1000)
+            self.assertEqual((run.status, run.stderr), (0, ""))
+            table = self.table()
+            self.assertEqual(table["surface_triangles"], 4800 * 4 ** times)
+            self.assertLess(abs(table["cells"] / 1000 - 1), .15)
+            self.assertGreater(table["angle_smallest"], 8)
+            vertices, faces, _ = surfaces.divided(vertices, faces)
+
     def test_what_another_has_made_stays(self):
         self.surface("box.obj", *surfaces.cube())
         self.made("box.obj", 300)

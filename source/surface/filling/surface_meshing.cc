@@ -54,40 +54,81 @@ namespace Exemplar
                             + cells_option + ").");
     }
 
+    /// About the length of edges of a body of so many cells: in gmsh's meshes a cell has about a tenth
+    /// of its edge's cube.
+    double
+    edge_length_of(const TriangleSurface &surface, const double n_cells)
+    {
+      return std::cbrt(10. * std::abs(enclosed_volume(surface)) / n_cells);
+    }
+
+    /// A surface that has many times the triangles that cells of this size can follow, with edges of a
+    /// part of their size; itself if it has fewer, or cannot be had so. Attempts to fill it then take no longer than those
+    /// of a coarse surface, and find what they find there.
+    TriangleSurface
+    without_excess(const TriangleSurface &surface,
+                   const double           n_cells,
+                   const std::string     &cells_option)
+    {
+      constexpr double part = .4, many = 2.;
+      const double     edge_length = part * edge_length_of(surface, n_cells);
+      if (static_cast<double>(surface.triangles.size()) < many * n_triangles(surface, edge_length))
+        return surface;
+      try
+      {
+        return remesh_without_intersections(surface, edge_length, true, NearSheets::held,
+                                            cells_option)
+            .surface;
+      }
+      catch (const SolverFailure &)
+      {
+        return surface;
+      }
+    }
+
+    struct FilledSurface
+    {
+      TetrahedralMesh mesh;
+      bool            has_near_sheets = false; ///< that intersected in some attempt
+    };
+
     /// The mesh with the number of cells nearest to the one wanted: n ~ h^-p with p from the last
     /// two attempts.
-    TetrahedralMesh
+    FilledSurface
     fill_with(const TriangleSurface &surface,
               const double           n_cells,
               const bool             keep_edges,
+              const NearSheets       near_sheets,
               const std::string     &cells_option)
     {
-      // a cell in gmsh's meshes has about a tenth of its edge's cube
-      double          h     = std::cbrt(10. * std::abs(enclosed_volume(surface)) / n_cells);
-      double          power = 3., last_h = 0., last_n = 0., best_error = 0.;
-      TetrahedralMesh best;
+      double        h     = edge_length_of(surface, n_cells);
+      double        power = 3., last_h = 0., last_n = 0., best_error = 0.;
+      FilledSurface best;
       for (unsigned int attempt = 0; attempt < n_attempts; ++attempt)
       {
-        TetrahedralMesh mesh;
+        FilledSurface filled;
         try
         {
           require_few_triangles(surface, h, n_cells, cells_option);
-          mesh = fill(remesh_without_intersections(surface, h, keep_edges, cells_option));
+          const Remeshed remeshed
+              = remesh_without_intersections(surface, h, keep_edges, near_sheets, cells_option);
+          filled = { fill(remeshed.surface), best.has_near_sheets || remeshed.has_near_sheets };
         }
         catch (const SolverFailure &)
         {
-          if (best.cells.empty() && attempt + 1 == n_attempts)
+          if (best.mesh.cells.empty() && attempt + 1 == n_attempts)
             throw;
           h *= .9; // finer surfaces are filled more easily
           continue;
         }
-        const auto   n     = static_cast<double>(mesh.cells.size());
+        const auto   n     = static_cast<double>(filled.mesh.cells.size());
         const double error = std::abs(std::log(n / n_cells));
         if (last_n > 0. && std::abs(std::log(h / last_h)) > 1e-3)
           power = std::clamp(std::log(n / last_n) / std::log(last_h / h), 1.5, 4.);
-        if (best.cells.empty() || error < best_error)
+        best.has_near_sheets = filled.has_near_sheets;
+        if (best.mesh.cells.empty() || error < best_error)
         {
-          best       = std::move(mesh);
+          best       = std::move(filled);
           best_error = error;
         }
         if (error < near_enough)
@@ -137,36 +178,53 @@ namespace Exemplar
                  && now.lost < 1.5 * best.judgement.lost);
     }
 
-    /// With the sharp edges of the surface kept; without them where they are noise, where that
-    /// avoids slivers, or intersections. Of few cells a sliver may be the luck of their number:
-    /// then others are tried.
+    /// Of a few ways of remeshing the first whose mesh has no slivers, or the one with the fewest: with the
+    /// sharp edges of the surface kept, or without them where they are noise, and with near sheets held, or
+    /// refined. Throws SolverFailure if none gives a mesh.
+    JudgedMesh
+    best_of_ways(const BodySurface     &body,
+                 const TriangleSurface &surface,
+                 const double           n_cells,
+                 const std::string     &cells_option,
+                 JudgedMesh             best)
+    {
+      for (const bool keep_edges : { true, false })
+        for (const NearSheets near_sheets : { NearSheets::held, NearSheets::refined })
+          try
+          {
+            FilledSurface filled
+                = fill_with(surface, n_cells, keep_edges, near_sheets, cells_option);
+            remove_slivers(filled.mesh);
+            const Judgement now = judge(body, filled.mesh);
+            if (is_better(now, best))
+              best = { std::move(filled.mesh), now };
+            if (best.judgement.angles.n_slivers == 0)
+              return best;
+            if (!filled.has_near_sheets)
+              break; // the other way is the same
+          }
+          catch (const SolverFailure &)
+          {
+            if (!keep_edges && near_sheets == NearSheets::refined && best.mesh.cells.empty())
+              throw;
+          }
+      return best;
+    }
+
+    /// Of few cells a sliver may be the luck of their number: then others are tried.
     JudgedMesh
     best_mesh(const BodySurface &body, const SurfaceMeshingOptions &options)
     {
       constexpr std::size_t few = 1000, quickly_remeshed = 20000;
       const bool            is_quick
           = options.n_cells <= few && body.surface.triangles.size() <= quickly_remeshed;
+      const TriangleSurface surface
+          = without_excess(body.surface, options.n_cells, options.cells_option);
       JudgedMesh best;
       for (const double factor : { 1., 1.07, .93, 1.14, .88 })
-        for (const bool keep_edges : { true, false })
-          try
-          {
-            if (factor != 1. && !is_quick)
-              return best;
-            TetrahedralMesh mesh = fill_with(body.surface, factor * options.n_cells, keep_edges,
-                                             options.cells_option);
-            remove_slivers(mesh);
-            const Judgement now = judge(body, mesh);
-            if (is_better(now, best))
-              best = { std::move(mesh), now };
-            if (best.judgement.angles.n_slivers == 0)
-              return best;
-          }
-          catch (const SolverFailure &)
-          {
-            if (!keep_edges && best.mesh.cells.empty())
-              throw;
-          }
+        if (factor == 1. || (is_quick && best.judgement.angles.n_slivers > 0))
+          best = best_of_ways(body, surface, factor * options.n_cells, options.cells_option,
+                              std::move(best));
       return best;
     }
 
@@ -246,9 +304,10 @@ namespace Exemplar
                                + options.cells_option + ").");
       const std::size_t n_cells = judged.mesh.cells.size();
       if (std::abs(static_cast<double>(n_cells) / options.n_cells - 1.) > .1)
-        report.notes.push_back(
-            fmt::format("The mesh has {} cells, not {}: its shape allows no number nearer to it.",
-                        n_cells, options.n_cells));
+        report.notes.push_back(fmt::format(
+            "The mesh has {} cells, not {}: of the numbers that were tried none nearer to "
+            "it gave cells without slivers inside a surface that does not intersect itself.",
+            n_cells, options.n_cells));
     }
   } // namespace
 

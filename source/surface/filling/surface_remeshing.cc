@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 
 namespace Exemplar
 {
@@ -105,31 +106,55 @@ namespace Exemplar
         if (!marked[t] && nearest(middle_of(surface, t)).first < distance)
           marked[t] = true;
     }
+
+    /// With more and more triangles held around the intersections of `evenly`; none if that does not help.
+    std::optional<TriangleSurface>
+    hold_near_sheets(const TriangleSurface &surface,
+                     const double           edge_length,
+                     const bool             keep_edges,
+                     const TriangleSurface &evenly)
+    {
+      std::vector<bool> held(surface.triangles.size(), false);
+      TriangleSurface   result = evenly;
+      for (double distance = edge_length; distance < 10. * edge_length; distance *= 1.5)
+      {
+        mark_near_intersections(surface, result, distance, held);
+        result = remesh_in_order(surface, edge_length, keep_edges, held);
+        if (is_faultless(result))
+          return result;
+      }
+      return {};
+    }
+
+    /// With shorter edges; none if that does not help.
+    std::optional<TriangleSurface>
+    refine(const TriangleSurface &surface, const double edge_length, const bool keep_edges)
+    {
+      for (const double factor : { .8, .64 })
+        if (TriangleSurface finer = remesh_in_order(surface, factor * edge_length, keep_edges);
+            is_faultless(finer))
+          return finer;
+      return {};
+    }
   } // namespace
 
-  TriangleSurface
+  Remeshed
   remesh_without_intersections(const TriangleSurface &surface,
                                const double           edge_length,
                                const bool             keep_edges,
+                               const NearSheets       near_sheets,
                                const std::string     &cells_option)
   {
-    TriangleSurface first, result;
-    for (const double factor : { 1., .8, .64 })
+    TriangleSurface evenly = remesh_in_order(surface, edge_length, keep_edges);
+    if (is_faultless(evenly))
+      return { std::move(evenly), false };
+    for (const bool first : { true, false })
     {
-      result = remesh_in_order(surface, factor * edge_length, keep_edges);
-      if (is_faultless(result))
-        return result;
-      if (factor == 1.)
-        first = result;
-    }
-    std::vector<bool> held(surface.triangles.size(), false);
-    result = std::move(first);
-    for (double distance = edge_length; distance < 10. * edge_length; distance *= 1.5)
-    {
-      mark_near_intersections(surface, result, distance, held);
-      result = remesh_in_order(surface, edge_length, keep_edges, held);
-      if (is_faultless(result))
-        return result;
+      const bool holds  = (near_sheets == NearSheets::held) == first;
+      auto       result = holds ? hold_near_sheets(surface, edge_length, keep_edges, evenly)
+                                : refine(surface, edge_length, keep_edges);
+      if (result)
+        return { std::move(*result), true };
     }
     throw SolverFailure("The surface intersects itself when its edges become "
                         + short_text(edge_length) + " long. Ask for more cells (" + cells_option

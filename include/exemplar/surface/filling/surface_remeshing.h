@@ -17,14 +17,29 @@ namespace Exemplar
          bool                     keep_edges,
          const std::vector<bool> &held = {});
 
-  /// The same with its shells in the order of those given, and without intersections: with edges a
-  /// little shorter than wanted where that does, else with the triangles held where sheets almost
-  /// touch, as the lips of a mouth do, because these intersect when each is made anew by itself. Throws
+  /// What remeshing does about sheets that almost touch, as the lips of a mouth do, and that intersect
+  /// when each is made anew by itself.
+  enum class NearSheets
+  {
+    held,   ///< their triangles stay as they are, so that the number of all hardly changes
+    refined ///< all edges become shorter, which makes better triangles there
+  };
+
+  /// A surface that has been made anew.
+  struct Remeshed
+  {
+    TriangleSurface surface;
+    bool            has_near_sheets; ///< that intersected at first
+  };
+
+  /// remesh() with the shells in the order of those given, and without intersections: where there are
+  /// some, `near_sheets` is tried first and then the other. Throws
   /// SolverFailure if nothing helps; `cells_option` is how the user asks for more cells.
-  TriangleSurface
+  Remeshed
   remesh_without_intersections(const TriangleSurface &surface,
                                double                 edge_length,
                                bool                   keep_edges,
+                               NearSheets             near_sheets,
                                const std::string     &cells_option);
 } // namespace Exemplar
 
