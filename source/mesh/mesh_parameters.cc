@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
 #include <exemplar/mesh/mesh_parameters.h>
 #include <exemplar/prm/key_table.h>
 
+#include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <set>
 
 namespace Exemplar
 {
@@ -11,6 +14,13 @@ namespace Exemplar
   {
     const EnumTable<MeshGenerator> generator_names{ { MeshGenerator::none, "none" },
                                                     { MeshGenerator::box, "box" } };
+
+    bool
+    may_name_frames(const char c)
+    {
+      return std::isalnum(static_cast<unsigned char>(c)) || static_cast<unsigned char>(c) >= 0x80
+             || c == '_' || c == '-' || c == '.' || c == ' ';
+    }
   } // namespace
 
   void
@@ -37,6 +47,12 @@ namespace Exemplar
                   "mesh's unit and axes. Poses that are surfaces are poses of it, and formats of "
                   "Output/Formats that show surfaces write it as the body carries it. Empty: File, "
                   "if that is a surface.");
+    keys.add_files(
+        "Carry", carried,
+        "Surfaces that go along with the body, inside, on or outside of it, such as eyes "
+        "or a coat: .obj, .ply or .stl, in the mesh's unit and axes, each with frames of "
+        "its own in all formats of Output/Formats, which are called after its file. They "
+        "have no weight and no stiffness.");
     keys.add("Generator", generator, generator_names,
              "box: generate a box instead of reading a file. It spans 0..Lx, -Ly/2..Ly/2, "
              "-Lz/2..Lz/2, in bricks of 6 tetrahedra each; nodes are numbered from 1, x "
@@ -72,6 +88,26 @@ namespace Exemplar
     return surface.empty() && is_surface() ? file : surface;
   }
 
+  void
+  MeshParameters::check_carried() const
+  {
+    std::set<std::string> names;
+    for (const std::string &file : carried)
+    {
+      const std::string name = name_of_carried(file);
+      if (!is_surface_file(file))
+        throw UserError("Mesh/Carry: " + file
+                        + " is no surface. Give files that end in .obj, .ply or .stl.");
+      if (!std::all_of(name.begin(), name.end(), may_name_frames))
+        throw UserError("Mesh/Carry: frames are called after " + file
+                        + ", so its name must consist of letters, digits, spaces, dots and the "
+                          "signs _ and -. Rename the file.");
+      if (!names.insert(name).second)
+        throw UserError("Mesh/Carry: two files are called " + name
+                        + ", but frames are called after them. Rename one of them.");
+    }
+  }
+
   bool
   MeshParameters::is_surface() const
   {
@@ -85,5 +121,11 @@ namespace Exemplar
     for (char &c : extension)
       c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     return extension == ".obj" || extension == ".ply" || extension == ".stl";
+  }
+
+  std::string
+  name_of_carried(const std::string &file)
+  {
+    return std::filesystem::path(file).stem().string();
   }
 } // namespace Exemplar

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 namespace Exemplar
 {
@@ -27,6 +28,7 @@ namespace Exemplar
   {
     std::string                 file;
     std::string                 surface;           ///< a file; empty: see surface_file()
+    std::vector<std::string>    carried;           ///< files of surfaces that go along
     unsigned int                n_cells   = 10000; ///< wanted, if `file` is a surface
     bool                        repair    = false; ///< whether a surface is mended first
     MeshGenerator               generator = MeshGenerator::none;
@@ -44,6 +46,10 @@ namespace Exemplar
     std::string
     name() const;
 
+    /// Throws UserError unless `carried` are files of surfaces with names of their own.
+    void
+    check_carried() const;
+
     /// Whether `file` is a surface, which is to be filled with cells.
     bool
     is_surface() const;
@@ -57,6 +63,11 @@ namespace Exemplar
   /// Whether a file is a surface, by its extension: .obj, .ply or .stl, in capitals, too.
   bool
   is_surface_file(const std::string &file);
+
+  /// What the frames of a surface that is carried are called after: its file without directory and
+  /// extension.
+  std::string
+  name_of_carried(const std::string &file);
 
   /// How many cells may be asked for.
   constexpr unsigned int min_n_cells = 10, max_n_cells = 10000000;

@@ -12,6 +12,8 @@ namespace Exemplar
   // A new format is a file with its writer, a declaration here and a line in the table.
   std::unique_ptr<const FrameWriter>
   make_vtu_writer(const FrameSubject &subject);
+  std::unique_ptr<const FrameWriter>
+  make_carried_vtu_writer(const FrameSubject &subject);
   void
   write_joint_vtu(const Frame                    &frame,
                   const std::vector<std::string> &pieces,
@@ -27,6 +29,16 @@ namespace Exemplar
   std::unique_ptr<const FrameWriter>
   make_usda_writer(const FrameSubject &subject);
 
+  namespace
+  {
+    /// What a name adds to that of a file.
+    std::string
+    with_line(const std::string &carried)
+    {
+      return carried.empty() ? "" : "_" + carried;
+    }
+  } // namespace
+
   const std::vector<FrameFormat> &
   frame_formats()
   {
@@ -36,7 +48,8 @@ namespace Exemplar
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\"",
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">", false,
         write_joint_vtu, "pvtu",
-        "<?xml version=\"1.0\"?>\n<VTKFile type=\"PUnstructuredGrid\" version=\"1.0\"" },
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"PUnstructuredGrid\" version=\"1.0\"",
+        make_carried_vtu_writer },
       { "obj", "", make_obj_writer, "# a frame by exemplar\n", "", true },
       { "ply", "", make_ply_writer,
         "ply\nformat binary_little_endian 1.0\ncomment a frame by exemplar\n", "", true },
@@ -59,17 +72,33 @@ namespace Exemplar
     return names;
   }
 
-  std::string
-  FrameFormat::frame_name(const unsigned int step) const
+  std::unique_ptr<const FrameWriter>
+  FrameFormat::writer_of(const FrameSubject &subject) const
   {
-    return fmt::format("frame_{:04}.{}", step, name);
+    const bool is_of_body = subject.carried.empty() || make_carried_writer == nullptr;
+    return (is_of_body ? make_writer : make_carried_writer)(subject);
+  }
+
+  std::string
+  FrameFormat::frame_name(const unsigned int step, const std::string &carried) const
+  {
+    return fmt::format("frame_{:04}{}.{}", step, with_line(carried), name);
+  }
+
+  std::string
+  FrameFormat::animation_name(const std::string &carried) const
+  {
+    const std::filesystem::path file = animation;
+    return file.stem().string() + with_line(carried) + file.extension().string();
   }
 
   std::vector<std::string>
-  FrameFormat::names_of_pieces(const unsigned int step, const unsigned int n_processes) const
+  FrameFormat::names_of_pieces(const unsigned int step,
+                               const unsigned int n_processes,
+                               const std::string &carried) const
   {
     if (n_processes == 1)
-      return { frame_name(step) };
+      return { frame_name(step, carried) };
     std::vector<std::string> names;
     for (unsigned int process = 0; process < n_processes; ++process)
       names.push_back(fmt::format("frame_{:04}_process_{:04}.{}", step, process, name));
@@ -86,20 +115,29 @@ namespace Exemplar
   FrameFormat::step_of(const std::string &file) const
   {
     const std::string       number = "([0-9]{4}|[1-9][0-9]{4,8})";
-    static const std::regex frame("frame_" + number + "\\.(.+)"),
-        piece("frame_" + number + "_process_" + number + "\\.(.+)");
-    std::smatch parts;
-    const bool  is_whole = std::regex_match(file, parts, frame)
-                          && (parts[2] == name || (has_pieces() && parts[2] == joint_ending));
-    if (is_whole || (has_pieces() && std::regex_match(file, parts, piece) && parts[3] == name))
+    static const std::regex frame("frame_" + number + "(_.+)?\\.([^.]+)"); // or a piece
+    std::smatch             parts;
+    if (std::regex_match(file, parts, frame)
+        && (parts[3] == name || (has_pieces() && parts[3] == joint_ending && !parts[2].matched)))
       return static_cast<unsigned int>(std::stoul(parts[1]));
     return std::nullopt;
+  }
+
+  bool
+  FrameFormat::is_animation(const std::string &file) const
+  {
+    const std::filesystem::path own = animation, other = file;
+    const std::string           stem = own.stem().string() + "_";
+    return !animation.empty()
+           && (file == animation
+               || (other.extension() == own.extension()
+                   && other.stem().string().compare(0, stem.size(), stem) == 0));
   }
 
   std::optional<std::string>
   FrameFormat::beginning_of(const std::string &file) const
   {
-    if (!animation.empty() && file == animation)
+    if (is_animation(file))
       return animation_beginning;
     if (const auto step = step_of(file); !step)
       return std::nullopt;

@@ -73,6 +73,14 @@ namespace Exemplar
       return unique;
     }
 
+    /// The name of the body's surface, or of one that it carries.
+    std::string
+    prim_of(const std::string &carried)
+    {
+      std::set<std::string> taken = { "surface" };
+      return carried.empty() ? "surface" : prim_name(carried, taken);
+    }
+
     /// The corners' points of texture; empty unless all faces have them.
     std::string
     texture_of(const SurfaceMesh &surface)
@@ -195,9 +203,10 @@ namespace Exemplar
     class UsdaWriter : public FrameWriter
     {
     public:
-      UsdaWriter(const SurfaceMesh &surface, const double meters_per_unit, const Playback &playback)
-          : topology(topology_of(surface)), groups(groups_of(surface)),
-            meters_per_unit(meters_per_unit), playback(playback)
+      explicit UsdaWriter(const FrameSubject &subject)
+          : prim(prim_of(subject.carried)), topology(topology_of(*subject.surface)),
+            groups(groups_of(*subject.surface)), meters_per_unit(subject.mesh.get_scale()),
+            playback(subject.playback)
       {
       }
 
@@ -252,7 +261,8 @@ namespace Exemplar
             << "\n    startTimeCode = " << time_code(times.front())
             << "\n    endTimeCode = " << time_code(times.back())
             << "\n)\n\ndef Xform \"body\" (\n    kind = \"component\"\n)\n{\n"
-               "    def Mesh \"surface\"\n    {\n"
+               "    def Mesh \""
+            << prim << "\"\n    {\n"
             << topology;
         for (const std::string &attribute : { points_attribute(), extent_attribute() })
         {
@@ -265,6 +275,7 @@ namespace Exemplar
         out << groups << "    }\n}\n";
       }
 
+      const std::string prim;
       const std::string topology, groups; ///< no frame changes them
       const double      meters_per_unit;
       const Playback    playback;
@@ -274,7 +285,6 @@ namespace Exemplar
   std::unique_ptr<const FrameWriter>
   make_usda_writer(const FrameSubject &subject)
   {
-    return std::make_unique<const UsdaWriter>(*subject.surface, subject.mesh.get_scale(),
-                                              subject.playback);
+    return std::make_unique<const UsdaWriter>(subject);
   }
 } // namespace Exemplar

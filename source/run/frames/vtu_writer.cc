@@ -2,69 +2,19 @@
 #include <exemplar/base/atomic_file.h>
 #include <exemplar/mesh/mesh.h>
 #include <exemplar/run/frames/frame_formats.h>
-
-#include <deal.II/base/utilities.h>
+#include <exemplar/run/frames/vtu_parts.h>
 
 #include <fmt/core.h>
 
 #include <cstdint>
-#include <cstring>
-#include <iomanip>
 #include <memory>
 #include <ostream>
 #include <sstream>
-#include <stdexcept>
-#include <zlib.h>
 
 namespace Exemplar
 {
   namespace
   {
-    /// VTK's "binary" encoding: a header [blocks, block size, size of the last block,
-    /// compressed size] and the compressed block, each in base64.
-    std::string
-    encode(const void *data, const std::size_t size)
-    {
-      uLongf                     compressed_size = compressBound(size);
-      std::vector<unsigned char> compressed(compressed_size);
-      if (compress2(compressed.data(), &compressed_size, static_cast<const Bytef *>(data), size,
-                    Z_BEST_SPEED)
-          != Z_OK)
-        throw std::runtime_error("zlib cannot compress a frame");
-      compressed.resize(compressed_size);
-
-      const std::uint64_t        header[4] = { 1, size, size, compressed_size };
-      std::vector<unsigned char> header_bytes(sizeof(header));
-      std::memcpy(header_bytes.data(), header, sizeof(header));
-      return dealii::Utilities::encode_base64(header_bytes)
-             + dealii::Utilities::encode_base64(compressed);
-    }
-
-    template <typename Number>
-    void
-    write_array(std::ostream      &out,
-                const std::string &type,
-                const std::string &name,
-                const int          n_components,
-                const Number      *data,
-                const std::size_t  size)
-    {
-      out << "<DataArray type=\"" << type << "\" Name=\"" << name << "\" NumberOfComponents=\""
-          << n_components << "\" format=\"binary\">" << encode(data, size * sizeof(Number))
-          << "</DataArray>\n";
-    }
-
-    std::string
-    head_of_grid()
-    {
-      std::ostringstream out;
-      out << "<?xml version=\"1.0\"?>\n"
-          << "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
-             "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n"
-          << "<UnstructuredGrid>\n";
-      return out.str();
-    }
-
     std::string
     piece_of(const FESpace &fe_space)
     {
@@ -125,7 +75,7 @@ namespace Exemplar
       const auto write = [&](const std::string &of_what, const double value)
       {
         out << "<DataArray type=\"Float64\" Name=\"space_error_" << of_what
-            << "\" NumberOfTuples=\"1\" format=\"binary\">" << encode(&value, sizeof(value))
+            << "\" NumberOfTuples=\"1\" format=\"binary\">" << encode_binary(&value, sizeof(value))
             << "</DataArray>\n";
       };
       write("displacement", error.displacement);
@@ -177,16 +127,7 @@ namespace Exemplar
       write_animation(const std::vector<WrittenFrame> &frames,
                       const std::filesystem::path     &file) const override
       {
-        AtomicFile    atomic_file(file);
-        std::ostream &out = atomic_file.stream();
-        out << "<?xml version=\"1.0\"?>\n"
-            << "<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n"
-            << std::setprecision(12);
-        for (const auto &[time, frame] : frames)
-          out << "<DataSet timestep=\"" << time << "\" file=\"" << frame.filename().string()
-              << "\"/>\n";
-        out << "</Collection>\n</VTKFile>\n";
-        atomic_file.commit();
+        write_collection(frames, file);
       }
 
     private:

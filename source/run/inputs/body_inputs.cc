@@ -62,8 +62,8 @@ namespace Exemplar
     BodyFields            fields   = make_fields(scene, mesh, inputs, readings);
     return { std::move(mesh),
              std::move(fields),
-             { readings.motions, readings.warnings, inputs.surface, inputs.made, inputs.geo_walls,
-               std::move(kept) } };
+             { readings.motions, readings.warnings, inputs.surface, std::move(inputs.carried),
+               inputs.made, inputs.geo_walls, std::move(kept) } };
   }
 
   BodyInputs

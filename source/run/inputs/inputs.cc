@@ -52,6 +52,8 @@ namespace Exemplar
         for_each_pose([this](const std::string &file) { check(file); });
         if (scene.needs_surface())
           add_surface();
+        if (inputs.carried.empty())
+          add_carried();
         if (inputs.mesh.nodes.empty())
           inputs.mesh = is_to_be_filled(scene.mesh) ? surfaces.make_mesh() : load_mesh(scene.mesh);
         for (const HandleParameters &handle : scene.handles)
@@ -140,6 +142,18 @@ namespace Exemplar
         }
         for (const LoadParameters &load : scene.loads.named)
           add_map(load.select.map(), "Loads/" + load.name + "/Select");
+      }
+
+      void
+      add_carried()
+      {
+        for (const std::string &file : scene.mesh.carried)
+          under_key("Mesh/Carry",
+                    [&]
+                    {
+                      require_file(file, "a surface: an .obj, .ply or .stl file");
+                      inputs.carried.push_back({ name_of_carried(file), read_surface(file) });
+                    });
       }
 
       void

@@ -106,6 +106,8 @@ namespace Exemplar
     if (scene.output.space_error != SpaceErrorUse::never)
       refuse("Output/Space error", "Set it to false");
     check_formats(scene.output, refuse);
+    if (!scene.mesh.carried.empty())
+      refuse("Mesh/Carry", "Leave it empty");
     for (const HandleParameters &handle : scene.handles)
       if (!handle.follow_cache.empty())
         refuse("Handles/" + handle.name + "/Follow cache", "Set Motion or Follow pose");

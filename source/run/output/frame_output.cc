@@ -36,15 +36,46 @@ namespace Exemplar
   FrameOutput::FrameOutput(Problem                        &problem,
                            const RunDirectory             &directory,
                            const std::vector<FrameFormat> &formats)
-      : problem(problem), directory(directory), formats(formats), skin(make_skin()),
+      : problem(problem), directory(directory), formats(formats),
         background(problem.parameters.solver.n_threads > 1)
+  {
+    all_shown.push_back(make_body());
+    for (const CarriedSurface &carried : problem.body.carried)
+      all_shown.push_back(make_carried(carried));
+    for (Shown &shown : all_shown)
+      add_writers(shown);
+  }
+
+  FrameOutput::Shown
+  FrameOutput::make_body() const
+  {
+    const SceneParameters &scene = problem.parameters;
+    Shown                  shown{ "", problem.body.surface.get(), nullptr, {} };
+    if (scene.output.shows_surface())
+      shown.skin = std::make_unique<const SurfaceSkin>(*problem.body.surface, problem.body.mesh,
+                                                       scene.mesh.surface_file());
+    return shown;
+  }
+
+  FrameOutput::Shown
+  FrameOutput::make_carried(const CarriedSurface &carried) const
+  {
+    return { carried.name,
+             &carried.surface,
+             std::make_unique<const SurfaceSkin>(skin_of_carried(carried.surface, problem.body.mesh,
+                                                                 "Mesh/Carry: " + carried.name)),
+             {} };
+  }
+
+  void
+  FrameOutput::add_writers(Shown &shown) const
   {
     const OutputParameters &output = problem.parameters.output;
     for (const std::string &name : output.formats)
       if (const FrameFormat &format = find_format(name, formats); output.every > 0)
-        writers.emplace_back(&format,
-                             format.make_writer({ problem.body.mesh, problem.body.fe_space,
-                                                  problem.body.surface.get(), playback() }));
+        shown.writers.emplace_back(&format,
+                                   format.writer_of({ problem.body.mesh, problem.body.fe_space,
+                                                      shown.surface, playback(), shown.carried }));
   }
 
   Playback
@@ -58,16 +89,6 @@ namespace Exemplar
     const auto &g  = scene.loads.gravity;
     result.z_is_up = std::abs(g[2]) > std::abs(g[1]);
     return result;
-  }
-
-  std::unique_ptr<const SurfaceSkin>
-  FrameOutput::make_skin() const
-  {
-    const SceneParameters &scene = problem.parameters;
-    if (!scene.output.shows_surface())
-      return nullptr;
-    return std::make_unique<const SurfaceSkin>(*problem.body.surface, problem.body.mesh,
-                                               scene.mesh.surface_file());
   }
 
   Vector
@@ -97,14 +118,21 @@ namespace Exemplar
   void
   FrameOutput::write_shapes() const
   {
-    if (skin == nullptr)
-      return;
-    const std::string faces = obj_faces(*problem.body.surface);
+    if (problem.parameters.output.shows_surface())
+      for (const Shown &shown : all_shown)
+        write_shapes_of(shown);
+  }
+
+  void
+  FrameOutput::write_shapes_of(const Shown &shown) const
+  {
+    const std::string end   = shown.carried.empty() ? ".obj" : "_" + shown.carried + ".obj";
+    const std::string faces = obj_faces(*shown.surface);
     const auto        write = [&](const std::string &name, const Vector &displacement)
     {
-      AtomicFile file(directory.get_path() / (name + ".obj"));
+      AtomicFile file(directory.get_path() / (name + end));
       file.stream() << "# a shape by exemplar\n"
-                    << obj_vertices(skin->carry(displacement)) << faces;
+                    << obj_vertices(shown.skin->carry(displacement)) << faces;
       file.commit();
     };
     write("rest", Vector(problem.body.fe_space.n_dofs()));
@@ -156,36 +184,47 @@ namespace Exemplar
   {
     const Exchange &exchange = problem.body.exchange();
     const fs::path &path     = directory.get_path();
-    if (skin != nullptr)
-      frame.surface = skin->carry(frame.displacement);
-    for (const auto &[format, writer] : writers)
+    for (const Shown &shown : all_shown)
     {
-      const auto pieces = format->names_of_pieces(frame.step, exchange.n_processes());
-      directory.do_inside([&, &by = *writer]
-                          { by.write(frame, path / pieces[exchange.process()]); });
-      const auto join
-          = [&, &of = *format] { of.join(frame, pieces, path / of.joint_name(frame.step)); };
-      if (pieces.size() > 1)
-        at_root(exchange, [&] { directory.do_inside(join); });
+      if (shown.skin != nullptr)
+        frame.surface = shown.skin->carry(frame.displacement);
+      for (const auto &[format, writer] : shown.writers)
+      {
+        const auto pieces
+            = format->names_of_pieces(frame.step, exchange.n_processes(), shown.carried);
+        directory.do_inside([&, &by = *writer]
+                            { by.write(frame, path / pieces[exchange.process()]); });
+        const auto join
+            = [&, &of = *format] { of.join(frame, pieces, path / of.joint_name(frame.step)); };
+        if (pieces.size() > 1)
+          at_root(exchange, [&] { directory.do_inside(join); });
+      }
     }
   }
 
   fs::path
-  FrameOutput::file_of(const FrameFormat &format, const unsigned int step) const
+  FrameOutput::file_of(const FrameFormat &format,
+                       const unsigned int step,
+                       const std::string &carried) const
   {
     if (const fs::path joint = directory.get_path() / format.joint_name(step);
-        format.has_pieces() && fs::exists(joint))
+        carried.empty() && format.has_pieces() && fs::exists(joint))
       return joint;
-    return directory.get_path() / format.frame_name(step);
+    return directory.get_path() / format.frame_name(step, carried);
   }
 
   bool
   FrameOutput::is_missing() const
   {
-    return problem.body.exchange().any(
-        std::any_of(writers.begin(), writers.end(),
-                    [&](const Writer &writer)
-                    { return !fs::exists(file_of(*writer.first, problem.state.step)); }));
+    return problem.body.exchange().any(std::any_of(
+        all_shown.begin(), all_shown.end(),
+        [&](const Shown &shown)
+        {
+          return std::any_of(
+              shown.writers.begin(), shown.writers.end(),
+              [&](const Writer &writer)
+              { return !fs::exists(file_of(*writer.first, problem.state.step, shown.carried)); });
+        }));
   }
 
   void
@@ -197,19 +236,21 @@ namespace Exemplar
   void
   FrameOutput::write_animations() const
   {
-    for (const auto &[format, writer] : writers)
-      if (const auto written = written_frames(*format);
-          !format->animation.empty() && !written.empty())
-        writer->write_animation(written, directory.get_path() / format->animation);
+    for (const Shown &shown : all_shown)
+      for (const auto &[format, writer] : shown.writers)
+        if (const auto written = written_frames(*format, shown.carried);
+            !format->animation.empty() && !written.empty())
+          writer->write_animation(written,
+                                  directory.get_path() / format->animation_name(shown.carried));
   }
 
   std::vector<WrittenFrame>
-  FrameOutput::written_frames(const FrameFormat &format) const
+  FrameOutput::written_frames(const FrameFormat &format, const std::string &carried) const
   {
     std::vector<WrittenFrame> frames;
     // every step, as Output/Every may have changed at a resume
     for (unsigned int step = 0; step <= problem.state.step; ++step)
-      if (const fs::path file = file_of(format, step); fs::exists(file))
+      if (const fs::path file = file_of(format, step, carried); fs::exists(file))
         frames.push_back({ problem.time_axis.time(step), file });
     return frames;
   }

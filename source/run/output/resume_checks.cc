@@ -105,8 +105,11 @@ namespace Exemplar
           return changed.text();
       const auto            files = changed_files(checkpoint, input_digests);
       const MeshParameters &mesh  = scene.get_parameters().mesh;
-      for (const auto &[what, name] :
-           { std::pair("mesh ", mesh.file), std::pair("surface ", mesh.surface) })
+      std::vector<std::pair<std::string, std::string>> fixed
+          = { { "mesh ", mesh.file }, { "surface ", mesh.surface } };
+      for (const std::string &file : mesh.carried)
+        fixed.emplace_back("surface ", file);
+      for (const auto &[what, name] : fixed)
         if (std::count(files.begin(), files.end(), name) > 0
             && checkpoint.input_digests.count(name) > 0)
           return "the " + (what + name) + " has changed since.";

@@ -69,7 +69,7 @@ namespace Exemplar
     bool
     is_shape(const std::string &name)
     {
-      static const std::regex shape("rest\\.obj|weight_[0-9_]+\\.obj");
+      static const std::regex shape("(rest|weight_[0-9]+(_[0-9]+)?)(_.+)?\\.obj");
       return std::regex_match(name, shape);
     }
   } // namespace
@@ -249,10 +249,11 @@ namespace Exemplar
   void
   RunDirectory::remove_animations() const
   {
-    for (const FrameFormat &format : formats)
-      if (!format.animation.empty() && fs::exists(get_path() / format.animation)
-          && objection_to(format.animation).empty())
-        fs::remove(get_path() / format.animation);
+    for (const std::string &name : own_names())
+      if (std::any_of(formats.begin(), formats.end(),
+                      [&](const FrameFormat &format) { return format.is_animation(name); })
+          && objection_to(name).empty())
+        fs::remove(get_path() / name);
   }
 
   void

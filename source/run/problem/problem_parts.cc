@@ -74,7 +74,8 @@ namespace Exemplar
         patches(inputs.fields.patches, fe_space, material),
         cell_material(patches.rest_of(material)), made(inputs.undivided.made),
         geo_walls(inputs.undivided.geo_walls), warnings(inputs.undivided.warnings),
-        surface(inputs.undivided.surface), inputs(inputs.undivided.inputs)
+        surface(inputs.undivided.surface), carried(std::move(inputs.undivided.carried)),
+        inputs(inputs.undivided.inputs)
   {
   }
 

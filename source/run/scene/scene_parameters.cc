@@ -77,6 +77,7 @@ namespace Exemplar
     check_plasticity();
     check_solver();
     check_surface();
+    mesh.check_carried();
     if (output.final_pose == FinalTetrahedra::quadratic
         && !traits_of(model.element).has_edge_nodes())
       throw UserError("Output/Final pose = quadratic writes the nodes in the middles of edges, but "

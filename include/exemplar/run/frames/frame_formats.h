@@ -32,6 +32,7 @@ namespace Exemplar
     const FESpace     &fe_space;
     const SurfaceMesh *surface; ///< in the file's unit; null unless a format shows it
     Playback           playback = {};
+    std::string        carried  = {}; ///< name of the surface, if it is one of Mesh/Carry
   };
 
   /// A format that frames can be written in: its files and who writes them.
@@ -59,19 +60,34 @@ namespace Exemplar
     JoinPieces  join         = {};
     std::string joint_ending = {}, joint_beginning = {};
 
+    /// Who writes a surface of Mesh/Carry; null: make_writer.
+    MakeWriter make_carried_writer = {};
+
     bool
     has_pieces() const
     {
       return join != nullptr;
     }
 
-    /// The name of a step's frame, without the directory.
+    /// The writer of the body's frames, or those of a surface that it carries.
+    std::unique_ptr<const FrameWriter>
+    writer_of(const FrameSubject &subject) const;
+
+    /// The name of a step's frame, without the directory, of the body or of the surface of Mesh/Carry
+    /// that has this name.
     std::string
-    frame_name(unsigned int step) const;
+    frame_name(unsigned int step, const std::string &carried = "") const;
+
+    /// The name of the file that shows all frames, likewise.
+    std::string
+    animation_name(const std::string &carried = "") const;
 
     /// The names of what so many processes write of a frame: that of the frame, or of a piece each.
+    /// What a body carries has no pieces.
     std::vector<std::string>
-    names_of_pieces(unsigned int step, unsigned int n_processes) const;
+    names_of_pieces(unsigned int       step,
+                    unsigned int       n_processes,
+                    const std::string &carried = "") const;
 
     /// The name of the file that joins these.
     std::string
@@ -80,6 +96,10 @@ namespace Exemplar
     /// The step of the frame, or of the piece of one, of this name; nothing if no run writes such a frame.
     std::optional<unsigned int>
     step_of(const std::string &file) const;
+
+    /// Whether a file of this name shows all frames, of the body or of what it carries.
+    bool
+    is_animation(const std::string &file) const;
 
     /// What a file of this name (without the directory) begins with if a run has written it;
     /// nothing if no run writes files of this name.

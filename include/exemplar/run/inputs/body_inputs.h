@@ -46,6 +46,7 @@ namespace Exemplar
     NamedMotions                            motions; ///< of handles that follow a cache
     std::vector<std::string>                warnings;
     std::shared_ptr<const SurfaceMesh>      surface;   ///< as Inputs have it
+    std::vector<CarriedSurface>             carried;   ///< the same
     std::shared_ptr<const MadeOfSurfaces>   made;      ///< the same
     std::optional<std::vector<std::string>> geo_walls; ///< the same
     std::shared_ptr<const Inputs>           inputs; ///< null unless Output/Space error needs them

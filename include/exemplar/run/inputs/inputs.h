@@ -14,6 +14,13 @@ namespace Exemplar
 {
   class CompleteScene;
 
+  /// A surface of Mesh/Carry.
+  struct CarriedSurface
+  {
+    std::string name; ///< see name_of_carried()
+    SurfaceMesh surface;
+  };
+
   /// What the files hold that a scene names, or arrays that stand in for them; make_msh() makes
   /// a mesh of arrays. All lengths are in the mesh's unit: Mesh/Scale makes metres of them.
   struct Inputs
@@ -23,7 +30,9 @@ namespace Exemplar
     NamedNodes nodes; ///< of Select = nodes FILE
     /// Of Mesh/Surface; null unless the scene needs it.
     std::shared_ptr<const SurfaceMesh> surface = {};
-    NamedMaps                          maps = {}; ///< by FILE:ATTRIBUTE, of the surface's vertices
+    /// Of Mesh/Carry, in its order.
+    std::vector<CarriedSurface> carried = {};
+    NamedMaps                   maps    = {}; ///< by FILE:ATTRIBUTE, of the surface's vertices
     /// Of Follow cache, by the names of handles. Sequences of files keep a reference to the surface.
     std::map<std::string, std::shared_ptr<const PointCache>> caches = {};
     /// How mesh and poses became of surfaces; null if none did.

@@ -34,7 +34,7 @@ namespace Exemplar
 
     /// Where a format shows the surface of the body, write it at rest, rest.obj, and as it is in the
     /// poses of the examples, NAME.obj for each weight NAME of statistics.csv; of weights of a region
-    /// only the region is in the pose.
+    /// only the region is in the pose. What the body carries likewise, with its name behind.
     void
     write_shapes() const;
 
@@ -63,8 +63,29 @@ namespace Exemplar
     Playback
     playback() const;
 
-    std::unique_ptr<const SurfaceSkin>
-    make_skin() const;
+    using Writer = std::pair<const FrameFormat *, std::unique_ptr<const FrameWriter>>;
+
+    /// What has frames: the body, or a surface that it carries.
+    struct Shown
+    {
+      std::string                        carried; ///< its name; empty: the body
+      const SurfaceMesh                 *surface; ///< null if no format shows that of the body
+      std::unique_ptr<const SurfaceSkin> skin;    ///< that carries it; null likewise
+      std::vector<Writer>                writers; ///< of the formats in use; empty without frames
+    };
+
+    Shown
+    make_body() const;
+
+    Shown
+    make_carried(const CarriedSurface &carried) const;
+
+    void
+    add_writers(Shown &shown) const;
+
+    /// The surface at rest and in the poses of the examples.
+    void
+    write_shapes_of(const Shown &shown) const;
 
     /// How far nodes have moved in the pose of weight i [m].
     Vector
@@ -79,22 +100,18 @@ namespace Exemplar
 
     /// The frame of a step, or what joins its pieces.
     std::filesystem::path
-    file_of(const FrameFormat &format, unsigned int step) const;
+    file_of(const FrameFormat &format, unsigned int step, const std::string &carried) const;
 
     /// The frames on disk, in order of time.
     std::vector<WrittenFrame>
-    written_frames(const FrameFormat &format) const;
+    written_frames(const FrameFormat &format, const std::string &carried) const;
 
     Problem                        &problem;
     const RunDirectory             &directory;
     const std::vector<FrameFormat> &formats;
 
-    /// Carries the surface that formats show; null if none does.
-    const std::unique_ptr<const SurfaceSkin> skin;
-
-    using Writer = std::pair<const FrameFormat *, std::unique_ptr<const FrameWriter>>;
-    std::vector<Writer> writers;    ///< of the formats in use; empty without frames
-    BackgroundWriter    background; ///< last, as its jobs use the others
+    std::vector<Shown> all_shown;  ///< the body, then what it carries
+    BackgroundWriter   background; ///< last, as its jobs use the others
   };
 } // namespace Exemplar
 

@@ -55,6 +55,7 @@ namespace Exemplar
     const std::optional<std::vector<std::string>> geo_walls;
     const std::vector<std::string>                warnings; ///< of the making
     const std::shared_ptr<const SurfaceMesh>      surface;  ///< null unless it is needed
+    const std::vector<CarriedSurface>             carried;  ///< of Mesh/Carry
     const std::shared_ptr<const Inputs> inputs; ///< null unless Output/Space error needs them
   };
 

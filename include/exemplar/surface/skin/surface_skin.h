@@ -30,11 +30,29 @@ namespace Exemplar
     carry(const Vector &displacement) const;
 
   private:
+    friend SurfaceSkin
+    skin_of_carried(const SurfaceMesh &surface, const Mesh &mesh, const std::string &name);
+
+    SurfaceSkin(const SurfaceMesh &surface, double scale) : rest(surface.vertices), scale(scale) {}
+
     std::vector<SurfaceMesh::Vertex> rest;
     double                           scale;  ///< makes metres of the file's unit
     std::vector<NodalSum::Share>     shares; ///< of all vertices, one after the other
     std::vector<std::size_t>         ends;   ///< of the shares of each vertex
   };
+
+  /// A surface that is inside, on or outside of the body and goes along with it: a vertex at X is
+  /// displaced by
+  ///
+  ///   u(X) = sum_a phi_a(X) (u_a + G_a (X - X_a) + 1/2 (X - X_a) H_a (X - X_a))
+  ///
+  /// over the nodes near to it, with derivatives that are recovered at the nodes. phi is smooth and
+  /// spreads over a few cells near the body, and farther outside as far as the vertex is from it. u
+  /// depends on the place X at rest alone, and smoothly: sheets that touch stay together, and none
+  /// tears between two limbs. Affine motions are carried exactly. UserError, which begins with the
+  /// name, for a surface that is farther from the body than that is large.
+  SurfaceSkin
+  skin_of_carried(const SurfaceMesh &surface, const Mesh &mesh, const std::string &name);
 } // namespace Exemplar
 
 #endif

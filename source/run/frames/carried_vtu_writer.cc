@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/atomic_file.h>
+#include <exemplar/mesh/mesh.h>
+#include <exemplar/run/frames/frame_formats.h>
+#include <exemplar/run/frames/vtu_parts.h>
+
+#include <fmt/core.h>
+
+#include <cstdint>
+#include <memory>
+#include <sstream>
+
+namespace Exemplar
+{
+  namespace
+  {
+    constexpr std::uint8_t vtk_polygon = 7;
+
+    std::string
+    polygons_of(const SurfaceMesh &surface)
+    {
+      std::vector<std::int32_t> connectivity, offsets;
+      for (const auto &face : surface.faces)
+      {
+        connectivity.insert(connectivity.end(), face.begin(), face.end());
+        offsets.push_back(static_cast<std::int32_t>(connectivity.size()));
+      }
+      const std::vector<std::uint8_t> types(surface.faces.size(), vtk_polygon);
+      std::ostringstream              out;
+      out << "<Cells>\n";
+      write_array(out, "Int32", "connectivity", 1, connectivity.data(), connectivity.size());
+      write_array(out, "Int32", "offsets", 1, offsets.data(), offsets.size());
+      write_array(out, "UInt8", "types", 1, types.data(), types.size());
+      out << "</Cells>\n";
+      return out.str();
+    }
+
+    /// Writes a surface that the body carries, in metres as the body's frames.
+    class CarriedVtuWriter : public FrameWriter
+    {
+    public:
+      CarriedVtuWriter(const SurfaceMesh &surface, const double scale)
+          : rest(surface.vertices), scale(scale),
+            piece(fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
+                              surface.vertices.size(),
+                              surface.faces.size())),
+            polygons(polygons_of(surface))
+      {
+      }
+
+      void
+      write(const Frame &frame, const std::filesystem::path &file) const override
+      {
+        std::vector<double> places, displacement;
+        for (std::size_t v = 0; v < rest.size(); ++v)
+          for (unsigned int c = 0; c < 3; ++c)
+          {
+            places.push_back(scale * frame.surface[v][c]);
+            displacement.push_back(scale * (frame.surface[v][c] - rest[v][c]));
+          }
+        AtomicFile    atomic_file(file);
+        std::ostream &out = atomic_file.stream();
+        out << head_of_grid() << piece << "<Points>\n";
+        write_array(out, "Float64", "Points", 3, places.data(), places.size());
+        out << "</Points>\n" << polygons << "<PointData>\n";
+        write_array(out, "Float64", "displacement", 3, displacement.data(), displacement.size());
+        out << "</PointData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+        atomic_file.commit_without_sync();
+      }
+
+      void
+      write_animation(const std::vector<WrittenFrame> &frames,
+                      const std::filesystem::path     &file) const override
+      {
+        write_collection(frames, file);
+      }
+
+    private:
+      const std::vector<SurfaceMesh::Vertex> rest;
+      const double                           scale; ///< makes metres of the file's unit
+      const std::string                      piece, polygons;
+    };
+  } // namespace
+
+  std::unique_ptr<const FrameWriter>
+  make_carried_vtu_writer(const FrameSubject &subject)
+  {
+    return std::make_unique<const CarriedVtuWriter>(*subject.surface, subject.mesh.get_scale());
+  }
+} // namespace Exemplar
