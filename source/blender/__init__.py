@@ -39,6 +39,7 @@ class Running:
     job = None
     body = None     # its name
     preview = None  # name of the object that shows the newest frame
+    worn = ()       # names of what it wears
     said = ""       # for the panel
 
 
@@ -61,7 +62,7 @@ def start(context, body):
     scene = context.scene
     file = scene_files.write_scene(body, body.exemplar, scene, directory_of(body))
     Running.job, Running.body, Running.said = Job(program_of(context), file, scene.frame_end - scene.frame_start), body.name, ""
-    Running.preview = None
+    Running.preview, Running.worn = None, [child.name for child in scene_files.clothes_of(body)]
 
 
 def poll():
@@ -91,7 +92,7 @@ def show(job):
     if preview is None:
         body = bpy.data.objects[Running.body]
         mesh = bpy.data.meshes.new(f"{body.name} running")
-        mesh.from_pydata(places.tolist(), [], [tuple(face.vertices) for face in body.data.polygons])
+        mesh.from_pydata(places.tolist(), [], scene_files.faces_of(body))
         preview = bpy.data.objects.new(mesh.name, mesh)
         bpy.context.scene.collection.objects.link(preview)
         Running.preview = preview.name
@@ -113,12 +114,34 @@ def finish(job):
         result.name = f"{Running.body} result"
         for child in result.children:
             child.name = f"{Running.body} residual"
+        for i, name in enumerate(Running.worn, 1):
+            if name in bpy.data.objects:
+                show_worn(bpy.data.objects[name], result, job.output / f"animation_worn_{i}.pc2")
         Running.said = "\n".join(["Done.", *(line for line in job.messages() if line.startswith("Warning"))])
     else:
         Running.said = failure
         if body is not None:
             body.hide_set(False)
             select_faults(job, body)
+
+
+def show_worn(child, result, cache_file):
+    """A copy of what the body wears, which a point cache moves; the child itself is hidden."""
+    shown = child.copy()
+    shown.data = child.data.copy()
+    shown.name = f"{child.name} result"
+    bpy.context.scene.collection.objects.link(shown)
+    shown.modifiers.clear()
+    shown.animation_data_clear()
+    if shown.data.shape_keys:
+        shown.shape_key_clear()
+    shown.parent = result
+    shown.matrix_parent_inverse.identity()
+    shown.matrix_basis.identity()
+    cache = shown.modifiers.new("exemplar", "MESH_CACHE")
+    cache.cache_format, cache.filepath, cache.interpolation = "PC2", str(cache_file), "LINEAR"
+    cache.frame_start = bpy.context.scene.frame_start
+    child.hide_set(True)
 
 
 def remove_result(name):

@@ -37,6 +37,15 @@ def poses_of(body):
     return {key.name: places_of(key.data, body.matrix_world) for key in blocks if key != keys.reference_key and not key.mute}
 
 
+def clothes_of(body):
+    """Meshes that are children of the body: what it wears."""
+    return [child for child in body.children_recursive if child.type == "MESH" and child.data.polygons]
+
+
+def faces_of(shown):
+    return [tuple(face.vertices) for face in shown.data.polygons]
+
+
 def evaluated_places(body):
     """Of the vertices as modifiers and shape keys put them in the current frame."""
     shown = body.evaluated_get(bpy.context.evaluated_depsgraph_get())
@@ -141,10 +150,15 @@ def scene_text(body, settings, scene, poses, painted):
     rate = frames_per_second(scene)
     keys = Keys([f"Expect the object {body.name} to move through the frames {scene.frame_start} to {scene.frame_end}.",
                  "Written by exemplar's add-on for Blender, which writes it anew when Run is pressed.",
-                 *(f"pose_{i}.obj is the shape key {name}." for i, name in enumerate(poses, 1))])
+                 *(f"pose_{i}.obj is the shape key {name}." for i, name in enumerate(poses, 1)),
+                 *(f"worn_{i}.obj is the object {child.name}." for i, child in enumerate(clothes_of(body), 1))])
     keys.add("", Scene="dynamic")
     scale = scene.unit_settings.scale_length if scene.unit_settings.system != "NONE" else 1.
-    keys.add("Mesh", File="body.obj", Cells=settings.cells, Repair=str(settings.repair).lower(), Scale=f"{scale:.9g}")
+    mesh = {"File": "body.obj", "Cells": settings.cells, "Repair": str(settings.repair).lower(), "Scale": f"{scale:.9g}"}
+    clothes = clothes_of(body)
+    if clothes:
+        mesh["Carry"] = ", ".join(f"worn_{i}.obj" for i in range(1, len(clothes) + 1))
+    keys.add("Mesh", **mesh)
     material = {"Young's modulus": f"{settings.stiffness:.9g}"}
     for name in painted:
         key, factors = PAINTED[name]
@@ -169,7 +183,7 @@ def write_scene(body, settings, scene, directory):
     """Write all that a run reads into a directory, which is made; the scene file."""
     check(body, settings, scene)
     directory.mkdir(parents=True, exist_ok=True)
-    faces = [tuple(face.vertices) for face in body.data.polygons]
+    faces = faces_of(body)
     shown = scene.frame_current
     scene.frame_set(scene.frame_start)  # where the object is then is where the body begins
     try:
@@ -177,6 +191,8 @@ def write_scene(body, settings, scene, directory):
         poses = poses_of(body)
         for i, places in enumerate(poses.values(), 1):
             write_obj(directory / f"pose_{i}.obj", places, faces)
+        for i, child in enumerate(clothes_of(body), 1):
+            write_obj(directory / f"worn_{i}.obj", rest_places(child), faces_of(child))
     finally:
         scene.frame_set(shown)
     painted = [name for name in PAINTED if name in body.vertex_groups]

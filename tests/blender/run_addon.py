@@ -113,6 +113,10 @@ scene.frame_start, scene.frame_end, scene.render.fps = 3, 18, 24
 scene.gravity = (0., 0., -1.)
 body = make_body()
 make_rig(body)
+hat = bpy.data.objects.new("hat", bpy.data.meshes.new("hat"))
+hat.data.from_pydata([(-.3, -.3, 0), (.3, -.3, 0), (.3, .3, 0), (-.3, .3, 0)], [], [(0, 1, 2, 3)])
+scene.collection.objects.link(hat)
+hat.parent, hat.location = body, (0, 0, 4.05)
 bpy.context.view_layer.objects.active = body
 settings = body.exemplar
 settings.cells, settings.follow, settings.pin = 600, "high", "low"
@@ -144,6 +148,7 @@ if shown is not None:
     found["keys"] = [key.name for key in keys.key_blocks]
     found["rest"], found["end"], found["rig"] = places(shown, 3), places(shown, 18), places(body, 18)
     found["weights"] = [point.co[1] for point in keys.animation_data.action.fcurves[0].keyframe_points]
+    found["hat"] = places(bpy.data.objects["hat result"], 18)
     found["range"] = [scene.frame_start, scene.frame_end]
 
 # cancelled as soon as there is a frame

@@ -40,6 +40,12 @@ class AddOn(SceneTest):
         self.assertEqual(found["weights"][0], 0.)
         self.assertGreater(found["weights"][-1], .8)
 
+        # what it wears lies .05 above the upper end, whose normal turns by 60 degrees
+        end = [found["end"][i] for i in high]
+        middle = [sum(x[c] for x in end) / 25 for c in range(3)]
+        hat = [sum(x[c] for x in found["hat"]) / 4 for c in range(3)]
+        self.assertLess(math.dist(hat, [middle[0] + .05 * math.sin(math.pi / 3), middle[1], middle[2] + .025]), .02)
+
         # what an artist may run again, without Blender
         self.assertEqual(found["directory"], str(self.directory / "my film_bar"))
         scene = self.directory / "kept/scene.prm"
@@ -50,7 +56,7 @@ class AddOn(SceneTest):
         self.assertIn("Save the .blend first", found["unsaved"])
         self.assertIn("of its 226 vertices", found["subdivided"])
         self.assertEqual((found["cancelled"], found["hidden"]), ("Cancelled.", False))
-        self.assertEqual(found["objects"], ["bar", "bar residual", "bar result", "rig"])
+        self.assertEqual(found["objects"], ["bar", "bar residual", "bar result", "hat", "hat result", "rig"])
         self.assertIn("holes: 1", found["hole"])
         self.assertIn("0 faces and 4 vertices with faults are selected", found["hole"])
         self.assertEqual(found["selected"], [0, 1, 2, 3])
