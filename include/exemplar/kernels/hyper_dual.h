@@ -143,6 +143,13 @@ namespace Exemplar
 
   template <std::size_t n>
   bool
+  operator==(const HyperDual<n> &x, const HyperDual<n> &y)
+  {
+    return x.value == y.value;
+  }
+
+  template <std::size_t n>
+  bool
   operator<(const HyperDual<n> &x, const HyperDual<n> &y)
   {
     return x.value < y.value;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/kernels/patch_cell.h>
 #include <exemplar/run/adjoint/example_strains.h>
-#include <exemplar/run/adjoint/laws_with_derivatives.h>
+#include <exemplar/run/adjoint/point_shape.h>
 
 namespace Exemplar
 {
@@ -22,24 +22,17 @@ namespace Exemplar
   Matrix3<double>
   pulled_back(const CellLaw law, const Matrix3<double> &F, const Matrix3<double> &by_strain)
   {
-    using Number = HyperDual<9>;
-    Matrix3<Number> seeded;
-    for (std::size_t k = 0; k < 9; ++k)
-    {
-      seeded[k / 3][k % 3]       = Number(F[k / 3][k % 3]);
-      seeded[k / 3][k % 3].by[k] = 1.;
-    }
+    const Matrix3<double> R = model_rotation(law, F);
+    if (traits_of(law).has_rotations)
+      return R * with_turn(symmetric_part(transpose_times(R, F)), by_strain);
     Matrix3<double> result{};
-    with_potential<Number>(law,
-                           [&](auto model)
-                           {
-                             using Cell = typename decltype(model)::type;
-                             const Number product
-                                 = contract(strain_near<Cell>(closest_rotation(F), seeded),
-                                            constant_matrix<Number>(by_strain));
-                             for (std::size_t k = 0; k < 9; ++k)
-                               result[k / 3][k % 3] = product.by[k];
-                           });
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+      {
+        Matrix3<double> dF{};
+        dF[i][j]     = 1.;
+        result[i][j] = contract(by_strain, model_strain_change(law, R, F, dF));
+      }
     return result;
   }
 

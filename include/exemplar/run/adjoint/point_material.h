@@ -127,6 +127,13 @@ namespace Exemplar
       return of.of_examples.is_own();
     }
 
+    /// Whether target() is eta times what a point is drawn to.
+    bool
+    has_scaled_target() const
+    {
+      return of.acts_on == ActsOn::all && !has_own_examples();
+    }
+
     /// What patches take of C.
     Number
     lambda_of_patches() const

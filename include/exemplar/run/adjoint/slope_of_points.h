@@ -3,6 +3,7 @@
 #define exemplar_slope_of_points_h
 
 #include <exemplar/run/adjoint/point_potential.h>
+#include <exemplar/run/adjoint/point_shape.h>
 #include <exemplar/run/adjoint/slope_terms.h>
 
 // The derivatives of the slope of a potential that is a sum over points and patches: that of each is evaluated
@@ -10,10 +11,12 @@
 
 namespace Exemplar
 {
-  /// Of which the potential of a point has derivatives: F, the six entries of the wish, E, nu, eta.
+  /// Of which the potential of a point has derivatives: E, nu, eta, the six entries of the wish, and those of
+  /// the shape, six of S or nine of F.
   namespace OfPoint
   {
-    constexpr std::size_t F = 0, wish = 9, E = 15, nu = 16, eta = 17, n = 18;
+    constexpr std::size_t E = 0, nu = 1, eta = 2, wish = 3, shape = 9;
+    constexpr std::size_t n_constants = 3, n_with_S = 15, n_with_F = 18;
 
     /// The number with derivative number k.
     template <std::size_t n_by>
@@ -28,42 +31,57 @@ namespace Exemplar
 
     template <std::size_t n_by>
     Matrix3<HyperDual<n_by>>
-    seeded(const Matrix3<double> &A, const Matrix3<double> &dA)
-    {
-      Matrix3<HyperDual<n_by>> result;
-      for (std::size_t k = 0; k < 9; ++k)
-        result[k / 3][k % 3] = seeded<n_by>(A[k / 3][k % 3], dA[k / 3][k % 3], F + k);
-      return result;
-    }
-
-    template <std::size_t n_by>
-    Matrix3<HyperDual<n_by>>
-    seeded_symmetric(const Matrix3<double> &A, const Matrix3<double> &dA)
+    seeded_symmetric(const Matrix3<double> &A, const Matrix3<double> &dA, const std::size_t first)
     {
       const SymmetricEntries<double>    value = pack(A), change = pack(dA);
       SymmetricEntries<HyperDual<n_by>> entries;
       for (std::size_t k = 0; k < n_symmetric; ++k)
-        entries[k] = seeded<n_by>(value[k], change[k], wish + k);
+        entries[k] = seeded<n_by>(value[k], change[k], first + k);
       return unpack(entries);
     }
 
-    inline Matrix3<double>
-    by_F(const std::array<double, n> &by)
+    template <std::size_t n_by>
+    Matrix3<HyperDual<n_by>>
+    seeded_shape(const PointShape &at)
     {
-      Matrix3<double> A;
+      const Matrix3<double> &A = at.get_value(), &dA = at.get_change();
+      if (at.is_turned())
+        return seeded_symmetric<n_by>(A, dA, shape);
+      Matrix3<HyperDual<n_by>> result;
       for (std::size_t k = 0; k < 9; ++k)
-        A[k / 3][k % 3] = by[F + k];
-      return A;
+        result[k / 3][k % 3] = seeded<n_by>(A[k / 3][k % 3], dA[k / 3][k % 3], shape + k);
+      return result;
     }
 
     /// The matrix of which the product with a symmetric one has these derivatives by its entries.
-    inline Matrix3<double>
-    by_wish(const std::array<double, n> &by)
+    template <std::size_t n_by>
+    Matrix3<HyperDual<0>>
+    by_symmetric(const HyperDual<n_by> &number, const std::size_t first)
     {
-      SymmetricEntries<double> entries;
+      SymmetricEntries<HyperDual<0>> entries;
       for (std::size_t k = 0; k < n_symmetric; ++k)
-        entries[k] = (k < 3 ? 1. : 0.5) * by[wish + k];
+      {
+        const double part = k < 3 ? 1. : 0.5;
+        entries[k]        = { part * number.by[first + k], part * number.change_by[first + k] };
+      }
       return unpack(entries);
+    }
+
+    /// R^T P of a potential.
+    inline Matrix3<HyperDual<0>>
+    by_shape(const HyperDual<n_with_S> &potential, const PointShape &at)
+    {
+      return with_turn(seeded_symmetric<0>(at.get_value(), at.get_change(), 0),
+                       by_symmetric(potential, shape));
+    }
+
+    inline Matrix3<HyperDual<0>>
+    by_shape(const HyperDual<n_with_F> &potential, const PointShape & /*at*/)
+    {
+      Matrix3<HyperDual<0>> A;
+      for (std::size_t k = 0; k < 9; ++k)
+        A[k / 3][k % 3] = { potential.by[shape + k], potential.change_by[shape + k] };
+      return A;
     }
   } // namespace OfPoint
 
@@ -106,7 +124,8 @@ namespace Exemplar
     {
       double sum = 0.;
       for (unsigned int point = 0; point < fe_space.n_points(); ++point)
-        sum += fe_space.volume(point) * potential_of<0>(point, {}).potential.change;
+        sum += fe_space.volume(point)
+               * potential_of<0>(place_of(point), part.share(point), {}).potential.change;
       for (const OfPatch &potential : of_patches)
         sum += potential.change;
       return sum;
@@ -137,42 +156,85 @@ namespace Exemplar
       return { &factors[patches.of_point(point)], 1 };
     }
 
-    /// With derivatives where numbers carry them: function(law, place).
+    /// All that the potential of a point depends on.
+    struct Point
+    {
+      CellLaw         law;
+      Matrix3<double> F, dF;
+      PointShape      shape;
+      Wish            wish;
+      PointMaterial   material;
+    };
+
+    Point
+    place_of(const unsigned int point) const
+    {
+      const unsigned int    cell = fe_space.cell_of(point);
+      const Matrix3<double> F    = fe_space.deformation_gradient(point, problem.state.positions);
+      const Matrix3<double> dF   = fe_space.deformation_gradient(point, along);
+      return { laws[cell],
+               F,
+               dF,
+               PointShape(traits_of(laws[cell]).has_rotations, F, dF),
+               part.wish(point),
+               PointMaterial(problem.body.material, problem.body.cell_material,
+                             problem.parameters.examples.acts_on, scene.part_of_patches, cell) };
+    }
+
+    /// As numbers with so many derivatives: function(place).
     template <std::size_t n_by, typename Function>
     auto
-    with_place(const unsigned int point, const Function &function) const
+    with_place(const Point &point, const Function &function) const
     {
       using Number             = HyperDual<n_by>;
-      const unsigned int  cell = fe_space.cell_of(point);
-      const auto          F    = fe_space.deformation_gradient(point, problem.state.positions);
-      const auto          dF   = fe_space.deformation_gradient(point, along);
-      const Wish          wish = part.wish(point);
-      const PointMaterial material(problem.body.material, problem.body.cell_material,
-                                   problem.parameters.examples.acts_on, scene.part_of_patches,
-                                   cell);
-      const Number        eta = OfPoint::seeded<n_by>(scene.examples.importance, 0., OfPoint::eta);
-      const auto          constant_of = [](const double value, const std::size_t k)
+      const Number eta         = OfPoint::seeded<n_by>(scene.examples.importance, 0., OfPoint::eta);
+      const auto   constant_of = [](const double value, const std::size_t k)
       { return OfPoint::seeded<n_by>(value, 0., k); };
-      const PointPlace<Number> at{
-        closest_rotation(F), OfPoint::seeded<n_by>(F, dF),
-        OfPoint::seeded_symmetric<n_by>(wish.value, wish.change),
-        MaterialFunctions<Number>(material, constant_of(material.body.youngs_modulus, OfPoint::E),
-                                  constant_of(material.body.poissons_ratio, OfPoint::nu), eta),
+      const Material::BodyConstants &body = point.material.body;
+      const PointPlace<Number>       at{
+        OfPoint::seeded_shape<n_by>(point.shape),
+        OfPoint::seeded_symmetric<n_by>(point.wish.value, point.wish.change, OfPoint::wish),
+        MaterialFunctions<Number>(point.material, constant_of(body.youngs_modulus, OfPoint::E),
+                                  constant_of(body.poissons_ratio, OfPoint::nu), eta),
         eta
       };
-      return function(laws[cell], at);
+      return function(at);
     }
 
     template <std::size_t n_by>
     PointPotential<HyperDual<n_by>>
-    potential_of(const unsigned int point, const FactorsAtPoint &of_patches) const
+    potential_of(const Point &point, const double share, const FactorsAtPoint &of_patches) const
     {
       return with_place<n_by>(point,
-                              [&](const CellLaw law, const auto &at)
-                              {
+                              [&](const auto &at) {
                                 return point_potential<Part::template Evaluation>(
-                                    law, scene, at, part.share(point), of_patches);
+                                    point.law, scene, at, share, of_patches);
                               });
+    }
+
+    /// By the law's forces, or where more than these acts by derivatives of the potential.
+    PointStress<Changing>
+    stress_of(const Point &point, const double share, const FactorsAtPoint &of_patches) const
+    {
+      const auto found = with_place<0>(point,
+                                       [&](const auto &at) {
+                                         return point_stress<Part::template Evaluation>(
+                                             point.law, scene, at, share, of_patches);
+                                       });
+      if (found)
+        return *found;
+      if (point.shape.is_turned())
+        return derivatives_of<OfPoint::n_with_S>(point, share, of_patches);
+      return derivatives_of<OfPoint::n_with_F>(point, share, of_patches);
+    }
+
+    template <std::size_t n_by>
+    PointStress<Changing>
+    derivatives_of(const Point &point, const double share, const FactorsAtPoint &of_patches) const
+    {
+      const HyperDual<n_by> potential = potential_of<n_by>(point, share, of_patches).potential;
+      return { OfPoint::by_shape(potential, point.shape),
+               OfPoint::by_symmetric(potential, OfPoint::wish) };
     }
 
     PatchFactors
@@ -181,9 +243,10 @@ namespace Exemplar
       PatchFactors sums;
       for (const unsigned int point : patches.points(patch))
       {
-        PatchFactors of_point
-            = with_place<0>(point, [&](const CellLaw law, const auto &at)
-                            { return patch_sums<Part::template Evaluation>(law, scene, at); });
+        const Point  at_point = place_of(point);
+        PatchFactors of_point = with_place<0>(
+            at_point, [&](const auto &at)
+            { return patch_sums<Part::template Evaluation>(at_point.law, scene, at); });
         of_point[PatchSum::bound] = Changing(part.square_of_bound(patch, point));
         const Changing volume(fe_space.volume(point));
         for (std::size_t k = 0; k < PatchFactors::size; ++k)
@@ -213,41 +276,52 @@ namespace Exemplar
     double
     add_point(const unsigned int point, SlopeDerivatives &sums)
     {
-      const auto            of_patches = factors_at(point);
-      const auto            found      = potential_of_whole(point, of_patches);
-      const auto           &potential  = found.potential;
-      const double          V          = fe_space.volume(point);
-      const unsigned int    cell       = fe_space.cell_of(point);
-      const Matrix3<double> F     = fe_space.deformation_gradient(point, problem.state.positions);
-      const Matrix3<double> dF    = fe_space.deformation_gradient(point, along);
-      const Matrix3<double> by_F  = OfPoint::by_F(potential.change_by),
-                            by_dF = OfPoint::by_F(potential.by);
+      const auto                  of_patches = factors_at(point);
+      const double                share      = part.share(point);
+      const Point                 at         = place_of(point);
+      const auto                  found = potential_of<OfPoint::n_constants>(at, share, of_patches);
+      const PointStress<Changing> stress    = stress_of(at, share, of_patches);
+      const auto                 &potential = found.potential;
+      const double                V         = fe_space.volume(point);
+      const unsigned int          cell      = fe_space.cell_of(point);
+      const auto [by_F, by_dF]              = at.shape.derivatives(stress.by_shape);
       add_forces(fe_space, point, times(V, by_F), sums.by_positions);
       Matrix3<double> by_gradients
-          = combine(V, transpose_times(F, by_F), V, transpose_times(dF, by_dF));
-      part.add_wish(point,
-                    { times(V, OfPoint::by_wish(potential.change_by)),
-                      times(V, OfPoint::by_wish(potential.by)) },
-                    of_patches, sums, by_gradients);
+          = combine(V, transpose_times(at.F, by_F), V, transpose_times(at.dF, by_dF));
+      part.add_wish(point, wish_of(times(Changing(V), stress.by_wish)), of_patches, sums,
+                    by_gradients);
       sums.by_young[cell] += V * potential.change_by[OfPoint::E];
       sums.by_poisson[cell] += V * potential.change_by[OfPoint::nu];
       sums.by_importance += V * potential.change_by[OfPoint::eta];
+      const double slope = potential.change + of_guard_bound(point, of_patches);
       add_at_vertices(fe_space, cell,
-                      combine(V * potential.change, identity_matrix<double>(), -1., by_gradients),
+                      combine(V * slope, identity_matrix<double>(), -1., by_gradients),
                       sums.by_rest_positions);
       return V * found.by_guard_bound.change;
     }
 
-    /// With its share, and with the bound of the patch's guard, which depends on the volume alone.
-    PointPotential<HyperDual<OfPoint::n>>
-    potential_of_whole(const unsigned int point, const FactorsAtPoint &of_patches) const
+    static Wish
+    wish_of(const Matrix3<Changing> &numbers)
     {
-      using Number = HyperDual<OfPoint::n>;
-      auto found   = potential_of<OfPoint::n>(point, of_patches);
+      Wish result;
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+        {
+          result.change[i][j] = numbers[i][j].value;
+          result.value[i][j]  = numbers[i][j].change;
+        }
+      return result;
+    }
+
+    /// The change of what the bound of the patch's guard adds, which depends on the volume alone.
+    double
+    of_guard_bound(const unsigned int point, const FactorsAtPoint &of_patches) const
+    {
+      double sum = 0.;
       for (const PatchFactors &factor : of_patches)
-        found.potential += constant<Number>(factor[PatchSum::bound])
-                           * Number(part.square_of_bound(patches.of_point(point), point));
-      return found;
+        sum += factor[PatchSum::bound].change
+               * part.square_of_bound(patches.of_point(point), point);
+      return sum;
     }
 
     const Problem            &problem;
