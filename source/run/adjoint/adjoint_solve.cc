@@ -3,6 +3,7 @@
 #include <exemplar/run/adjoint/adjoint_solve.h>
 #include <exemplar/run/adjoint/adjoint_system.h>
 #include <exemplar/run/adjoint/conjugate_residuals.h>
+#include <exemplar/run/adjoint/example_strains.h>
 
 #include <fmt/core.h>
 
@@ -95,8 +96,9 @@ namespace Exemplar
   {
     AdjointSystem system(problem);
     system.go_to_state(evaluation);
+    const ExampleStrains strains(problem);
     return solve_adjoint(system, by_state,
-                         [&problem](const Direction &direction)
-                         { return derivatives_of_slope(problem, direction); });
+                         [&](const Direction &direction)
+                         { return derivatives_of_slope(problem, strains, direction); });
   }
 } // namespace Exemplar

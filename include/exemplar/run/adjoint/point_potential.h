@@ -62,6 +62,9 @@ namespace Exemplar
               = combine(Number(1.), found.by_shape,
                         constant<Number>(factors[PatchSum::volume_change]), cofactors(at.shape));
       }
+      if constexpr (Cell::traits.knows_volume)
+        found.by_shape = combine(Number(1.), found.by_shape, Number(share) * change_of_importance(),
+                                 of_examples_alone());
       found.by_wish = times(eta, found.by_wish);
       return found;
     }
@@ -90,14 +93,28 @@ namespace Exemplar
       return Number(1. - scene.part_of_patches);
     }
 
-    /// A law that knows eta has it as a number without derivatives.
+    /// A law that knows eta has it as a number without derivatives. What is missing is 0 with them.
+    Number
+    change_of_importance() const
+    {
+      return at.importance - Number(scene.examples.importance);
+    }
+
+    /// The derivative by S of what grows with it.
+    Matrix3<Number>
+    of_examples_alone() const
+    {
+      return combine(Number(1.), stress(cell.own_material(), cell.strain()), Number(-1.),
+                     cell.elastic_force());
+    }
+
     Number
     of_share() const
     {
       Number sum(0.);
       if constexpr (Cell::traits.knows_volume)
       {
-        const Number change = at.importance - Number(scene.examples.importance);
+        const Number change = change_of_importance();
         const Number of_strain
             = Number(0.5) * contract(stress(cell.own_material(), cell.strain()), cell.strain());
         sum += change * (of_strain - cell.elastic_density());
@@ -225,23 +242,43 @@ namespace Exemplar
     return found;
   }
 
-  /// The derivatives of the same, or nothing where only potentials are known.
-  template <template <typename, typename> class Evaluation, typename Number>
-  std::optional<PointStress<Number>>
-  point_stress(const CellLaw             law,
-               const PointScene         &scene,
-               const PointPlace<Number> &at,
-               const double              share,
-               const FactorsAtPoint     &of_patches)
+  /// The derivatives of the same where these are the law's forces, and what the changes of the patches'
+  /// factors make of their sums.
+  template <typename Number>
+  struct RegularPoint
   {
-    std::optional<PointStress<Number>> found;
-    with_potential<Number>(
-        law,
-        [&](auto model)
-        {
-          using Cell = typename decltype(model)::type;
-          found      = Evaluation<Cell, Number>(law, scene, at).regular_stress(share, of_patches);
-        });
+    PointStress<Number> stress;
+    Number              of_patches;
+  };
+
+  /// Nothing where more than forces acts.
+  template <template <typename, typename> class Evaluation, typename Number>
+  std::optional<RegularPoint<Number>>
+  regular_point(const CellLaw             law,
+                const PointScene         &scene,
+                const PointPlace<Number> &at,
+                const double              share,
+                const FactorsAtPoint     &of_patches)
+  {
+    std::optional<RegularPoint<Number>> found;
+    with_potential<Number>(law,
+                           [&](auto model)
+                           {
+                             using Cell = typename decltype(model)::type;
+                             const Evaluation<Cell, Number> point(law, scene, at);
+                             const auto stress = point.regular_stress(share, of_patches);
+                             if (!stress)
+                               return;
+                             found = RegularPoint<Number>{ *stress, Number(0.) };
+                             if constexpr (Cell::traits.trace_gradient_is_R)
+                               for (const PatchFactors &factors : of_patches)
+                               {
+                                 const PatchSums<Number> sums = point.of_patch();
+                                 for (std::size_t k = 0; k < PatchFactors::size; ++k)
+                                   found->of_patches
+                                       += Number(factors.numbers[k].change) * sums.numbers[k];
+                               }
+                           });
     return found;
   }
 

@@ -2,8 +2,9 @@
 #ifndef exemplar_slope_of_points_h
 #define exemplar_slope_of_points_h
 
+#include <exemplar/base/loop_parts.h>
+#include <exemplar/run/adjoint/point_numbers.h>
 #include <exemplar/run/adjoint/point_potential.h>
-#include <exemplar/run/adjoint/point_shape.h>
 #include <exemplar/run/adjoint/slope_terms.h>
 
 // The derivatives of the slope of a potential that is a sum over points and patches: that of each is evaluated
@@ -11,80 +12,6 @@
 
 namespace Exemplar
 {
-  /// Of which the potential of a point has derivatives: E, nu, eta, the six entries of the wish, and those of
-  /// the shape, six of S or nine of F.
-  namespace OfPoint
-  {
-    constexpr std::size_t E = 0, nu = 1, eta = 2, wish = 3, shape = 9;
-    constexpr std::size_t n_constants = 3, n_with_S = 15, n_with_F = 18;
-
-    /// The number with derivative number k.
-    template <std::size_t n_by>
-    HyperDual<n_by>
-    seeded(const double value, const double change, const std::size_t k)
-    {
-      HyperDual<n_by> number(value, change);
-      if (k < n_by)
-        number.by[k] = 1.;
-      return number;
-    }
-
-    template <std::size_t n_by>
-    Matrix3<HyperDual<n_by>>
-    seeded_symmetric(const Matrix3<double> &A, const Matrix3<double> &dA, const std::size_t first)
-    {
-      const SymmetricEntries<double>    value = pack(A), change = pack(dA);
-      SymmetricEntries<HyperDual<n_by>> entries;
-      for (std::size_t k = 0; k < n_symmetric; ++k)
-        entries[k] = seeded<n_by>(value[k], change[k], first + k);
-      return unpack(entries);
-    }
-
-    template <std::size_t n_by>
-    Matrix3<HyperDual<n_by>>
-    seeded_shape(const PointShape &at)
-    {
-      const Matrix3<double> &A = at.get_value(), &dA = at.get_change();
-      if (at.is_turned())
-        return seeded_symmetric<n_by>(A, dA, shape);
-      Matrix3<HyperDual<n_by>> result;
-      for (std::size_t k = 0; k < 9; ++k)
-        result[k / 3][k % 3] = seeded<n_by>(A[k / 3][k % 3], dA[k / 3][k % 3], shape + k);
-      return result;
-    }
-
-    /// The matrix of which the product with a symmetric one has these derivatives by its entries.
-    template <std::size_t n_by>
-    Matrix3<HyperDual<0>>
-    by_symmetric(const HyperDual<n_by> &number, const std::size_t first)
-    {
-      SymmetricEntries<HyperDual<0>> entries;
-      for (std::size_t k = 0; k < n_symmetric; ++k)
-      {
-        const double part = k < 3 ? 1. : 0.5;
-        entries[k]        = { part * number.by[first + k], part * number.change_by[first + k] };
-      }
-      return unpack(entries);
-    }
-
-    /// R^T P of a potential.
-    inline Matrix3<HyperDual<0>>
-    by_shape(const HyperDual<n_with_S> &potential, const PointShape &at)
-    {
-      return with_turn(seeded_symmetric<0>(at.get_value(), at.get_change(), 0),
-                       by_symmetric(potential, shape));
-    }
-
-    inline Matrix3<HyperDual<0>>
-    by_shape(const HyperDual<n_with_F> &potential, const PointShape & /*at*/)
-    {
-      Matrix3<HyperDual<0>> A;
-      for (std::size_t k = 0; k < 9; ++k)
-        A[k / 3][k % 3] = { potential.by[shape + k], potential.change_by[shape + k] };
-      return A;
-    }
-  } // namespace OfPoint
-
   /// What a point's strain is drawn to, and how that changes along the direction.
   struct Wish
   {
@@ -107,8 +34,13 @@ namespace Exemplar
                                         std::min<double>(1., patches.size()) },
           part(part)
     {
-      for (unsigned int patch = 0; patch < patches.size(); ++patch)
-        of_patches.push_back(potential_of_patch(patch));
+      of_patches.resize(patches.size());
+      for_each_part(n_parts, patches.size(), problem.parameters.solver.n_threads,
+                    [this](const std::size_t, const std::size_t begin, const std::size_t end)
+                    {
+                      for (std::size_t patch = begin; patch < end; ++patch)
+                        of_patches[patch] = potential_of_patch(patch);
+                    });
       for (const OfPatch &potential : of_patches)
       {
         PatchFactors of_patch;
@@ -123,9 +55,8 @@ namespace Exemplar
     slope() const
     {
       double sum = 0.;
-      for (unsigned int point = 0; point < fe_space.n_points(); ++point)
-        sum += fe_space.volume(point)
-               * potential_of<0>(place_of(point), part.share(point), {}).potential.change;
+      for_each_found<double>([this](const unsigned int point) { return slope_of_energy(point); },
+                             [&](const unsigned int, const double of_point) { sum += of_point; });
       for (const OfPatch &potential : of_patches)
         sum += potential.change;
       return sum;
@@ -138,15 +69,58 @@ namespace Exemplar
       for (const OfPatch &potential : of_patches)
         sums.by_importance += potential.change_by[PatchFactors::size];
       double by_guard_bound = 0.;
-      for (unsigned int point = 0; point < fe_space.n_points(); ++point)
-        by_guard_bound += add_point(point, sums);
+      for_each_found<Contribution>([this](const unsigned int point) { return contribution(point); },
+                                   [&](const unsigned int point, const Contribution &of_point)
+                                   {
+                                     add(point, of_point, sums);
+                                     by_guard_bound += of_point.by_guard_bound;
+                                   });
       if (by_guard_bound != 0.)
         part.add_guard_bound(by_guard_bound, sums);
     }
 
   private:
     using Changing = HyperDual<0>;
-    using OfPatch  = HyperDual<PatchFactors::size + 1>; // and by eta
+
+    static constexpr std::size_t n_parts = 16; ///< of loops, whatever the threads
+
+    using OfPatch = HyperDual<PatchFactors::size + 1>; // and by eta
+
+    /// Find something at all points, some at a time by all threads, and take it in the points' order.
+    template <typename Found, typename Find, typename Take>
+    void
+    for_each_found(const Find &find, const Take &take) const
+    {
+      constexpr unsigned int n_at_once = 1024;
+      const unsigned int     n         = fe_space.n_points();
+      std::vector<Found>     found(std::min(n, n_at_once));
+      for (unsigned int first = 0; first < n; first += n_at_once)
+      {
+        const unsigned int n_found = std::min(n_at_once, n - first);
+        for_each_part(n_parts, n_found, problem.parameters.solver.n_threads,
+                      [&](const std::size_t, const std::size_t begin, const std::size_t end)
+                      {
+                        for (std::size_t i = begin; i < end; ++i)
+                          found[i] = find(first + i);
+                      });
+        for (unsigned int i = 0; i < n_found; ++i)
+          take(first + i, found[i]);
+      }
+    }
+
+    /// Without patches.
+    double
+    slope_of_energy(const unsigned int point) const
+    {
+      const Point at = place_of(point);
+      return fe_space.volume(point)
+             * with_place<Changing>(at,
+                                    [&](const auto &place) {
+                                      return point_potential<Part::template Evaluation>(
+                                          at.law, scene, place, part.share(point), {});
+                                    })
+                   .potential.change;
+    }
 
     FactorsAtPoint
     factors_at(const unsigned int point) const
@@ -181,19 +155,18 @@ namespace Exemplar
                              problem.parameters.examples.acts_on, scene.part_of_patches, cell) };
     }
 
-    /// As numbers with so many derivatives: function(place).
-    template <std::size_t n_by, typename Function>
+    /// As numbers with derivatives: function(place).
+    template <typename Number, typename Function>
     auto
     with_place(const Point &point, const Function &function) const
     {
-      using Number             = HyperDual<n_by>;
-      const Number eta         = OfPoint::seeded<n_by>(scene.examples.importance, 0., OfPoint::eta);
+      const Number eta = OfPoint::seeded<Number>(scene.examples.importance, 0., OfPoint::eta);
       const auto   constant_of = [](const double value, const std::size_t k)
-      { return OfPoint::seeded<n_by>(value, 0., k); };
+      { return OfPoint::seeded<Number>(value, 0., k); };
       const Material::BodyConstants &body = point.material.body;
       const PointPlace<Number>       at{
-        OfPoint::seeded_shape<n_by>(point.shape),
-        OfPoint::seeded_symmetric<n_by>(point.wish.value, point.wish.change, OfPoint::wish),
+        OfPoint::seeded_shape<Number>(point.shape),
+        OfPoint::seeded_symmetric<Number>(point.wish.value, point.wish.change, OfPoint::wish),
         MaterialFunctions<Number>(point.material, constant_of(body.youngs_modulus, OfPoint::E),
                                   constant_of(body.poissons_ratio, OfPoint::nu), eta),
         eta
@@ -201,40 +174,73 @@ namespace Exemplar
       return function(at);
     }
 
-    template <std::size_t n_by>
-    PointPotential<HyperDual<n_by>>
-    potential_of(const Point &point, const double share, const FactorsAtPoint &of_patches) const
+    /// What a point adds to the slope, over its volume, and the derivatives of that.
+    struct PointSlope
     {
-      return with_place<n_by>(point,
-                              [&](const auto &at) {
-                                return point_potential<Part::template Evaluation>(
-                                    point.law, scene, at, share, of_patches);
-                              });
-    }
+      double                                   slope;
+      PointStress<Changing>                    stress;
+      std::array<double, OfPoint::n_constants> by_constants;
+      double                                   by_guard_bound; ///< p_0 of Eq. (16)
+    };
 
-    /// By the law's forces, or where more than these acts by derivatives of the potential.
-    PointStress<Changing>
-    stress_of(const Point &point, const double share, const FactorsAtPoint &of_patches) const
+    PointSlope
+    slope_of(const Point &point, const double share, const FactorsAtPoint &of_patches) const
     {
-      const auto found = with_place<0>(point,
-                                       [&](const auto &at) {
-                                         return point_stress<Part::template Evaluation>(
-                                             point.law, scene, at, share, of_patches);
-                                       });
+      const auto found
+          = with_place<OfPoint::Regular>(point,
+                                         [&](const auto &at) {
+                                           return regular_point<Part::template Evaluation>(
+                                               point.law, scene, at, share, of_patches);
+                                         });
       if (found)
-        return *found;
+        return slope_of_stress(point, *found);
       if (point.shape.is_turned())
-        return derivatives_of<OfPoint::n_with_S>(point, share, of_patches);
-      return derivatives_of<OfPoint::n_with_F>(point, share, of_patches);
+        return slope_of_potential<OfPoint::n_with_S>(point, share, of_patches);
+      return slope_of_potential<OfPoint::n_with_F>(point, share, of_patches);
     }
 
-    template <std::size_t n_by>
-    PointStress<Changing>
-    derivatives_of(const Point &point, const double share, const FactorsAtPoint &of_patches) const
+    /// By the law's forces.
+    static PointSlope
+    slope_of_stress(const Point &point, const RegularPoint<OfPoint::Regular> &found)
     {
-      const HyperDual<n_by> potential = potential_of<n_by>(point, share, of_patches).potential;
-      return { OfPoint::by_shape(potential, point.shape),
-               OfPoint::by_symmetric(potential, OfPoint::wish) };
+      using Number                    = OfPoint::Regular;
+      const auto &[by_shape, by_wish] = found.stress;
+      // the derivative number k of what the stress does along the direction, or that itself
+      const auto along = [&](const auto &part)
+      {
+        return contract(OfPoint::parts_of<double>(by_shape, part), point.shape.get_change())
+               + contract(OfPoint::parts_of<double>(by_wish, part), point.wish.change)
+               + part(found.of_patches);
+      };
+      PointSlope result{ along([](const Number &number) { return number.value; }),
+                         { OfPoint::changing(by_shape), OfPoint::changing(by_wish) },
+                         {},
+                         0. };
+      for (std::size_t k = 0; k < OfPoint::n_constants; ++k)
+        result.by_constants[k] = along([k](const Number &number) { return number.by[1 + k]; });
+      return result;
+    }
+
+    /// Where more than these acts, by derivatives of the potential.
+    template <std::size_t n_by>
+    PointSlope
+    slope_of_potential(const Point          &point,
+                       const double          share,
+                       const FactorsAtPoint &of_patches) const
+    {
+      using Number            = HyperDual<n_by>;
+      const auto    found     = with_place<Number>(point,
+                                            [&](const auto &at) {
+                                              return point_potential<Part::template Evaluation>(
+                                                  point.law, scene, at, share, of_patches);
+                                            });
+      const Number &potential = found.potential;
+      return { potential.change,
+               { OfPoint::by_shape(potential, point.shape),
+                 OfPoint::by_symmetric(potential, OfPoint::wish) },
+               { potential.change_by[OfPoint::E], potential.change_by[OfPoint::nu],
+                 potential.change_by[OfPoint::eta] },
+               found.by_guard_bound.change };
     }
 
     PatchFactors
@@ -244,7 +250,7 @@ namespace Exemplar
       for (const unsigned int point : patches.points(patch))
       {
         const Point  at_point = place_of(point);
-        PatchFactors of_point = with_place<0>(
+        PatchFactors of_point = with_place<Changing>(
             at_point, [&](const auto &at)
             { return patch_sums<Part::template Evaluation>(at_point.law, scene, at); });
         of_point[PatchSum::bound] = Changing(part.square_of_bound(patch, point));
@@ -272,45 +278,40 @@ namespace Exemplar
              * patch_potential(part.patch_scene(scene, law), seeded_sums, eta);
     }
 
-    /// Returns the derivative by the bound of the guard (16).
-    double
-    add_point(const unsigned int point, SlopeDerivatives &sums)
+    /// What the slope has of a point, to be added to that of its nodes and its cell.
+    struct Contribution
     {
-      const auto                  of_patches = factors_at(point);
-      const double                share      = part.share(point);
-      const Point                 at         = place_of(point);
-      const auto                  found = potential_of<OfPoint::n_constants>(at, share, of_patches);
-      const PointStress<Changing> stress    = stress_of(at, share, of_patches);
-      const auto                 &potential = found.potential;
-      const double                V         = fe_space.volume(point);
-      const unsigned int          cell      = fe_space.cell_of(point);
-      const auto [by_F, by_dF]              = at.shape.derivatives(stress.by_shape);
-      add_forces(fe_space, point, times(V, by_F), sums.by_positions);
-      Matrix3<double> by_gradients
-          = combine(V, transpose_times(at.F, by_F), V, transpose_times(at.dF, by_dF));
-      part.add_wish(point, wish_of(times(Changing(V), stress.by_wish)), of_patches, sums,
-                    by_gradients);
-      sums.by_young[cell] += V * potential.change_by[OfPoint::E];
-      sums.by_poisson[cell] += V * potential.change_by[OfPoint::nu];
-      sums.by_importance += V * potential.change_by[OfPoint::eta];
-      const double slope = potential.change + of_guard_bound(point, of_patches);
-      add_at_vertices(fe_space, cell,
-                      combine(V * slope, identity_matrix<double>(), -1., by_gradients),
-                      sums.by_rest_positions);
-      return V * found.by_guard_bound.change;
+      Matrix3<double>                          by_F, by_gradients;
+      Wish                                     by_wish;
+      std::array<double, OfPoint::n_constants> by_constants;
+      double                                   slope, by_guard_bound;
+    };
+
+    Contribution
+    contribution(const unsigned int point) const
+    {
+      const auto       of_patches = factors_at(point);
+      const Point      at         = place_of(point);
+      const double     V          = fe_space.volume(point);
+      const PointSlope found      = slope_of(at, part.share(point), of_patches);
+      const auto [by_F, by_dF]    = at.shape.derivatives(found.stress.by_shape);
+      Contribution result{ times(V, by_F),
+                           combine(V, transpose_times(at.F, by_F), V,
+                                   transpose_times(at.dF, by_dF)),
+                           wish_of(times(Changing(V), found.stress.by_wish)),
+                           found.by_constants,
+                           V * (found.slope + of_guard_bound(point, of_patches)),
+                           V * found.by_guard_bound };
+      for (double &number : result.by_constants)
+        number *= V;
+      return result;
     }
 
     static Wish
     wish_of(const Matrix3<Changing> &numbers)
     {
-      Wish result;
-      for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-        {
-          result.change[i][j] = numbers[i][j].value;
-          result.value[i][j]  = numbers[i][j].change;
-        }
-      return result;
+      return { OfPoint::parts_of<double>(numbers, [](const Changing &x) { return x.change; }),
+               OfPoint::parts_of<double>(numbers, [](const Changing &x) { return x.value; }) };
     }
 
     /// The change of what the bound of the patch's guard adds, which depends on the volume alone.
@@ -322,6 +323,21 @@ namespace Exemplar
         sum += factor[PatchSum::bound].change
                * part.square_of_bound(patches.of_point(point), point);
       return sum;
+    }
+
+    void
+    add(const unsigned int point, const Contribution &of_point, SlopeDerivatives &sums)
+    {
+      const unsigned int cell = fe_space.cell_of(point);
+      add_forces(fe_space, point, of_point.by_F, sums.by_positions);
+      Matrix3<double> by_gradients = of_point.by_gradients;
+      part.add_wish(point, of_point.by_wish, factors_at(point), sums, by_gradients);
+      sums.by_young[cell] += of_point.by_constants[OfPoint::E];
+      sums.by_poisson[cell] += of_point.by_constants[OfPoint::nu];
+      sums.by_importance += of_point.by_constants[OfPoint::eta];
+      add_at_vertices(fe_space, cell,
+                      combine(of_point.slope, identity_matrix<double>(), -1., by_gradients),
+                      sums.by_rest_positions);
     }
 
     const Problem            &problem;
