@@ -76,11 +76,16 @@ namespace Exemplar
   AdjointSolution
   solve_adjoint(AdjointSystem &system, const Direction &by_state, const FindDerivatives &find)
   {
-    AdjointSolution solution{ system.zero(), {} };
-    Direction       rest = by_state;
-    system.add_solution(rest, solution.direction);
-    solution.derivatives = find(solution.direction);
-    double error = system.residual(by_state, solution.direction, solution.derivatives, rest);
+    AdjointSolution solution;
+    double          error;
+    do
+    {
+      Direction rest     = by_state;
+      solution.direction = system.zero();
+      system.add_solution(by_state, solution.direction);
+      solution.derivatives = find(solution.direction);
+      error = system.residual(by_state, solution.direction, solution.derivatives, rest);
+    } while (!(error <= solved) && system.sharpen());
     if (!(error <= solved))
       error = correct(system, by_state, find, solution);
     if (!(error <= unsolved))

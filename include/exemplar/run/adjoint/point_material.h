@@ -96,16 +96,15 @@ namespace Exemplar
   public:
     MaterialFunctions(const PointMaterial &of, const Number &E, const Number &nu, const Number &eta)
         : of(of), eta(Number(of.importance) * eta),
-          body(with_fibres(E, nu, Number(of.body.fibre_stiffness), of.axis)),
-          examples(with_fibres(
-              of.of_examples.youngs_modulus ? Number(*of.of_examples.youngs_modulus) : E,
-              of.of_examples.poissons_ratio ? Number(*of.of_examples.poissons_ratio) : nu,
-              Number(0.),
-              of.axis)),
+          body(with_fibres(E, nu, Number(of.body.fibre_stiffness), of.axis)), examples(body),
           sum(body)
     {
       if (of.of_examples.is_own())
       {
+        examples = with_fibres(
+            of.of_examples.youngs_modulus ? Number(*of.of_examples.youngs_modulus) : E,
+            of.of_examples.poissons_ratio ? Number(*of.of_examples.poissons_ratio) : nu, Number(0.),
+            of.axis);
         const Number rest = Number(1.) - this->eta;
         sum.lambda        = rest * body.lambda + this->eta * examples.lambda;
         sum.mu            = rest * body.mu + this->eta * examples.mu;

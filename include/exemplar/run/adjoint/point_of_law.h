@@ -132,11 +132,10 @@ namespace Exemplar
 
     /// Of the energy with this target.
     PointStress<Number>
-    stress_towards(const Matrix3<Number> &D) const
+    stress_towards(const Matrix3<Number> &D)
     {
-      Cell driven = cell;
-      driven.set_target(D);
-      return { driven.force(), times(Number(-1.), cell.weight_stress(D)) };
+      cell.set_target(D);
+      return { cell.force(), times(Number(-1.), cell.weight_stress(D)) };
     }
 
     /// Of the traces in a patch with these factors, by the shape and the target.
@@ -152,7 +151,7 @@ namespace Exemplar
 
     const PointScene         &scene;
     const PointPlace<Number> &at;
-    const Cell                cell;
+    Cell                      cell;
   };
 } // namespace Exemplar
 

@@ -40,7 +40,7 @@ namespace Exemplar
     /// The derivatives of `share` times the energy with what patches make of it, by the law's own force;
     /// nothing where more than that acts.
     std::optional<PointStress<Number>>
-    regular_stress(const double share, const FactorsAtPoint &of_patches) const
+    regular_stress(const double share, const FactorsAtPoint &of_patches)
     {
       if (!this->is_regular() || !at.material.has_scaled_target())
         return {};
@@ -184,7 +184,7 @@ namespace Exemplar
 
     /// As of ElasticPoint.
     std::optional<PointStress<Number>>
-    regular_stress(const double share, const FactorsAtPoint &of_patches) const
+    regular_stress(const double share, const FactorsAtPoint &of_patches)
     {
       if constexpr (Cell::traits.knows_volume) // whose force has more than damping
         return {};
@@ -265,7 +265,7 @@ namespace Exemplar
                            [&](auto model)
                            {
                              using Cell = typename decltype(model)::type;
-                             const Evaluation<Cell, Number> point(law, scene, at);
+                             Evaluation<Cell, Number> point(law, scene, at);
                              const auto stress = point.regular_stress(share, of_patches);
                              if (!stress)
                                return;

@@ -238,8 +238,8 @@ namespace Exemplar
       return { potential.change,
                { OfPoint::by_shape(potential, point.shape),
                  OfPoint::by_symmetric(potential, OfPoint::wish) },
-               { potential.change_by[OfPoint::E], potential.change_by[OfPoint::nu],
-                 potential.change_by[OfPoint::eta] },
+               { { potential.change_by[OfPoint::E], potential.change_by[OfPoint::nu],
+                   potential.change_by[OfPoint::eta] } },
                found.by_guard_bound.change };
     }
 
