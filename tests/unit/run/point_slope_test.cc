@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/run/adjoint/point_numbers.h>
-#include <exemplar/run/adjoint/point_potential.h>
+#include <exemplar/run/adjoint/point_slope.h>
 
 #include "matrices.h"
 
@@ -122,22 +121,15 @@ namespace Exemplar::Testing
               = point_potential<ElasticPoint>(law, scene, place<Number>(shape, wish, change), 0.7,
                                               of_patches)
                     .potential;
-          const auto &[by_shape, by_wish] = found->stress;
-          const double scale              = 1e7;
-          expect_equal(OfPoint::changing(by_shape), OfPoint::by_shape(potential, shape), scale);
-          expect_equal(OfPoint::changing(by_wish), OfPoint::by_symmetric(potential, OfPoint::wish),
+          const PointSlope slope = slope_of_stress(shape, { wish, change }, *found);
+          const double     scale = 1e7;
+          expect_equal(slope.stress.by_shape, OfPoint::by_shape(potential, shape), scale);
+          expect_equal(slope.stress.by_wish, OfPoint::by_symmetric(potential, OfPoint::wish),
                        scale);
-          const auto along = [&](const auto &part)
-          {
-            return contract(OfPoint::parts_of<double>(by_shape, part), shape.get_change())
-                   + contract(OfPoint::parts_of<double>(by_wish, part), change)
-                   + part(found->of_patches);
-          };
-          EXPECT_NEAR(along([](const Regular &x) { return x.value; }), potential.change,
-                      1e-12 * scale);
+          EXPECT_NEAR(slope.slope, potential.change, 1e-12 * scale);
           for (std::size_t k = 0; k < OfPoint::n_constants; ++k)
-            EXPECT_NEAR(along([k](const Regular &x) { return x.by[1 + k]; }),
-                        potential.change_by[k], 1e-10 * std::abs(potential.change_by[k]) + 1e-12);
+            EXPECT_NEAR(slope.by_constants[k], potential.change_by[k],
+                        1e-10 * std::abs(potential.change_by[k]) + 1e-12);
         }
     }
   } // namespace

@@ -56,9 +56,12 @@ namespace Exemplar
 
   template <typename Number>
   Matrix3<Number>
-  times(const Number &factor, const Matrix3<Number> &A)
+  times(const Number &factor, Matrix3<Number> A)
   {
-    return combine(factor, A, Number(0.), A);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        A[i][j] *= factor;
+    return A;
   }
 
   /// C^-1:T.

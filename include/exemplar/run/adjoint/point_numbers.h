@@ -16,6 +16,8 @@ namespace Exemplar
     constexpr std::size_t E = 0, nu = 1, eta = 2, n_constants = 3;
     constexpr std::size_t wish = 3, shape = 9, n_with_S = 15, n_with_F = 18;
 
+    using Constants = std::array<double, n_constants>;
+
     /// With the change along the direction and derivatives by the constants.
     using Regular = Dual<1 + n_constants>;
 

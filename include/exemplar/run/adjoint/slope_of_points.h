@@ -3,8 +3,7 @@
 #define exemplar_slope_of_points_h
 
 #include <exemplar/base/loop_parts.h>
-#include <exemplar/run/adjoint/point_numbers.h>
-#include <exemplar/run/adjoint/point_potential.h>
+#include <exemplar/run/adjoint/point_slope.h>
 #include <exemplar/run/adjoint/slope_terms.h>
 
 // The derivatives of the slope of a potential that is a sum over points and patches: that of each is evaluated
@@ -12,12 +11,6 @@
 
 namespace Exemplar
 {
-  /// What a point's strain is drawn to, and how that changes along the direction.
-  struct Wish
-  {
-    Matrix3<double> value, change;
-  };
-
   /// `Part` says which potential: Part::Evaluation of point_potential.h, factors share(point) and
   /// share_of_patch(patch) of it, wish(point), patch_scene(law), and square_of_bound(patch, point) for the
   /// guard (26). By add_wish() and add_guard_bound() it hears of the derivatives by what is its own.
@@ -174,15 +167,6 @@ namespace Exemplar
       return function(at);
     }
 
-    /// What a point adds to the slope, over its volume, and the derivatives of that.
-    struct PointSlope
-    {
-      double                                   slope;
-      PointStress<Changing>                    stress;
-      std::array<double, OfPoint::n_constants> by_constants;
-      double                                   by_guard_bound; ///< p_0 of Eq. (16)
-    };
-
     PointSlope
     slope_of(const Point &point, const double share, const FactorsAtPoint &of_patches) const
     {
@@ -193,32 +177,10 @@ namespace Exemplar
                                                point.law, scene, at, share, of_patches);
                                          });
       if (found)
-        return slope_of_stress(point, *found);
+        return slope_of_stress(point.shape, point.wish, *found);
       if (point.shape.is_turned())
         return slope_of_potential<OfPoint::n_with_S>(point, share, of_patches);
       return slope_of_potential<OfPoint::n_with_F>(point, share, of_patches);
-    }
-
-    /// By the law's forces.
-    static PointSlope
-    slope_of_stress(const Point &point, const RegularPoint<OfPoint::Regular> &found)
-    {
-      using Number                    = OfPoint::Regular;
-      const auto &[by_shape, by_wish] = found.stress;
-      // the derivative number k of what the stress does along the direction, or that itself
-      const auto along = [&](const auto &part)
-      {
-        return contract(OfPoint::parts_of<double>(by_shape, part), point.shape.get_change())
-               + contract(OfPoint::parts_of<double>(by_wish, part), point.wish.change)
-               + part(found.of_patches);
-      };
-      PointSlope result{ along([](const Number &number) { return number.value; }),
-                         { OfPoint::changing(by_shape), OfPoint::changing(by_wish) },
-                         {},
-                         0. };
-      for (std::size_t k = 0; k < OfPoint::n_constants; ++k)
-        result.by_constants[k] = along([k](const Number &number) { return number.by[1 + k]; });
-      return result;
     }
 
     /// Where more than these acts, by derivatives of the potential.
@@ -281,10 +243,10 @@ namespace Exemplar
     /// What the slope has of a point, to be added to that of its nodes and its cell.
     struct Contribution
     {
-      Matrix3<double>                          by_F, by_gradients;
-      Wish                                     by_wish;
-      std::array<double, OfPoint::n_constants> by_constants;
-      double                                   slope, by_guard_bound;
+      Matrix3<double>    by_F, by_gradients;
+      Wish               by_wish;
+      OfPoint::Constants by_constants;
+      double             slope, by_guard_bound;
     };
 
     Contribution
@@ -298,20 +260,13 @@ namespace Exemplar
       Contribution result{ times(V, by_F),
                            combine(V, transpose_times(at.F, by_F), V,
                                    transpose_times(at.dF, by_dF)),
-                           wish_of(times(Changing(V), found.stress.by_wish)),
+                           slope_by_wish(times(Changing(V), found.stress.by_wish)),
                            found.by_constants,
                            V * (found.slope + of_guard_bound(point, of_patches)),
                            V * found.by_guard_bound };
       for (double &number : result.by_constants)
         number *= V;
       return result;
-    }
-
-    static Wish
-    wish_of(const Matrix3<Changing> &numbers)
-    {
-      return { OfPoint::parts_of<double>(numbers, [](const Changing &x) { return x.change; }),
-               OfPoint::parts_of<double>(numbers, [](const Changing &x) { return x.value; }) };
     }
 
     /// The change of what the bound of the patch's guard adds, which depends on the volume alone.
