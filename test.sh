@@ -12,6 +12,9 @@ fi
 
 ./demo.sh --install-only
 
+# one more than the cores, as tests of several processes wait for each other
+jobs=$(($(nproc) + 1))
+
 build() {
   echo "Building $1"
   cmake --preset "$1" >/dev/null
@@ -20,8 +23,8 @@ build() {
 
 build release
 if [ "${1:-}" = "--quick" ]; then
-  exec ctest --test-dir build/release -L quick -j 2 --output-on-failure
+  exec ctest --test-dir build/release -L quick -j "$jobs" --output-on-failure
 fi
 build debug
-ctest --test-dir build/debug -L debug -j 2 --output-on-failure
-ctest --test-dir build/release -j 2 --output-on-failure
+ctest --test-dir build/debug -L debug -j "$jobs" --output-on-failure
+ctest --test-dir build/release -j "$jobs" --output-on-failure

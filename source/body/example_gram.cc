@@ -118,8 +118,8 @@ namespace Exemplar
     std::vector<double> of_patches(patches.size(), 0.); // lambda times volume
     for (unsigned int point = 0; point < fe_space.n_points(); ++point)
     {
-      const unsigned int cell   = fe_space.cell_of(point);
-      const double       lambda = patches.size() > 0 ? cell_material.excess_of_patches(cell) : 0.;
+      const unsigned int cell = fe_space.cell_of(point);
+      const double lambda = patches.size() > 0 ? cell_material.blend(cell).excess_of_patches() : 0.;
       if (patches.size() > 0)
         of_patches[patches.of_point(point)] += lambda * fe_space.volume(point);
       poses.for_each_weight(
@@ -127,7 +127,7 @@ namespace Exemplar
           [&](const unsigned int v, const unsigned int i, const double share_v)
           {
             const Matrix3<double> D = poses.strain(point, i);
-            const Matrix3<double> T = combine(1., cell_material.excess_stress(cell, D),
+            const Matrix3<double> T = combine(1., cell_material.blend(cell).excess_stress(D),
                                               -lambda * trace(D), identity_matrix<double>());
             poses.for_each_weight(
                 point,

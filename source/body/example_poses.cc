@@ -4,6 +4,7 @@
 #include <exemplar/base/number_text.h>
 #include <exemplar/body/example_poses.h>
 #include <exemplar/body/pose_checks.h>
+#include <exemplar/body/strain_parts.h>
 #include <exemplar/prm/assignments.h>
 #include <exemplar/prm/expression.h>
 
@@ -59,13 +60,13 @@ namespace Exemplar
       switch (acts_on)
       {
       case ActsOn::shape:
-        return combine(1., E, -1., material.part_of_pressure(cell, E));
+        return combine(1., E, -1., part_of_pressure(material, cell, E));
       case ActsOn::volume:
-        return material.part_of_pressure(cell, E);
+        return part_of_pressure(material, cell, E);
       case ActsOn::along_fibres:
-        return material.part_of_tension(cell, E);
+        return part_of_tension(material, cell, E);
       case ActsOn::across_fibres:
-        return combine(1., E, -1., material.part_of_tension(cell, E));
+        return combine(1., E, -1., part_of_tension(material, cell, E));
       default:
         return E;
       }
@@ -245,7 +246,7 @@ namespace Exemplar
         const bool            own  = material.has_elasticity_of_examples();
         add_to_stored(strains.data(), point, n_strained(), i - first_strained,
                       own ? 1. : example_constants.importance * material.importance(cell),
-                      own ? material.drawn_strain(cell, part) : part);
+                      own ? material.blend(cell).drawn_strain(part) : part);
         if (traits_of(law).has_guard)
           p_0 = min_or_nan(p_0, 0.5 * guard_product(E));
       }

@@ -1,77 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
-#include <exemplar/base/number_text.h>
+#include <exemplar/body/handle_overlaps.h>
 #include <exemplar/body/handles.h>
-#include <exemplar/prm/assignments.h>
-
-#include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
-#include <map>
 #include <set>
 #include <utility>
 
 namespace Exemplar
 {
-  namespace
-  {
-    std::vector<unsigned int>
-    parse_components(const std::string &text, const std::string &key)
-    {
-      std::set<unsigned int> components;
-      for (const std::string &word : split_trimmed(text, ','))
-        if (word == "x" || word == "y" || word == "z")
-          components.insert(static_cast<unsigned int>(word[0] - 'x'));
-        else
-          components.insert(3);
-      std::string meant;
-      for (const std::string c : { "x", "y", "z" })
-        if (text.find(c) != std::string::npos)
-          meant += (meant.empty() ? "" : ", ") + c;
-      if (components.empty() || components.count(3) == 1)
-        throw UserError(key + "/Components = '" + text
-                        + "' is not allowed. Allowed: some of x, y, z, separated by commas, such "
-                          "as '"
-                        + (meant.empty() ? "x, y" : meant) + "'.");
-      return { components.begin(), components.end() };
-    }
-
-    std::vector<dealii::Point<3>>
-    choose(const std::vector<dealii::Point<3>> &all, const std::vector<unsigned int> &nodes)
-    {
-      std::vector<dealii::Point<3>> chosen;
-      for (const unsigned int node : nodes)
-        chosen.push_back(all[node]);
-      return chosen;
-    }
-
-    /// Of a handle that overlaps with others.
-    std::string
-    remedy_of_all(const std::string &handle)
-    {
-      return ". Handles/" + handle + "/Select selects all nodes of the body: make it smaller.";
-    }
-
-    /// The displacements that a program's function has given for `n_points`.
-    std::vector<dealii::Tensor<1, 3>>
-    checked(std::vector<dealii::Tensor<1, 3>> displacements,
-            const std::size_t                 n_points,
-            const std::string                &key,
-            const double                      time)
-    {
-      if (displacements.size() != n_points)
-        throw UserError(fmt::format(
-            "{}: the function of its motion gives {} displacements, but it holds {} nodes.", key,
-            displacements.size(), n_points));
-      for (const dealii::Tensor<1, 3> &displacement : displacements)
-        if (!std::isfinite(displacement.norm_square()))
-          throw SolverFailure(key + ": the function of its motion gives what is not finite at t = "
-                              + shortest_text(time) + ".");
-      return displacements;
-    }
-  } // namespace
-
   Handles::Handles(const std::vector<HandleParameters> &parameters,
                    const Mesh                          &mesh,
                    const FESpace                       &fe_space,
@@ -83,7 +20,7 @@ namespace Exemplar
   {
     for (const HandleParameters &p : parameters)
     {
-      handles.push_back(make_handle(p, poses, nodes));
+      handles.push_back(make_handle(p, mesh, fe_space, poses, nodes));
       if (const auto given = motions.find(p.name); given != motions.end())
         handles.back().function = at_middles_too(given->second, handles.back().nodes, fe_space);
     }
@@ -91,58 +28,10 @@ namespace Exemplar
     move(axis.time(0), anywhere); // are the formulas finite?
     move(axis.time(axis.n_steps()), anywhere);
     check_overlaps(axis);
-    look_for_straight_turns(axis);
-    look_for_large_turns(axis);
-    look_for_progress_beyond(axis);
-    look_for_idle_times(axis);
-  }
-
-  Handles::Handle
-  Handles::make_handle(const HandleParameters &p,
-                       const NamedPoses       &poses,
-                       const NamedNodes       &named_nodes) const
-  {
-    p.check();
-    const std::string key = "Handles/" + p.name;
-    Handle            handle{ p.name,
-                   fe_space.numbering().with_middles(p.select.nodes(mesh, key, named_nodes)),
-                   parse_components(p.components, key),
-                   Expression(key + "/Motion", p.motion, "xyzt", 3),
-                   Expression(key + "/Progress", p.progress, "t", 1),
-                   {},
-                   {},
-                   p.holding_time() };
-    if (!p.follow_pose.empty())
-    {
-      const auto pose = fe_space.numbering().complete(
-          mesh.find_pose(poses, p.follow_pose, key + "/Follow pose"), key + "/Follow pose");
-      handle.path.emplace(whole_handle(handle.nodes, rest_positions(handle), fe_space),
-                          whole_handle(handle.nodes, choose(pose, handle.nodes), fe_space));
-      handle.places_in_path = places_in_whole(handle.nodes, fe_space);
-    }
-    return handle;
-  }
-
-  std::vector<dealii::Point<3>>
-  Handles::rest_positions(const Handle &handle) const
-  {
-    std::vector<dealii::Point<3>> places;
-    for (const unsigned int node : handle.nodes)
-      places.push_back(fe_space.rest_position(node));
-    return places;
-  }
-
-  std::vector<dealii::Tensor<1, 3>>
-  Handles::Handle::displacements(const std::vector<dealii::Point<3>> &rest, const double time) const
-  {
-    if (function)
-      return checked(function(rest, time), rest.size(), "Handles/" + name, time);
-    std::vector<dealii::Tensor<1, 3>> result;
-    for (unsigned int point = 0; point < nodes.size(); ++point)
-      result.push_back(
-          path ? path->displacement(places_in_path[point], progress.values(rest[point], time)[0])
-               : motion.vector(rest[point], time));
-    return result;
+    warnings = review_of_motions(handles, fe_space, axis);
+    for (const Handle &handle : handles)
+      if (std::string idle = describe_idle_time(handle, axis, rounding); !idle.empty())
+        warnings.push_back(std::move(idle));
   }
 
   Handles::Displacements
@@ -154,7 +43,7 @@ namespace Exemplar
     {
       for (const Handle &handle : handles)
       {
-        all.push_back(handle.displacements(rest_positions(handle), time));
+        all.push_back(handle.displacements(rest_positions(handle, fe_space), time));
         for (std::size_t point = 0; point < handle.offsets.size(); ++point)
           all.back()[point] += handle.offsets[point];
       }
@@ -169,7 +58,7 @@ namespace Exemplar
     return all;
   }
 
-  Handles::Handle &
+  Handle &
   Handles::find(const std::string &name)
   {
     std::string names;
@@ -246,42 +135,6 @@ namespace Exemplar
                         std::move(moving) });
   }
 
-  void
-  Handles::check_agreement(const std::set<unsigned int> &shared,
-                           const Displacements          &displacements,
-                           const double                  time) const
-  {
-    const double tolerance = 1e-10 * mesh.diameter();
-    struct Target
-    {
-      double       displacement;
-      unsigned int handle;
-    };
-    std::map<unsigned int, Target> targets;
-    for (unsigned int h = 0; h < handles.size(); ++h)
-      for (unsigned int point = 0; point < handles[h].held_nodes().size(); ++point)
-      {
-        const unsigned int node = handles[h].nodes[point];
-        if (shared.count(node) == 0)
-          continue;
-        const dealii::Tensor<1, 3> &displacement = displacements[h][point];
-        for (const unsigned int c : handles[h].components)
-        {
-          const auto [first, is_new] = targets.emplace(3 * node + c, Target{ displacement[c], h });
-          if (std::abs(first->second.displacement - displacement[c]) > tolerance)
-            throw UserError("Handles '" + handles[first->second.handle].name + "' and '"
-                            + handles[h].name + "' both hold " + name_of_node(node, mesh, fe_space)
-                            + ", but move it differently at t = " + shortest_text(time)
-                            + (handles[first->second.handle].nodes.size() == fe_space.n_nodes()
-                                   ? remedy_of_all(handles[first->second.handle].name)
-                               : handles[h].nodes.size() == fe_space.n_nodes()
-                                   ? remedy_of_all(handles[h].name)
-                                   : ". Change Handles/" + handles[h].name
-                                         + "/Select so that they do not overlap."));
-        }
-      }
-  }
-
   std::vector<unsigned int>
   Handles::held_dofs() const
   {
@@ -306,7 +159,7 @@ namespace Exemplar
       }
     // what is no formula could not be checked at all times before
     if (std::any_of(handles.begin(), handles.end(), [](const Handle &h) { return h.function; }))
-      check_agreement(shared_nodes(), all, time);
+      check_agreement(handles, shared_nodes(handles), all, time, mesh, fe_space);
   }
 
   bool

@@ -92,6 +92,39 @@ namespace Exemplar
     {
       return std::make_shared<const OwnConstants>(values.own);
     }
+
+    /// `own` are those of `values`.
+    CellConstants
+    constants_of(const ElasticConstants &values, std::shared_ptr<const OwnConstants> own)
+    {
+      CellMaterial<double> elasticity     = elasticity_of(values);
+      double               youngs_modulus = values.youngs_modulus;
+      const Orthotropy     grain          = grain_of(values, elasticity);
+      const bool           is_orthotropic = !values.orthotropy.empty();
+      if (is_orthotropic)
+      {
+        elasticity               = grain.isotropic_part();
+        const auto &[lambda, mu] = elasticity;
+        youngs_modulus           = mu * (3. * lambda + 2. * mu) / (lambda + mu);
+      }
+      const double lambda_of_patches
+          = values.has_grain() ? grain.lambda_of_patches() : elasticity.lambda;
+      return { elasticity,     values.density,    youngs_modulus, values.importance,
+               std::move(own), lambda_of_patches, grain,          0.,
+               is_orthotropic };
+    }
+
+    /// Behind Lame's constants those of the law that any C needs.
+    std::array<double, 22>
+    stiffness(const CellConstants &of_cell, const GrainAxes &axes)
+    {
+      const Orthotropy       grain   = of_cell.grain.without(of_cell.lambda_of_others);
+      const auto             entries = grain.entries(axes);
+      std::array<double, 22> numbers;
+      numbers[0] = grain.least();
+      std::copy(entries.begin(), entries.end(), numbers.begin() + 1);
+      return numbers;
+    }
   } // namespace
 
   Material::Material(const MaterialParameters        &parameters,
@@ -102,7 +135,7 @@ namespace Exemplar
       : constants_of_cell(material_ids.size(), 0), axes(std::move(axes_of_cells))
   {
     std::vector<ElasticConstants> bases{ parameters.everywhere };
-    add(parameters.everywhere, shared_own(parameters.everywhere));
+    constants.push_back(constants_of(parameters.everywhere, shared_own(parameters.everywhere)));
     const std::set<unsigned int> ids(material_ids.begin(), material_ids.end());
     for (const auto &[id, region] : regions_by_id(parameters, names))
     {
@@ -119,7 +152,7 @@ namespace Exemplar
                         "Physical Volume that tag, or rename the subsection.",
                         MaterialParameters::region_name(id), id, present));
       }
-      add(region, shared_own(region));
+      constants.push_back(constants_of(region, shared_own(region)));
       bases.push_back(region);
     }
     if (!painted.youngs_modulus.values.empty() || !painted.poissons_ratio.values.empty()
@@ -129,57 +162,27 @@ namespace Exemplar
   }
 
   void
-  Material::add(const ElasticConstants &values, std::shared_ptr<const OwnConstants> own)
-  {
-    CellMaterial<double> elasticity     = elasticity_of(values);
-    double               youngs_modulus = values.youngs_modulus;
-    const Orthotropy     grain          = grain_of(values, elasticity);
-    const bool           is_orthotropic = !values.orthotropy.empty();
-    if (is_orthotropic)
-    {
-      elasticity               = grain.isotropic_part();
-      const auto &[lambda, mu] = elasticity;
-      youngs_modulus           = mu * (3. * lambda + 2. * mu) / (lambda + mu);
-    }
-    const double lambda_of_patches
-        = values.has_grain() ? grain.lambda_of_patches() : elasticity.lambda;
-    constants.push_back({ elasticity, values.density, youngs_modulus, values.importance,
-                          std::move(own), lambda_of_patches, grain, 0., is_orthotropic });
-  }
-
-  void
   Material::find_stiffnesses()
   {
-    const bool is_any = std::any_of(constants.begin(), constants.end(),
-                                    [](const Constants &values) { return values.is_orthotropic; });
+    const bool is_any
+        = std::any_of(constants.begin(), constants.end(),
+                      [](const CellConstants &values) { return values.is_orthotropic; });
     stiffnesses.resize(is_any ? constants_of_cell.size() : 0);
     for (unsigned int cell = 0; cell < stiffnesses.size(); ++cell)
-      stiffnesses[cell] = stiffness(cell);
-  }
-
-  std::array<double, 22>
-  Material::stiffness(const unsigned int cell) const
-  {
-    const Constants       &of_cell = constants[constants_of_cell[cell]];
-    const Orthotropy       grain   = of_cell.grain.without(of_cell.lambda_of_others);
-    const auto             entries = grain.entries(axes.empty() ? GrainAxes() : axes[cell]);
-    std::array<double, 22> numbers;
-    numbers[0] = grain.least();
-    std::copy(entries.begin(), entries.end(), numbers.begin() + 1);
-    return numbers;
+      stiffnesses[cell] = stiffness(constants[constants_of_cell[cell]], grain_axes(cell));
   }
 
   bool
   Material::importance_varies() const
   {
     return std::any_of(constants.begin(), constants.end(),
-                       [](const Constants &values) { return values.importance != 1.; });
+                       [](const CellConstants &values) { return values.importance != 1.; });
   }
 
   double
   Material::norm_estimate(const unsigned int cell) const
   {
-    const Constants &of_cell = constants[constants_of_cell[cell]];
+    const CellConstants &of_cell = constants[constants_of_cell[cell]];
     return of_cell.elasticity.norm_estimate() + of_cell.grain.norm_of_grain();
   }
 
@@ -198,7 +201,7 @@ namespace Exemplar
       apply(painted.density, cell, values.density);
       apply(painted.importance, cell, values.importance);
       check_constants(values, cell, " map");
-      add(values, own[constants_of_cell[cell]]);
+      constants.push_back(constants_of(values, own[constants_of_cell[cell]]));
       constants_of_cell[cell] = cell;
     }
   }
@@ -206,12 +209,13 @@ namespace Exemplar
   double
   Material::number(const CellLaw law, const unsigned int cell, const std::size_t k) const
   {
-    const Constants      &of_cell = constants[constants_of_cell[cell]];
+    const CellConstants  &of_cell = constants[constants_of_cell[cell]];
     constexpr std::size_t n       = CellMaterial<double>::n_numbers;
     if (k < n)
       return of_cell.elasticity.number(k);
     if (law == CellLaw::anisotropic)
-      return (stiffnesses.empty() ? stiffness(cell) : stiffnesses[cell])[k - n];
+      return (stiffnesses.empty() ? stiffness(of_cell, grain_axes(cell))
+                                  : stiffnesses[cell])[k - n];
     const std::vector<LawConstant> own = own_constants(law);
     if (k < n + own.size())
       return of_cell.own->at(own[k - n].name);
@@ -260,9 +264,9 @@ namespace Exemplar
     const OwnConstants *own = nullptr; // that `values` has
     for (unsigned int cell = 0; cell < constants_of_cell.size(); ++cell)
     {
-      const Constants &before = constants[constants_of_cell[cell]];
-      const double     lambda = before.elasticity.lambda, mu = before.elasticity.mu;
-      const double     nu = lambda / (2. * (lambda + mu));
+      const CellConstants &before = constants[constants_of_cell[cell]];
+      const double         lambda = before.elasticity.lambda, mu = before.elasticity.mu;
+      const double         nu = lambda / (2. * (lambda + mu));
       if (own != before.own.get())
         values.own = *(own = before.own.get());
       values.youngs_modulus = changed_to(changed.youngs_modulus, cell, before.youngs_modulus);
@@ -271,7 +275,7 @@ namespace Exemplar
       values.importance     = before.importance;
       check_constants(values, cell, "");
       result.constants_of_cell.push_back(cell);
-      result.add(values, before.own);
+      result.constants.push_back(constants_of(values, before.own));
       if (changed.youngs_modulus.empty() && changed.poissons_ratio.empty())
       {
         result.constants.back()         = before; // to the last digit
@@ -289,7 +293,7 @@ namespace Exemplar
   Material::without_dilatation() const
   {
     Material rest = *this;
-    for (Constants &values : rest.constants)
+    for (CellConstants &values : rest.constants)
     {
       const double lambda = values.lambda_of_patches;
       if (values.elasticity.lambda == lambda)

@@ -10,14 +10,18 @@
 
 namespace Exemplar
 {
-  Orthotropy
-  Material::elasticity_of_examples(const Constants &body) const
+  namespace
   {
-    const auto &[lambda, mu] = body.elasticity;
-    const double E           = of_examples.youngs_modulus.value_or(body.youngs_modulus);
-    const double nu          = of_examples.poissons_ratio.value_or(lambda / (2. * (lambda + mu)));
-    return Orthotropy({ E * nu / ((1. + nu) * (1. - 2. * nu)), E / (2. * (1. + nu)) }, 0.);
-  }
+    /// C_e of a cell of which these are the constants without examples.
+    Orthotropy
+    elasticity_for(const CellConstants &body, const ExampleElasticity &own)
+    {
+      const auto &[lambda, mu] = body.elasticity;
+      const double E           = own.youngs_modulus.value_or(body.youngs_modulus);
+      const double nu          = own.poissons_ratio.value_or(lambda / (2. * (lambda + mu)));
+      return Orthotropy({ E * nu / ((1. + nu) * (1. - 2. * nu)), E / (2. * (1. + nu)) }, 0.);
+    }
+  } // namespace
 
   Material
   Material::with_examples(const ExampleElasticity &own, const double importance) const
@@ -30,13 +34,13 @@ namespace Exemplar
     const char *const alpha = Fibrous<double>::own_constants[0].name;
     for (std::size_t i = 0; i < result.constants.size(); ++i)
     {
-      const Constants &body     = result.of_body[i];
-      Constants       &values   = result.constants[i];
-      const double     eta      = importance * body.importance;
-      const double     fibres   = body.own->at(alpha);
-      const Orthotropy examples = result.elasticity_of_examples(body);
-      const auto       wish     = examples.isotropic_part();
-      values.grain              = body.grain.sum(1. - eta, eta, examples);
+      const CellConstants &body     = result.of_body[i];
+      CellConstants       &values   = result.constants[i];
+      const double         eta      = importance * body.importance;
+      const double         fibres   = body.own->at(alpha);
+      const Orthotropy     examples = elasticity_for(body, own);
+      const auto           wish     = examples.isotropic_part();
+      values.grain                  = body.grain.sum(1. - eta, eta, examples);
       if (fibres > 0.)
       {
         OwnConstants changed = *body.own;
@@ -59,50 +63,56 @@ namespace Exemplar
   Material::BodyConstants
   Material::of_body_alone(const unsigned int cell) const
   {
-    const unsigned int i     = constants_of_cell[cell];
-    const Constants   &body  = has_elasticity_of_examples() ? of_body[i] : constants[i];
-    const auto &[lambda, mu] = body.elasticity;
-    const char *const alpha  = Fibrous<double>::own_constants[0].name;
+    const unsigned int   i    = constants_of_cell[cell];
+    const CellConstants &body = has_elasticity_of_examples() ? of_body[i] : constants[i];
+    const auto &[lambda, mu]  = body.elasticity;
+    const char *const alpha   = Fibrous<double>::own_constants[0].name;
     return { body.youngs_modulus, lambda / (2. * (lambda + mu)), body.own->at(alpha),
              body.is_orthotropic };
   }
 
-  Material::Parts
-  Material::parts(const unsigned int cell) const
+  BlendedElasticity::BlendedElasticity(const CellConstants     &constants,
+                                       const ExampleElasticity &of_examples,
+                                       const double             importance,
+                                       const GrainAxes         &axes)
+      : body(constants.grain), examples(elasticity_for(constants, of_examples)),
+        eta(importance), axes(axes),
+        body_is_isotropic(!constants.is_orthotropic && !(constants.grain.norm_of_grain() > 0.))
   {
-    const Constants &body = of_body[constants_of_cell[cell]];
-    return { body.grain, elasticity_of_examples(body), importance_there * body.importance,
-             axes.empty() ? GrainAxes() : axes[cell] };
+  }
+
+  BlendedElasticity
+  Material::blend(const unsigned int cell) const
+  {
+    const CellConstants &body = of_body[constants_of_cell[cell]];
+    return { body, of_examples, importance_there * body.importance, grain_axes(cell) };
   }
 
   Matrix3<double>
-  Material::drawn_strain(const unsigned int cell, const Matrix3<double> &E) const
+  BlendedElasticity::drawn_strain(const Matrix3<double> &E) const
   {
-    const auto [body, examples, eta, axes_of_cell] = parts(cell);
     return body.sum(1. - eta, eta, examples)
-        .strain(axes_of_cell, combine(eta, examples.stress(axes_of_cell, E), 0., E));
+        .strain(axes, combine(eta, examples.stress(axes, E), 0., E));
   }
 
   Matrix3<double>
-  Material::excess_stress(const unsigned int cell, const Matrix3<double> &D) const
+  BlendedElasticity::excess_stress(const Matrix3<double> &D) const
   {
-    const auto [body, examples, eta, axes_of_cell] = parts(cell);
     if (!(eta > 0.))
       return {};
-    const Matrix3<double> E = examples.strain(axes_of_cell, body.stress(axes_of_cell, D));
-    const Matrix3<double> T = body.sum(1. - eta, eta, examples).stress(axes_of_cell, E);
+    const Matrix3<double> E = examples.strain(axes, body.stress(axes, D));
+    const Matrix3<double> T = body.sum(1. - eta, eta, examples).stress(axes, E);
     return combine((1. - eta) / eta, T, 0., T);
   }
 
   double
-  Material::excess_of_patches(const unsigned int cell) const
+  BlendedElasticity::excess_of_patches() const
   {
-    const Constants &body = of_body[constants_of_cell[cell]];
-    if (body.is_orthotropic || body.grain.norm_of_grain() > 0.)
+    if (!body_is_isotropic)
       return 0.;
     // an isotropic tensor makes lambda of a stretch, across it
     Matrix3<double> stretch{};
     stretch[0][0] = 1.;
-    return excess_stress(cell, stretch)[1][1];
+    return excess_stress(stretch)[1][1];
   }
 } // namespace Exemplar

@@ -203,7 +203,7 @@ namespace Exemplar
   starts_text(const Problem &problem)
   {
     std::string text;
-    for (const ExampleStart &start : problem.get_starts())
+    for (const ExampleStart &start : problem.examples.starts)
       text += fmt::format("From {}: {}{}\n", start.from,
                           is_success(start.status) ? fmt::format("{:.6g} J", start.energy)
                                                    : status_name(start.status),

@@ -211,7 +211,7 @@ namespace Exemplar::Python
     }
     catch (...)
     {
-      if (get().get_own_terms().size() < terms.size())
+      if (get().actions.own_terms.size() < terms.size())
         terms.pop_back();
       throw;
     }

@@ -7,6 +7,7 @@
 #include <exemplar/python/held_problem.h>
 #include <exemplar/python/step_log.h>
 #include <exemplar/python/unlocked_work.h>
+#include <exemplar/run/adjoint/functional.h>
 #include <exemplar/run/problem/idle_review.h>
 #include <exemplar/run/problem/motion_review.h>
 #include <exemplar/run/problem/scene_review.h>
@@ -88,6 +89,7 @@ namespace Exemplar::Python
         initial(save_state(*problem, {})), review(*problem)
   {
     problem->solver->observe = [this](const SolveReport &iteration) { return observe(iteration); };
+    require_functional(*problem);
     warn(problem->warnings());
     warn(unit_warnings(*problem));
     warn(scene_warnings(*problem));

@@ -53,7 +53,7 @@ namespace Exemplar::Python
       digest.add(parameters.time.stiffness_damping);
       digest.add(problem.examples.poses.size() == 0 ? 0. : parameters.examples.importance);
       digest.add_all(parameters.loads.gravity);
-      digest.add(static_cast<double>(problem.get_own_terms().size()));
+      digest.add(static_cast<double>(problem.actions.own_terms.size()));
       digest.add_all(problem.constraints.free_dofs.list());
       digest.add_all(problem.body.fe_space.rest_positions());
       for (unsigned int i = 0; i < problem.examples.poses.size(); ++i)

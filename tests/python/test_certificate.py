@@ -91,6 +91,8 @@ class Corrections(unittest.TestCase):
             problem.correction(np.zeros(3))
         with self.assertRaisesRegex(TypeError, "correction is called"):
             problem.correction()
+        with self.assertRaisesRegex(exemplar.UserError, "Output/Functional = 'reaction_nose_x' is not allowed: no handle is called 'nose'"):
+            exemplar.Problem({**BENT, "Output": {"Functional": "reaction_nose_x"}})
 
 
 if __name__ == "__main__":

@@ -3,8 +3,7 @@
 
 import re
 
-from exemplar_runner import BAR, prm, write_msh
-from served import ServedTest
+from exemplar_runner import BAR, SceneTest, prm, write_msh
 
 DYNAMIC = {**BAR, "Scene": "dynamic", "Time/Increments": None, "Time/Step": "0.1", "Time/End": "0.2"}
 FILE = {**BAR, "Mesh/Generator": None, "Mesh/Box size": None, "Mesh/Box cells": None}
@@ -14,7 +13,7 @@ NO_MESSAGE = re.compile(r"-----|terminate|what\(\)|std::|dealii|Exemplar::|An er
                         r"filesystem error|backtrace|\(core dumped\)")
 
 
-class BadInputTest(ServedTest):
+class BadInputTest(SceneTest):
     def setUp(self):
         super().setUp()
         for name in ("a directory", "broken"):

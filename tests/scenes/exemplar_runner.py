@@ -4,6 +4,7 @@
 The binary is named by the environment variable EXEMPLAR.
 """
 
+import atexit
 import base64
 import csv
 import functools
@@ -22,6 +23,9 @@ from math import cos, pi, sin
 from pathlib import Path
 
 REPOSITORY = Path(__file__).resolve().parents[2]
+sys.path.append(str(REPOSITORY / "tests/fuzz"))
+from fork_server import ForkServer  # noqa: E402
+
 EXEMPLAR = os.path.abspath(os.environ.get("EXEMPLAR", REPOSITORY / "build/release/exemplar"))
 
 # A bar along x of 2 bricks, held at x = 0, under its weight.
@@ -157,6 +161,31 @@ def bent(x, y, z, angle=pi):
     return (r - z) * sin(x / r), y, r - (r - z) * cos(x / r)
 
 
+@functools.lru_cache(maxsize=None)
+def fork_server():
+    """FORK_SERVER names the library of fork_server.cc, with which the program need not be linked anew for each run; None without
+    it."""
+    library = os.environ.get("FORK_SERVER")
+    if not library:
+        return None
+    server = ForkServer(EXEMPLAR, library)
+    atexit.register(server.close)
+    return server
+
+
+# What libraries read when they are loaded.
+READ_BY_LIBRARIES = ("LD_", "OMP_", "GOMP_", "OPENBLAS_", "MALLOC_")
+
+
+def serve(words, cwd, environment, timeout=300):
+    """As call_program(), of a program that is linked already; None where that cannot be."""
+    server = fork_server()
+    if server is None or "" in words or any(name.startswith(READ_BY_LIBRARIES) for name in environment):
+        return None
+    status, stdout, stderr = server.run(words, cwd, {**os.environ, **environment}, None, 1 << 50, timeout)
+    return Run(status, stdout.decode(), own_words(stderr.decode()), None)
+
+
 class SceneTest(unittest.TestCase):
     """Every test has a temporary working directory of its own."""
 
@@ -174,7 +203,8 @@ class SceneTest(unittest.TestCase):
 
     def call(self, *arguments, **environment):
         """Run the program as it is called, with changes to the environment."""
-        return run_program(*arguments, cwd=self.directory, timeout=300, environment=environment)
+        return (serve([str(argument) for argument in arguments], self.directory, environment)
+                or run_program(*arguments, cwd=self.directory, timeout=300, environment=environment))
 
     def attempt(self, scene, *arguments, output="out", file="scene.prm"):
         """Run a scene, given as text or as a dictionary of keys."""

@@ -9,8 +9,7 @@ import unittest
 
 import surfaces
 from bad_inputs import NO_MESSAGE
-from exemplar_runner import bent, prm
-from served import ServedTest
+from exemplar_runner import SceneTest, bent, prm
 from surfaces import cube, joined, moved
 from test_surface_scenes import bar, write_ply
 
@@ -153,7 +152,7 @@ NO_BODIES = {
 }
 
 
-class BadSurfaces(ServedTest):
+class BadSurfaces(SceneTest):
     def setUp(self):
         super().setUp()
         self.environment = {"XDG_CACHE_HOME": str(self.directory / "cache")}

@@ -3,38 +3,18 @@
 #define exemplar_handles_h
 
 #include <exemplar/body/fe_space.h>
-#include <exemplar/body/handle_nodes.h>
-#include <exemplar/body/handle_parameters.h>
+#include <exemplar/body/handle.h>
 #include <exemplar/body/time_axis.h>
 #include <exemplar/mesh/mesh.h>
-#include <exemplar/mesh/rigid_motion.h>
-#include <exemplar/prm/expression.h>
 
 #include <deal.II/lac/vector.h>
 
-#include <functional>
 #include <map>
-#include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
 namespace Exemplar
 {
-  /// A turn of points of which each moves on a straight line, so that they are crushed
-  /// towards the axis on the way.
-  struct StraightTurn
-  {
-    double angle;    ///< [rad], 0 if there is no such turn
-    double min_size; ///< relative to that at the nearer end of the way
-  };
-
-  /// Look for a straight turn in the places that points take one after the other,
-  /// starting at `rest`; each of `places` has as many as `rest`.
-  StraightTurn
-  find_straight_turn(const std::vector<dealii::Point<3>>              &rest,
-                     const std::vector<std::vector<dealii::Point<3>>> &places);
-
   /// By the names of handles.
   using NamedMotions = std::map<std::string, Motion>;
 
@@ -163,48 +143,7 @@ namespace Exemplar
     }
 
   private:
-    /// Nodes of this process that move together, and how.
-    struct Handle
-    {
-      std::string               name;
-      std::vector<unsigned int> nodes;
-      std::vector<unsigned int> components;
-      Expression                motion;
-      Expression                progress; ///< on the path, if there is one
-      std::optional<RigidPath>  path;     ///< of all of the handle to the pose that is followed
-      Motion                    function; ///< a program's, instead of all these
-      HoldingTime               time  = {};
-      bool                      holds = true;
-
-      /// What it holds now: its nodes, or none.
-      const std::vector<unsigned int> &
-      held_nodes() const
-      {
-        static const std::vector<unsigned int> none;
-        return holds ? nodes : none;
-      }
-
-      std::vector<unsigned int> places_in_path = {}; ///< of each node, among those of all processes
-
-      /// How far caught nodes are from where their motion would have them; empty if none are caught.
-      std::vector<dealii::Tensor<1, 3>> offsets = {};
-
-      /// The angle [rad] by which `motion` turns points of the handle as a rigid body from one time to
-      /// another, to and fro summed up.
-      double
-      turn_between(const std::vector<dealii::Point<3>> &rest, double begin, double end) const;
-
-      /// Of `nodes`, which are at `rest` at rest, at time t [s], by the motion alone.
-      std::vector<dealii::Tensor<1, 3>>
-      displacements(const std::vector<dealii::Point<3>> &rest, double time) const;
-    };
-
     using Displacements = std::vector<std::vector<dealii::Tensor<1, 3>>>;
-
-    Handle
-    make_handle(const HandleParameters &parameters,
-                const NamedPoses       &poses,
-                const NamedNodes       &nodes) const;
 
     /// Throws UserError if no handle has this name.
     Handle &
@@ -219,41 +158,9 @@ namespace Exemplar
     void
     check_overlaps(const TimeAxis &axis);
 
-    /// Throws UserError if a handle shares what it has caught with another one.
-    void
-    refuse_shared_catches(double time) const;
-
-    /// Warn of handles that hold in no step.
-    void
-    look_for_idle_times(const TimeAxis &axis);
-
-    std::vector<dealii::Point<3>>
-    rest_positions(const Handle &handle) const;
-
-    /// Nodes that more than one handle holds.
-    std::set<unsigned int>
-    shared_nodes() const;
-
     /// Of all handles at time t [s].
     Displacements
     displacements(double time) const;
-
-    void
-    check_agreement(const std::set<unsigned int> &shared,
-                    const Displacements          &displacements,
-                    double                        time) const;
-
-    /// Fill `warnings`.
-    void
-    look_for_straight_turns(const TimeAxis &axis);
-
-    /// Fill `warnings`.
-    void
-    look_for_large_turns(const TimeAxis &axis);
-
-    /// Warn of poses that are followed far beyond their place.
-    void
-    look_for_progress_beyond(const TimeAxis &axis);
 
     const Mesh              &mesh;
     const FESpace           &fe_space;

@@ -42,6 +42,70 @@ namespace Exemplar
     std::vector<double> density;        ///< [kg/m^3]
   };
 
+  /// The constants of a region, or of a cell where they are painted.
+  struct CellConstants
+  {
+    CellMaterial<double>                elasticity;
+    double                              density;
+    double                              youngs_modulus;
+    double                              importance;        ///< factor of Examples/Importance
+    std::shared_ptr<const OwnConstants> own;               ///< mostly the same in many cells
+    double                              lambda_of_patches; ///< [Pa]
+    Orthotropy                          grain;             ///< all of C, in the cell's axes
+    double                              lambda_of_others;  ///< what of it patches have taken [Pa]
+    bool                                is_orthotropic;    ///< by nine constants
+
+    template <typename Archive>
+    void
+    serialize(Archive &archive, unsigned int /*version*/)
+    {
+      OwnConstants numbers;
+      if constexpr (Archive::is_saving::value)
+        numbers = *own;
+      archive &elasticity.lambda &elasticity.mu &density &youngs_modulus &importance &numbers
+          &lambda_of_patches &grain &lambda_of_others &is_orthotropic;
+      if constexpr (Archive::is_loading::value)
+        own = std::make_shared<const OwnConstants>(std::move(numbers));
+    }
+  };
+
+  /// C and C_e of a cell of which the examples have an elasticity of their own, and the eta with which they
+  /// are summed up to C' = (1 - eta) C + eta C_e, Eq. (38).
+  class BlendedElasticity
+  {
+  public:
+    BlendedElasticity(const CellConstants     &body,
+                      const ExampleElasticity &of_examples,
+                      double                   eta,
+                      const GrainAxes         &axes);
+
+    /// C_e.
+    const Orthotropy &
+    of_examples() const
+    {
+      return examples;
+    }
+
+    /// C'^-1:eta C_e:E, the strain to which the strain E of an example draws the cell.
+    Matrix3<double>
+    drawn_strain(const Matrix3<double> &E) const;
+
+    /// Of such a strain D, by how much the energy of the examples is greater than that of D:
+    /// (1 - eta) / eta C':C_e^-1:C:D [Pa]; 0 where eta is 0.
+    Matrix3<double>
+    excess_stress(const Matrix3<double> &D) const;
+
+    /// What patches take of that: lambda of an isotropic material, 0 of another one [Pa].
+    double
+    excess_of_patches() const;
+
+  private:
+    Orthotropy body, examples;
+    double     eta;
+    GrainAxes  axes;
+    bool       body_is_isotropic;
+  };
+
   /// The elastic constants and the density of each cell.
   class Material
   {
@@ -73,15 +137,6 @@ namespace Exemplar
     {
       return constants[constants_of_cell[cell]].lambda_of_patches;
     }
-
-    /// The part of a strain that a pressure makes; the rest changes no volume, and the two add up in
-    /// energy.
-    Matrix3<double>
-    part_of_pressure(unsigned int cell, const Matrix3<double> &strain) const;
-
-    /// The part that a tension along the fibres makes; the rest has no stretch along them. 0 without fibres.
-    Matrix3<double>
-    part_of_tension(unsigned int cell, const Matrix3<double> &strain) const;
 
     /// An estimate of the norm of C [Pa].
     double
@@ -116,18 +171,9 @@ namespace Exemplar
       return of_examples.is_own();
     }
 
-    /// Of such a sum C': the strain C'^-1:eta C_e:E to which the strain E of an example draws a cell.
-    Matrix3<double>
-    drawn_strain(unsigned int cell, const Matrix3<double> &E) const;
-
-    /// Of such a sum and such a strain D = C'^-1:eta C_e:E, by how much the energy of the examples is greater
-    /// than that of D: (1 - eta) / eta C':C_e^-1:C:D [Pa], where C is that of the body; 0 where eta is 0.
-    Matrix3<double>
-    excess_stress(unsigned int cell, const Matrix3<double> &D) const;
-
-    /// What patches take of that: lambda of an isotropic material, 0 of another one [Pa].
-    double
-    excess_of_patches(unsigned int cell) const;
+    /// Only then.
+    BlendedElasticity
+    blend(unsigned int cell) const;
 
     /// What is left of it in cells of which the volume part of the energy is that of patches.
     Material
@@ -186,6 +232,13 @@ namespace Exemplar
       return of_examples;
     }
 
+    /// All of C, in the axes of its grain.
+    const Orthotropy &
+    grain(const unsigned int cell) const
+    {
+      return constants[constants_of_cell[cell]].grain;
+    }
+
     /// Zeros where nothing asks for them.
     GrainAxes
     grain_axes(const unsigned int cell) const
@@ -201,67 +254,18 @@ namespace Exemplar
     }
 
   private:
-    /// The constants of a region, or of a cell where they are painted.
-    struct Constants
-    {
-      CellMaterial<double>                elasticity;
-      double                              density;
-      double                              youngs_modulus;
-      double                              importance;        ///< factor of Examples/Importance
-      std::shared_ptr<const OwnConstants> own;               ///< mostly the same in many cells
-      double                              lambda_of_patches; ///< [Pa]
-      Orthotropy                          grain;             ///< all of C, in the cell's axes
-      double                              lambda_of_others;  ///< what of it patches have taken [Pa]
-      bool                                is_orthotropic;    ///< by nine constants
-
-      template <typename Archive>
-      void
-      serialize(Archive &archive, unsigned int /*version*/)
-      {
-        OwnConstants numbers;
-        if constexpr (Archive::is_saving::value)
-          numbers = *own;
-        archive &elasticity.lambda &elasticity.mu &density &youngs_modulus &importance &numbers
-            &lambda_of_patches &grain &lambda_of_others &is_orthotropic;
-        if constexpr (Archive::is_loading::value)
-          own = std::make_shared<const OwnConstants>(std::move(numbers));
-      }
-    };
-
-    /// `own` are those of `values`.
-    void
-    add(const ElasticConstants &values, std::shared_ptr<const OwnConstants> own);
-
-    /// C and C_e of a cell, and the eta with which they are summed up.
-    struct Parts
-    {
-      Orthotropy body, examples;
-      double     eta;
-      GrainAxes  axes;
-    };
-
-    Parts
-    parts(unsigned int cell) const;
-
-    /// Of these constants of the body.
-    Orthotropy
-    elasticity_of_examples(const Constants &body) const;
-
     /// Of the law that any C needs: its constants behind Lamé's.
     void
     find_stiffnesses();
-
-    std::array<double, 22>
-    stiffness(unsigned int cell) const;
 
     /// Give each cell constants of its own, from `bases`, those of each entry of `constants`.
     void
     paint(const PaintedMaterial &painted, const std::vector<ElasticConstants> &bases);
 
-    std::vector<Constants>              constants;
+    std::vector<CellConstants>          constants;
     ExampleElasticity                   of_examples;           ///< where it is their own
     double                              importance_there = 0.; ///< then
-    std::vector<Constants>              of_body; ///< then, without the examples; else empty
+    std::vector<CellConstants>          of_body; ///< then, without the examples; else empty
     std::vector<unsigned int>           constants_of_cell;
     std::vector<GrainAxes>              axes;        ///< by cell; empty: isotropic
     std::vector<std::array<double, 22>> stiffnesses; ///< by cell; empty: none is orthotropic

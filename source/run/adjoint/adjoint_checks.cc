@@ -68,7 +68,7 @@ namespace Exemplar
   {
     if (problem.body.exchange().n_processes() > 1)
       refuse("for several processes", "Use one.");
-    if (!problem.get_own_terms().empty())
+    if (!problem.actions.own_terms.empty())
       refuse("of terms that were added to the potential", "Make the problem without add_term().");
     if (!problem.actions.initial_stresses.empty())
       refuse("of balanced bodies, whose initial stresses depend on all that they are made of",

@@ -97,15 +97,16 @@ namespace Exemplar
   }
 
   void
-  require_finite(const Gradients &found)
+  require_finite(const Gradients &found, const double sum_of_others)
   {
     const auto is_finite = [](const auto &numbers)
     {
       return std::all_of(numbers.begin(), numbers.end(),
                          [](const double x) { return std::isfinite(x); });
     };
-    bool all = is_finite(found.density) && is_finite(found.handles) && is_finite(found.nodal_forces)
-               && is_finite(found.gravity) && std::isfinite(found.importance.value_or(0.));
+    bool all = std::isfinite(sum_of_others) && is_finite(found.density) && is_finite(found.handles)
+               && is_finite(found.nodal_forces) && is_finite(found.gravity)
+               && std::isfinite(found.importance.value_or(0.));
     for (const auto *numbers : { &found.young, &found.poisson })
       all = all && (!*numbers || is_finite(**numbers));
     for (const Vector &pose : found.poses)

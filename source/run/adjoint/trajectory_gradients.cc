@@ -115,12 +115,14 @@ namespace Exemplar
       {
         for (unsigned int i = steps.size(); i-- > 0;)
           add_step(i);
-        result.all = gradients_of(problem, sums());
-        require_finite(result.all);
+        result.all         = gradients_of(problem, sums());
         result.all.handles = zeros();
         for (const std::vector<double> &of_step : result.handles)
           for (std::size_t i = 0; i < of_step.size(); ++i)
             result.all.handles[3 * result.held_nodes[i / 3] + i % 3] += of_step[i];
+        require_finite(result.all, by_mass_damping + by_stiffness_damping
+                                       + carried[0].positions.l1_norm()
+                                       + carried[0].velocities.l1_norm());
         if (is_dynamic)
         {
           result.mass_damping       = -by_mass_damping;

@@ -42,8 +42,9 @@ namespace Exemplar
     const OutputParameters &output = problem.parameters.output;
     for (const std::string &name : output.formats)
       if (const FrameFormat &format = find_format(name, formats); output.every > 0)
-        writers.emplace_back(&format, format.make_writer({ problem.body.mesh, problem.body.fe_space,
-                                                           problem.surface.get(), playback() }));
+        writers.emplace_back(&format,
+                             format.make_writer({ problem.body.mesh, problem.body.fe_space,
+                                                  problem.body.surface.get(), playback() }));
   }
 
   Playback
@@ -65,7 +66,7 @@ namespace Exemplar
     const SceneParameters &scene = problem.parameters;
     if (!scene.output.shows_surface())
       return nullptr;
-    return std::make_unique<const SurfaceSkin>(*problem.surface, problem.body.mesh,
+    return std::make_unique<const SurfaceSkin>(*problem.body.surface, problem.body.mesh,
                                                scene.mesh.surface_file());
   }
 
@@ -98,7 +99,7 @@ namespace Exemplar
   {
     if (skin == nullptr)
       return;
-    const std::string faces = obj_faces(*problem.surface);
+    const std::string faces = obj_faces(*problem.body.surface);
     const auto        write = [&](const std::string &name, const Vector &displacement)
     {
       AtomicFile file(directory.get_path() / (name + ".obj"));
@@ -162,8 +163,8 @@ namespace Exemplar
       const auto pieces = format->names_of_pieces(frame.step, exchange.n_processes());
       directory.do_inside([&, &by = *writer]
                           { by.write(frame, path / pieces[exchange.process()]); });
-      const auto join = [&, &of = *format]
-      { of.join(frame, pieces, path / of.joint_name(frame.step)); };
+      const auto join
+          = [&, &of = *format] { of.join(frame, pieces, path / of.joint_name(frame.step)); };
       if (pieces.size() > 1)
         at_root(exchange, [&] { directory.do_inside(join); });
     }

@@ -220,7 +220,7 @@ namespace Exemplar
               json["status"]         = status;
               json["warnings"]       = warnings_of(warnings);
               json["worst_residual"] = totals.worst_residual;
-              for (const ExampleStart &start : problem.get_starts())
+              for (const ExampleStart &start : problem.examples.starts)
                 json["starts"].push_back({ { "from", printable(start.from) },
                                            { "status", status_name(start.status) },
                                            { "energy", start.energy },

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/run/problem/problem.h>
+#include <exemplar/run/problem/example_starts.h>
 
 #include <algorithm>
 #include <cmath>
-
-// A body with examples has an equilibrium near each of them, and steps find that which the way leads to. Here
-// others are looked for, from the examples themselves.
 
 namespace Exemplar
 {
@@ -28,58 +25,68 @@ namespace Exemplar
         all[i] = 1.;
       return all;
     }
+    /// An example with the held nodes where they are in `end`, and the weight 1 of its own.
+    State
+    at_example(const Problem &problem, const unsigned int i, const State &end)
+    {
+      const ExamplePoses &poses = problem.examples.poses;
+      State               at    = end;
+      at.positions              = poses.pose(i);
+      at.weights                = weight_of(i, problem.examples.weights);
+      align_at(problem.constraints.handles.held_dofs(), end.positions, at.positions,
+               problem.body.exchange());
+      problem.constraints.handles.move(end.time, at.positions);
+      return at;
+    }
   } // namespace
 
-  State
-  Problem::at_example(const unsigned int i, const State &end) const
-  {
-    State at     = end;
-    at.positions = examples.poses.pose(i);
-    at.weights   = weight_of(i, examples.weights);
-    align_at(constraints.handles.held_dofs(), end.positions, at.positions, body.exchange());
-    constraints.handles.move(end.time, at.positions);
-    return at;
-  }
-
   std::optional<ExampleStart>
-  Problem::missed_example()
+  missed_example(Problem &problem)
   {
+    IncrementalPotential       &potential = problem.potential;
+    const Examples             &examples  = problem.examples;
     std::optional<ExampleStart> best;
     const CellBatches          &batches = potential.get_cells().get_field().get_batches();
-    if (parameters.scene != SceneKind::statics || examples.weights.n_unknown() == 0
-        || batches.remembers() || potential.dissipates() || !starts.empty())
+    if (problem.parameters.scene != SceneKind::statics || examples.weights.n_unknown() == 0
+        || batches.remembers() || potential.dissipates() || !examples.starts.empty())
       return best;
     for (unsigned int i = 0; i < examples.poses.size(); ++i)
     {
-      State      at = at_example(i, state);
+      State      at = at_example(problem, i, problem.state);
       Evaluation of_example;
       potential.minimize_over_weights(at, RotationUse::update, of_example);
       if (const double energy = of_example.potential;
-          is_clearly_less(energy, best ? best->energy : evaluation.potential, body))
+          is_clearly_less(energy, best ? best->energy : problem.evaluation.potential, problem.body))
         best = { examples.poses.name(i), SolveStatus::initial, energy, false };
     }
-    start(state); // the rotations are its own again
+    problem.start(problem.state); // the rotations are its own again
     return best;
   }
 
   void
-  Problem::start_from_examples(State &end, const StepInterval &interval, SolveReport &report)
+  start_from_examples(Problem            &problem,
+                      State              &end,
+                      const StepInterval &interval,
+                      SolveReport        &report)
   {
-    starts           = { { "the steps", report.status, evaluation.potential, false } };
+    IncrementalPotential      &potential = problem.potential;
+    const ExamplePoses        &poses     = problem.examples.poses;
+    std::vector<ExampleStart> &starts    = problem.examples.starts;
+    starts           = { { "the steps", report.status, problem.evaluation.potential, false } };
     std::size_t kept = 0;
-    for (unsigned int i = 0; i < examples.poses.size(); ++i)
+    for (unsigned int i = 0; i < poses.size(); ++i)
     {
-      State      at = at_example(i, end);
+      State      at = at_example(problem, i, end);
       Evaluation found;
-      solver->forget(); // its factor is of other positions
+      problem.solver->forget(); // its factor is of other positions
       potential.leave_step(at);
       potential.set_time(at.time, at);
       potential.minimize_over_weights(at, RotationUse::update, found);
-      SolveReport of_example = solver->solve(at, found, interval.end, interval.size);
+      SolveReport of_example = problem.solver->solve(at, found, interval.end, interval.size);
       report.iterations += of_example.iterations;
-      starts.push_back({ examples.poses.name(i), of_example.status, found.potential, false });
+      starts.push_back({ poses.name(i), of_example.status, found.potential, false });
       if (!is_success(of_example.status)
-          || !is_clearly_less(found.potential, starts[kept].energy, body))
+          || !is_clearly_less(found.potential, starts[kept].energy, problem.body))
         continue;
       kept                  = starts.size() - 1;
       of_example.iterations = report.iterations;
@@ -87,7 +94,7 @@ namespace Exemplar
       end                   = at;
     }
     starts[kept].is_kept = true;
-    solver->forget();
-    start(end);
+    problem.solver->forget();
+    problem.start(end);
   }
 } // namespace Exemplar

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/algebra/long_vectors.h>
+#include <exemplar/base/errors.h>
 #include <exemplar/run/problem/finiteness.h>
 
 #include <cmath>
@@ -15,6 +16,15 @@ namespace Exemplar
     are_finite(const Numbers &numbers)
     {
       return max_entry(numbers.begin(), numbers.end()) < 1e150;
+    }
+
+    /// `what` is not finite in this process, or what to call it if it is in another one; empty if all
+    /// is finite in all.
+    std::string
+    agreed_by_all(const std::string &what, const Exchange &exchange)
+    {
+      const bool is_any = exchange.any(!what.empty());
+      return is_any && what.empty() ? "numbers" : what;
     }
   } // namespace
 
@@ -50,5 +60,58 @@ namespace Exemplar
     if (some_are_not(cells.plastic_strain))
       return "plastic strains";
     return "";
+  }
+
+  void
+  check_start(Problem &problem)
+  {
+    const State          &state      = problem.state;
+    const Evaluation     &evaluation = problem.evaluation;
+    IncrementalPotential &potential  = problem.potential;
+    const auto            agreed
+        = [&](const std::string &found) { return agreed_by_all(found, problem.body.exchange()); };
+    const CellResults cells = potential.get_cells().cell_results(state.positions, state.weights);
+    std::string       what  = agreed(what_is_not_finite(state, evaluation));
+    if (what.empty())
+      what = agreed(what_is_not_finite(cells));
+    if (what.empty() && problem.actions.mass != nullptr
+        && !std::isfinite(problem.actions.mass->motion_sums(state).kinetic_energy))
+      what = "kinetic energies";
+    try
+    {
+      potential.residual(state, evaluation);
+    }
+    catch (const SolverFailure &)
+    {
+      what = "forces"; // or the scales by which they are measured
+    }
+    if (!what.empty())
+      throw UserError(
+          problem.parameters.name + ": the " + what
+          + " of the initial state are not finite numbers, or too large to compute with. "
+            "Mesh/Scale, Material, Loads or Initial are too large or too small by many powers of "
+            "ten: look at their units.");
+  }
+
+  void
+  refuse_what_is_not_finite(Problem &problem, const State &next, SolveReport &report)
+  {
+    const Body &body = problem.body;
+    std::string what = std::isfinite(report.residual) ? what_is_not_finite(next, problem.evaluation)
+                                                      : "residuals";
+    // cubes of such ratios of lengths may be none, where the energies, their squares, are numbers
+    const auto maximum
+        = [&](const Vector &x) { return body.exchange().max(max_entry(x.begin(), x.end())); };
+    what = agreed_by_all(what, body.exchange());
+    if (what.empty() && !(maximum(next.positions) < 1e60 * maximum(body.fe_space.rest_positions())))
+      what = agreed_by_all(what_is_not_finite(problem.potential.get_cells().cell_results(
+                               next.positions, next.weights)),
+                           body.exchange());
+    if (what.empty())
+      return;
+    report.status  = SolveStatus::failed;
+    report.failure = "its " + what
+                     + " are not finite numbers, or too large to compute with. Take smaller steps, "
+                       "and look at what handles, loads and Initial do.";
   }
 } // namespace Exemplar

@@ -80,7 +80,7 @@ namespace Exemplar
       { "algebraic multigrid", solver_is("iterative"), {} },
       { "UMFPACK", solver_is("umfpack"), {} },
       { "quasi-Newton method", quasi_newton > 0, quasi_newton },
-      { "estimate of the error in space", problem.inputs != nullptr, {} },
+      { "estimate of the error in space", problem.body.inputs != nullptr, {} },
       { "functional", !problem.parameters.output.functional.empty(), {} },
       { "frame writer", problem.parameters.output.every > 0, {} }
     };

@@ -32,7 +32,7 @@ namespace Exemplar
                    std::vector<PotentialTerm *> &own)
     {
       PotentialTerms terms = problem.actions.make_terms(problem.body, integrator);
-      for (const Problem::OwnTerm &term : problem.get_own_terms())
+      for (const OwnTerm &term : problem.actions.own_terms)
       {
         terms.push_back(term.make());
         own.push_back(terms.back().get());
@@ -138,7 +138,7 @@ namespace Exemplar
       integrator->set_damping(problem.parameters.time.mass_damping,
                               problem.parameters.time.stiffness_damping);
     }
-    const auto &originals = problem.get_own_terms();
+    const auto &originals = problem.actions.own_terms;
     for (std::size_t i = 0; i < own_terms.size(); ++i)
       copy_memory(*originals[i].term, *own_terms[i]);
     potential.begin_step(problem.state, step.size);

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/algebra/long_vectors.h>
 #include <exemplar/base/errors.h>
-#include <exemplar/base/number_text.h>
 #include <exemplar/body/pose_checks.h>
 #include <exemplar/run/problem/balance.h>
+#include <exemplar/run/problem/example_starts.h>
 #include <exemplar/run/problem/finiteness.h>
 #include <exemplar/run/problem/initial_state.h>
 #include <exemplar/run/problem/problem.h>
@@ -11,7 +10,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
 #include <sstream>
 
 namespace Exemplar
@@ -22,6 +20,33 @@ namespace Exemplar
     /// is turned back, because the matrix becomes singular at 90 degrees. With frozen forces the
     /// body is always turned back, because what they find depends on that cell's rotation.
     constexpr double max_turn = 0.7;
+
+    /// Whether the body stands on a support of its own, which must not decide how it is turned.
+    bool
+    turns_freely(const Problem &problem)
+    {
+      return problem.constraints.support && traits_of(problem.parameters.model.law()).turns_freely;
+    }
+
+    /// Handles hold as they do in a step that begins at this time.
+    void
+    follow_time(Problem &problem, const double time)
+    {
+      if (!problem.constraints.follow_time(time, problem.parameters, problem.body))
+        return;
+      problem.potential.renew_pattern();
+      problem.solver->forget(); // what it remembers is of other unknowns
+    }
+
+    /// The path of an interpolation begins at the pose that it begins with, unless another is asked for.
+    void
+    start_interpolation(const InitialParameters &initial, const ExamplePoses &poses, State &state)
+    {
+      if (!initial.pose.empty() || !initial.pose_function.empty())
+        return;
+      const auto maximum = std::max_element(state.weights.begin(), state.weights.end());
+      state.positions    = poses.pose((maximum - state.weights.begin()) % poses.size());
+    }
   } // namespace
 
   Problem::Problem(const CompleteScene &scene, Inputs inputs, StepClock running_clock)
@@ -30,9 +55,8 @@ namespace Exemplar
   }
 
   Problem::Problem(const CompleteScene &scene, BodyInputs given, StepClock running_clock)
-      : parameters(scene), clock(std::move(running_clock)), inputs(given.undivided.inputs),
-        time_axis(make_time_axis(parameters)), body(parameters, given),
-        surface(given.undivided.surface), constraints(parameters, body, time_axis, given),
+      : parameters(scene), clock(std::move(running_clock)), time_axis(make_time_axis(parameters)),
+        body(parameters, given), constraints(parameters, body, time_axis, given),
         examples(parameters, body, time_axis, given), actions(parameters, body, given),
         potential({ laws_of_cells(parameters, body), body.fe_space, body.material,
                     body.cell_material, examples.poses, examples.weights, constraints.free_dofs,
@@ -45,7 +69,7 @@ namespace Exemplar
             potential,
             [this] { return make_bordered_system(parameters.solver, potential); },
             clock,
-            turns_freely() && !parameters.model.is_frozen()),
+            turns_freely(*this) && !parameters.model.is_frozen()),
         solver(make_step_solver(parameters.solver, potential, system, constraints.handles, clock)),
         state(initial_state(parameters.initial,
                             body.mesh,
@@ -63,43 +87,10 @@ namespace Exemplar
           std::make_unique<InitialStressTerm>(body.fe_space, actions.initial_stresses));
     }
     if (parameters.scene == SceneKind::interpolation)
-      start_interpolation();
+      start_interpolation(parameters.initial, examples.poses, state);
     state.history = potential.get_cells().get_field().get_batches().history();
     start(state);
-    check_start();
-  }
-
-  void
-  Problem::check_start()
-  {
-    const CellResults cells = potential.get_cells().cell_results(state.positions, state.weights);
-    std::string       what  = agreed(what_is_not_finite(state, evaluation));
-    if (what.empty())
-      what = agreed(what_is_not_finite(cells));
-    if (what.empty() && actions.mass != nullptr
-        && !std::isfinite(actions.mass->motion_sums(state).kinetic_energy))
-      what = "kinetic energies";
-    try
-    {
-      potential.residual(state, evaluation);
-    }
-    catch (const SolverFailure &)
-    {
-      what = "forces"; // or the scales by which they are measured
-    }
-    if (!what.empty())
-      throw UserError(
-          parameters.name + ": the " + what
-          + " of the initial state are not finite numbers, or too large to compute with. "
-            "Mesh/Scale, Material, Loads or Initial are too large or too small by many powers of "
-            "ten: look at their units.");
-  }
-
-  std::string
-  Problem::agreed(const std::string &what) const
-  {
-    const bool is_any = body.exchange().any(!what.empty());
-    return is_any && what.empty() ? "numbers" : what;
+    check_start(*this);
   }
 
   void
@@ -109,24 +100,6 @@ namespace Exemplar
     potential.leave_step(at);
     potential.set_time(at.time, at);
     potential.evaluate(at, RotationUse::update, evaluation);
-  }
-
-  void
-  Problem::start_interpolation()
-  {
-    // the path begins at the pose that it begins with, unless another is asked for
-    if (parameters.initial.pose.empty() && parameters.initial.pose_function.empty())
-    {
-      const auto maximum = std::max_element(state.weights.begin(), state.weights.end());
-      state.positions
-          = examples.poses.pose((maximum - state.weights.begin()) % examples.poses.size());
-    }
-  }
-
-  bool
-  Problem::turns_freely() const
-  {
-    return constraints.support && traits_of(parameters.model.law()).turns_freely;
   }
 
   SolveReport
@@ -139,11 +112,11 @@ namespace Exemplar
   Problem::advance(const StepInterval &interval)
   {
     check_weights(*this, interval);
-    follow_time(state.time);
+    follow_time(*this, state.time);
     constraints.handles.begin_step(state.time, state.positions);
     State next = state;
     next.step  = state.step + 1;
-    if (turns_freely()
+    if (turns_freely(*this)
         && turn_to_support(*constraints.support, parameters.model.is_frozen() ? 0. : max_turn,
                            next.positions, body.exchange()))
     {
@@ -157,14 +130,14 @@ namespace Exemplar
     {
       if (actions.integrator != nullptr)
         actions.integrator->end_step(state, next);
-      if (turns_freely())
+      if (turns_freely(*this))
       {
         align(state.positions, next.positions, body.exchange());
         start(next);
       }
       if (parameters.solver.starts == Starts::examples && interval.end == end_of_scene(*this))
-        start_from_examples(next, interval, report);
-      refuse_what_is_not_finite(next, report);
+        start_from_examples(*this, next, interval, report);
+      refuse_what_is_not_finite(*this, next, report);
     }
     if (is_success(report.status))
     {
@@ -179,35 +152,6 @@ namespace Exemplar
   }
 
   void
-  Problem::follow_time(const double time)
-  {
-    if (!constraints.follow_time(time, parameters, body))
-      return;
-    potential.renew_pattern();
-    solver->forget(); // what it remembers is of other unknowns
-  }
-
-  void
-  Problem::refuse_what_is_not_finite(const State &next, SolveReport &report)
-  {
-    std::string what
-        = std::isfinite(report.residual) ? what_is_not_finite(next, evaluation) : "residuals";
-    // cubes of such ratios of lengths may be none, where the energies, their squares, are numbers
-    const auto maximum
-        = [&](const Vector &x) { return body.exchange().max(max_entry(x.begin(), x.end())); };
-    what = agreed(what);
-    if (what.empty() && !(maximum(next.positions) < 1e60 * maximum(body.fe_space.rest_positions())))
-      what = agreed(
-          what_is_not_finite(potential.get_cells().cell_results(next.positions, next.weights)));
-    if (what.empty())
-      return;
-    report.status  = SolveStatus::failed;
-    report.failure = "its " + what
-                     + " are not finite numbers, or too large to compute with. Take smaller steps, "
-                       "and look at what handles, loads and Initial do.";
-  }
-
-  void
   Problem::set_motion(const std::string &handle, Motion motion)
   {
     constraints.handles.set_motion(handle, std::move(motion));
@@ -218,10 +162,11 @@ namespace Exemplar
   {
     state = earlier;
     solver->forget();
-    follow_time(state.time);
+    follow_time(*this, state.time);
     if (!solver_memory.empty())
     {
-      follow_time(time_axis.time(std::max(state.step, 1U) - 1)); // memory is of the last step
+      follow_time(*this,
+                  time_axis.time(std::max(state.step, 1U) - 1)); // memory is of the last step
       std::istringstream              bytes(solver_memory);
       boost::archive::binary_iarchive archive(bytes);
       solver->load(archive);

@@ -12,12 +12,25 @@
 
 namespace Exemplar
 {
-  void
-  Problem::count_change(const std::string &what)
+  namespace
   {
-    ++changes.n;
-    changes.last = what;
-  }
+    /// There are loads from now on. Returns whether there were none.
+    bool
+    make_loads(Problem &problem)
+    {
+      if (problem.parameters.scene == SceneKind::interpolation)
+        throw UserError(problem.parameters.name
+                        + ": an interpolation has no loads. Set Scene = static or dynamic.");
+      std::unique_ptr<Loads> &loads = problem.actions.loads;
+      if (loads != nullptr)
+        return false;
+      loads = std::make_unique<Loads>(problem.parameters.loads, problem.body.mesh,
+                                      problem.body.fe_space, problem.body.material, NamedNodes(),
+                                      problem.parameters.material.mass_matrix);
+      problem.potential.add_term(std::make_unique<LoadTerm>(*loads, problem.body.fe_space));
+      return true;
+    }
+  } // namespace
 
   void
   Problem::change_handles(const std::function<void(Handles &)> &change)
@@ -25,7 +38,7 @@ namespace Exemplar
     if (constraints.support)
       throw UserError(parameters.name + ": an interpolation has no handles to change.");
     constraints.change_handles(change, parameters, body);
-    count_change("grab() or let_go()");
+    changes.count("grab() or let_go()");
     potential.renew_pattern();
     solver->forget(); // what it remembers is of other unknowns
   }
@@ -34,7 +47,7 @@ namespace Exemplar
   Problem::set_material(const ChangedConstants &changed)
   {
     body.material = body.material.with(changed);
-    count_change("set_material()");
+    changes.count("set_material()");
     body.follow_material();
     if (actions.mass != nullptr && !changed.density.empty())
       actions.mass->set_material(body.fe_space, body.material);
@@ -56,7 +69,7 @@ namespace Exemplar
     if (!(importance > 0. && importance <= 1.))
       throw UserError("Examples/Importance: it is " + shortest_text(importance)
                       + ", but must be above 0 and at most 1.");
-    count_change("importance");
+    changes.count("importance");
     parameters.examples.importance = importance;
     if (body.material.has_elasticity_of_examples())
       body.material = body.material.with_examples(parameters.examples.elasticity(), importance);
@@ -68,8 +81,9 @@ namespace Exemplar
   void
   Problem::set_gravity(const std::array<double, 3> &acceleration)
   {
-    make_loads();
-    count_change("gravity");
+    if (make_loads(*this))
+      lab.reset(); // which has no such term
+    changes.count("gravity");
     actions.loads->set_gravity(acceleration, body.fe_space, body.material);
     parameters.loads.gravity = acceleration;
     start(state);
@@ -78,25 +92,11 @@ namespace Exemplar
   void
   Problem::set_nodal_forces(Vector forces)
   {
-    make_loads();
-    count_change("nodal_forces");
+    if (make_loads(*this))
+      lab.reset(); // which has no such term
+    changes.count("nodal_forces");
     actions.loads->set_nodal_forces(std::move(forces));
     start(state);
-  }
-
-  void
-  Problem::make_loads()
-  {
-    if (parameters.scene == SceneKind::interpolation)
-      throw UserError(parameters.name
-                      + ": an interpolation has no loads. Set Scene = static or dynamic.");
-    if (actions.loads != nullptr)
-      return;
-    actions.loads
-        = std::make_unique<Loads>(parameters.loads, body.mesh, body.fe_space, body.material,
-                                  NamedNodes(), parameters.material.mass_matrix);
-    potential.add_term(std::make_unique<LoadTerm>(*actions.loads, body.fe_space));
-    lab.reset(); // which has no such term
   }
 
   void
@@ -107,8 +107,8 @@ namespace Exemplar
                       + ": an interpolation has no terms of one's own. Set Scene = static or "
                         "dynamic.");
     std::unique_ptr<PotentialTerm> term = make();
-    count_change("add_term()");
-    own_terms.push_back({ make, term.get() });
+    changes.count("add_term()");
+    actions.own_terms.push_back({ make, term.get() });
     potential.add_term(std::move(term));
     potential.renew_pattern();
     solver->forget(); // its factors are of another matrix
@@ -140,7 +140,7 @@ namespace Exemplar
     std::vector<dealii::Point<3>> back;
     for (unsigned int node = 0; node < body.fe_space.n_nodes(); ++node)
       back.emplace_back(before[3 * node], before[3 * node + 1], before[3 * node + 2]);
-    count_change("set_pose()");
+    changes.count("set_pose()");
     const auto change_to = [&](const std::vector<dealii::Point<3>> &pose)
     {
       examples.poses.set_pose(i, pose);
@@ -166,7 +166,7 @@ namespace Exemplar
       throw UserError(parameters.name + ": only a dynamic scene is damped. Set Scene = dynamic.");
     if (!(mass_damping >= 0. && stiffness_damping >= 0.))
       throw UserError("Time/Mass damping and Time/Stiffness damping must not be negative.");
-    count_change("mass_damping or stiffness_damping");
+    changes.count("mass_damping or stiffness_damping");
     actions.integrator->set_damping(mass_damping, stiffness_damping);
     solver->forget(); // what it remembers has been damped otherwise
     parameters.time.mass_damping      = mass_damping;

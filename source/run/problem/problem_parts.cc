@@ -73,7 +73,8 @@ namespace Exemplar
         fe_space(mesh, parameters.model.element),
         patches(inputs.fields.patches, fe_space, material),
         cell_material(patches.rest_of(material)), made(inputs.undivided.made),
-        geo_walls(inputs.undivided.geo_walls), warnings(inputs.undivided.warnings)
+        geo_walls(inputs.undivided.geo_walls), warnings(inputs.undivided.warnings),
+        surface(inputs.undivided.surface), inputs(inputs.undivided.inputs)
   {
   }
 

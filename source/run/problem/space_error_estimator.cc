@@ -288,7 +288,8 @@ namespace Exemplar
     try
     {
       if (quadratic == nullptr)
-        quadratic = std::make_unique<Problem>(quadratic_scene(problem.parameters), *problem.inputs);
+        quadratic
+            = std::make_unique<Problem>(quadratic_scene(problem.parameters), *problem.body.inputs);
       const FESpace &fe_space = quadratic->body.fe_space;
       Evaluation     linear;
       problem.potential.leave_step(problem.state);

@@ -3,6 +3,7 @@
 #include <exemplar/base/number_text.h>
 #include <exemplar/mesh/mesh_checks.h>
 #include <exemplar/mesh/rigid_motion.h>
+#include <exemplar/run/problem/example_starts.h>
 #include <exemplar/run/problem/state_review.h>
 
 #include <fmt/core.h>
@@ -258,7 +259,7 @@ namespace Exemplar
   std::vector<std::string>
   missed_example_warnings(Problem &problem)
   {
-    const std::optional<ExampleStart> missed = problem.missed_example();
+    const std::optional<ExampleStart> missed = missed_example(problem);
     if (!missed)
       return {};
     return { fmt::format(

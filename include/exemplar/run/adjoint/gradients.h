@@ -41,9 +41,9 @@ namespace Exemplar
   constexpr const char *too_large
       = "The derivatives of J lead to numbers that are too large to be held. Scale J.";
 
-  /// Throws SolverFailure if one is not finite.
+  /// Throws SolverFailure if one is not finite, or this sum of others that go with them.
   void
-  require_finite(const Gradients &found);
+  require_finite(const Gradients &found, double sum_of_others = 0.);
 
   /// Weights at the problem's state at which gradients are one-sided.
   std::vector<unsigned int>

@@ -3,6 +3,7 @@
 #define exemplar_point_material_h
 
 #include <exemplar/body/material.h>
+#include <exemplar/body/strain_parts.h>
 
 #include <optional>
 
@@ -258,8 +259,9 @@ namespace Exemplar
       if (of.of_examples.is_own())
         return third;
       if (of.body.is_orthotropic)
-        return constant_matrix<Number>(of.material.part_of_pressure(
-            of.cell, combine(1. / 3., identity_matrix<double>(), 0., identity_matrix<double>())));
+        return constant_matrix<Number>(part_of_pressure(
+            of.material, of.cell,
+            combine(1. / 3., identity_matrix<double>(), 0., identity_matrix<double>())));
       const Matrix3<Number> strain = compliance(sum, third);
       return times(Number(1.) / trace(strain), strain);
     }
@@ -272,7 +274,7 @@ namespace Exemplar
         return Matrix3<Number>{};
       if (of.body.is_orthotropic && !of.of_examples.is_own())
         return times(contract(A, E),
-                     constant_matrix<Number>(of.material.part_of_tension(of.cell, dyad(of.axis))));
+                     constant_matrix<Number>(part_of_tension(of.material, of.cell, dyad(of.axis))));
       const Matrix3<Number> strain = compliance(of.of_examples.is_own() ? examples : sum, A);
       return times(contract(A, E) / contract(A, strain), strain);
     }

@@ -2,9 +2,7 @@
 #ifndef exemplar_finiteness_h
 #define exemplar_finiteness_h
 
-#include <exemplar/body/state.h>
-#include <exemplar/potential/elastic_potential.h>
-#include <exemplar/potential/evaluation.h>
+#include <exemplar/run/problem/problem.h>
 
 #include <string>
 
@@ -19,6 +17,15 @@ namespace Exemplar
   /// The same of what frames show of the cells.
   std::string
   what_is_not_finite(const CellResults &cells);
+
+  /// Throws UserError if a problem's initial state is nothing to begin with. All processes must call this
+  /// and the next.
+  void
+  check_start(Problem &problem);
+
+  /// Make a failure of a report on a problem's step to `next` if that, evaluated, is not finite.
+  void
+  refuse_what_is_not_finite(Problem &problem, const State &next, SolveReport &report);
 } // namespace Exemplar
 
 #endif

@@ -5,7 +5,6 @@
 #include <exemplar/potential/incremental_potential.h>
 #include <exemplar/run/problem/row_matrix.h>
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -13,10 +12,6 @@
 namespace Exemplar
 {
   class Problem;
-
-  /// Makes a term of one's own. It is called for each potential that needs one: that of the steps, and
-  /// that of a Laboratory, whose term gets what the other remembers by PotentialTerm::save() and load().
-  using MakeTerm = std::function<std::unique_ptr<PotentialTerm>()>;
 
   /// Of each cell the mean over its quadrature points, weighted by their volumes.
   struct CellMeans

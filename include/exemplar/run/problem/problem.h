@@ -4,7 +4,6 @@
 
 #include <exemplar/algebra/conditioning.h>
 #include <exemplar/base/step_clock.h>
-#include <exemplar/run/problem/example_start.h>
 #include <exemplar/run/problem/laboratory.h>
 #include <exemplar/run/problem/problem_parts.h>
 #include <exemplar/run/problem/step_interval.h>
@@ -12,7 +11,6 @@
 
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -86,20 +84,6 @@ namespace Exemplar
     void
     add_term(const MakeTerm &make);
 
-    /// One's own terms, in the order in which they came.
-    struct OwnTerm
-    {
-      MakeTerm             make;
-      const PotentialTerm *term; ///< that of the steps
-    };
-
-    /// What was added to the potential, first come first.
-    const std::vector<OwnTerm> &
-    get_own_terms() const
-    {
-      return own_terms;
-    }
-
     /// Where the potential is evaluated anywhere, between steps. Made when first asked for. Throws
     /// UserError where several processes share the body.
     Laboratory &
@@ -111,6 +95,14 @@ namespace Exemplar
     {
       unsigned int n = 0;
       std::string  last;
+
+      /// `what` was changed, as messages call it.
+      void
+      count(const std::string &what)
+      {
+        ++n;
+        last = what;
+      }
     };
 
     /// Those since the problem was made; whoever remembers their number sees whether there were more.
@@ -120,18 +112,9 @@ namespace Exemplar
       return changes;
     }
 
-    /// Of a static scene that stands at its end, the example that has least energy, and clearly less than
-    /// the state, where it is placed with the held nodes at their places and the best weights; none if there
-    /// is no such. One evaluation an example. All processes must call this.
-    std::optional<ExampleStart>
-    missed_example();
-
-    /// From where the last step of the scene was solved, with Solver/Starts = examples.
-    const std::vector<ExampleStart> &
-    get_starts() const
-    {
-      return starts;
-    }
+    /// Evaluate at a state that no step has led to.
+    void
+    start(State &at);
 
     /// Go on from a state of an earlier run.
     void
@@ -154,76 +137,28 @@ namespace Exemplar
     std::vector<std::string>
     warnings() const;
 
-    CompleteScene                            parameters;
-    StepClock                                clock;
-    const std::shared_ptr<const Inputs>      inputs; ///< null unless Output/Space error needs them
-    const TimeAxis                           time_axis;
-    Body                                     body;
-    const std::shared_ptr<const SurfaceMesh> surface; ///< of the body; null unless it is needed
-    Constraints                              constraints;
-    Examples                                 examples;
-    Actions                                  actions;
-    IncrementalPotential                     potential;
-    StepSystem                               system;
-    const std::unique_ptr<StepSolver>        solver;
-    State                                    state;
-    Evaluation                               evaluation; ///< at the state
+    CompleteScene                     parameters;
+    StepClock                         clock;
+    const TimeAxis                    time_axis;
+    Body                              body;
+    Constraints                       constraints;
+    Examples                          examples;
+    Actions                           actions;
+    IncrementalPotential              potential;
+    StepSystem                        system;
+    const std::unique_ptr<StepSolver> solver;
+    State                             state;
+    Evaluation                        evaluation; ///< at the state
 
     /// Called after each step with the state from which it was made, and its length [s]; null: nothing is.
     std::function<void(const State &start, double size)> on_step;
 
   private:
-    /// Whether the body stands on a support of its own, which must not decide how it is turned.
-    bool
-    turns_freely() const;
-
-    void
-    start_interpolation();
-
-    /// `what` is not finite in this process, or what to call it if it is in another one; empty if all
-    /// is finite in all.
-    std::string
-    agreed(const std::string &what) const;
-
-    /// Throws UserError if the initial state is nothing to begin with.
-    void
-    check_start();
-
-    /// Handles hold as they do in a step that begins at this time.
-    void
-    follow_time(double time);
-
-    /// An example with the held nodes where they are in `end`, and the weight 1 of its own.
-    State
-    at_example(unsigned int i, const State &end) const;
-
-    /// `end` becomes the equilibrium of least energy of those found from the examples and itself.
-    void
-    start_from_examples(State &end, const StepInterval &interval, SolveReport &report);
-
-    /// Make a failure of a report on a step to `next` if that, evaluated, is not finite.
-    void
-    refuse_what_is_not_finite(const State &next, SolveReport &report);
-
-    /// This was changed, as messages call it.
-    void
-    count_change(const std::string &what);
-
-    /// There are loads from now on.
-    void
-    make_loads();
-
     /// What is made of material, poses and importance is made anew, each from what it depends on.
     void
     follow_parameters();
 
-    /// Evaluate at a state that no step has led to.
-    void
-    start(State &at);
-
     Changes                     changes;
-    std::vector<OwnTerm>        own_terms;
-    std::vector<ExampleStart>   starts;
     std::unique_ptr<Laboratory> lab; ///< null until it is asked for
   };
 

@@ -11,6 +11,7 @@
 #include <exemplar/potential/incremental_potential.h>
 #include <exemplar/potential/initial_stress_term.h>
 #include <exemplar/run/inputs/body_inputs.h>
+#include <exemplar/run/problem/example_start.h>
 #include <exemplar/run/scene/scene_parameters.h>
 
 #include <functional>
@@ -53,6 +54,8 @@ namespace Exemplar
     /// What stood around gmsh, see MshFile::geo_walls.
     const std::optional<std::vector<std::string>> geo_walls;
     const std::vector<std::string>                warnings; ///< of the making
+    const std::shared_ptr<const SurfaceMesh>      surface;  ///< null unless it is needed
+    const std::shared_ptr<const Inputs> inputs; ///< null unless Output/Space error needs them
   };
 
   /// What holds the body, and what is left free.
@@ -111,6 +114,8 @@ namespace Exemplar
 
     ExamplePoses   poses;
     ExampleWeights weights;
+    std::vector<ExampleStart>
+        starts; ///< of the last step of the scene, with Solver/Starts = examples
   };
 
   /// The law of each cell: those with a yield stress are plastic. All processes must call this.
@@ -120,6 +125,17 @@ namespace Exemplar
   /// The terms of Psi, Eq. (5), beside the cells' own energies.
   PotentialTerms
   make_elastic_terms(const Body &body, const Examples &examples);
+
+  /// Makes a term of one's own. It is called for each potential that needs one: that of the steps, and
+  /// that of a Laboratory, whose term gets what the other remembers by PotentialTerm::save() and load().
+  using MakeTerm = std::function<std::unique_ptr<PotentialTerm>()>;
+
+  /// A term that a program has added.
+  struct OwnTerm
+  {
+    MakeTerm             make;
+    const PotentialTerm *term; ///< that of the steps
+  };
 
   /// What acts on the body beside its elasticity.
   struct Actions
@@ -135,7 +151,8 @@ namespace Exemplar
     const std::unique_ptr<Mass>           mass;             ///< in dynamic scenes
     const std::unique_ptr<TimeIntegrator> integrator;       ///< in dynamic scenes
     PointStresses                         initial_stresses; ///< empty unless the body is balanced
-    std::vector<std::string>              warnings;         ///< of them
+    std::vector<OwnTerm>                  own_terms;        ///< first come first
+    std::vector<std::string>              warnings;         ///< of all but these
 
     /// Whether the energy bound of doc/dynamics.md, Eq. (12), holds where handles rest.
     const bool energy_is_bounded;

@@ -38,7 +38,7 @@ namespace Exemplar
     unsigned int   first_raised = 0; ///< the step whose loads were raised within it; 0: none
   };
 
-  /// At the end of a scene, a warning where an example may have been missed, see Problem::missed_example();
+  /// At the end of a scene, a warning where an example may have been missed, see missed_example();
   /// else none. All processes must call this.
   std::vector<std::string>
   missed_example_warnings(Problem &problem);

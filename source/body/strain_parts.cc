@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/body/material.h>
-
-// Parts of a strain, which examples may act on alone.
+#include <exemplar/body/strain_parts.h>
 
 namespace Exemplar
 {
@@ -25,27 +23,28 @@ namespace Exemplar
   } // namespace
 
   Matrix3<double>
-  Material::part_of_pressure(const unsigned int cell, const Matrix3<double> &strain) const
+  part_of_pressure(const Material &material, const unsigned int cell, const Matrix3<double> &strain)
   {
-    const Constants &of_cell = constants[constants_of_cell[cell]];
-    if (has_elasticity_of_examples() || axes.empty() || axes[cell].along == GrainAxes().along)
+    const GrainAxes axes = material.grain_axes(cell);
+    if (material.has_elasticity_of_examples() || axes.along == GrainAxes().along)
       return combine(trace(strain) / 3., identity_matrix<double>(), 0., strain);
-    return strain_in(axes[cell], of_cell.grain.strain_of_pressure(), trace(strain));
+    return strain_in(axes, material.grain(cell).strain_of_pressure(), trace(strain));
   }
 
   Matrix3<double>
-  Material::part_of_tension(const unsigned int cell, const Matrix3<double> &strain) const
+  part_of_tension(const Material &material, const unsigned int cell, const Matrix3<double> &strain)
   {
-    if (axes.empty())
+    const GrainAxes axes = material.grain_axes(cell);
+    if (axes.along == GrainAxes().along)
       return {};
-    const auto &a       = axes[cell].along;
+    const auto &a       = axes.along;
     double      stretch = 0.;
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
         stretch += a[i] * strain[i][j] * a[j];
-    const Orthotropy grain = has_elasticity_of_examples()
-                                 ? parts(cell).examples
-                                 : constants[constants_of_cell[cell]].grain;
-    return strain_in(axes[cell], grain.strain_of_tension(), stretch);
+    const Orthotropy grain = material.has_elasticity_of_examples()
+                                 ? material.blend(cell).of_examples()
+                                 : material.grain(cell);
+    return strain_in(axes, grain.strain_of_tension(), stretch);
   }
 } // namespace Exemplar
