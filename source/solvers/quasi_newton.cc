@@ -98,7 +98,7 @@ namespace Exemplar
   QuasiNewton::make_metric(const Vector &positions, const std::vector<double> &weights)
   {
     metric.clear(); // whose memory the next one takes
-    system.factorize_metric(positions, weights);
+    system.factorize_roughly(positions, weights, 1.);
     StepClock::Scope scope(clock, Phase::factorize);
     potential.get_cells().get_field().node_rotations(node_rotations);
     metric.reinit(system.bordered(), node_rotations);

@@ -27,9 +27,11 @@ namespace Exemplar
   }
 
   void
-  StepSystem::factorize_metric(const Vector &positions, const std::vector<double> &weights)
+  StepSystem::factorize_roughly(const Vector              &positions,
+                                const std::vector<double> &weights,
+                                const double               convexity)
   {
-    assemble(positions, weights, 1.);
+    assemble(positions, weights, convexity);
     StepClock::Scope scope(clock, Phase::factorize);
     system->factorize_roughly(positions);
   }

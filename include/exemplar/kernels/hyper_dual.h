@@ -7,11 +7,80 @@
 #include <array>
 #include <cmath>
 
-// Numbers that carry derivatives, for the laws of a cell, which are written for any number type. No deal.II
+// Numbers that carry derivatives: dual and hyper-dual numbers, for the laws of a cell, which are written for any number type. No deal.II
 // header here: see matrix3.h.
 
 namespace Exemplar
 {
+  /// A number with its derivatives by n parameters. Half of the numbers in formulas are constants, which a
+  /// compiler that inlines these functions knows.
+  template <std::size_t n>
+  struct Dual
+  {
+    double                value  = 0.;
+    std::array<double, n> by     = {};
+    bool                  varies = false; ///< else all of `by` are 0
+
+    Dual() = default;
+
+    /// A constant.
+    explicit Dual(const double value) : value(value) {}
+
+    /// One that changes with the first parameter.
+    Dual(const double value, const double change) : value(value), varies(true)
+    {
+      by[0] = change;
+    }
+
+    [[gnu::always_inline]] Dual &
+    operator+=(const Dual &x)
+    {
+      value += x.value;
+      if (x.varies)
+      {
+        for (std::size_t k = 0; k < n; ++k)
+          by[k] += x.by[k];
+        varies = true;
+      }
+      return *this;
+    }
+
+    [[gnu::always_inline]] Dual &
+    operator-=(const Dual &x)
+    {
+      value -= x.value;
+      if (x.varies)
+      {
+        for (std::size_t k = 0; k < n; ++k)
+          by[k] -= x.by[k];
+        varies = true;
+      }
+      return *this;
+    }
+
+    [[gnu::always_inline]] Dual &
+    operator*=(const Dual &x)
+    {
+      if (varies)
+        for (std::size_t k = 0; k < n; ++k)
+          by[k] *= x.value;
+      if (x.varies)
+      {
+        for (std::size_t k = 0; k < n; ++k)
+          by[k] += value * x.by[k];
+        varies = true;
+      }
+      value *= x.value;
+      return *this;
+    }
+
+    Dual &
+    operator/=(const Dual &x)
+    {
+      return *this *= inverse(x);
+    }
+  };
+
   /// A number f(t, p) where t = 0, with df/dt, the derivatives by n parameters p, and the derivatives of df/dt
   /// by them: hyper-dual numbers (Fike and Alonso 2011), of which one direction is t. What is computed with
   /// them is exact but for rounding.
@@ -89,111 +158,132 @@ namespace Exemplar
   }
 
   template <std::size_t n>
-  HyperDual<n>
-  inverse(const HyperDual<n> &x)
+  Dual<n>
+  chained(const Dual<n> &x, const double g, const double first, const double /*second*/)
+  {
+    Dual<n> result(g);
+    result.varies = x.varies;
+    if (x.varies)
+      for (std::size_t k = 0; k < n; ++k)
+        result.by[k] = first * x.by[k];
+    return result;
+  }
+
+  // For numbers with derivatives of both kinds.
+
+  template <template <std::size_t> class Kind, std::size_t n>
+  Kind<n>
+  inverse(const Kind<n> &x)
   {
     const double i = 1. / x.value;
     return chained(x, i, -i * i, 2. * i * i * i);
   }
 
-  template <std::size_t n>
-  HyperDual<n>
-  sqrt(const HyperDual<n> &x)
+  template <template <std::size_t> class Kind, std::size_t n>
+  Kind<n>
+  sqrt(const Kind<n> &x)
   {
     const double root = std::sqrt(x.value);
     return chained(x, root, 0.5 / root, -0.25 / (root * x.value));
   }
 
-  template <std::size_t n>
-  HyperDual<n>
-  operator-(const HyperDual<n> &x)
+  template <template <std::size_t> class Kind, std::size_t n>
+  [[gnu::always_inline]] inline Kind<n>
+  operator-(const Kind<n> &x)
   {
-    return HyperDual<n>() -= x;
+    return Kind<n>() -= x;
   }
 
-  template <std::size_t n>
-  HyperDual<n>
-  operator+(HyperDual<n> x, const HyperDual<n> &y)
+  template <template <std::size_t> class Kind, std::size_t n>
+  [[gnu::always_inline]] inline Kind<n>
+  operator+(Kind<n> x, const Kind<n> &y)
   {
     return x += y;
   }
 
-  template <std::size_t n>
-  HyperDual<n>
-  operator-(HyperDual<n> x, const HyperDual<n> &y)
+  template <template <std::size_t> class Kind, std::size_t n>
+  [[gnu::always_inline]] inline Kind<n>
+  operator-(Kind<n> x, const Kind<n> &y)
   {
     return x -= y;
   }
 
-  template <std::size_t n>
-  HyperDual<n>
-  operator*(HyperDual<n> x, const HyperDual<n> &y)
+  template <template <std::size_t> class Kind, std::size_t n>
+  [[gnu::always_inline]] inline Kind<n>
+  operator*(Kind<n> x, const Kind<n> &y)
   {
     return x *= y;
   }
 
-  template <std::size_t n>
-  HyperDual<n>
-  operator/(HyperDual<n> x, const HyperDual<n> &y)
+  template <template <std::size_t> class Kind, std::size_t n>
+  Kind<n>
+  operator/(Kind<n> x, const Kind<n> &y)
   {
     return x /= y;
   }
 
   // Decisions depend on values alone.
 
-  template <std::size_t n>
+  template <template <std::size_t> class Kind, std::size_t n>
   bool
-  operator<(const HyperDual<n> &x, const HyperDual<n> &y)
+  operator==(const Kind<n> &x, const Kind<n> &y)
+  {
+    return x.value == y.value;
+  }
+
+  template <template <std::size_t> class Kind, std::size_t n>
+  bool
+  operator<(const Kind<n> &x, const Kind<n> &y)
   {
     return x.value < y.value;
   }
 
-  template <std::size_t n>
+  template <template <std::size_t> class Kind, std::size_t n>
   bool
-  operator>(const HyperDual<n> &x, const HyperDual<n> &y)
+  operator>(const Kind<n> &x, const Kind<n> &y)
   {
     return x.value > y.value;
   }
 
-  template <std::size_t n>
+  template <template <std::size_t> class Kind, std::size_t n>
   bool
-  operator<=(const HyperDual<n> &x, const HyperDual<n> &y)
+  operator<=(const Kind<n> &x, const Kind<n> &y)
   {
     return x.value <= y.value;
   }
 
-  template <std::size_t n>
+  template <template <std::size_t> class Kind, std::size_t n>
   bool
-  operator>=(const HyperDual<n> &x, const HyperDual<n> &y)
+  operator>=(const Kind<n> &x, const Kind<n> &y)
   {
     return x.value >= y.value;
   }
 
-  template <std::size_t n>
-  HyperDual<n>
-  max(const HyperDual<n> &x, const HyperDual<n> &y)
+  template <template <std::size_t> class Kind, std::size_t n>
+  Kind<n>
+  max(const Kind<n> &x, const Kind<n> &y)
   {
     return x.value < y.value ? y : x;
   }
 
-  template <std::size_t n>
-  HyperDual<n>
-  abs(const HyperDual<n> &x)
+  template <template <std::size_t> class Kind, std::size_t n>
+  Kind<n>
+  abs(const Kind<n> &x)
   {
     return x.value < 0. ? -x : x;
   }
 
-  template <std::size_t n>
-  HyperDual<n>
-  select(const bool condition, const HyperDual<n> &x, const HyperDual<n> &y)
+  template <template <std::size_t> class Kind, std::size_t n>
+  Kind<n>
+  select(const bool condition, const Kind<n> &x, const Kind<n> &y)
   {
     return condition ? x : y;
   }
 
   /// x - log(1 + x).
-  template <std::size_t n>
-  HyperDual<n>
-  beyond_logarithm(const HyperDual<n> &x)
+  template <template <std::size_t> class Kind, std::size_t n>
+  Kind<n>
+  beyond_logarithm(const Kind<n> &x)
   {
     const double i = 1. / (1. + x.value);
     return chained(x, x.value - std::log1p(x.value), x.value * i, i * i);

@@ -33,10 +33,12 @@ namespace Exemplar
     void
     factorize(const Vector &positions, const std::vector<double> &weights, double convexity);
 
-    /// The same with the convex tangent and few digits: for BorderedSystem::keep() and the columns of
-    /// weights, not for steps.
+    /// The same with few digits: for BorderedSystem::keep(), the columns of weights, and who measures what a
+    /// solution leaves.
     void
-    factorize_metric(const Vector &positions, const std::vector<double> &weights);
+    factorize_roughly(const Vector              &positions,
+                      const std::vector<double> &weights,
+                      double                     convexity);
 
     /// The step that takes the derivatives of `evaluation`, made at `at`, to zero by the last
     /// factor. Throws SolverFailure if the weights are not determined.

@@ -3,6 +3,7 @@
 #include <exemplar/run/adjoint/adjoint_solve.h>
 #include <exemplar/run/adjoint/adjoint_system.h>
 #include <exemplar/run/adjoint/conjugate_residuals.h>
+#include <exemplar/run/adjoint/example_strains.h>
 
 #include <fmt/core.h>
 
@@ -75,11 +76,16 @@ namespace Exemplar
   AdjointSolution
   solve_adjoint(AdjointSystem &system, const Direction &by_state, const FindDerivatives &find)
   {
-    AdjointSolution solution{ system.zero(), {} };
-    Direction       rest = by_state;
-    system.add_solution(rest, solution.direction);
-    solution.derivatives = find(solution.direction);
-    double error = system.residual(by_state, solution.direction, solution.derivatives, rest);
+    AdjointSolution solution;
+    double          error;
+    do
+    {
+      Direction rest     = by_state;
+      solution.direction = system.zero();
+      system.add_solution(by_state, solution.direction);
+      solution.derivatives = find(solution.direction);
+      error = system.residual(by_state, solution.direction, solution.derivatives, rest);
+    } while (!(error <= solved) && system.sharpen());
     if (!(error <= solved))
       error = correct(system, by_state, find, solution);
     if (!(error <= unsolved))
@@ -95,8 +101,9 @@ namespace Exemplar
   {
     AdjointSystem system(problem);
     system.go_to_state(evaluation);
+    const ExampleStrains strains(problem);
     return solve_adjoint(system, by_state,
-                         [&problem](const Direction &direction)
-                         { return derivatives_of_slope(problem, direction); });
+                         [&](const Direction &direction)
+                         { return derivatives_of_slope(problem, strains, direction); });
   }
 } // namespace Exemplar

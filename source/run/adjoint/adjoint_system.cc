@@ -36,8 +36,25 @@ namespace Exemplar
   void
   AdjointSystem::go_to_state(const Evaluation &evaluation)
   {
-    inactive = are_inactive(problem);
-    factorize(evaluation.elastic.guarded_cells);
+    inactive      = are_inactive(problem);
+    guarded_cells = evaluation.elastic.guarded_cells;
+    make_factor();
+  }
+
+  bool
+  AdjointSystem::sharpen()
+  {
+    if (!is_rough)
+      return false;
+    is_rough = false;
+    make_factor();
+    return true;
+  }
+
+  void
+  AdjointSystem::make_factor()
+  {
+    factorize();
     Z = system.bordered().columns();
     if (!Z.empty())
       system.bordered().apply_inverse(Z);
@@ -47,18 +64,28 @@ namespace Exemplar
   /// The exact tangent may be indefinite in cells that Eq. (16) guards; the convex one is near enough there to
   /// begin with.
   void
-  AdjointSystem::factorize(const unsigned int guarded_cells)
+  AdjointSystem::factorize()
   {
     try
     {
-      system.factorize(problem.state.positions, problem.state.weights, 0.);
+      factorize(0.);
     }
     catch (const SolverFailure &)
     {
       if (guarded_cells == 0)
         throw;
-      system.factorize(problem.state.positions, problem.state.weights, 1.);
+      factorize(1.);
     }
+  }
+
+  void
+  AdjointSystem::factorize(const double convexity)
+  {
+    const State &at = problem.state;
+    if (is_rough)
+      system.factorize_roughly(at.positions, at.weights, convexity);
+    else
+      system.factorize(at.positions, at.weights, convexity);
   }
 
   Direction

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/kernels/patch_cell.h>
 #include <exemplar/run/adjoint/example_strains.h>
-#include <exemplar/run/adjoint/laws_with_derivatives.h>
+#include <exemplar/run/adjoint/point_shape.h>
+#include <exemplar/run/adjoint/slope_terms.h>
 
 namespace Exemplar
 {
@@ -22,24 +23,17 @@ namespace Exemplar
   Matrix3<double>
   pulled_back(const CellLaw law, const Matrix3<double> &F, const Matrix3<double> &by_strain)
   {
-    using Number = HyperDual<9>;
-    Matrix3<Number> seeded;
-    for (std::size_t k = 0; k < 9; ++k)
-    {
-      seeded[k / 3][k % 3]       = Number(F[k / 3][k % 3]);
-      seeded[k / 3][k % 3].by[k] = 1.;
-    }
+    const Matrix3<double> R = model_rotation(law, F);
+    if (traits_of(law).has_rotations)
+      return R * with_turn(symmetric_part(transpose_times(R, F)), by_strain);
     Matrix3<double> result{};
-    with_potential<Number>(law,
-                           [&](auto model)
-                           {
-                             using Cell = typename decltype(model)::type;
-                             const Number product
-                                 = contract(strain_near<Cell>(closest_rotation(F), seeded),
-                                            constant_matrix<Number>(by_strain));
-                             for (std::size_t k = 0; k < 9; ++k)
-                               result[k / 3][k % 3] = product.by[k];
-                           });
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+      {
+        Matrix3<double> dF{};
+        dF[i][j]     = 1.;
+        result[i][j] = contract(by_strain, model_strain_change(law, R, F, dF));
+      }
     return result;
   }
 
@@ -52,19 +46,21 @@ namespace Exemplar
     return determinant(B);
   }
 
-  ExampleStrains::ExampleStrains(const Problem &problem, const LawsOfCells &laws)
+  ExampleStrains::ExampleStrains(const Problem &problem)
       : fe_space(problem.body.fe_space), patches(problem.body.patches),
-        poses(problem.examples.poses), laws(laws)
+        poses(problem.examples.poses), laws(laws_of_cells(problem.parameters, problem.body))
   {
-    strains.assign(fe_space.n_points() * poses.size(), Matrix3<double>{});
+    strains.assign(fe_space.n_points() * poses.size(), {});
     for (unsigned int point = 0; point < fe_space.n_points(); ++point)
       for (unsigned int i = 0; i < poses.size(); ++i)
         if (poses.is_strained(i))
         {
           const CellLaw         law         = laws[fe_space.cell_of(point)];
           const Matrix3<double> F           = fe_space.deformation_gradient(point, poses.pose(i));
-          strains[point * poses.size() + i] = model_strain(law, model_rotation(law, F), F);
+          strains[point * poses.size() + i] = pack(model_strain(law, model_rotation(law, F), F));
         }
+    for (unsigned int patch = 0; patch < patches.size(); ++patch)
+      bound_poses.push_back(find_pose_of_bound(patch));
   }
 
   Matrix3<double>
@@ -81,15 +77,6 @@ namespace Exemplar
                           [&](const unsigned int weight, const unsigned int i, const double share)
                           { sum = combine(1., sum, share * weights[weight], strain(point, i)); });
     return sum;
-  }
-
-  Matrix3<double>
-  ExampleStrains::pulled_back(const unsigned int     point,
-                              const unsigned int     i,
-                              const Matrix3<double> &by_strain) const
-  {
-    return Exemplar::pulled_back(laws[fe_space.cell_of(point)],
-                                 fe_space.deformation_gradient(point, poses.pose(i)), by_strain);
   }
 
   std::optional<ExampleStrains::Place>
@@ -112,7 +99,7 @@ namespace Exemplar
   }
 
   std::optional<unsigned int>
-  ExampleStrains::pose_of_bound(const unsigned int patch) const
+  ExampleStrains::find_pose_of_bound(const unsigned int patch) const
   {
     double                      maximum = min_stretched_square / 1.2;
     std::optional<unsigned int> result;
@@ -131,5 +118,29 @@ namespace Exemplar
       }
     }
     return result;
+  }
+
+  void
+  carry_strains_to_poses(const Problem &problem, SlopeDerivatives &sums)
+  {
+    const FESpace      &fe_space = problem.body.fe_space;
+    const ExamplePoses &poses    = problem.examples.poses;
+    const LawsOfCells   laws     = laws_of_cells(problem.parameters, problem.body);
+    for (unsigned int point = 0; point < fe_space.n_points(); ++point)
+    {
+      const unsigned int cell = fe_space.cell_of(point);
+      Matrix3<double>    by_gradients{};
+      for (unsigned int i = 0; i < poses.size(); ++i)
+        if (poses.is_strained(i))
+        {
+          const Matrix3<double> F = fe_space.deformation_gradient(point, poses.pose(i));
+          const Matrix3<double> by_F
+              = pulled_back(laws[cell], F, unpack(sums.by_strains[point * poses.size() + i]));
+          add_forces(fe_space, point, by_F, sums.by_poses[i]);
+          by_gradients = combine(1., by_gradients, 1., transpose_times(F, by_F));
+        }
+      add_at_vertices(fe_space, cell, times(-1., by_gradients), sums.by_rest_positions);
+    }
+    sums.by_strains.clear();
   }
 } // namespace Exemplar

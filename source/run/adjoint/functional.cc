@@ -2,6 +2,7 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/run/adjoint/adjoint_checks.h>
 #include <exemplar/run/adjoint/certificate.h>
+#include <exemplar/run/adjoint/example_strains.h>
 #include <exemplar/run/adjoint/functional.h>
 
 #include <fmt/core.h>
@@ -59,7 +60,7 @@ namespace Exemplar
         Evaluation evaluation;
         problem.potential.evaluate(problem.state, RotationUse::update, evaluation);
         FunctionalValue  result{ held.positions * evaluation.gradient, zero_direction(problem) };
-        SlopeDerivatives slope = derivatives_of_slope(problem, held);
+        SlopeDerivatives slope = derivatives_of_slope(problem, ExampleStrains(problem), held);
         result.by_state        = { std::move(slope.by_positions), std::move(slope.by_weights) };
         return result;
       };

@@ -2,6 +2,7 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/run/adjoint/adjoint_checks.h>
 #include <exemplar/run/adjoint/adjoint_solve.h>
+#include <exemplar/run/adjoint/example_strains.h>
 #include <exemplar/run/adjoint/gradients.h>
 
 #include <algorithm>
@@ -73,6 +74,7 @@ namespace Exemplar
   Gradients
   gradients_of(const Problem &problem, SlopeDerivatives slope)
   {
+    carry_strains_to_poses(problem, slope);
     Gradients result;
     if (!has_orthotropic_cells(problem))
     {

@@ -15,19 +15,18 @@ namespace Exemplar
       template <typename Cell, typename Number>
       using Evaluation = ElasticPoint<Cell, Number>;
 
-      ElasticPart(const Problem &problem, const std::vector<double> &along)
+      ElasticPart(const Problem             &problem,
+                  const ExampleStrains      &strains,
+                  const std::vector<double> &along)
           : problem(problem), along(along), fe_space(problem.body.fe_space),
-            patches(problem.body.patches), poses(problem.examples.poses),
-            laws(laws_of_cells(problem.parameters, problem.body)), strains(problem, laws)
+            patches(problem.body.patches), poses(problem.examples.poses), strains(strains)
       {
-        for (unsigned int patch = 0; patch < patches.size(); ++patch)
-          bound_poses.push_back(strains.pose_of_bound(patch));
       }
 
       const LawsOfCells &
       get_laws() const
       {
-        return laws;
+        return strains.get_laws();
       }
 
       static double
@@ -58,14 +57,14 @@ namespace Exemplar
       double
       square_of_bound(const unsigned int patch, const unsigned int point) const
       {
-        if (!bound_poses[patch])
+        const auto pose = strains.pose_of_bound(patch);
+        if (!pose)
           return 0.;
-        const Matrix3<double> F
-            = fe_space.deformation_gradient(point, poses.pose(*bound_poses[patch]));
+        const Matrix3<double> F = fe_space.deformation_gradient(point, poses.pose(*pose));
         return contract(F, F);
       }
 
-      /// By weights and poses; adds what follows from the gradients of shape functions in the poses.
+      /// By weights, strains of examples, and the poses that say where guards of patches begin.
       void
       add_wish(const unsigned int    point,
                const Wish           &by_wish,
@@ -73,20 +72,20 @@ namespace Exemplar
                SlopeDerivatives     &sums,
                Matrix3<double>      &by_gradients) const
       {
-        const std::vector<double>   &w = problem.state.weights;
-        std::vector<Matrix3<double>> by_strains(poses.size(), Matrix3<double>{});
+        const std::vector<double> &w = problem.state.weights;
         poses.for_each_weight(
             point,
             [&](const unsigned int weight, const unsigned int i, const double share)
             {
               sums.by_weights[weight] += share * contract(strains.strain(point, i), by_wish.value);
-              by_strains[i]
-                  = combine(1., by_strains[i], share,
-                            combine(w[weight], by_wish.value, along[weight], by_wish.change));
+              auto &by_strain = sums.by_strains[point * poses.size() + i];
+              by_strain
+                  = pack(combine(1., unpack(by_strain), share,
+                                 combine(w[weight], by_wish.value, along[weight], by_wish.change)));
             });
-        for (unsigned int i = 0; i < poses.size(); ++i)
-          if (poses.is_strained(i))
-            add_pose(point, i, by_strains[i], of_patches, sums, by_gradients);
+        for (const PatchFactors &factor : of_patches)
+          if (const auto pose = strains.pose_of_bound(patches.of_point(point)))
+            add_bound(point, *pose, factor[PatchSum::bound].change, sums, by_gradients);
       }
 
       void
@@ -97,31 +96,24 @@ namespace Exemplar
 
     private:
       void
-      add_pose(const unsigned int     point,
-               const unsigned int     i,
-               const Matrix3<double> &by_strain,
-               const FactorsAtPoint  &of_patches,
-               SlopeDerivatives      &sums,
-               Matrix3<double>       &by_gradients) const
+      add_bound(const unsigned int point,
+                const unsigned int pose,
+                const double       by_bound,
+                SlopeDerivatives  &sums,
+                Matrix3<double>   &by_gradients) const
       {
-        const Matrix3<double> F    = fe_space.deformation_gradient(point, poses.pose(i));
-        Matrix3<double>       by_F = strains.pulled_back(point, i, by_strain);
-        for (const PatchFactors &factor : of_patches)
-          if (bound_poses[patches.of_point(point)] == i)
-            by_F = combine(1., by_F, 2. * fe_space.volume(point) * factor[PatchSum::bound].change,
-                           F);
-        add_forces(fe_space, point, by_F, sums.by_poses[i]);
+        const Matrix3<double> F    = fe_space.deformation_gradient(point, poses.pose(pose));
+        const Matrix3<double> by_F = times(2. * fe_space.volume(point) * by_bound, F);
+        add_forces(fe_space, point, by_F, sums.by_poses[pose]);
         by_gradients = combine(1., by_gradients, 1., transpose_times(F, by_F));
       }
 
-      const Problem                           &problem;
-      const std::vector<double>               &along;
-      const FESpace                           &fe_space;
-      const Patches                           &patches;
-      const ExamplePoses                      &poses;
-      const LawsOfCells                        laws;
-      const ExampleStrains                     strains;
-      std::vector<std::optional<unsigned int>> bound_poses; ///< of each patch
+      const Problem             &problem;
+      const std::vector<double> &along;
+      const FESpace             &fe_space;
+      const Patches             &patches;
+      const ExamplePoses        &poses;
+      const ExampleStrains      &strains;
     };
 
     SlopeDerivatives
@@ -134,6 +126,7 @@ namespace Exemplar
         field->reinit(n);
       sums.by_weights.assign(poses.n_weights(), 0.);
       sums.by_poses.assign(poses.size(), Vector(n));
+      sums.by_strains.assign(problem.body.fe_space.n_points() * poses.size(), {});
       for (auto *cells : { &sums.by_young, &sums.by_poisson, &sums.by_density })
         cells->assign(m, 0.);
       return sums;
@@ -141,10 +134,12 @@ namespace Exemplar
   } // namespace
 
   SlopeDerivatives
-  derivatives_of_slope(const Problem &problem, const Direction &direction)
+  derivatives_of_slope(const Problem        &problem,
+                       const ExampleStrains &strains,
+                       const Direction      &direction)
   {
     SlopeDerivatives sums = no_derivatives(problem);
-    ElasticPart      part(problem, direction.weights);
+    ElasticPart      part(problem, strains, direction.weights);
     SlopeOfPoints<ElasticPart>(problem, direction.positions, part).add_to(sums);
     add_slope_of_ridge(problem, direction, sums);
     add_slope_of_loads(problem, direction, sums);
@@ -164,9 +159,10 @@ namespace Exemplar
     const FESpace        &fe_space = problem.body.fe_space;
     const Matrix3<double> by_strain
         = times(0.5 * by_bound, p_derivative(strains.stretch(point, pose)));
-    const Matrix3<double> by_F = strains.pulled_back(point, pose, by_strain);
     const Matrix3<double> F
         = fe_space.deformation_gradient(point, problem.examples.poses.pose(pose));
+    const Matrix3<double> by_F
+        = pulled_back(strains.get_laws()[fe_space.cell_of(point)], F, by_strain);
     add_forces(fe_space, point, by_F, sums.by_poses[pose]);
     add_at_vertices(fe_space, fe_space.cell_of(point), times(-1., transpose_times(F, by_F)),
                     sums.by_rest_positions);

@@ -15,16 +15,27 @@ namespace Exemplar
       using Evaluation = DampingPoint<Cell, Number>;
 
       /// With s of Eq. (22), in a step with these earlier positions.
-      DampingPart(const Problem &problem, std::vector<WeightedPositions> history, const double s)
-          : problem(problem), fe_space(problem.body.fe_space), history(std::move(history)),
-            laws(laws_of_cells(problem.parameters, problem.body)),
+      DampingPart(const Problem                 &problem,
+                  const ExampleStrains          &of_examples,
+                  std::vector<WeightedPositions> history,
+                  const double                   s)
+          : problem(problem), of_examples(of_examples), fe_space(problem.body.fe_space),
+            history(std::move(history)), laws(of_examples.get_laws()),
             by_past(this->history.size(), Vector(fe_space.n_dofs())),
             shares(fe_space.n_points(), s), shares_of_patches(problem.body.patches.size(), s),
             strains(fe_space.n_points(), Matrix3<double>{})
       {
-        for (unsigned int point = 0; point < fe_space.n_points(); ++point)
-          for (const WeightedPositions &past : this->history)
-            look_back(point, past);
+        for_each_part(n_parts, fe_space.n_points(), problem.parameters.solver.n_threads,
+                      [this](const std::size_t, const std::size_t begin, const std::size_t end)
+                      {
+                        for (std::size_t point = begin; point < end; ++point)
+                          for (const WeightedPositions &past : this->history)
+                            look_back(point, past);
+                      });
+        if (!shares_of_patches.empty())
+          for (unsigned int point = 0; point < fe_space.n_points(); ++point)
+            if (shares[point] == 0.)
+              shares_of_patches[problem.body.patches.of_point(point)] = 0.;
       }
 
       const LawsOfCells &
@@ -86,7 +97,7 @@ namespace Exemplar
       void
       add_guard_bound(const double by_bound, SlopeDerivatives &sums) const
       {
-        add_slope_of_guard_bound(problem, ExampleStrains(problem, laws), by_bound, sums);
+        add_slope_of_guard_bound(problem, of_examples, by_bound, sums);
       }
 
       std::vector<Vector>
@@ -105,18 +116,18 @@ namespace Exemplar
         const Matrix3<double> R   = model_rotation(law, F);
         strains[point]   = combine(1., strains[point], past.weight, model_strain(law, R, F));
         const double p_0 = problem.examples.poses.constants().guard_bound;
-        if (!traits_of(law).has_guard
-            || product_of_sums(symmetric_part(transpose_times(R, F))) >= p_0)
-          return;
-        shares[point] = 0.;
-        if (!shares_of_patches.empty())
-          shares_of_patches[problem.body.patches.of_point(point)] = 0.;
+        if (traits_of(law).has_guard
+            && !(product_of_sums(symmetric_part(transpose_times(R, F))) >= p_0))
+          shares[point] = 0.;
       }
 
+      static constexpr std::size_t n_parts = 16; ///< of the loop, whatever the threads
+
       const Problem                       &problem;
+      const ExampleStrains                &of_examples;
       const FESpace                       &fe_space;
       const std::vector<WeightedPositions> history;
-      const LawsOfCells                    laws;
+      const LawsOfCells                   &laws;
       std::vector<Vector>                  by_past;
       std::vector<double>                  shares, shares_of_patches; ///< s, or 0
       std::vector<Matrix3<double>>         strains;                   ///< sum c_m e(x_m)
@@ -124,21 +135,22 @@ namespace Exemplar
   } // namespace
 
   void
-  add_slope_of_damping(const Problem     &problem,
-                       const State       &start,
-                       const Direction   &direction,
-                       SlopeDerivatives  &sums,
-                       MotionDerivatives &of_motion)
+  add_slope_of_damping(const Problem        &problem,
+                       const ExampleStrains &of_examples,
+                       const State          &start,
+                       const Direction      &direction,
+                       SlopeDerivatives     &sums,
+                       MotionDerivatives    &of_motion)
   {
     const TimeIntegrator &integrator = *problem.actions.integrator;
     const auto            history    = integrator.history(start);
-    DampingPart           unit(problem, history, integrator.rate_factor());
+    DampingPart           unit(problem, of_examples, history, integrator.rate_factor());
     of_motion.by_stiffness_damping
         = SlopeOfPoints<DampingPart>(problem, direction.positions, unit).slope();
     const double s = integrator.stiffness_damping_factor();
     if (!(s > 0.))
       return;
-    DampingPart part(problem, history, s);
+    DampingPart part(problem, of_examples, history, s);
     SlopeOfPoints<DampingPart>(problem, direction.positions, part).add_to(sums);
     of_motion.by_past = part.take_by_past();
   }

@@ -2,6 +2,7 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/run/adjoint/adjoint_checks.h>
 #include <exemplar/run/adjoint/adjoint_solve.h>
+#include <exemplar/run/adjoint/example_strains.h>
 #include <exemplar/run/adjoint/slope_of_motion.h>
 #include <exemplar/run/adjoint/trajectory_checks.h>
 #include <exemplar/run/adjoint/trajectory_gradients.h>
@@ -80,6 +81,9 @@ namespace Exemplar
       add(some.by_young, to.by_young);
       add(some.by_poisson, to.by_poisson);
       add(some.by_density, to.by_density);
+      for (std::size_t i = 0; i < to.by_strains.size(); ++i)
+        for (std::size_t k = 0; k < n_symmetric; ++k)
+          to.by_strains[i][k] += some.by_strains[i][k];
       to.by_importance += some.by_importance;
       for (unsigned int c = 0; c < 3; ++c)
         to.by_gravity[c] += some.by_gravity[c];
@@ -98,7 +102,7 @@ namespace Exemplar
                const RecordedSteps                 &steps,
                const std::vector<StateDerivatives> &by_states)
           : problem(problem), steps(steps), by_states(by_states), visit(problem), system(problem),
-            is_dynamic(problem.actions.integrator != nullptr)
+            strains(problem), is_dynamic(problem.actions.integrator != nullptr)
       {
         for (Carried &state : carried)
           state = { zeros(), zeros() };
@@ -153,7 +157,8 @@ namespace Exemplar
       {
         if (sum.by_nodal_forces.size() == 0)
           sum = derivatives_of_slope(
-              problem, { zeros(), std::vector<double>(problem.examples.poses.n_weights(), 0.) });
+              problem, strains,
+              { zeros(), std::vector<double>(problem.examples.poses.n_weights(), 0.) });
         return std::move(sum);
       }
 
@@ -163,7 +168,8 @@ namespace Exemplar
         const State start = steps.start(i);
         Evaluation  evaluation;
         visit.go_to(start, steps.step(i), evaluation);
-        require_rotations(problem);
+        if (evaluation.elastic.guarded_cells > 0) // elsewhere rotations are unique
+          require_rotations(problem);
         require_solved_step(problem, evaluation, i);
         const std::vector<unsigned int> weak = weakly_active(problem, evaluation);
         for (auto weight = weak.rbegin(); weight != weak.rend(); ++weight)
@@ -220,11 +226,11 @@ namespace Exemplar
                   const Direction   &direction,
                   MotionDerivatives &of_motion) const
       {
-        SlopeDerivatives slope = derivatives_of_slope(problem, direction);
+        SlopeDerivatives slope = derivatives_of_slope(problem, strains, direction);
         if (is_dynamic)
         {
           add_slope_of_inertia(problem, direction, slope, of_motion);
-          add_slope_of_damping(problem, start, direction, slope, of_motion);
+          add_slope_of_damping(problem, strains, start, direction, slope, of_motion);
         }
         return slope;
       }
@@ -259,6 +265,7 @@ namespace Exemplar
       const std::vector<StateDerivatives> &by_states;
       Visit                                visit;
       AdjointSystem                        system;
+      const ExampleStrains                 strains;
       const bool                           is_dynamic;
       std::array<Carried, 2>               carried; ///< by the last states, the later one first
       Vector                               by_velocities; ///< at the end of a step

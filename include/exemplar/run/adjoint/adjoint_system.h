@@ -20,6 +20,10 @@ namespace Exemplar
     void
     go_to_state(const Evaluation &evaluation);
 
+    /// Let the factor have all digits at this state and those to come. Returns whether it had fewer.
+    bool
+    sharpen();
+
     /// Add to the direction what takes this right side to zero, by the factor.
     void
     add_solution(const Direction &right_side, Direction &direction);
@@ -45,7 +49,13 @@ namespace Exemplar
 
   private:
     void
-    factorize(unsigned int guarded_cells);
+    make_factor();
+
+    void
+    factorize();
+
+    void
+    factorize(double convexity);
 
     /// The greatest entry of G b, which a function of the weights alone has for its forces.
     double
@@ -72,6 +82,8 @@ namespace Exemplar
     std::vector<double>              Z; ///< A^-1 G
     dealii::FullMatrix<double>       inverse;
     double                           size_of_sums = 1.;
+    bool         is_rough      = true; ///< refined solutions need few digits of a factor
+    unsigned int guarded_cells = 0;    ///< at the state
   };
 } // namespace Exemplar
 

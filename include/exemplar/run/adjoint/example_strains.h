@@ -22,13 +22,19 @@ namespace Exemplar
   {
   public:
     /// The problem must outlive it.
-    ExampleStrains(const Problem &problem, const LawsOfCells &laws);
+    explicit ExampleStrains(const Problem &problem);
+
+    const LawsOfCells &
+    get_laws() const
+    {
+      return laws;
+    }
 
     /// Of example i at a point.
-    const Matrix3<double> &
+    Matrix3<double>
     strain(const unsigned int point, const unsigned int i) const
     {
-      return strains[point * poses.size() + i];
+      return unpack(strains[point * poses.size() + i]);
     }
 
     /// S of an example at a point where the law has rotations.
@@ -38,10 +44,6 @@ namespace Exemplar
     /// sum w_i E_i.
     Matrix3<double>
     wish(unsigned int point, const std::vector<double> &weights) const;
-
-    /// The derivative by F_i of what has the derivative `by_strain` by the strain.
-    Matrix3<double>
-    pulled_back(unsigned int point, unsigned int i, const Matrix3<double> &by_strain) const;
 
     /// An example at a point.
     struct Place
@@ -55,15 +57,26 @@ namespace Exemplar
 
     /// The example that says where the guard (26) of a patch begins; nothing if none does.
     std::optional<unsigned int>
-    pose_of_bound(unsigned int patch) const;
+    pose_of_bound(const unsigned int patch) const
+    {
+      return bound_poses[patch];
+    }
 
   private:
-    const FESpace               &fe_space;
-    const Patches               &patches;
-    const ExamplePoses          &poses;
-    const LawsOfCells           &laws;
-    std::vector<Matrix3<double>> strains; ///< by point, of all examples
+    std::optional<unsigned int>
+    find_pose_of_bound(unsigned int patch) const;
+
+    const FESpace                           &fe_space;
+    const Patches                           &patches;
+    const ExamplePoses                      &poses;
+    const LawsOfCells                        laws;
+    std::vector<SymmetricEntries<double>>    strains;     ///< by point, of all examples
+    std::vector<std::optional<unsigned int>> bound_poses; ///< of each patch
   };
+
+  /// Take the derivatives by strains to the poses that have them, and to the rest positions.
+  void
+  carry_strains_to_poses(const Problem &problem, SlopeDerivatives &sums);
 
   /// Of a slope with this derivative by p_0 of Eq. (16), which follows from the example that it must leave as
   /// it is.

@@ -57,9 +57,12 @@ namespace Exemplar
 
   template <typename Number>
   Matrix3<Number>
-  times(const Number &factor, const Matrix3<Number> &A)
+  times(const Number &factor, Matrix3<Number> A)
   {
-    return combine(factor, A, Number(0.), A);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        A[i][j] *= factor;
+    return A;
   }
 
   /// C^-1:T.
@@ -97,16 +100,15 @@ namespace Exemplar
   public:
     MaterialFunctions(const PointMaterial &of, const Number &E, const Number &nu, const Number &eta)
         : of(of), eta(Number(of.importance) * eta),
-          body(with_fibres(E, nu, Number(of.body.fibre_stiffness), of.axis)),
-          examples(with_fibres(
-              of.of_examples.youngs_modulus ? Number(*of.of_examples.youngs_modulus) : E,
-              of.of_examples.poissons_ratio ? Number(*of.of_examples.poissons_ratio) : nu,
-              Number(0.),
-              of.axis)),
+          body(with_fibres(E, nu, Number(of.body.fibre_stiffness), of.axis)), examples(body),
           sum(body)
     {
       if (of.of_examples.is_own())
       {
+        examples = with_fibres(
+            of.of_examples.youngs_modulus ? Number(*of.of_examples.youngs_modulus) : E,
+            of.of_examples.poissons_ratio ? Number(*of.of_examples.poissons_ratio) : nu, Number(0.),
+            of.axis);
         const Number rest = Number(1.) - this->eta;
         sum.lambda        = rest * body.lambda + this->eta * examples.lambda;
         sum.mu            = rest * body.mu + this->eta * examples.mu;
@@ -126,6 +128,13 @@ namespace Exemplar
     has_own_examples() const
     {
       return of.of_examples.is_own();
+    }
+
+    /// Whether target() is eta times what a point is drawn to.
+    bool
+    has_scaled_target() const
+    {
+      return of.acts_on == ActsOn::all && !has_own_examples();
     }
 
     /// What patches take of C.

@@ -2,121 +2,14 @@
 #ifndef exemplar_point_potential_h
 #define exemplar_point_potential_h
 
-#include <exemplar/kernels/patch_cell.h>
-#include <exemplar/run/adjoint/laws_with_derivatives.h>
-#include <exemplar/run/adjoint/patch_potential.h>
+#include <exemplar/run/adjoint/point_of_law.h>
 
-#include <deal.II/base/array_view.h>
+#include <optional>
 
 // The potential of a point as one function of all that it depends on, for numbers that carry derivatives.
 
 namespace Exemplar
 {
-  /// What is the same at all points.
-  struct PointScene
-  {
-    ExampleConstants examples;
-    double           blended_part; ///< of the blended energy
-    /// What patches take of the volume part of the elasticity and of the guard (24): all, or nothing, 0.
-    double part_of_patches;
-  };
-
-  /// Where the potential of a point is taken.
-  template <typename Number>
-  struct PointPlace
-  {
-    Matrix3<double>           R; ///< the rotation of the value of F
-    Matrix3<Number>           F;
-    Matrix3<Number>           wish; ///< the strain that it is drawn to, before a part of it acts
-    MaterialFunctions<Number> material;
-    Number                    importance; ///< eta of all cells
-  };
-
-  /// The derivatives of a patch's potential by its sums, and how they change.
-  using PatchFactors = PatchSums<HyperDual<0>>;
-
-  /// Those of the patches that a point belongs to: one, or none.
-  using FactorsAtPoint = dealii::ArrayView<const PatchFactors>;
-
-  template <typename Number>
-  Number
-  constant(const HyperDual<0> &number)
-  {
-    return Number(number.value, number.change);
-  }
-
-  /// A cell with its law, and what its patch sums up of it.
-  template <typename Cell, typename Number>
-  class PointOfLaw
-  {
-  public:
-    PointOfLaw(const CellLaw law, const PointScene &scene, const PointPlace<Number> &at)
-        : scene(scene), at(at), cell(at.material.template of_law<typename Cell::Constants>(law),
-                                     rotation(),
-                                     at.F,
-                                     scene.examples)
-    {
-    }
-
-  protected:
-    /// The derivative by p_0 of Eq. (16) of an energy with this target.
-    Number
-    energy_by_guard_bound(const Matrix3<Number> &D) const
-    {
-      if constexpr (Cell::traits.has_guard)
-        if (cell.is_guarded())
-        {
-          const Number p_0 = Number(scene.examples.guard_bound), p = cell.product_of_sums();
-          return guard_energy(cell.own_material(), Number(1.), cell.stretch_factor(), D)
-                 * guard(p, p_0).derivative * p / p_0;
-        }
-      return Number(0.);
-    }
-
-    /// With this trace of what the point is drawn to.
-    PatchSums<Number>
-    dilatation(const Number &wish) const
-    {
-      PatchSums<Number> sums;
-      sums[PatchSum::volume] = Number(1.);
-      sums[PatchSum::lambda] = at.material.lambda_of_patches();
-      sums[PatchSum::trace]  = trace(cell.strain());
-      sums[PatchSum::wish]   = wish;
-      if constexpr (Cell::traits.has_guard_of_patches())
-        if (may_be_thin())
-          sums[PatchSum::trace]
-              += supplement(ThinTrace<Number>(cell.stretch_factor(), cell.product_of_sums()));
-      return sums;
-    }
-
-    static Number
-    supplement(const ThinTrace<Number> &thin)
-    {
-      return thin.acts() ? thin.supplement() : Number(0.);
-    }
-
-    bool
-    may_be_thin() const
-    {
-      return StretchGuard<Number>::may_act(cell.stretch_factor(), cell.product_of_sums());
-    }
-
-    const PointScene         &scene;
-    const PointPlace<Number> &at;
-
-  private:
-    Matrix3<Number>
-    rotation() const
-    {
-      if constexpr (Cell::traits.has_rotations)
-        return rotation_by_F(at.R, at.F);
-      return identity_matrix<Number>();
-    }
-
-  protected:
-    const Cell cell;
-  };
-
   /// The elastic energy, with examples.
   template <typename Cell, typename Number>
   class ElasticPoint : public PointOfLaw<Cell, Number>
@@ -144,11 +37,43 @@ namespace Exemplar
       return this->energy_by_guard_bound(D);
     }
 
+    /// The derivatives of `share` times the energy with what patches make of it, by the law's own force;
+    /// nothing where more than that acts.
+    std::optional<PointStress<Number>>
+    regular_stress(const double share, const FactorsAtPoint &of_patches)
+    {
+      if (!this->is_regular() || !at.material.has_scaled_target())
+        return {};
+      const Number       &eta   = at.material.importance();
+      PointStress<Number> found = this->stress_towards(D);
+      if (scene.blended_part > 0. && eta > Number(0.))
+        found.by_wish = combine(Number(1.), found.by_wish,
+                                Number(scene.blended_part) * (Number(1.) - eta) / eta,
+                                stress(cell.own_material(), D));
+      found = found.scaled(Number(share));
+      for (const PatchFactors &factors : of_patches)
+      {
+        found += this->stress_of_traces(factors);
+        found.by_shape
+            = combine(Number(1.), found.by_shape,
+                      Number(2.) * constant<Number>(factors[PatchSum::square]), at.shape);
+        if constexpr (Cell::traits.knows_volume)
+          found.by_shape
+              = combine(Number(1.), found.by_shape,
+                        constant<Number>(factors[PatchSum::volume_change]), cofactors(at.shape));
+      }
+      if constexpr (Cell::traits.knows_volume)
+        found.by_shape = combine(Number(1.), found.by_shape, Number(share) * change_of_importance(),
+                                 of_examples_alone());
+      found.by_wish = times(eta, found.by_wish);
+      return found;
+    }
+
     PatchSums<Number>
     of_patch() const
     {
       PatchSums<Number> sums     = this->dilatation(trace(D));
-      sums[PatchSum::square]     = contract(at.F, at.F);
+      sums[PatchSum::square]     = contract(at.shape, at.shape);
       sums[PatchSum::importance] = at.material.importance();
       if (at.material.has_own_examples())
         sums[PatchSum::excess] = at.material.excess(D).lambda_of_patches;
@@ -168,14 +93,28 @@ namespace Exemplar
       return Number(1. - scene.part_of_patches);
     }
 
-    /// A law that knows eta has it as a number without derivatives.
+    /// A law that knows eta has it as a number without derivatives. What is missing is 0 with them.
+    Number
+    change_of_importance() const
+    {
+      return at.importance - Number(scene.examples.importance);
+    }
+
+    /// The derivative by S of what grows with it.
+    Matrix3<Number>
+    of_examples_alone() const
+    {
+      return combine(Number(1.), stress(cell.own_material(), cell.strain()), Number(-1.),
+                     cell.elastic_force());
+    }
+
     Number
     of_share() const
     {
       Number sum(0.);
       if constexpr (Cell::traits.knows_volume)
       {
-        const Number change = at.importance - Number(scene.examples.importance);
+        const Number change = change_of_importance();
         const Number of_strain
             = Number(0.5) * contract(stress(cell.own_material(), cell.strain()), cell.strain());
         sum += change * (of_strain - cell.elastic_density());
@@ -243,6 +182,22 @@ namespace Exemplar
       return this->energy_by_guard_bound(at.wish);
     }
 
+    /// As of ElasticPoint.
+    std::optional<PointStress<Number>>
+    regular_stress(const double share, const FactorsAtPoint &of_patches)
+    {
+      if constexpr (Cell::traits.knows_volume) // whose force has more than damping
+        return {};
+      const bool was_thin
+          = Cell::traits.has_guard_of_patches() && ThinTrace<Number>::of_strain(at.wish).acts();
+      if (!this->is_regular() || was_thin)
+        return {};
+      PointStress<Number> found = this->stress_towards(at.wish).scaled(Number(share));
+      for (const PatchFactors &factors : of_patches)
+        found += this->stress_of_traces(factors);
+      return found;
+    }
+
     PatchSums<Number>
     of_patch() const
     {
@@ -284,6 +239,46 @@ namespace Exemplar
                 found.potential += constant<Number>(factor.numbers[k]) * sums.numbers[k];
             }
         });
+    return found;
+  }
+
+  /// The derivatives of the same where these are the law's forces, and what the changes of the patches'
+  /// factors make of their sums.
+  template <typename Number>
+  struct RegularPoint
+  {
+    PointStress<Number> stress;
+    Number              of_patches;
+  };
+
+  /// Nothing where more than forces acts.
+  template <template <typename, typename> class Evaluation, typename Number>
+  std::optional<RegularPoint<Number>>
+  regular_point(const CellLaw             law,
+                const PointScene         &scene,
+                const PointPlace<Number> &at,
+                const double              share,
+                const FactorsAtPoint     &of_patches)
+  {
+    std::optional<RegularPoint<Number>> found;
+    with_potential<Number>(law,
+                           [&](auto model)
+                           {
+                             using Cell = typename decltype(model)::type;
+                             Evaluation<Cell, Number> point(law, scene, at);
+                             const auto stress = point.regular_stress(share, of_patches);
+                             if (!stress)
+                               return;
+                             found = RegularPoint<Number>{ *stress, Number(0.) };
+                             if constexpr (Cell::traits.trace_gradient_is_R)
+                               for (const PatchFactors &factors : of_patches)
+                               {
+                                 const PatchSums<Number> sums = point.of_patch();
+                                 for (std::size_t k = 0; k < PatchFactors::size; ++k)
+                                   found->of_patches
+                                       += Number(factors.numbers[k].change) * sums.numbers[k];
+                               }
+                           });
     return found;
   }
 

@@ -28,11 +28,12 @@ namespace Exemplar
 
   /// Of stiffness damping, in a step from `start`.
   void
-  add_slope_of_damping(const Problem     &problem,
-                       const State       &start,
-                       const Direction   &direction,
-                       SlopeDerivatives  &sums,
-                       MotionDerivatives &of_motion);
+  add_slope_of_damping(const Problem        &problem,
+                       const ExampleStrains &of_examples,
+                       const State          &start,
+                       const Direction      &direction,
+                       SlopeDerivatives     &sums,
+                       MotionDerivatives    &of_motion);
 } // namespace Exemplar
 
 #endif

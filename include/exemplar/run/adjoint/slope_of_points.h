@@ -2,7 +2,8 @@
 #ifndef exemplar_slope_of_points_h
 #define exemplar_slope_of_points_h
 
-#include <exemplar/run/adjoint/point_potential.h>
+#include <exemplar/base/loop_parts.h>
+#include <exemplar/run/adjoint/point_slope.h>
 #include <exemplar/run/adjoint/slope_terms.h>
 
 // The derivatives of the slope of a potential that is a sum over points and patches: that of each is evaluated
@@ -10,69 +11,6 @@
 
 namespace Exemplar
 {
-  /// Of which the potential of a point has derivatives: F, the six entries of the wish, E, nu, eta.
-  namespace OfPoint
-  {
-    constexpr std::size_t F = 0, wish = 9, E = 15, nu = 16, eta = 17, n = 18;
-
-    /// The number with derivative number k.
-    template <std::size_t n_by>
-    HyperDual<n_by>
-    seeded(const double value, const double change, const std::size_t k)
-    {
-      HyperDual<n_by> number(value, change);
-      if (k < n_by)
-        number.by[k] = 1.;
-      return number;
-    }
-
-    template <std::size_t n_by>
-    Matrix3<HyperDual<n_by>>
-    seeded(const Matrix3<double> &A, const Matrix3<double> &dA)
-    {
-      Matrix3<HyperDual<n_by>> result;
-      for (std::size_t k = 0; k < 9; ++k)
-        result[k / 3][k % 3] = seeded<n_by>(A[k / 3][k % 3], dA[k / 3][k % 3], F + k);
-      return result;
-    }
-
-    template <std::size_t n_by>
-    Matrix3<HyperDual<n_by>>
-    seeded_symmetric(const Matrix3<double> &A, const Matrix3<double> &dA)
-    {
-      const SymmetricEntries<double>    value = pack(A), change = pack(dA);
-      SymmetricEntries<HyperDual<n_by>> entries;
-      for (std::size_t k = 0; k < n_symmetric; ++k)
-        entries[k] = seeded<n_by>(value[k], change[k], wish + k);
-      return unpack(entries);
-    }
-
-    inline Matrix3<double>
-    by_F(const std::array<double, n> &by)
-    {
-      Matrix3<double> A;
-      for (std::size_t k = 0; k < 9; ++k)
-        A[k / 3][k % 3] = by[F + k];
-      return A;
-    }
-
-    /// The matrix of which the product with a symmetric one has these derivatives by its entries.
-    inline Matrix3<double>
-    by_wish(const std::array<double, n> &by)
-    {
-      SymmetricEntries<double> entries;
-      for (std::size_t k = 0; k < n_symmetric; ++k)
-        entries[k] = (k < 3 ? 1. : 0.5) * by[wish + k];
-      return unpack(entries);
-    }
-  } // namespace OfPoint
-
-  /// What a point's strain is drawn to, and how that changes along the direction.
-  struct Wish
-  {
-    Matrix3<double> value, change;
-  };
-
   /// `Part` says which potential: Part::Evaluation of point_potential.h, factors share(point) and
   /// share_of_patch(patch) of it, wish(point), patch_scene(law), and square_of_bound(patch, point) for the
   /// guard (26). By add_wish() and add_guard_bound() it hears of the derivatives by what is its own.
@@ -89,8 +27,13 @@ namespace Exemplar
                                         std::min<double>(1., patches.size()) },
           part(part)
     {
-      for (unsigned int patch = 0; patch < patches.size(); ++patch)
-        of_patches.push_back(potential_of_patch(patch));
+      of_patches.resize(patches.size());
+      for_each_part(n_parts, patches.size(), problem.parameters.solver.n_threads,
+                    [this](const std::size_t, const std::size_t begin, const std::size_t end)
+                    {
+                      for (std::size_t patch = begin; patch < end; ++patch)
+                        of_patches[patch] = potential_of_patch(patch);
+                    });
       for (const OfPatch &potential : of_patches)
       {
         PatchFactors of_patch;
@@ -105,8 +48,8 @@ namespace Exemplar
     slope() const
     {
       double sum = 0.;
-      for (unsigned int point = 0; point < fe_space.n_points(); ++point)
-        sum += fe_space.volume(point) * potential_of<0>(point, {}).potential.change;
+      for_each_found<double>([this](const unsigned int point) { return slope_of_energy(point); },
+                             [&](const unsigned int, const double of_point) { sum += of_point; });
       for (const OfPatch &potential : of_patches)
         sum += potential.change;
       return sum;
@@ -119,15 +62,58 @@ namespace Exemplar
       for (const OfPatch &potential : of_patches)
         sums.by_importance += potential.change_by[PatchFactors::size];
       double by_guard_bound = 0.;
-      for (unsigned int point = 0; point < fe_space.n_points(); ++point)
-        by_guard_bound += add_point(point, sums);
+      for_each_found<Contribution>([this](const unsigned int point) { return contribution(point); },
+                                   [&](const unsigned int point, const Contribution &of_point)
+                                   {
+                                     add(point, of_point, sums);
+                                     by_guard_bound += of_point.by_guard_bound;
+                                   });
       if (by_guard_bound != 0.)
         part.add_guard_bound(by_guard_bound, sums);
     }
 
   private:
     using Changing = HyperDual<0>;
-    using OfPatch  = HyperDual<PatchFactors::size + 1>; // and by eta
+
+    static constexpr std::size_t n_parts = 16; ///< of loops, whatever the threads
+
+    using OfPatch = HyperDual<PatchFactors::size + 1>; // and by eta
+
+    /// Find something at all points, some at a time by all threads, and take it in the points' order.
+    template <typename Found, typename Find, typename Take>
+    void
+    for_each_found(const Find &find, const Take &take) const
+    {
+      constexpr unsigned int n_at_once = 1024;
+      const unsigned int     n         = fe_space.n_points();
+      std::vector<Found>     found(std::min(n, n_at_once));
+      for (unsigned int first = 0; first < n; first += n_at_once)
+      {
+        const unsigned int n_found = std::min(n_at_once, n - first);
+        for_each_part(n_parts, n_found, problem.parameters.solver.n_threads,
+                      [&](const std::size_t, const std::size_t begin, const std::size_t end)
+                      {
+                        for (std::size_t i = begin; i < end; ++i)
+                          found[i] = find(first + i);
+                      });
+        for (unsigned int i = 0; i < n_found; ++i)
+          take(first + i, found[i]);
+      }
+    }
+
+    /// Without patches.
+    double
+    slope_of_energy(const unsigned int point) const
+    {
+      const Point at = place_of(point);
+      return fe_space.volume(point)
+             * with_place<Changing>(at,
+                                    [&](const auto &place) {
+                                      return point_potential<Part::template Evaluation>(
+                                          at.law, scene, place, part.share(point), {});
+                                    })
+                   .potential.change;
+    }
 
     FactorsAtPoint
     factors_at(const unsigned int point) const
@@ -137,42 +123,86 @@ namespace Exemplar
       return { &factors[patches.of_point(point)], 1 };
     }
 
-    /// With derivatives where numbers carry them: function(law, place).
-    template <std::size_t n_by, typename Function>
-    auto
-    with_place(const unsigned int point, const Function &function) const
+    /// All that the potential of a point depends on.
+    struct Point
     {
-      using Number             = HyperDual<n_by>;
-      const unsigned int  cell = fe_space.cell_of(point);
-      const auto          F    = fe_space.deformation_gradient(point, problem.state.positions);
-      const auto          dF   = fe_space.deformation_gradient(point, along);
-      const Wish          wish = part.wish(point);
-      const PointMaterial material(problem.body.material, problem.body.cell_material,
-                                   problem.parameters.examples.acts_on, scene.part_of_patches,
-                                   cell);
-      const Number        eta = OfPoint::seeded<n_by>(scene.examples.importance, 0., OfPoint::eta);
-      const auto          constant_of = [](const double value, const std::size_t k)
-      { return OfPoint::seeded<n_by>(value, 0., k); };
-      const PointPlace<Number> at{
-        closest_rotation(F), OfPoint::seeded<n_by>(F, dF),
-        OfPoint::seeded_symmetric<n_by>(wish.value, wish.change),
-        MaterialFunctions<Number>(material, constant_of(material.body.youngs_modulus, OfPoint::E),
-                                  constant_of(material.body.poissons_ratio, OfPoint::nu), eta),
-        eta
-      };
-      return function(laws[cell], at);
+      CellLaw         law;
+      Matrix3<double> F, dF;
+      PointShape      shape;
+      Wish            wish;
+      PointMaterial   material;
+    };
+
+    Point
+    place_of(const unsigned int point) const
+    {
+      const unsigned int    cell = fe_space.cell_of(point);
+      const Matrix3<double> F    = fe_space.deformation_gradient(point, problem.state.positions);
+      const Matrix3<double> dF   = fe_space.deformation_gradient(point, along);
+      return { laws[cell],
+               F,
+               dF,
+               PointShape(traits_of(laws[cell]).has_rotations, F, dF),
+               part.wish(point),
+               PointMaterial(problem.body.material, problem.body.cell_material,
+                             problem.parameters.examples.acts_on, scene.part_of_patches, cell) };
     }
 
-    template <std::size_t n_by>
-    PointPotential<HyperDual<n_by>>
-    potential_of(const unsigned int point, const FactorsAtPoint &of_patches) const
+    /// As numbers with derivatives: function(place).
+    template <typename Number, typename Function>
+    auto
+    with_place(const Point &point, const Function &function) const
     {
-      return with_place<n_by>(point,
-                              [&](const CellLaw law, const auto &at)
-                              {
-                                return point_potential<Part::template Evaluation>(
-                                    law, scene, at, part.share(point), of_patches);
-                              });
+      const Number eta = OfPoint::seeded<Number>(scene.examples.importance, 0., OfPoint::eta);
+      const auto   constant_of = [](const double value, const std::size_t k)
+      { return OfPoint::seeded<Number>(value, 0., k); };
+      const Material::BodyConstants &body = point.material.body;
+      const PointPlace<Number>       at{
+        OfPoint::seeded_shape<Number>(point.shape),
+        OfPoint::seeded_symmetric<Number>(point.wish.value, point.wish.change, OfPoint::wish),
+        MaterialFunctions<Number>(point.material, constant_of(body.youngs_modulus, OfPoint::E),
+                                  constant_of(body.poissons_ratio, OfPoint::nu), eta),
+        eta
+      };
+      return function(at);
+    }
+
+    PointSlope
+    slope_of(const Point &point, const double share, const FactorsAtPoint &of_patches) const
+    {
+      const auto found
+          = with_place<OfPoint::Regular>(point,
+                                         [&](const auto &at) {
+                                           return regular_point<Part::template Evaluation>(
+                                               point.law, scene, at, share, of_patches);
+                                         });
+      if (found)
+        return slope_of_stress(point.shape, point.wish, *found);
+      if (point.shape.is_turned())
+        return slope_of_potential<OfPoint::n_with_S>(point, share, of_patches);
+      return slope_of_potential<OfPoint::n_with_F>(point, share, of_patches);
+    }
+
+    /// Where more than these acts, by derivatives of the potential.
+    template <std::size_t n_by>
+    PointSlope
+    slope_of_potential(const Point          &point,
+                       const double          share,
+                       const FactorsAtPoint &of_patches) const
+    {
+      using Number            = HyperDual<n_by>;
+      const auto    found     = with_place<Number>(point,
+                                            [&](const auto &at) {
+                                              return point_potential<Part::template Evaluation>(
+                                                  point.law, scene, at, share, of_patches);
+                                            });
+      const Number &potential = found.potential;
+      return { potential.change,
+               { OfPoint::by_shape(potential, point.shape),
+                 OfPoint::by_symmetric(potential, OfPoint::wish) },
+               { { potential.change_by[OfPoint::E], potential.change_by[OfPoint::nu],
+                   potential.change_by[OfPoint::eta] } },
+               found.by_guard_bound.change };
     }
 
     PatchFactors
@@ -181,9 +211,10 @@ namespace Exemplar
       PatchFactors sums;
       for (const unsigned int point : patches.points(patch))
       {
-        PatchFactors of_point
-            = with_place<0>(point, [&](const CellLaw law, const auto &at)
-                            { return patch_sums<Part::template Evaluation>(law, scene, at); });
+        const Point  at_point = place_of(point);
+        PatchFactors of_point = with_place<Changing>(
+            at_point, [&](const auto &at)
+            { return patch_sums<Part::template Evaluation>(at_point.law, scene, at); });
         of_point[PatchSum::bound] = Changing(part.square_of_bound(patch, point));
         const Changing volume(fe_space.volume(point));
         for (std::size_t k = 0; k < PatchFactors::size; ++k)
@@ -209,45 +240,59 @@ namespace Exemplar
              * patch_potential(part.patch_scene(scene, law), seeded_sums, eta);
     }
 
-    /// Returns the derivative by the bound of the guard (16).
-    double
-    add_point(const unsigned int point, SlopeDerivatives &sums)
+    /// What the slope has of a point, to be added to that of its nodes and its cell.
+    struct Contribution
     {
-      const auto            of_patches = factors_at(point);
-      const auto            found      = potential_of_whole(point, of_patches);
-      const auto           &potential  = found.potential;
-      const double          V          = fe_space.volume(point);
-      const unsigned int    cell       = fe_space.cell_of(point);
-      const Matrix3<double> F     = fe_space.deformation_gradient(point, problem.state.positions);
-      const Matrix3<double> dF    = fe_space.deformation_gradient(point, along);
-      const Matrix3<double> by_F  = OfPoint::by_F(potential.change_by),
-                            by_dF = OfPoint::by_F(potential.by);
-      add_forces(fe_space, point, times(V, by_F), sums.by_positions);
-      Matrix3<double> by_gradients
-          = combine(V, transpose_times(F, by_F), V, transpose_times(dF, by_dF));
-      part.add_wish(point,
-                    { times(V, OfPoint::by_wish(potential.change_by)),
-                      times(V, OfPoint::by_wish(potential.by)) },
-                    of_patches, sums, by_gradients);
-      sums.by_young[cell] += V * potential.change_by[OfPoint::E];
-      sums.by_poisson[cell] += V * potential.change_by[OfPoint::nu];
-      sums.by_importance += V * potential.change_by[OfPoint::eta];
-      add_at_vertices(fe_space, cell,
-                      combine(V * potential.change, identity_matrix<double>(), -1., by_gradients),
-                      sums.by_rest_positions);
-      return V * found.by_guard_bound.change;
+      Matrix3<double>    by_F, by_gradients;
+      Wish               by_wish;
+      OfPoint::Constants by_constants;
+      double             slope, by_guard_bound;
+    };
+
+    Contribution
+    contribution(const unsigned int point) const
+    {
+      const auto       of_patches = factors_at(point);
+      const Point      at         = place_of(point);
+      const double     V          = fe_space.volume(point);
+      const PointSlope found      = slope_of(at, part.share(point), of_patches);
+      const auto [by_F, by_dF]    = at.shape.derivatives(found.stress.by_shape);
+      Contribution result{ times(V, by_F),
+                           combine(V, transpose_times(at.F, by_F), V,
+                                   transpose_times(at.dF, by_dF)),
+                           slope_by_wish(times(Changing(V), found.stress.by_wish)),
+                           found.by_constants,
+                           V * (found.slope + of_guard_bound(point, of_patches)),
+                           V * found.by_guard_bound };
+      for (double &number : result.by_constants)
+        number *= V;
+      return result;
     }
 
-    /// With its share, and with the bound of the patch's guard, which depends on the volume alone.
-    PointPotential<HyperDual<OfPoint::n>>
-    potential_of_whole(const unsigned int point, const FactorsAtPoint &of_patches) const
+    /// The change of what the bound of the patch's guard adds, which depends on the volume alone.
+    double
+    of_guard_bound(const unsigned int point, const FactorsAtPoint &of_patches) const
     {
-      using Number = HyperDual<OfPoint::n>;
-      auto found   = potential_of<OfPoint::n>(point, of_patches);
+      double sum = 0.;
       for (const PatchFactors &factor : of_patches)
-        found.potential += constant<Number>(factor[PatchSum::bound])
-                           * Number(part.square_of_bound(patches.of_point(point), point));
-      return found;
+        sum += factor[PatchSum::bound].change
+               * part.square_of_bound(patches.of_point(point), point);
+      return sum;
+    }
+
+    void
+    add(const unsigned int point, const Contribution &of_point, SlopeDerivatives &sums)
+    {
+      const unsigned int cell = fe_space.cell_of(point);
+      add_forces(fe_space, point, of_point.by_F, sums.by_positions);
+      Matrix3<double> by_gradients = of_point.by_gradients;
+      part.add_wish(point, of_point.by_wish, factors_at(point), sums, by_gradients);
+      sums.by_young[cell] += of_point.by_constants[OfPoint::E];
+      sums.by_poisson[cell] += of_point.by_constants[OfPoint::nu];
+      sums.by_importance += of_point.by_constants[OfPoint::eta];
+      add_at_vertices(fe_space, cell,
+                      combine(of_point.slope, identity_matrix<double>(), -1., by_gradients),
+                      sums.by_rest_positions);
     }
 
     const Problem            &problem;

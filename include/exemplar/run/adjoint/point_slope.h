@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_point_slope_h
+#define exemplar_point_slope_h
+
+#include <exemplar/run/adjoint/point_numbers.h>
+#include <exemplar/run/adjoint/point_potential.h>
+
+// What a point adds to the slope.
+
+namespace Exemplar
+{
+  /// What a point's strain is drawn to, and how that changes along the direction.
+  struct Wish
+  {
+    Matrix3<double> value, change;
+  };
+
+  /// The derivatives of a slope by a wish are the changes of those of the potential.
+  inline Wish
+  slope_by_wish(const Matrix3<HyperDual<0>> &by_wish)
+  {
+    using Number = HyperDual<0>;
+    return { OfPoint::parts_of<double>(by_wish, [](const Number &x) { return x.change; }),
+             OfPoint::parts_of<double>(by_wish, [](const Number &x) { return x.value; }) };
+  }
+
+  /// What a point adds to the slope, over its volume, and the derivatives of that.
+  struct PointSlope
+  {
+    double                    slope;
+    PointStress<HyperDual<0>> stress;
+    OfPoint::Constants        by_constants;
+    double                    by_guard_bound; ///< p_0 of Eq. (16)
+  };
+
+  /// By the law's forces.
+  inline PointSlope
+  slope_of_stress(const PointShape                     &shape,
+                  const Wish                           &wish,
+                  const RegularPoint<OfPoint::Regular> &found)
+  {
+    using Number                    = OfPoint::Regular;
+    const auto &[by_shape, by_wish] = found.stress;
+    const auto along                = [&](const auto &part)
+    {
+      return contract(OfPoint::parts_of<double>(by_shape, part), shape.get_change())
+             + contract(OfPoint::parts_of<double>(by_wish, part), wish.change)
+             + part(found.of_patches);
+    };
+    PointSlope result{ along([](const Number &number) { return number.value; }),
+                       { OfPoint::changing(by_shape), OfPoint::changing(by_wish) },
+                       {},
+                       0. };
+    for (std::size_t k = 0; k < OfPoint::n_constants; ++k)
+      result.by_constants[k] = along([k](const Number &number) { return number.by[1 + k]; });
+    return result;
+  }
+} // namespace Exemplar
+
+#endif
