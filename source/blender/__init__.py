@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The panel "exemplar" of the 3D view: an object, its shape keys and vertex groups become a scene, which runs in the background."""
+import re
 import textwrap
+import uuid
 from pathlib import Path
 
 import bpy
@@ -8,12 +10,13 @@ from bpy.props import BoolProperty, FloatProperty, IntProperty, PointerProperty,
 
 from . import scene_files
 from .exemplar_blender import Failure, load_run
-from .job import Job, find_faults
+from .job import FaultSearch, Job
 
 bl_info = {"name": "exemplar", "blender": (3, 4, 0), "version": (0, 1, 0), "category": "Animation", "author": "exemplar",
            "location": "3D View > Sidebar > exemplar", "doc_url": "", "description": "Elastic bodies that bend as their shape keys say"}
 
 POLL = 0.2  # [s]
+MADE = "exemplar made"  # custom property of what the add-on makes: for which body, and under which name
 
 
 class Settings(bpy.types.PropertyGroup):
@@ -24,6 +27,7 @@ class Settings(bpy.types.PropertyGroup):
     follow: StringProperty(name="Follow", description="Vertex group that goes where armature, modifiers and keys put it")
     pin: StringProperty(name="Pin", description="Vertex group that stays where it is at rest")
     repair: BoolProperty(name="Repair", description="Mend holes and crossing faces before the body is filled")
+    token: StringProperty(options={"HIDDEN"})  # by which the body is known, whatever its name becomes
 
 
 class Preferences(bpy.types.AddonPreferences):
@@ -35,16 +39,30 @@ class Preferences(bpy.types.AddonPreferences):
 
 
 class Running:
-    """The run that goes on, or was the last; one at a time."""
+    """The run that goes on, or was the last; one at a time. What artists may rename or delete meanwhile is not held by reference."""
     job = None
-    body = None     # its name
-    preview = None  # name of the object that shows the newest frame
-    worn = ()       # names of what it wears
-    said = ""       # for the panel
+    search = None  # for faults, after a run that has failed
+    token = ""     # of the body
+    title = ""     # its name at the start
+    scene = ""     # name of the scene
+    start = 0      # its first frame
+    faces = ()     # of the body
+    worn = ()      # names of what it wears
+    poses = ()     # names of its shape keys
+    said = ""      # for the panel
+
+    @classmethod
+    def is_on(cls):
+        return cls.job is not None
+
+    @classmethod
+    def body(cls):
+        return next((item for item in bpy.data.objects if item.exemplar.token == cls.token), None)
 
 
 def program_of(context):
-    return bpy.path.abspath(context.preferences.addons[__name__].preferences.program)
+    program = context.preferences.addons[__name__].preferences.program
+    return str(Path(bpy.path.abspath(program)).resolve()) if "/" in program else program
 
 
 def directory_of(body):
@@ -55,111 +73,192 @@ def directory_of(body):
     return blend.with_name(f"{blend.stem}_{bpy.path.clean_name(body.name)}")
 
 
+def hide(shown, hidden=True):
+    try:
+        shown.hide_set(hidden)
+    except RuntimeError:
+        pass  # it is in no collection of this view layer, so it is not seen
+
+
+def mark(shown, name):
+    shown.name = name
+    shown[MADE] = f"{Running.token}/{shown.name}"
+
+
+def is_made(shown):
+    return MADE in shown
+
+
+def results_of(token):
+    """What was made for a body and has its name still; what was renamed is the artist's."""
+    return [item for item in bpy.data.objects if item.get(MADE) == f"{token}/{item.name}" and item.parent is None]
+
+
+def remove_made(shown):
+    for item in (*shown.children, shown):
+        if is_made(item):
+            mesh = item.data
+            bpy.data.objects.remove(item)
+            if mesh.users == 0:
+                bpy.data.meshes.remove(mesh)
+
+
 def start(context, body):
     """Write the scene of a body and start its run."""
-    if Running.job is not None and Running.job.is_running():
-        raise Failure(f"{Running.body} is running. Cancel that first.")
-    scene = context.scene
-    file = scene_files.write_scene(body, body.exemplar, scene, directory_of(body))
-    Running.job, Running.body, Running.said = Job(program_of(context), file, scene.frame_end - scene.frame_start), body.name, ""
-    Running.preview, Running.worn = None, [child.name for child in scene_files.clothes_of(body)]
+    if Running.is_on():
+        raise Failure(f"{Running.title} is running. Cancel that first.")
+    if is_made(body):
+        raise Failure(f"{body.name} is the result of a run. Choose the object that is the body.")
+    scene, settings = context.scene, body.exemplar
+    if not settings.token or sum(item.exemplar.token == settings.token for item in bpy.data.objects) > 1:
+        settings.token = uuid.uuid4().hex  # a copy is another body
+    hide(body, False)  # what is hidden is not evaluated
+    directory = directory_of(body)
+    try:
+        file = scene_files.write_scene(body, settings, scene, directory)
+        job = Job(program_of(context), file, scene.frame_end - scene.frame_start)
+    except OSError as error:
+        raise Failure(f"{directory} cannot be written ({error.strerror}). Save the .blend elsewhere.") from error
+    for result in results_of(settings.token):
+        hide(result)
+    Running.job, Running.search, Running.token, Running.title, Running.said = job, None, settings.token, body.name, ""
+    Running.scene, Running.start, Running.faces = scene.name, scene.frame_start, scene_files.faces_of(body)
+    Running.worn = [child.name for child in scene_files.clothes_of(body)]
+    Running.poses = list(scene_files.poses_of(body))
 
 
 def poll():
     """What a timer does until the run has ended. Returns the seconds to the next call, or None."""
-    job = Running.job
-    was_running = job.is_running()
-    show(job)
-    if was_running:
-        Running.said = f"Frame {max(job.shown, 0)} of {job.n_steps}"
-        result = POLL
-    else:
-        finish(job)
-        result = None
+    if not Running.is_on():
+        return None
+    try:
+        goes_on = advance()
+    except Exception as error:  # Blender would drop the timer, and nothing would ever end the run
+        stop(f"The run cannot be shown: {error}")
+        goes_on = False
     for window in bpy.context.window_manager.windows:
         for area in window.screen.areas:
             if area.type == "VIEW_3D":
                 area.tag_redraw()
-    return result
+    return POLL if goes_on else None
 
 
-def show(job):
+def advance():
+    """Show how far the run is. Returns whether it goes on."""
+    job = Running.job
+    if Running.search is not None:
+        if Running.search.is_running():
+            return True
+        select_faults(*Running.search.found())
+    elif job.is_running():
+        show_frame(job.newest_frame())
+        Running.said = f"Frame {max(job.shown, 0)} of {job.n_steps}"
+        return True
+    elif job.failure() is None:
+        show_result(job)
+    else:
+        remove_preview()
+        Running.said = in_artists_words(job.failure())
+        if not job.cancelled and "body.obj" in Running.said:
+            Running.search = FaultSearch(job)
+            return True
+    stop(Running.said)
+    return False
+
+
+def stop(said):
+    """The run is over: what stands in for the body goes, and unless there is a result the body is seen again."""
+    Running.job.cancel()
+    if Running.search is not None and Running.search.is_running():
+        Running.search.process.kill()
+    remove_preview()
+    body = Running.body()
+    if body is not None and not any(not result.hide_get() for result in results_of(Running.token)):
+        hide(body, False)
+    Running.job, Running.search, Running.said = None, None, said
+
+
+def preview_name():
+    return f"{Running.title} running"
+
+
+def remove_preview():
+    for item in results_of(Running.token):
+        if item.name.startswith(preview_name()):
+            remove_made(item)
+
+
+def show_frame(places):
     """The newest frame, by an object of its own."""
-    places = job.newest_frame()
     if places is None:
         return
-    preview = bpy.data.objects.get(Running.preview or "")
-    if preview is None:
-        body = bpy.data.objects[Running.body]
-        mesh = bpy.data.meshes.new(f"{body.name} running")
-        mesh.from_pydata(places.tolist(), [], scene_files.faces_of(body))
-        preview = bpy.data.objects.new(mesh.name, mesh)
-        bpy.context.scene.collection.objects.link(preview)
-        Running.preview = preview.name
-        body.hide_set(True)
+    preview = next((item for item in results_of(Running.token) if item.name.startswith(preview_name())), None)
+    if preview is None or len(preview.data.vertices) != len(places):
+        mesh = bpy.data.meshes.new(preview_name())
+        mesh.from_pydata(places.tolist(), [], Running.faces)
+        preview = bpy.data.objects.new(preview_name(), mesh)
+        mark(preview, preview_name())
+        (bpy.data.scenes.get(Running.scene) or bpy.context.scene).collection.objects.link(preview)
+        if Running.body() is not None:
+            hide(Running.body())
     preview.data.vertices.foreach_set("co", places.astype("f4").ravel())
     preview.data.update()
 
 
-def finish(job):
-    """Show the result with its keys and weights, or say what was wrong and select where."""
-    preview = bpy.data.objects.get(Running.preview or "")
-    if preview is not None:
-        bpy.data.meshes.remove(preview.data)
-    body = bpy.data.objects.get(Running.body)
-    failure = job.status()
-    if failure is None:
-        remove_result(f"{Running.body} result")
-        result = load_run(job.output, start=bpy.context.scene.frame_start, up="z")
-        result.name = f"{Running.body} result"
+def show_result(job):
+    """The surface with its keys and weights, and what it wears, in the place of those of an earlier run."""
+    remove_preview()
+    for result in results_of(Running.token):
+        remove_made(result)
+    scene = bpy.data.scenes.get(Running.scene) or bpy.context.scene
+    with bpy.context.temp_override(scene=scene, view_layer=scene.view_layers[0]):
+        result = load_run(job.output, start=Running.start, up="z", playback=False)
+        mark(result, f"{Running.title} result")
         for child in result.children:
-            child.name = f"{Running.body} residual"
+            mark(child, f"{Running.title} residual")
         for i, name in enumerate(Running.worn, 1):
             if name in bpy.data.objects:
                 show_worn(bpy.data.objects[name], result, job.output / f"animation_worn_{i}.pc2")
-        Running.said = "\n".join(["Done.", *(line for line in job.messages() if line.startswith("Warning"))])
-    else:
-        Running.said = failure
-        if body is not None:
-            body.hide_set(False)
-            select_faults(job, body)
+        if Running.body() is not None:
+            hide(Running.body())
+    Running.said = in_artists_words("\n".join(["Done.", *job.messages()]))
+    try:
+        bpy.ops.ed.undo_push(message="exemplar result")
+    except RuntimeError:
+        pass  # there is no undo without a window
 
 
 def show_worn(child, result, cache_file):
     """A copy of what the body wears, which a point cache moves; the child itself is hidden."""
-    shown = child.copy()
-    shown.data = child.data.copy()
-    shown.name = f"{child.name} result"
-    bpy.context.scene.collection.objects.link(shown)
-    shown.modifiers.clear()
-    shown.animation_data_clear()
+    shown = bpy.data.objects.new(f"{child.name} result", child.data.copy())
+    mark(shown, f"{child.name} result")
+    result.users_collection[0].objects.link(shown)
     if shown.data.shape_keys:
         shown.shape_key_clear()
     shown.parent = result
-    shown.matrix_parent_inverse.identity()
-    shown.matrix_basis.identity()
     cache = shown.modifiers.new("exemplar", "MESH_CACHE")
-    cache.cache_format, cache.filepath, cache.interpolation = "PC2", str(cache_file), "LINEAR"
-    cache.frame_start = bpy.context.scene.frame_start
-    child.hide_set(True)
+    cache.cache_format, cache.filepath, cache.interpolation, cache.frame_start = "PC2", str(cache_file), "LINEAR", Running.start
+    hide(child)
 
 
-def remove_result(name):
-    """That of an earlier run, with what plays its residual. One that was renamed is kept."""
-    result = bpy.data.objects.get(name)
-    for shown in (*result.children, result) if result is not None else ():
-        bpy.data.meshes.remove(shown.data)
+def in_artists_words(text):
+    """Names of files that stand for keys and objects become theirs."""
+    def name_of(found):
+        names = Running.worn if found[1] == "worn" else Running.poses
+        return names[int(found[2]) - 1] if int(found[2]) <= len(names) else found[0]
+    return re.sub(r"\b(worn|pose)_(\d+)\b(\.obj)?", name_of, text)
 
 
-def select_faults(job, body):
-    faces, vertices = find_faults(job.process.args[0], job.output.with_name("body.obj")) if not job.cancelled else ([], [])
-    if not faces and not vertices:
+def select_faults(faces, vertices):
+    """Of the body, if it has the faces still with which the run began."""
+    body = Running.body()
+    if body is None or not (faces or vertices) or scene_files.faces_of(body) != Running.faces:
         return
     for polygon in body.data.polygons:
-        polygon.select = polygon.index in set(faces)
-    corners = {vertex for face in faces for vertex in body.data.polygons[face].vertices}
+        polygon.select = polygon.index in faces
+    seen = vertices | {vertex for face in faces for vertex in body.data.polygons[face].vertices}
     for vertex in body.data.vertices:
-        vertex.select = vertex.index in corners or vertex.index in set(vertices)
+        vertex.select = vertex.index in seen
     Running.said += f"\n{len(faces)} faces and {len(vertices)} vertices with faults are selected: see them in edit mode."
 
 
@@ -176,20 +275,22 @@ class Run(bpy.types.Operator):
         try:
             start(context, context.object)
         except Failure as failure:
-            Running.said = str(failure)
+            if not Running.is_on():
+                Running.said = str(failure)
             self.report({"ERROR"}, str(failure))
             return {"CANCELLED"}
-        bpy.app.timers.register(poll, first_interval=POLL)
+        if not bpy.app.timers.is_registered(poll):
+            bpy.app.timers.register(poll, first_interval=POLL)
         return {"FINISHED"}
 
 
 class Cancel(bpy.types.Operator):
-    """End the run after the step that it makes"""
+    """End the run within a second"""
     bl_idname = "exemplar.cancel"
     bl_label = "Cancel"
 
     def execute(self, _context):
-        if Running.job is not None:
+        if Running.is_on():
             Running.job.cancel()
         return {"FINISHED"}
 
@@ -210,11 +311,17 @@ class Panel(bpy.types.Panel):
             for name in ("follow", "pin"):
                 layout.prop_search(settings, name, body, "vertex_groups")
             layout.prop(settings, "repair")
-        running = Running.job is not None and Running.job.is_running()
-        layout.operator("exemplar.cancel" if running else "exemplar.run")
+        layout.operator("exemplar.cancel" if Running.is_on() else "exemplar.run")
         for line in Running.said.splitlines():
             for part in textwrap.wrap(line, max(20, context.region.width // 8)):
                 layout.label(text=part)
+
+
+@bpy.app.handlers.persistent
+def leave_file(*_):
+    """Another .blend is opened, or the add-on goes: nobody would bring the result in."""
+    if Running.is_on():
+        stop("Cancelled.")
 
 
 CLASSES = (Settings, Preferences, Run, Cancel, Panel)
@@ -224,11 +331,14 @@ def register():
     for cls in CLASSES:
         bpy.utils.register_class(cls)
     bpy.types.Object.exemplar = PointerProperty(type=Settings)
+    bpy.app.handlers.load_pre.append(leave_file)
 
 
 def unregister():
-    if Running.job is not None:
-        Running.job.cancel()
+    leave_file()
+    bpy.app.handlers.load_pre.remove(leave_file)
+    if bpy.app.timers.is_registered(poll):
+        bpy.app.timers.unregister(poll)
     del bpy.types.Object.exemplar
     for cls in reversed(CLASSES):
         bpy.utils.unregister_class(cls)

@@ -287,8 +287,9 @@ def set_playback(run, start):
     scene.frame_set(start)
 
 
-def load_run(directory, shapes=None, up=None, start=1, save=None):
-    """Load a run; the object. `shapes` are {weight's name: file} of the artist's own."""
+def load_run(directory, shapes=None, up=None, start=1, save=None, playback=True):
+    """Load a run; the object. `shapes` are {weight's name: file} of the artist's own. With `playback` the scene gets the frames and
+    the frame rate of the run."""
     run = Run(directory)
     found = read_shapes(run, shapes or {})
     shown = make_object(run.directory.name, run)
@@ -296,7 +297,8 @@ def load_run(directory, shapes=None, up=None, start=1, save=None):
     cache = add_residual(shown, run, found, start, run.directory / (f"{Path(save).stem}_residual.pc2" if save else "residual.pc2"))
     if not (run.z_is_up() if up is None else up == "z"):
         shown.rotation_euler[0] = np.pi / 2
-    set_playback(run, start)
+    if playback:
+        set_playback(run, start)
     if save:
         bpy.ops.wm.save_as_mainfile(filepath=str(Path(save).resolve()))
         cache.filepath = bpy.path.relpath(cache.filepath)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A run of the program in the background: how far it is, its newest frame, and what it has said."""
+"""The program in the background: a run, how far it is and what it has said, and the search for faults of a surface."""
 import csv
 import signal
 import subprocess
@@ -10,22 +10,28 @@ INTERRUPTED = 130
 GRACE = 0.8  # [s] that a run has to end by itself
 
 
+def start(program, arguments, directory, log=subprocess.DEVNULL):
+    try:
+        return subprocess.Popen([program, *arguments], cwd=directory, stdin=subprocess.DEVNULL, stdout=log, stderr=subprocess.STDOUT)
+    except OSError as error:
+        raise Failure(f"{program} cannot be run ({error.strerror}). Give the program exemplar in the add-on's preferences.") from error
+
+
 class Job:
     """Runs a scene file; its output directory is `output` beside it."""
 
     def __init__(self, program, scene_file, n_steps):
-        self.output = scene_file.parent / "output"
-        remove_frames(self.output)
+        self.program = program
+        self.directory = scene_file.parent
+        self.output = self.directory / "output"
+        for file in self.output.glob("frame_*.pc2"):
+            file.unlink()  # so that frames that are there are of this run
         self.n_steps = n_steps
-        self.log = scene_file.parent / "log.txt"
-        self.shown = -1       # step of the last frame that was asked for
+        self.log = self.directory / "log.txt"
+        self.shown = -1  # step of the last frame that was asked for
         self.cancelled = False
-        try:
-            with open(self.log, "wb") as log:
-                self.process = subprocess.Popen([program, scene_file.name, "--output", "output", "--quiet"], cwd=scene_file.parent,
-                                                stdin=subprocess.DEVNULL, stdout=log, stderr=subprocess.STDOUT)
-        except OSError as error:
-            raise Failure(f"{program} cannot be run ({error.strerror}). Give the program exemplar in the add-on's preferences.") from error
+        with open(self.log, "wb") as log:
+            self.process = start(program, [scene_file.name, "--output", "output", "--quiet"], self.directory, log)
 
     def is_running(self):
         return self.process.poll() is None
@@ -40,7 +46,7 @@ class Job:
         return None
 
     def cancel(self):
-        """Within a second."""
+        """Within a second: a run that does not end after its step is killed."""
         self.cancelled = True
         if self.is_running():
             self.process.send_signal(signal.SIGINT)
@@ -51,31 +57,36 @@ class Job:
                 self.process.wait()
 
     def messages(self):
-        return [line for line in self.log.read_text(encoding="utf-8", errors="replace").splitlines() if line.strip()]
+        """Lines of the program's own: warnings, and what it ended with."""
+        lines = [line for line in self.log.read_text(encoding="utf-8", errors="replace").splitlines() if line.strip()]
+        first = next((i for i, line in enumerate(lines) if line.startswith(("exemplar: ", "Warning: "))), len(lines))
+        return lines[first:]
 
-    def status(self):
+    def failure(self):
         """In words, when it has ended; None: it was well."""
         if self.process.returncode == 0:
             return None
         if self.cancelled or self.process.returncode == INTERRUPTED:
             return "Cancelled."
-        return "\n".join(self.messages()[-3:]) or f"exemplar has ended with status {self.process.returncode}."
+        return "\n".join(self.messages()) or f"exemplar has ended with status {self.process.returncode}. See {self.log}."
 
 
-def remove_frames(directory):
-    """Those of an earlier run, so that what is there is of this one."""
-    for file in directory.glob("frame_*.pc2"):
-        file.unlink()
+class FaultSearch:
+    """Looks for the faces and vertices of a surface that keep it from bounding a body."""
 
+    def __init__(self, job):
+        self.table = job.directory / "faults.csv"
+        self.table.unlink(missing_ok=True)
+        self.process = start(job.program, ["mesh", "--surface", "body.obj", "--list-faults", self.table.name, "--quiet"], job.directory)
 
-def find_faults(program, surface):
-    """(indices of faces, indices of vertices) with faults, counted from 0."""
-    table = surface.with_name("faults.csv")
-    subprocess.run([program, "mesh", "--surface", surface.name, "--list-faults", table.name, "--quiet"], cwd=surface.parent,
-                   stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False, timeout=600)
-    found = {"face": set(), "vertex": set()}
-    if table.exists():
-        with open(table, newline="", encoding="utf-8") as file:
-            for row in csv.DictReader(file):
-                found[row["element"]].add(int(row["number"]) - 1)
-    return sorted(found["face"]), sorted(found["vertex"])
+    def is_running(self):
+        return self.process.poll() is None
+
+    def found(self):
+        """(indices of faces, indices of vertices), counted from 0."""
+        indices = {"face": set(), "vertex": set()}
+        if self.table.exists():
+            with open(self.table, newline="", encoding="utf-8") as file:
+                for row in csv.DictReader(file):
+                    indices[row["element"]].add(int(row["number"]) - 1)
+        return indices["face"], indices["vertex"]

@@ -38,12 +38,14 @@ def poses_of(body):
 
 
 def clothes_of(body):
-    """Meshes that are children of the body: what it wears."""
-    return [child for child in body.children_recursive if child.type == "MESH" and child.data.polygons]
+    """Meshes that are children of the body and seen: what it wears."""
+    return [child for child in body.children_recursive if child.type == "MESH" and child.data.polygons and not child.hide_viewport]
 
 
 def faces_of(shown):
-    return [tuple(face.vertices) for face in shown.data.polygons]
+    """As they are turned in the world: a mirrored object turns them over."""
+    turn = -1 if shown.matrix_world.determinant() < 0 else 1
+    return [tuple(face.vertices)[::turn] for face in shown.data.polygons]
 
 
 def evaluated_places(body):
@@ -183,10 +185,10 @@ def write_scene(body, settings, scene, directory):
     """Write all that a run reads into a directory, which is made; the scene file."""
     check(body, settings, scene)
     directory.mkdir(parents=True, exist_ok=True)
-    faces = faces_of(body)
     shown = scene.frame_current
     scene.frame_set(scene.frame_start)  # where the object is then is where the body begins
     try:
+        faces = faces_of(body)
         write_obj(directory / "body.obj", rest_places(body), faces)
         poses = poses_of(body)
         for i, places in enumerate(poses.values(), 1):

@@ -75,8 +75,8 @@ namespace Exemplar
                                        const ExampleElasticity &of_examples,
                                        const double             importance,
                                        const GrainAxes         &axes)
-      : body(constants.grain), examples(elasticity_for(constants, of_examples)),
-        eta(importance), axes(axes),
+      : body(constants.grain), examples(elasticity_for(constants, of_examples)), eta(importance),
+        axes(axes),
         body_is_isotropic(!constants.is_orthotropic && !(constants.grain.norm_of_grain() > 0.))
   {
   }

@@ -137,10 +137,19 @@ subdivided = body.modifiers.new("fine", "SUBSURF")
 found["subdivided"] = refused()
 body.modifiers.remove(subdivided)
 
-exemplar.start(bpy.context, body)
-found["directory"] = str(exemplar.directory_of(body))
+shutil.rmtree(exemplar.directory_of(body))
+exemplar.directory_of(body).write_text("in the way")
+found["no directory"] = refused()
+exemplar.directory_of(body).unlink()
+
+found["status"] = str(bpy.ops.exemplar.run())
+found["timer"] = bpy.app.timers.is_registered(exemplar.poll)
+found["twice"] = refused()
+body.name = "renamed"  # by the artist, while it runs
 found["frames seen"] = wait(exemplar)
+body.name = "bar"
 found["said"] = exemplar.Running.said
+found["directory"] = str(exemplar.directory_of(body))
 shutil.copytree(exemplar.directory_of(body), directory / "kept")
 shown = bpy.data.objects.get("bar result")
 if shown is not None:
@@ -150,6 +159,19 @@ if shown is not None:
     found["weights"] = [point.co[1] for point in keys.animation_data.action.fcurves[0].keyframe_points]
     found["hat"] = places(bpy.data.objects["hat result"], 18)
     found["range"] = [scene.frame_start, scene.frame_end]
+
+# once more, mirrored, by another name; the first result is kept under a name of the artist's
+shown.name = "mine"
+body.scale = (-1., 1., 1.)
+exemplar.start(bpy.context, body)
+wait(exemplar)
+found["mirrored"] = exemplar.Running.said
+found["second end"] = places(bpy.data.objects["bar result"], 18)
+found["second rig"] = places(body, 18)
+body.scale = (1., 1., 1.)
+bpy.context.view_layer.objects.active = bpy.data.objects["bar result"]
+found["result"] = refused()
+bpy.context.view_layer.objects.active = body
 
 # cancelled as soon as there is a frame
 scene.frame_end = 20000

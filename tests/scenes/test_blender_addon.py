@@ -53,10 +53,18 @@ class AddOn(SceneTest):
         output = self.solve(scene.read_text(), "--quiet", output="again", file="kept/scene.prm")
         self.assertEqual((output / "animation.pc2").read_bytes(), (self.directory / "kept/output/animation.pc2").read_bytes())
 
+        # a mirrored body runs as well, and what was renamed stays
+        self.assertEqual(found["mirrored"], "Done.")
+        self.assertLess(max(math.dist(found["second end"][i], found["second rig"][i]) for i in high), 1e-2)
+        self.assertIn("is the result of a run", found["result"])
+
+        self.assertEqual((found["status"], found["timer"]), ("{'FINISHED'}", True))
+        self.assertIn("bar is running. Cancel that first", found["twice"])
+        self.assertIn("cannot be written (File exists). Save the .blend elsewhere", found["no directory"])
         self.assertIn("Save the .blend first", found["unsaved"])
         self.assertIn("of its 226 vertices", found["subdivided"])
         self.assertEqual((found["cancelled"], found["hidden"]), ("Cancelled.", False))
-        self.assertEqual(found["objects"], ["bar", "bar residual", "bar result", "hat", "hat result", "rig"])
+        self.assertEqual(found["objects"], ["bar", "bar residual", "bar residual.001", "bar result", "hat", "hat result", "hat result.001", "mine", "rig"])
         self.assertIn("holes: 1", found["hole"])
         self.assertIn("0 faces and 4 vertices with faults are selected", found["hole"])
         self.assertEqual(found["selected"], [0, 1, 2, 3])

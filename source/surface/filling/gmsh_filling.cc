@@ -198,7 +198,7 @@ namespace Exemplar
     const GmshSession         session;
     set_options();
     gmsh::model::add("surface");
-    TetrahedralMesh           mesh{ surface.vertices, {}, {}, surface };
+    TetrahedralMesh mesh{ surface.vertices, {}, {}, surface };
     mesh.boundary.vertices.clear();
     try
     {

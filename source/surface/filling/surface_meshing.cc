@@ -63,8 +63,8 @@ namespace Exemplar
     }
 
     /// A surface that has many times the triangles that cells of this size can follow, with edges of a
-    /// part of their size; itself if it has fewer, or cannot be had so. Attempts to fill it then take no longer than those
-    /// of a coarse surface, and find what they find there.
+    /// part of their size, so that attempts to fill it take no longer than those of a coarse one; itself
+    /// if it has fewer, or cannot be remeshed without intersections.
     TriangleSurface
     without_excess(const TriangleSurface &surface,
                    const double           n_cells,
@@ -76,6 +76,7 @@ namespace Exemplar
         return surface;
       try
       {
+        require_few_triangles(surface, edge_length, n_cells, cells_option);
         return remesh_without_intersections(surface, edge_length, true, NearSheets::held,
                                             cells_option)
             .surface;
@@ -106,13 +107,14 @@ namespace Exemplar
       FilledSurface best;
       for (unsigned int attempt = 0; attempt < n_attempts; ++attempt)
       {
-        FilledSurface filled;
+        TetrahedralMesh mesh;
         try
         {
           require_few_triangles(surface, h, n_cells, cells_option);
           const Remeshed remeshed
               = remesh_without_intersections(surface, h, keep_edges, near_sheets, cells_option);
-          filled = { fill(remeshed.surface), best.has_near_sheets || remeshed.has_near_sheets };
+          best.has_near_sheets = best.has_near_sheets || remeshed.has_near_sheets;
+          mesh                 = fill(remeshed.surface);
         }
         catch (const SolverFailure &)
         {
@@ -121,14 +123,13 @@ namespace Exemplar
           h *= .9; // finer surfaces are filled more easily
           continue;
         }
-        const auto   n     = static_cast<double>(filled.mesh.cells.size());
+        const auto   n     = static_cast<double>(mesh.cells.size());
         const double error = std::abs(std::log(n / n_cells));
         if (last_n > 0. && std::abs(std::log(h / last_h)) > 1e-3)
           power = std::clamp(std::log(n / last_n) / std::log(last_h / h), 1.5, 4.);
-        best.has_near_sheets = filled.has_near_sheets;
         if (best.mesh.cells.empty() || error < best_error)
         {
-          best       = std::move(filled);
+          best.mesh  = std::move(mesh);
           best_error = error;
         }
         if (error < near_enough)
@@ -216,10 +217,9 @@ namespace Exemplar
     best_mesh(const BodySurface &body, const SurfaceMeshingOptions &options)
     {
       constexpr std::size_t few = 1000, quickly_remeshed = 20000;
-      const bool            is_quick
-          = options.n_cells <= few && body.surface.triangles.size() <= quickly_remeshed;
       const TriangleSurface surface
           = without_excess(body.surface, options.n_cells, options.cells_option);
+      const bool is_quick = options.n_cells <= few && surface.triangles.size() <= quickly_remeshed;
       JudgedMesh best;
       for (const double factor : { 1., 1.07, .93, 1.14, .88 })
         if (factor == 1. || (is_quick && best.judgement.angles.n_slivers > 0))
