@@ -126,7 +126,7 @@ namespace Exemplar::Testing
           expect_equal(slope.stress.by_shape, OfPoint::by_shape(potential, shape), scale);
           expect_equal(slope.stress.by_wish, OfPoint::by_symmetric(potential, OfPoint::wish),
                        scale);
-          EXPECT_NEAR(slope.slope, potential.change, 1e-12 * scale);
+          EXPECT_NEAR(slope.slope, potential.change, 1e-12 * (scale + std::abs(potential.change)));
           for (std::size_t k = 0; k < OfPoint::n_constants; ++k)
             EXPECT_NEAR(slope.by_constants[k], potential.change_by[k],
                         1e-10 * std::abs(potential.change_by[k]) + 1e-12);
