@@ -110,7 +110,8 @@ namespace
     limit(RLIMIT_FSIZE, request.file_size);
     if (request.address_space > 0)
       limit(RLIMIT_AS, request.address_space);
-    end_unless(words.n > 0 && words.n <= room && chdir(words.pointers[0]) == 0);
+    if (words.n == 0 || words.n > room || chdir(words.pointers[0]) != 0)
+      _exit(125); // as env does what cannot be run
     for (std::size_t i = 1; i < words.n; ++i)
       argv[i] = words.pointers[i];
     argv[words.n] = nullptr;

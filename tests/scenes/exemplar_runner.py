@@ -24,7 +24,7 @@ from pathlib import Path
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 sys.path.append(str(REPOSITORY / "tests/fuzz"))
-from fork_server import ForkServer  # noqa: E402
+from fork_server import MOST_ARGUMENTS, ForkServer  # noqa: E402
 
 EXEMPLAR = os.path.abspath(os.environ.get("EXEMPLAR", REPOSITORY / "build/release/exemplar"))
 
@@ -178,9 +178,9 @@ READ_BY_LIBRARIES = ("LD_", "OMP_", "GOMP_", "OPENBLAS_", "MALLOC_")
 
 
 def serve(words, cwd, environment, timeout=300):
-    """As call_program(), of a program that is linked already; None where that cannot be."""
+    """A run of the program as it is linked already; None where that cannot be. After `timeout` [s] it gets a signal."""
     server = fork_server()
-    if server is None or "" in words or any(name.startswith(READ_BY_LIBRARIES) for name in environment):
+    if server is None or "" in words or len(words) > MOST_ARGUMENTS or any(name.startswith(READ_BY_LIBRARIES) for name in environment):
         return None
     status, stdout, stderr = server.run(words, cwd, {**os.environ, **environment}, None, 1 << 50, timeout)
     return Run(status, stdout.decode(), own_words(stderr.decode()), None)

@@ -51,7 +51,7 @@ class MeshCommandTest(SceneTest):
     def test_finer_triangles_give_the_same_mesh(self):
         """Of a ring with a narrow hole, where surfaces made anew intersect."""
         vertices, faces = surfaces.torus(60, 40, .5, .46)
-        for times in range(2):
+        for times in range(3):
             self.surface(f"ring_{times}.obj", vertices, faces)
             run = self.mesh(f"ring_{times}.obj", 1000)
             self.assertEqual((run.status, run.stderr), (0, ""))

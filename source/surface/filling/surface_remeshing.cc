@@ -107,7 +107,8 @@ namespace Exemplar
           marked[t] = true;
     }
 
-    /// With more and more triangles held around the intersections of `evenly`; none if that does not help.
+    /// With the triangles held that are near to intersections, of `evenly` first and then of what came of
+    /// that; none if that does not help.
     std::optional<TriangleSurface>
     hold_near_sheets(const TriangleSurface &surface,
                      const double           edge_length,

@@ -10,6 +10,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <iterator>
+#include <utility>
+#include <vector>
 
 namespace Exemplar
 {
@@ -18,8 +22,8 @@ namespace Exemplar
     namespace bgi   = boost::geometry::index;
     using NodeEntry = std::pair<dealii::Point<3>, unsigned int>; // a node's place and number
 
-    /// The reach of a vertex is so many times the distance of the node that is so near to it: the
-    /// nodes of a few cells, and of a cap of the body as wide as it is distant.
+    /// The reach of a vertex is reach_factor times the distance of its n_near-th nearest node: the
+    /// nodes of a few cells, and of a cap of the body as wide as the vertex is distant.
     constexpr double       reach_factor = 1.5;
     constexpr unsigned int n_near       = 6;
 
