@@ -147,6 +147,9 @@ Exit status:
                          "write a table of all bad faces and vertices (.csv) instead of a mesh");
       command.add_flag("--repair", arguments.mesh.meshing.repair,
                        "mend holes, turned and intersecting faces; wrap what cannot be mended");
+      command.add_option("--poses", arguments.mesh.meshing.poses,
+                         "poses of the surface: sheets that cross at rest, as lips do, are kept "
+                         "apart where they part in one");
       command.add_option("--materials", arguments.mesh.meshing.materials,
                          "points and the materials around them (.csv: x,y,z,id,name)");
       command.add_flag("--quiet", arguments.mesh.quiet, "print errors only");

@@ -9,7 +9,8 @@
 #include <exemplar/mesh/msh_file.h>
 #include <exemplar/program/mesh_command.h>
 #include <exemplar/run/output/output_directory.h>
-#include <exemplar/surface/filling/mesh_making.h>
+#include <exemplar/surface/files/numbered_files.h>
+#include <exemplar/surface/making/mesh_making.h>
 #include <exemplar/surface/shape/surface_faults.h>
 
 #include <algorithm>
@@ -88,6 +89,19 @@ namespace Exemplar
       std::cout << "written to " << message_text(file.string()) << '\n';
     }
 
+    /// The poses that patterns stand for, too.
+    std::vector<fs::path>
+    pose_files(const SurfaceMeshingOptions &meshing)
+    {
+      std::vector<std::string> entries;
+      for (const fs::path &entry : meshing.poses)
+        entries.push_back(entry.string());
+      const std::vector<fs::path> files = expand_patterns(entries);
+      for (const fs::path &file : files)
+        require_file(file, "a pose: an .obj, .ply or .stl file", meshing.surface);
+      return files;
+    }
+
     void
     list_faults(const MeshCommandOptions &options)
     {
@@ -117,7 +131,9 @@ namespace Exemplar
       return require_printed();
     }
     check_options(options);
-    MeshingReport report = make_mesh_file(options.meshing, options.output);
+    SurfaceMeshingOptions meshing = options.meshing;
+    meshing.poses                 = pose_files(options.meshing);
+    MeshingReport report          = make_mesh_file(meshing, options.output);
     add_unit(report);
     write_table(report, table_of(options));
     if (!options.quiet)

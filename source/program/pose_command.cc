@@ -33,7 +33,7 @@ namespace Exemplar
 
     const std::string header_of_poses
         = "pose,inverted_cells,min_det_F,max_det_F,stretch_min,stretch_1,stretch_99,stretch_max,"
-          "surface_error_mean,surface_error_max,rotation,shift,seconds\n";
+          "surface_error_mean,surface_error_max,longest_edge,rotation,shift,seconds\n";
 
     const char *const remedy = " Give another directory by --output.";
 
@@ -153,9 +153,9 @@ namespace Exemplar
       {
         const PoseQuality &q = poses[k].quality;
         csv.stream() << poses[k].file.stem().string() << ',' << q.n_inverted;
-        for (const double value :
-             { q.min_det, q.max_det, q.min_stretch, q.stretch_1, q.stretch_99, q.max_stretch,
-               100. * q.mean_error, 100. * q.max_error, q.rotation, q.shift, poses[k].seconds })
+        for (const double value : { q.min_det, q.max_det, q.min_stretch, q.stretch_1, q.stretch_99,
+                                    q.max_stretch, 100. * q.mean_error, 100. * q.max_error,
+                                    q.longest_edge, q.rotation, q.shift, poses[k].seconds })
           csv.stream() << ',' << shortest_text(value);
         csv.stream() << '\n';
       }
@@ -168,18 +168,20 @@ namespace Exemplar
       std::size_t width = 4;
       for (const PoseFile &pose : poses)
         width = std::max(width, printable(pose.file.stem().string()).size());
-      std::cout
-          << std::left << std::setw(static_cast<int>(width)) << "pose"
-          << "  inverted   det F            stretch, least 1 % 99 % most     surface error %  "
-             "rotation  time\n";
+      std::cout << std::left << std::setw(static_cast<int>(width)) << "pose"
+                << "  inverted   det F            stretch, least 1 % 99 % most     surface error % "
+                   " edge  "
+                   "rotation  time\n";
       for (std::size_t k = 0; k < n_done; ++k)
       {
-        const PoseQuality &q    = poses[k].quality;
-        const std::string  line = fmt::format(
-             "  {:8}   {:.3f} to {:6.3f}  {:8.3f} {:7.3f} {:6.3f} {:6.3f}   {:6.3f} {:6.3f}   "
-              "{:6.1f}  {:5.1f} s",
-             q.n_inverted, q.min_det, q.max_det, q.min_stretch, q.stretch_1, q.stretch_99,
-             q.max_stretch, 100. * q.mean_error, 100. * q.max_error, q.rotation, poses[k].seconds);
+        const PoseQuality &q = poses[k].quality;
+        const std::string  line
+            = fmt::format("  {:8}   {:.3f} to {:6.3f}  {:8.3f} {:7.3f} {:6.3f} {:6.3f}   {:6.3f} "
+                          "{:6.3f}  {:5.1f}   "
+                          "{:6.1f}  {:5.1f} s",
+                          q.n_inverted, q.min_det, q.max_det, q.min_stretch, q.stretch_1,
+                          q.stretch_99, q.max_stretch, 100. * q.mean_error, 100. * q.max_error,
+                          q.longest_edge, q.rotation, poses[k].seconds);
         std::cout << std::left << std::setw(static_cast<int>(width))
                   << printable(poses[k].file.stem().string()) << line << '\n';
       }

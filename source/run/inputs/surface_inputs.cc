@@ -9,7 +9,8 @@
 #include <exemplar/run/inputs/surface_inputs.h>
 #include <exemplar/run/scene/scene_parameters.h>
 #include <exemplar/surface/files/surface_scanner.h>
-#include <exemplar/surface/filling/mesh_making.h>
+#include <exemplar/surface/making/mesh_making.h>
+#include <exemplar/surface/making/sheet_crossings.h>
 #include <exemplar/surface/posing/pose_carrying.h>
 
 #include <fmt/core.h>
@@ -61,7 +62,7 @@ namespace Exemplar
     {
       return Json{ q.n_inverted, q.min_det,    q.max_det,     q.min_stretch,
                    q.stretch_1,  q.stretch_99, q.max_stretch, q.mean_error,
-                   q.max_error,  q.rotation,   q.shift }
+                   q.max_error,  q.rotation,   q.shift,       q.longest_edge }
           .dump();
     }
 
@@ -74,7 +75,7 @@ namespace Exemplar
       std::size_t i = 1;
       for (double *const number :
            { &q.min_det, &q.max_det, &q.min_stretch, &q.stretch_1, &q.stretch_99, &q.max_stretch,
-             &q.mean_error, &q.max_error, &q.rotation, &q.shift })
+             &q.mean_error, &q.max_error, &q.rotation, &q.shift, &q.longest_edge })
         *number = n.at(i++);
       return q;
     }
@@ -128,20 +129,33 @@ namespace Exemplar
       poses->surfaces[file] = read_pose_surface(file, poses->rest);
   }
 
+  std::vector<fs::path>
+  SurfaceInputs::parting_poses() const
+  {
+    std::vector<fs::path> files;
+    if (poses != nullptr && has_crossing_sheets(poses->rest.surface))
+      for (const auto &[file, surface] : poses->surfaces)
+        files.emplace_back(file);
+    return files;
+  }
+
   MshFile
   SurfaceInputs::make_mesh()
   {
     const MeshParameters &mesh = scene.mesh;
-    const std::string     key
-        = sha256_of_text(fmt::format("{}{}{}{}", maker(), surface_digest(mesh.file), mesh.n_cells,
-                                     mesh.repair ? " repaired" : ""));
+    SurfaceMeshingOptions options{ mesh.file, mesh.n_cells, mesh.repair,         parting_poses(),
+                                   "",        "Mesh/Cells", "Mesh/Repair = true" };
+    std::string           digests = surface_digest(mesh.file);
+    for (const fs::path &pose : options.poses)
+      digests += surface_digest(pose.string());
+    const std::string key = sha256_of_text(
+        fmt::format("{}{}{}{}", maker(), digests, mesh.n_cells, mesh.repair ? " repaired" : ""));
     const KeptBytes kept
         = kept_bytes(key + ".msh",
                      [&]
                      {
                        announce(fmt::format("filling {} with {} cells", mesh.file, mesh.n_cells));
-                       return Exemplar::make_mesh({ mesh.file, mesh.n_cells, mesh.repair, "",
-                                                    "Mesh/Cells", "Mesh/Repair = true" });
+                       return Exemplar::make_mesh(options);
                      });
     get_made_anew().mesh = report_in(kept.bytes);
     add_warning(kept.warning);

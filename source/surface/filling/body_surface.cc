@@ -120,10 +120,9 @@ namespace Exemplar
   } // namespace
 
   BodySurface
-  read_body_surface(const SurfaceMeshingOptions &options)
+  make_body_surface(const SurfaceMesh &read, const SurfaceMeshingOptions &options)
   {
     const std::filesystem::path &file = options.surface;
-    const SurfaceMesh            read = read_surface(file);
     CheckedSurface               checked;
     checked.surface                = triangulate(read, &checked.faces);
     const SurfaceFindings findings = check_surface(checked);

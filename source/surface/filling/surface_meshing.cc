@@ -314,18 +314,36 @@ namespace Exemplar
   MeshedSurface
   mesh_surface(const SurfaceMeshingOptions &options)
   {
+    const SurfaceMesh read = read_surface(options.surface);
+    return mesh_surface_at(read, { read.vertices, {}, {} }, options);
+  }
+
+  MeshedSurface
+  mesh_surface_at(const SurfaceMesh           &rest,
+                  const FillingPlace          &place,
+                  const SurfaceMeshingOptions &options)
+  {
     std::vector<MaterialSeed> seeds;
     if (!options.materials.empty())
       seeds = read_material_seeds(options.materials);
-    const BodySurface body    = read_body_surface(options);
-    const JudgedMesh  judged  = best_mesh(body, options);
-    const auto        regions = names_of_regions(judged.mesh, body.group_names);
-    const Materials   materials
+    SurfaceMesh placed = rest;
+    placed.vertices    = place.vertices;
+    BodySurface body   = make_body_surface(placed, options);
+    JudgedMesh  judged = best_mesh(body, options);
+    if (place.carry_back)
+    {
+      place.carry_back(judged.mesh);
+      body.original    = triangulate(rest);
+      judged.judgement = judge(body, judged.mesh);
+    }
+    const auto      regions = names_of_regions(judged.mesh, body.group_names);
+    const Materials materials
         = seeds.empty() ? materials_by_regions(judged.mesh, regions)
                         : materials_by_seeds(judged.mesh, seeds, regions, options.materials);
     MeshedSurface  result{ make_surface_msh(judged.mesh, body.group_names, materials), {} };
     MeshingReport &report = result.report;
-    report.notes          = body.notes;
+    report.notes          = place.notes;
+    report.notes.insert(report.notes.end(), body.notes.begin(), body.notes.end());
     add_counts(report, body, judged.mesh, materials.names.size());
     add_quality(report, body, judged);
     add_notes(report, options, body, judged);

@@ -105,8 +105,13 @@ namespace Exemplar
   {
     skin = std::make_unique<SurfaceSkin>(rest, mesh);
     measured.clear();
+    edges.clear();
     for (const auto &face : rest.faces)
+    {
       measured.insert(measured.end(), face.begin(), face.end());
+      for (std::size_t i = 0; i < face.size(); ++i)
+        edges.push_back({ { face[i], face[(i + 1) % face.size()] } });
+    }
     std::sort(measured.begin(), measured.end());
     measured.erase(std::unique(measured.begin(), measured.end()), measured.end());
   }
@@ -168,5 +173,9 @@ namespace Exemplar
       quality.mean_error += error / static_cast<double>(measured.size());
       quality.max_error = std::max(quality.max_error, error);
     }
+    for (const auto &[a, b] : edges)
+      if (const double own = norm(minus(vertices[a], vertices[b])); own > 0.)
+        quality.longest_edge
+            = std::max(quality.longest_edge, norm(minus(places[a], places[b])) / own);
   }
 } // namespace Exemplar

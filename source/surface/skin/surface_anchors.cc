@@ -4,6 +4,7 @@
 #include <exemplar/mesh/mesh.h>
 #include <exemplar/surface/skin/cell_finder.h>
 #include <exemplar/surface/skin/facing_points.h>
+#include <exemplar/surface/skin/own_sheets.h>
 #include <exemplar/surface/skin/surface_anchors.h>
 
 #include <fmt/core.h>
@@ -64,11 +65,28 @@ namespace Exemplar
       return { x[0], x[1], x[2] };
     }
 
+    /// Nodes that share a cell with each node.
+    std::vector<std::vector<unsigned int>>
+    nodes_around_nodes(const Mesh &mesh)
+    {
+      std::vector<std::vector<unsigned int>> neighbours(mesh.n_nodes());
+      for (const auto &cell : mesh.get_cells())
+        for (const unsigned int node : cell)
+          neighbours[node].insert(neighbours[node].end(), cell.begin(), cell.end());
+      for (auto &of_node : neighbours)
+      {
+        std::sort(of_node.begin(), of_node.end());
+        of_node.erase(std::unique(of_node.begin(), of_node.end()), of_node.end());
+      }
+      return neighbours;
+    }
+
     class AnchorFinder
     {
     public:
       explicit AnchorFinder(const Mesh &mesh)
-          : mesh(mesh), cells(mesh), boundary(boundary_triangles(mesh))
+          : mesh(mesh), neighbours(nodes_around_nodes(mesh)), cells(mesh),
+            boundary(boundary_triangles(mesh))
       {
       }
 
@@ -83,9 +101,30 @@ namespace Exemplar
       bool
       has_gap(const dealii::Point<3> &a, const dealii::Point<3> &b) const;
 
-      const Mesh           &mesh;
-      const CellFinder      cells;
-      const TriangleSurface boundary;
+      /// Whether at most two edges lead from one of these nodes to one of those: where sheets overlap
+      /// at rest, a vertex lies in cells of the other one, too.
+      template <std::size_t n>
+      bool
+      are_near(const std::array<unsigned int, n> &some,
+               const std::array<unsigned int, 4> &others) const;
+
+      /// Whether two vertices are nearer than a cell is large, but no edge leads from anchor to anchor.
+      bool
+      are_parted(const SurfaceMesh                &surface,
+                 const std::vector<SurfaceAnchor> &anchors,
+                 unsigned int                      a,
+                 unsigned int                      b) const;
+
+      /// On the boundary of the body near to some anchors, as near as can be to a place.
+      SurfaceAnchor
+      anchor_beside(const std::vector<SurfaceAnchor> &anchors,
+                    const std::vector<unsigned int>  &which,
+                    const SurfaceMesh::Vertex        &place) const;
+
+      const Mesh                            &mesh;
+      std::vector<std::vector<unsigned int>> neighbours; ///< of each node, itself included
+      const CellFinder                       cells;
+      const TriangleSurface                  boundary;
     };
 
     SurfaceAnchor
@@ -98,6 +137,66 @@ namespace Exemplar
       for (int a = 0; a < 3; ++a)
         anchor.place += point.share[a] * mesh.get_nodes()[t[a]];
       return anchor;
+    }
+
+    template <std::size_t n>
+    bool
+    AnchorFinder::are_near(const std::array<unsigned int, n> &some,
+                           const std::array<unsigned int, 4> &others) const
+    {
+      const auto touches = [&](const unsigned int node)
+      { return std::find(others.begin(), others.end(), node) != others.end(); };
+      for (const unsigned int corner : some)
+        for (const unsigned int node : neighbours[corner])
+          if (std::any_of(neighbours[node].begin(), neighbours[node].end(), touches))
+            return true;
+      return false;
+    }
+
+    bool
+    AnchorFinder::are_parted(const SurfaceMesh                &surface,
+                             const std::vector<SurfaceAnchor> &anchors,
+                             const unsigned int                a,
+                             const unsigned int                b) const
+    {
+      const auto &others  = anchors[b].nodes;
+      const auto  touches = [&](const unsigned int node)
+      {
+        return std::any_of(others.begin(), others.end(),
+                           [&](const unsigned int other) {
+                             return std::binary_search(neighbours[node].begin(),
+                                                       neighbours[node].end(), other);
+                           });
+      };
+      if (std::any_of(anchors[a].nodes.begin(), anchors[a].nodes.end(), touches))
+        return false;
+      double size = 0.;
+      for (const unsigned int node : anchors[a].nodes)
+        size = std::max(size,
+                        mesh.get_nodes()[node].distance(mesh.get_nodes()[anchors[a].nodes[0]]));
+      return norm(minus(surface.vertices[a], surface.vertices[b])) < size;
+    }
+
+    SurfaceAnchor
+    AnchorFinder::anchor_beside(const std::vector<SurfaceAnchor> &anchors,
+                                const std::vector<unsigned int>  &which,
+                                const SurfaceMesh::Vertex        &place) const
+    {
+      TriangleSurface           part{ boundary.vertices, {}, {} };
+      std::vector<unsigned int> numbers;
+      for (unsigned int t = 0; t < boundary.triangles.size(); ++t)
+        if (std::any_of(which.begin(), which.end(),
+                        [&](const unsigned int v)
+                        { return are_near(boundary.triangles[t], anchors[v].nodes); }))
+        {
+          part.triangles.push_back(boundary.triangles[t]);
+          numbers.push_back(t);
+        }
+      if (numbers.empty())
+        return anchors[which.front()]; // deep inside
+      SurfacePoint point = closest_points(part, { place }).front();
+      point.triangle     = numbers[point.triangle];
+      return on_boundary(point);
     }
 
     bool
@@ -135,6 +234,16 @@ namespace Exemplar
         if (!is_inside || has_gap(X, other.place))
           anchors[v] = other;
       }
+      for (std::size_t v = 0; v < anchors.size(); ++v)
+        if (const SurfacePoint &own = facing[v] ? *facing[v] : nearest[v];
+            !are_near(boundary.triangles[own.triangle], anchors[v].nodes))
+          anchors[v] = on_boundary(own);
+      put_on_own_sheets(
+          surface,
+          [&](const unsigned int a, const unsigned int b)
+          { return are_parted(surface, anchors, a, b); },
+          [&](const unsigned int v, const std::vector<unsigned int> &right)
+          { anchors[v] = anchor_beside(anchors, right, surface.vertices[v]); });
       return anchors;
     }
 

@@ -5,6 +5,7 @@
 #include <exemplar/mesh/mesh_inputs.h>
 #include <exemplar/run/inputs/made_of_surfaces.h>
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 
@@ -47,6 +48,11 @@ namespace Exemplar
 
   private:
     struct Poses;
+
+    /// Of the poses that have been read, by name, if the mesh depends on them: if sheets of the surface
+    /// cross at rest.
+    std::vector<std::filesystem::path>
+    parting_poses() const;
 
     MadeOfSurfaces &
     get_made_anew();

@@ -17,11 +17,11 @@ namespace Exemplar
 
   struct SurfaceMeshingOptions;
 
-  /// Read and check a surface. With `repair`, what is wrong is repaired, and if that does not do, the
+  /// Check a surface that was read from `options.surface`. With `repair`, what is wrong is repaired, and if that does not do, the
   /// surface is wrapped; the notes say what was done and how far the surface moved. Throws UserError
   /// with all that is wrong and where.
   BodySurface
-  read_body_surface(const SurfaceMeshingOptions &options);
+  make_body_surface(const SurfaceMesh &read, const SurfaceMeshingOptions &options);
 } // namespace Exemplar
 
 #endif

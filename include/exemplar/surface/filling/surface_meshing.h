@@ -3,8 +3,9 @@
 #define exemplar_surface_meshing_h
 
 #include <exemplar/mesh/msh_file.h>
-#include <exemplar/surface/shape/surface_mesh.h>
+#include <exemplar/surface/filling/tetrahedra_inside.h>
 
+#include <functional>
 #include <utility>
 
 namespace Exemplar
@@ -13,9 +14,11 @@ namespace Exemplar
   struct SurfaceMeshingOptions
   {
     std::filesystem::path surface;
-    unsigned int          n_cells   = 0; ///< wanted
-    bool                  repair    = false;
-    std::filesystem::path materials = {}; ///< a table, see read_material_seeds(); or empty
+    unsigned int          n_cells = 0; ///< wanted
+    bool                  repair  = false;
+    /// Poses of the surface, in which sheets that cross at rest may be apart.
+    std::vector<std::filesystem::path> poses = {};
+    std::filesystem::path materials          = {}; ///< a table, see read_material_seeds(); or empty
     /// What the user calls cells and repair, for messages.
     std::string cells_option = "--cells", repair_option = "--repair";
   };
@@ -34,12 +37,27 @@ namespace Exemplar
     MeshingReport report;
   };
 
+  /// Another place of a surface in which it is filled, and the way of its cells back to rest.
+  struct FillingPlace
+  {
+    std::vector<SurfaceMesh::Vertex>       vertices;
+    std::function<void(TetrahedralMesh &)> carry_back; ///< empty: the place is that at rest
+    std::vector<std::string>               notes;      ///< what the user should know of both
+  };
+
   /// Read a surface, check it (and mend it, if that is wished), make its edges as long as the number
   /// of cells wants, fill it with tetrahedra and remove flat ones. Places are those of the file, in
   /// its unit and axes. Throws UserError for a surface that is no boundary of a body, with what is
   /// wrong and where; SolverFailure if it cannot be filled.
   MeshedSurface
   mesh_surface(const SurfaceMeshingOptions &options);
+
+  /// The same of a surface that has been read, filled at `place`. Distances and angles are those of
+  /// the mesh at rest.
+  MeshedSurface
+  mesh_surface_at(const SurfaceMesh           &rest,
+                  const FillingPlace          &place,
+                  const SurfaceMeshingOptions &options);
 } // namespace Exemplar
 
 #endif

@@ -57,9 +57,10 @@ namespace Exemplar
     SurfaceAttachment              attachment;
     std::unique_ptr<FoldPotential> potential; ///< stays where it is, for the solver
     FoldSolver                     solver;
-    std::vector<double>            stiffness; ///< of the spring of each boundary node [1/m^2]
-    std::unique_ptr<SurfaceSkin>   skin;      ///< null: errors are of the boundary nodes
-    std::vector<std::size_t>       measured;  ///< vertices of the surface
+    std::vector<double>            stiffness;       ///< of the spring of each boundary node [1/m^2]
+    std::unique_ptr<SurfaceSkin>   skin;            ///< null: errors are of the boundary nodes
+    std::vector<std::size_t>       measured;        ///< vertices of the surface
+    std::vector<std::array<unsigned int, 2>> edges; ///< of the surface's faces
   };
 } // namespace Exemplar
 

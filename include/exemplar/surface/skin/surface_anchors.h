@@ -23,6 +23,8 @@ namespace Exemplar
   /// then the boundary faces the other way than the surface does at the vertex, and the nearest
   /// point of those faces is taken that face the same way, if it is no farther than they are long.
   /// For vertices inside a cell, too, if there is a gap between them and that point.
+  /// Where sheets overlap at rest, a vertex of one inside of cells of the other goes with its own: that of
+  /// its nearest boundary, and of its neighbours on the surface (put_on_own_sheets()).
   std::vector<SurfaceAnchor>
   find_anchors(const SurfaceMesh &surface, const Mesh &mesh);
 

@@ -3,7 +3,8 @@
 #include <exemplar/base/confinement.h>
 #include <exemplar/base/process_copy.h>
 #include <exemplar/mesh/msh_comment.h>
-#include <exemplar/surface/filling/mesh_making.h>
+#include <exemplar/surface/making/mesh_making.h>
+#include <exemplar/surface/making/parted_sheets.h>
 
 #include <nlohmann/json.hpp>
 
@@ -37,8 +38,11 @@ namespace Exemplar
   {
     const auto work = [&]
     {
-      confine_this_process({ options.surface, options.materials });
-      const MeshedSurface meshed = mesh_surface(options);
+      std::vector<std::filesystem::path> files{ options.surface, options.materials };
+      files.insert(files.end(), options.poses.begin(), options.poses.end());
+      confine_this_process(files);
+      const MeshedSurface meshed
+          = options.poses.empty() ? mesh_surface(options) : mesh_parted(options);
       return with_comment(msh_text(meshed.mesh), to_text(meshed.report));
     };
     return in_process_copy(

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
+#include <exemplar/base/number_text.h>
+#include <exemplar/mesh/rigid_motion.h>
+#include <exemplar/surface/files/numbered_files.h>
+#include <exemplar/surface/filling/cell_angles.h>
+#include <exemplar/surface/making/parted_sheets.h>
+#include <exemplar/surface/making/sheet_crossings.h>
+#include <exemplar/surface/posing/pose_carrying.h>
+
+#include <fmt/core.h>
+
+#include <array>
+
+namespace Exemplar
+{
+  namespace
+  {
+    using Vertices = std::vector<SurfaceMesh::Vertex>;
+    using Pairs    = std::vector<std::pair<unsigned int, unsigned int>>;
+    using Points   = FoldPotential::Points;
+
+    /// How far towards a pose the surface is opened, the least way first.
+    constexpr std::array<double, 4> ways{ { .25, .5, .75, 1. } };
+
+    /// How strongly cells that come back to rest follow the surface, over their own stiffness: this is
+    /// the body itself, no pose of it.
+    constexpr double attach_at_rest = 3000.;
+
+    /// A pose, moved rigidly to where it is nearest to the surface at rest.
+    struct NearPose
+    {
+      std::filesystem::path file;
+      Vertices              vertices;
+    };
+
+    Points
+    as_points(const Vertices &vertices)
+    {
+      Points points;
+      for (const auto &x : vertices)
+        points.emplace_back(x[0], x[1], x[2]);
+      return points;
+    }
+
+    std::vector<NearPose>
+    read_near_poses(const SurfaceMeshingOptions &options, const RestSurface &rest)
+    {
+      std::vector<std::string> entries;
+      for (const auto &file : options.poses)
+        entries.push_back(file.string());
+      std::vector<NearPose> poses;
+      for (const auto &file : expand_patterns(entries))
+      {
+        NearPose          pose{ file, read_pose_surface(file, rest).vertices };
+        const RigidMotion back
+            = best_rigid_motion(as_points(pose.vertices), as_points(rest.surface.vertices));
+        for (auto &x : pose.vertices)
+        {
+          const auto moved = back(dealii::Point<3>(x[0], x[1], x[2]));
+          x                = { { moved[0], moved[1], moved[2] } };
+        }
+        poses.push_back(std::move(pose));
+      }
+      return poses;
+    }
+
+    /// A place of the surface, and where its sheets cross there.
+    struct Opening
+    {
+      Vertices    vertices;
+      Pairs       crossing;
+      std::string how; ///< for the user
+    };
+
+    Vertices
+    on_the_way(const Vertices &from, const Vertices &rest, const Vertices &pose, const double way)
+    {
+      Vertices result = from;
+      for (std::size_t v = 0; v < result.size(); ++v)
+        result[v] = plus(from[v], way, minus(pose[v], rest[v]));
+      return result;
+    }
+
+    /// The opening with one more pose added that leaves the fewest pairs crossing, and the least way
+    /// towards it; or itself.
+    Opening
+    opened_further(const Opening               &now,
+                   const Vertices              &rest,
+                   const std::vector<NearPose> &poses,
+                   const SheetCrossings        &crossings)
+    {
+      Opening best = now;
+      for (const double way : ways)
+        for (const NearPose &pose : poses)
+        {
+          if (best.crossing.empty())
+            return best;
+          Vertices vertices = on_the_way(now.vertices, rest, pose.vertices, way);
+          Pairs    pairs    = crossings.pairs(vertices);
+          if (pairs.size() < best.crossing.size())
+            best = { std::move(vertices), std::move(pairs),
+                     now.how
+                         + fmt::format("{}{} % of the way to {}", now.how.empty() ? "" : " and ",
+                                       100. * way, pose.file.filename().string()) };
+        }
+      return best;
+    }
+
+    Opening
+    find_opening(const Vertices              &rest,
+                 const std::vector<NearPose> &poses,
+                 const SheetCrossings        &crossings)
+    {
+      Opening now{ rest, crossings.pairs(rest), "" };
+      for (std::size_t k = 0; k < poses.size() && !now.crossing.empty(); ++k)
+      {
+        Opening further = opened_further(now, rest, poses, crossings);
+        if (further.how == now.how)
+          break;
+        now = std::move(further);
+      }
+      return now;
+    }
+
+    std::vector<std::string>
+    notes_on(const Opening &opening, const TriangleSurface &rest, const Pairs &at_rest)
+    {
+      std::vector<std::string> notes;
+      const auto               place = [&](const Pairs &pairs)
+      {
+        const unsigned int vertex = rest.triangles[pairs[0].first][0];
+        const auto        &x      = rest.vertices[vertex];
+        return fmt::format("the first at vertex {} ({}, {}, {})", vertex + 1, short_text(x[0]),
+                           short_text(x[1]), short_text(x[2]));
+      };
+      if (!opening.how.empty())
+        notes.push_back(fmt::format(
+            "Sheets cross at rest ({} pairs of faces, {}): the body was filled {}, where {} "
+            "pairs cross, and its cells brought back; they overlap at rest.",
+            at_rest.size(), place(at_rest), opening.how, opening.crossing.size()));
+      if (!opening.crossing.empty())
+        notes.push_back(fmt::format(
+            "{} pairs of faces cross at rest and in all poses ({}): they become one piece there, "
+            "and poses that part them lose that. Give a pose in which they are apart (--poses).",
+            opening.crossing.size(), place(opening.crossing)));
+      return notes;
+    }
+
+    /// Moves the cells that fill the surface at `from` to where they fill it at `to`.
+    void
+    carry_cells(TetrahedralMesh &mesh, const TriangleSurface &from, const Vertices &to)
+    {
+      const Points              nodes = as_points(mesh.nodes);
+      std::vector<BoundaryFace> faces;
+      for (const auto &triangle : mesh.boundary.triangles)
+        faces.push_back({ triangle, 0 });
+      PoseTransfer transfer(nodes, mesh.cells, SurfaceAttachment(nodes, faces, from),
+                            attach_at_rest);
+      PoseQuality  quality;
+      const Points x = transfer.carry(to, quality);
+      if (!(quality.min_det > FoldSolver::margin))
+        throw SolverFailure("Cells stay inverted on their way from the pose in which sheets are "
+                            "apart back to rest. Give a pose that is nearer to rest (--poses), or "
+                            "ask for another number of cells.");
+      for (std::size_t i = 0; i < x.size(); ++i)
+        mesh.nodes[i] = { { x[i][0], x[i][1], x[i][2] } };
+      remove_slivers(mesh);
+    }
+  } // namespace
+
+  MeshedSurface
+  mesh_parted(const SurfaceMeshingOptions &options)
+  {
+    const RestSurface           rest(options.surface);
+    const std::vector<NearPose> poses     = read_near_poses(options, rest);
+    const TriangleSurface       triangles = triangulate(rest.surface);
+    const SheetCrossings        crossings(triangles);
+    const Opening               opening = find_opening(rest.surface.vertices, poses, crossings);
+    if (opening.how.empty() && opening.crossing.empty())
+      return mesh_surface(options);
+    TriangleSurface open = triangles;
+    open.vertices        = opening.vertices;
+    std::function<void(TetrahedralMesh &)> back;
+    if (!opening.how.empty())
+      back = [&](TetrahedralMesh &mesh) { carry_cells(mesh, open, rest.surface.vertices); };
+    return mesh_surface_at(rest.surface,
+                           { opening.vertices, back,
+                             notes_on(opening, triangles, crossings.pairs(rest.surface.vertices)) },
+                           options);
+  }
+} // namespace Exemplar
