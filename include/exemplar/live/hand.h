@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_live_hand_h
+#define exemplar_live_hand_h
+
+#include <exemplar/live/command.h>
+#include <exemplar/live/surface_frames.h>
+#include <exemplar/run/session/session.h>
+
+#include <map>
+#include <set>
+#include <string>
+
+namespace Exemplar::Live
+{
+  /// What viewers ask for, said of the body: makes events of commands, and knows what is held by hand.
+  /// All functions throw std::invalid_argument, in words for the viewer, for what the body does not allow.
+  class Hand
+  {
+  public:
+    /// What is held by hand, by the names that viewers gave.
+    struct Held
+    {
+      std::set<std::string>                   springs, pins, handles;
+      std::map<std::string, dealii::Point<3>> hard; ///< where each was grabbed [m]
+    };
+
+    /// Of a scene at its beginning; keeps a reference to `surface`.
+    Hand(const Problem &problem, const BodySurface &surface);
+
+    /// What is to be done before the next step of the problem. Nothing is, for commands that are no hand's.
+    Session
+    events_of(const Command &command, const Problem &problem);
+
+    /// All that pulls is let go of; pins stay.
+    Session
+    let_go_of_all(const Problem &problem);
+
+    bool
+    pulls() const
+    {
+      return !held.springs.empty() || !held.hard.empty();
+    }
+
+    const Held &
+    get_held() const
+    {
+      return held;
+    }
+
+    /// As it was when get_held() was this.
+    void
+    restore(const Held &earlier)
+    {
+      held = earlier;
+    }
+
+    /// Of a spring of strength 1 [N/m].
+    double
+    unit_stiffness() const
+    {
+      return stiffness;
+    }
+
+  private:
+    Session
+    grab(const Command &command, const Problem &problem);
+    Session
+    move(const Command &command, const Problem &problem) const;
+    Session
+    release(const std::string &name, const Problem &problem);
+    Session
+    pin(const Command &command, const Problem &problem);
+    Session
+    move_handle(const Command &command, const Problem &problem);
+    Session
+    set(const Command &command, const Problem &problem) const;
+
+    /// The nodes of vertices, ascending.
+    std::vector<unsigned int>
+    nodes_of(const std::vector<unsigned int> &vertices) const;
+
+    /// Throws for a place that is a thousand times the body's size away.
+    void
+    check_place(const std::vector<double> &numbers, std::size_t first) const;
+
+    const BodySurface                                     &surface;
+    const double                                           diameter, stiffness;
+    const std::map<std::string, std::pair<double, double>> bounds; ///< of numbers to set
+    Held                                                   held;
+  };
+} // namespace Exemplar::Live
+
+#endif
