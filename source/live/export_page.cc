@@ -6,6 +6,7 @@
 #include <exemplar/live/surface_frames.h>
 
 #include <deal.II/base/utilities.h>
+#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -99,21 +100,56 @@ namespace Exemplar::Live
       page.replace(where, place.size(), text);
     }
 
+    /// JSON that may stand in a script.
     std::string
-    made_page(const Json &data, const std::string &topology, const std::string &frames)
+    in_script(const Json &data)
     {
-      std::string page = page_file("export.html");
-      replace(page, "@THREE@", three_file("three.min.js"));
-      replace(page, "@CONTROLS@", three_file("examples/js/controls/OrbitControls.js"));
-      replace(page, "@PLAYER@", page_file("player.js"));
-      replace(page, "@STYLE@", page_file("style.css"));
       std::string text = data.dump(-1, ' ', true, Json::error_handler_t::replace);
       for (std::size_t i = 0; (i = text.find("</", i)) != std::string::npos; i += 3)
         text.replace(i, 2, "<\\/"); // must not end the script
-      replace(page, "@DATA@", text);
-      replace(page, "@TOPOLOGY@", in_base64(topology));
-      replace(page, "@FRAMES@", in_base64(frames));
-      return mark_of_page + page;
+      return text;
+    }
+
+    /// A run, as the page has it.
+    struct PageRun
+    {
+      Json        data;
+      std::string topology, frames;
+      std::size_t n_frames = 0;
+      double      error    = 0.; ///< of a coordinate [m]
+    };
+
+    PageRun
+    run_in(const fs::path &directory)
+    {
+      const std::vector<RunFrame> frames  = frames_of_run(directory);
+      const BodySurface           surface = surface_in(frames.front().file);
+      PageRun                     run;
+      for (std::uint32_t i = 0; i < frames.size(); ++i)
+      {
+        const std::vector<double> places = places_in(frames[i].file);
+        if (3 * surface.nodes.back() + 2 >= places.size())
+          throw UserError(frames[i].file.string() + " has other nodes than the first frame.");
+        const Vector positions(places.begin(), places.end());
+        run.frames
+            += *frame_message({ BinaryKind::frame, i, i, 0, frames[i].time }, surface, positions);
+        run.error = std::max(run.error, rounding_of_frame(surface, positions));
+      }
+      run.topology = *topology_message(surface);
+      run.n_frames = frames.size();
+      run.data     = { { "name", fs::absolute(directory / "").parent_path().filename().string() },
+                       { "frames", frames.size() },
+                       { "error", run.error },
+                       { "plots", plots_of(directory) } };
+      return run;
+    }
+
+    /// Bytes that are no script, under a name by which the page finds them.
+    std::string
+    element(const std::string &name, const std::size_t i, const std::string &bytes)
+    {
+      return fmt::format("<script type=\"text/plain\" id=\"{}-{}\">{}</script>\n", name, i,
+                         in_base64(bytes));
     }
 
     void
@@ -132,30 +168,38 @@ namespace Exemplar::Live
     }
   } // namespace
 
-  ExportedPage
-  export_page(const fs::path &directory, const fs::path &file)
+  RunPage
+  page_of_runs(const std::vector<std::string> &directories)
+  {
+    RunPage     result;
+    Json        runs = Json::array();
+    std::string elements;
+    for (const std::string &directory : directories)
+    {
+      const PageRun run = run_in(directory);
+      elements += element("topology", runs.size(), run.topology);
+      elements += element("frames", runs.size(), run.frames);
+      runs.push_back(run.data);
+      result.n_frames += run.n_frames;
+      result.error = std::max(result.error, run.error);
+    }
+    std::string page = page_file("export.html");
+    replace(page, "@THREE@", three_file("three.min.js"));
+    replace(page, "@CONTROLS@", three_file("examples/js/controls/OrbitControls.js"));
+    replace(page, "@PLAYER@", page_file("player.js"));
+    replace(page, "@STYLE@", page_file("style.css"));
+    replace(page, "@DATA@", in_script({ { "runs", runs } }));
+    replace(page, "@RUNS@", elements);
+    result.html = mark_of_page + page;
+    return result;
+  }
+
+  RunPage
+  export_page(const std::vector<std::string> &directories, const fs::path &file)
   {
     require_replaceable(file);
-    const std::vector<RunFrame> frames  = frames_of_run(directory);
-    const BodySurface           surface = surface_in(frames.front().file);
-    ExportedPage                result  = { frames.size(), 0, 0. };
-    std::string                 bytes;
-    for (std::uint32_t i = 0; i < frames.size(); ++i)
-    {
-      const std::vector<double> places = places_in(frames[i].file);
-      if (3 * surface.nodes.back() + 2 >= places.size())
-        throw UserError(frames[i].file.string() + " has other nodes than the first frame.");
-      const Vector positions(places.begin(), places.end());
-      bytes += *frame_message({ BinaryKind::frame, i, i, 0, frames[i].time }, surface, positions);
-      result.error = std::max(result.error, rounding_of_frame(surface, positions));
-    }
-    const Json data = { { "name", fs::absolute(directory / "").parent_path().filename().string() },
-                        { "frames", frames.size() },
-                        { "error", result.error },
-                        { "plots", plots_of(directory) } };
-    const std::string page = made_page(data, *topology_message(surface), bytes);
-    write(page, file);
-    result.n_bytes = page.size();
-    return result;
+    RunPage page = page_of_runs(directories);
+    write(page.html, file);
+    return page;
   }
 } // namespace Exemplar::Live

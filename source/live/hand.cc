@@ -14,6 +14,18 @@ namespace Exemplar::Live
     /// The stiffness of a spring of strength 1, over Young's modulus times the diameter of the body.
     constexpr double relative_stiffness = 0.02;
 
+    /// Of the patch that a hand takes hold of, over the diameter of the body.
+    constexpr double relative_radius = 0.1;
+
+    /// How fast a pull follows its pointer [1/s], over the diameter of the body.
+    constexpr double relative_speed = 0.75;
+
+    /// Of the way to its pointer, what a pull strives to go in a step; and how far its way turns to that.
+    constexpr double eagerness = 0.4, agility = 0.4;
+
+    /// Over the diameter of the body: what is as near as this is there.
+    constexpr double relative_nearness = 1e-5;
+
     constexpr std::size_t max_pins = 100, max_springs = 10;
 
     double
@@ -49,6 +61,30 @@ namespace Exemplar::Live
     {
       const Vector &x = problem.state.positions;
       return { x[3 * node], x[3 * node + 1], x[3 * node + 2] };
+    }
+
+    Vector
+    rest_positions(const Mesh &mesh)
+    {
+      Vector rest(3 * mesh.n_nodes());
+      for (unsigned int node = 0; node < mesh.n_nodes(); ++node)
+        for (unsigned int c = 0; c < 3; ++c)
+          rest[3 * node + c] = mesh.get_nodes()[node][c];
+      return rest;
+    }
+
+    dealii::Point<3>
+    point_of(const std::vector<double> &numbers, const std::size_t first = 0)
+    {
+      return { numbers[first], numbers[first + 1], numbers[first + 2] };
+    }
+
+    /// The event of a pull that is where it now is.
+    SessionEvent
+    moved(const Problem &problem, const Hand::Pull &pull)
+    {
+      const auto way = pull.at - pull.from;
+      return before_next_step(problem, pull.moving, pull.of, {}, { way[0], way[1], way[2] });
     }
 
     /// Nodes, held where they are.
@@ -99,7 +135,9 @@ namespace Exemplar::Live
 
   Hand::Hand(const Problem &problem, const BodySurface &surface)
       : surface(surface), diameter(problem.body.mesh.diameter()),
-        stiffness(relative_stiffness * mean_young(problem) * diameter), bounds{
+        stiffness(relative_stiffness * mean_young(problem) * diameter),
+        max_way(relative_speed * diameter * problem.parameters.time.step),
+        rest(rest_positions(problem.body.mesh)), bounds{
           { "young", { 1e-3 * mean_young(problem), 1e3 * mean_young(problem) } },
           { "poisson", { 0., 0.495 } },
           { "importance", { 1e-3, 1. } }
@@ -113,7 +151,10 @@ namespace Exemplar::Live
     if (command.type == "grab")
       return grab(command, problem);
     if (command.type == "move")
-      return move(command, problem);
+    {
+      move(command);
+      return {};
+    }
     if (command.type == "release")
       return release(command.name, problem);
     if (command.type == "pin")
@@ -131,10 +172,31 @@ namespace Exemplar::Live
   Hand::let_go_of_all(const Problem &problem)
   {
     Session events;
-    for (const std::string &name : std::set<std::string>(held.springs))
-      events.push_back(release(name, problem).front());
-    for (const auto &entry : std::map<std::string, dealii::Point<3>>(held.hard))
+    for (const auto &entry : std::map<std::string, Pull>(held.pulls))
       events.push_back(release(entry.first, problem).front());
+    return events;
+  }
+
+  Session
+  Hand::follow(const Problem &problem)
+  {
+    Session    events;
+    const auto come_nearer = [&](Pull &pull)
+    {
+      const dealii::Tensor<1, 3> rest_of_way = pull.to - pull.at;
+      if (rest_of_way.norm() == 0.)
+        return;
+      dealii::Tensor<1, 3> wanted = eagerness * rest_of_way;
+      wanted *= std::min(1., max_way / wanted.norm());
+      pull.way += agility * (wanted - pull.way);
+      const double near     = relative_nearness * diameter;
+      const bool   is_there = rest_of_way.norm() < near && pull.way.norm() < near;
+      pull.at               = is_there ? pull.to : pull.at + pull.way;
+      events.push_back(moved(problem, pull));
+    };
+    for (auto *pulls : { &held.pulls, &held.handles })
+      for (auto &entry : *pulls)
+        come_nearer(entry.second);
     return events;
   }
 
@@ -149,9 +211,9 @@ namespace Exemplar::Live
   Session
   Hand::grab(const Command &command, const Problem &problem)
   {
-    if (held.springs.count(command.name) + held.hard.count(command.name) > 0)
+    if (held.pulls.count(command.name) > 0)
       throw std::invalid_argument("this pointer holds the body already");
-    if (held.springs.size() + held.hard.size() >= max_springs)
+    if (held.pulls.size() >= max_springs)
       throw std::invalid_argument("the body is held by as many pointers as may be");
     if (command.triangle >= surface.triangles.size())
       throw std::invalid_argument("there is no such triangle");
@@ -164,49 +226,55 @@ namespace Exemplar::Live
     if (!(numbers[6] >= 1e-3 && numbers[6] <= 1e3))
       throw std::invalid_argument("the strength is not between 0.001 and 1000");
 
-    std::vector<unsigned int> nodes;
-    for (const unsigned int vertex : surface.triangles[command.triangle])
-      nodes.push_back(surface.nodes[vertex]);
-    if (!command.on)
+    const SurfacePoint point{ command.triangle, { { numbers[0], numbers[1], numbers[2] } } };
+    const auto         patch = patch_around(point, surface, rest, relative_radius * diameter);
+    const auto         place = place_of(point, surface, problem.state.positions);
+    if (command.on)
+      return grab_hard(command.name, place, patch, problem);
+    const dealii::Point<3> to = point_of(numbers, 3);
+    std::vector<double>    ends;
+    for (std::size_t i = 0; i < patch.nodes.size(); ++i)
     {
-      numbers[6] *= stiffness;
-      held.springs.insert(command.name);
-      return { before_next_step(problem, "grab", command.name, nodes, numbers) };
+      const auto offset = place_of(problem, patch.nodes[i]) - place;
+      ends.insert(ends.end(), { patch.shares[i], offset[0], offset[1], offset[2] });
     }
-    dealii::Point<3> place;
-    for (unsigned int a = 0; a < 3; ++a)
-      place += numbers[a] * (place_of(problem, nodes[a]) - dealii::Point<3>());
-    std::sort(nodes.begin(), nodes.end());
-    nodes = free_ones(problem, nodes);
-    if (nodes.empty())
-      throw std::invalid_argument("this part of the body is held");
-    held.hard[command.name] = place;
-    return { hold_here(problem, of_hand(command.name), nodes) };
+    ends.insert(ends.end(), { place[0], place[1], place[2], numbers[6] * stiffness });
+    held.pulls[command.name] = { "move", "release", command.name, {}, place, to };
+    return { before_next_step(problem, "grab", command.name, patch.nodes, ends) };
   }
 
   Session
-  Hand::move(const Command &command, const Problem &problem) const
+  Hand::grab_hard(const std::string      &name,
+                  const dealii::Point<3> &place,
+                  const SurfacePatch     &patch,
+                  const Problem          &problem)
+  {
+    const std::vector<unsigned int> nodes = free_ones(problem, patch.nodes);
+    if (nodes.empty())
+      throw std::invalid_argument("this part of the body is held");
+    held.pulls[name] = { "shift", "let go", of_hand(name), place, place, place };
+    return { hold_here(problem, of_hand(name), nodes) };
+  }
+
+  void
+  Hand::move(const Command &command)
   {
     check_place(command.numbers, 0);
-    if (held.springs.count(command.name) > 0)
-      return { before_next_step(problem, "move", command.name, {}, command.numbers) };
-    const auto grabbed = held.hard.find(command.name);
-    if (grabbed == held.hard.end())
+    const auto pull = held.pulls.find(command.name);
+    if (pull == held.pulls.end())
       throw std::invalid_argument("this pointer does not hold the body");
-    const dealii::Point<3> &from = grabbed->second;
-    return { before_next_step(problem, "shift", of_hand(command.name), {},
-                              { command.numbers[0] - from[0], command.numbers[1] - from[1],
-                                command.numbers[2] - from[2] }) };
+    pull->second.to = point_of(command.numbers);
   }
 
   Session
   Hand::release(const std::string &name, const Problem &problem)
   {
-    if (held.springs.erase(name) > 0)
-      return { before_next_step(problem, "release", name) };
-    if (held.hard.erase(name) > 0)
-      return { before_next_step(problem, "let go", of_hand(name)) };
-    throw std::invalid_argument("this pointer does not hold the body");
+    const auto pull = held.pulls.find(name);
+    if (pull == held.pulls.end())
+      throw std::invalid_argument("this pointer does not hold the body");
+    const Pull ended = pull->second;
+    held.pulls.erase(pull);
+    return { before_next_step(problem, ended.ending, ended.of) };
   }
 
   std::vector<unsigned int>
@@ -244,8 +312,11 @@ namespace Exemplar::Live
     for (unsigned int handle = 0; handle < all.size(); ++handle)
       if (all.name(handle) == command.name)
       {
+        const auto [pull, is_new] = held.handles.insert(
+            { command.name, { "shift", "let go", command.name, {}, {}, {} } });
+        pull->second.to = point_of(command.numbers);
         Session events;
-        if (held.handles.insert(command.name).second)
+        if (is_new)
         {
           std::vector<unsigned int> nodes = all.nodes(handle);
           nodes.erase(std::remove_if(nodes.begin(), nodes.end(),
@@ -254,7 +325,6 @@ namespace Exemplar::Live
                       nodes.end());
           events.push_back(hold_here(problem, command.name, nodes));
         }
-        events.push_back(before_next_step(problem, "shift", command.name, {}, command.numbers));
         return events;
       }
     throw std::invalid_argument("there is no such handle");

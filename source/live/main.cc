@@ -23,8 +23,8 @@ namespace Exemplar::Live
     /// What the command line says.
     struct Arguments
     {
-      std::string              scene, record, output, html;
-      std::vector<std::string> overrides, hosts;
+      std::string              record, html;
+      std::vector<std::string> shown, overrides, hosts; ///< shown: a scene, or outputs of runs
       ListenAt                 place;
       unsigned int             n_threads = 1;
     };
@@ -47,7 +47,10 @@ Exit status:
     {
       CLI::App &app
           = *main.add_subcommand("live", "pull the body of a scene with the mouse, in a browser");
-      app.add_option("SCENE", arguments.scene, "scene file (.prm)")->required();
+      app.add_option("SCENE", arguments.shown,
+                     "scene file (.prm), or one or two output directories of runs to play")
+          ->required()
+          ->expected(1, 2);
       app.add_option("--set", arguments.overrides,
                      "'Section/Key=value' instead of the scene's; repeatable")
           ->allow_extra_args(false);
@@ -83,7 +86,10 @@ Exit status:
     {
       CLI::App &app = *main.add_subcommand(
           "export", "write the frames of a finished run as one page of HTML");
-      app.add_option("OUTPUT", arguments.output, "output directory of the run")->required();
+      app.add_option("OUTPUT", arguments.shown,
+                     "output directory of the run; of two runs: side by side")
+          ->required()
+          ->expected(1, 2);
       app.add_option("--html", arguments.html, "the page to write")->required();
       app.footer(footer("export output/cat --html cat.html"));
     }
@@ -91,10 +97,10 @@ Exit status:
     int
     do_export(const Arguments &arguments)
     {
-      const ExportedPage page = export_page(arguments.output, arguments.html);
+      const RunPage page = export_page(arguments.shown, arguments.html);
       std::cout << fmt::format(
           "{}: {} frames, {:.1f} MB; coordinates are rounded by {:.1e} m at most", arguments.html,
-          page.n_frames, 1e-6 * page.n_bytes, page.error)
+          page.n_frames, 1e-6 * page.html.size(), page.error)
                 << std::endl;
       return 0;
     }
@@ -151,16 +157,32 @@ Exit status:
       std::thread        thread;
     };
 
-    /// Returns the exit status: a signal ends it.
+    /// Play runs that have ended. Returns the exit status: a signal ends it.
     int
-    serve(const Arguments &arguments)
+    serve_runs(const Arguments &arguments)
     {
-      if (std::filesystem::is_directory(arguments.scene))
-        throw UserError(
-            arguments.scene
-            + " is a directory. The frames of a finished run become a page by: exemplar export "
-            + arguments.scene + " --html FILE.");
-      const SceneFile scene(arguments.scene, with_step(arguments.overrides));
+      if (!arguments.overrides.empty() || !arguments.record.empty())
+        throw UserError(arguments.shown.front()
+                        + " is a directory, of which nothing can be set or recorded. Leave out "
+                          "--set and --record, or give a scene (.prm).");
+      const Access access(arguments.hosts);
+      const Site   site(page_of_runs(arguments.shown).html);
+      Mailbox      mailbox;
+      ServerLog    log;
+      Audience     audience(mailbox, log);
+      Server       server(arguments.place, access, site, audience);
+      std::cout << server.invitation() << std::endl;
+      server.run();
+      return 130;
+    }
+
+    /// Pull a body. Returns the exit status: a signal ends it.
+    int
+    serve_scene(const Arguments &arguments)
+    {
+      if (arguments.shown.size() > 1)
+        throw UserError("exemplar live takes one scene, or one or two output directories of runs.");
+      const SceneFile scene(arguments.shown.front(), with_step(arguments.overrides));
       const Access    access(arguments.hosts);
       const Site      site;
       Stage           stage(scene, arguments.record, arguments.n_threads);
@@ -184,6 +206,13 @@ Exit status:
       solver.end();
       solver.rethrow();
       return 130;
+    }
+
+    int
+    serve(const Arguments &arguments)
+    {
+      const bool is_run = std::filesystem::is_directory(arguments.shown.front());
+      return is_run ? serve_runs(arguments) : serve_scene(arguments);
     }
   } // namespace
 

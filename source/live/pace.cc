@@ -2,6 +2,7 @@
 #include <exemplar/live/pace.h>
 
 #include <algorithm>
+#include <ctime>
 
 namespace Exemplar::Live
 {
@@ -30,15 +31,24 @@ namespace Exemplar::Live
     n_steps      = 0;
   }
 
-  void
-  Pace::add_step(const Clock::time_point begin)
+  Pace::Moment
+  Pace::now()
   {
-    const auto now = Clock::now();
+    timespec processor{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &processor);
+    return { Clock::now(), processor.tv_sec + 1e-9 * processor.tv_nsec };
+  }
+
+  void
+  Pace::add_step(const Moment &begin)
+  {
+    const Moment end = now();
     ++n_steps;
     due += step;
-    longest_step = std::max(longest_step, now - begin);
-    most_behind  = std::max(most_behind, now - due);
-    due          = std::max(due, now - std::max<Clock::duration>(max_debt, step));
+    longest_step   = std::max(longest_step, end.time - begin.time);
+    most_processor = std::max(most_processor, end.processor - begin.processor);
+    most_behind    = std::max(most_behind, end.time - due);
+    due            = std::max(due, end.time - std::max<Clock::duration>(max_debt, step));
   }
 
   double
@@ -58,10 +68,12 @@ namespace Exemplar::Live
   {
     const auto    now     = Clock::now();
     const Summary summary = { n_steps * seconds(step) / std::max(1e-9, seconds(now - last_summary)),
-                              1e3 * seconds(longest_step), seconds(most_behind) / seconds(step) };
+                              1e3 * seconds(longest_step), 1e3 * most_processor,
+                              seconds(most_behind) / seconds(step) };
     last_summary          = now;
     n_steps               = 0;
     longest_step = most_behind = Clock::duration{};
+    most_processor             = 0.;
     return summary;
   }
 } // namespace Exemplar::Live

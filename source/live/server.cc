@@ -68,7 +68,8 @@ namespace Exemplar::Live
         const std::string objection = objection_to(request, access);
         if (!objection.empty())
           audience.get_log().refuse(objection);
-        const bool is_socket = request.target() == "/ws" && beast::websocket::is_upgrade(request);
+        const bool is_socket = site.has_socket() && request.target() == "/ws"
+                               && beast::websocket::is_upgrade(request);
         if (objection.empty() && is_socket)
         {
           std::make_shared<Viewer>(std::move(stream), audience, count)->begin(request);

@@ -194,10 +194,11 @@ namespace Exemplar::Live
   void
   Simulation::make_step()
   {
-    const auto  begin = Pace::Clock::now();
+    const auto  begin = Pace::now();
     std::string failure;
     try
     {
+      stage.act(hand.follow(stage.get_problem()));
       shown.report = stage.advance();
       if (!is_success(shown.report.status))
         failure = stage.get_problem().failure_message(shown.report);
@@ -308,6 +309,7 @@ namespace Exemplar::Live
                           { "rate", summary.rate },
                           { "behind", summary.behind },
                           { "milliseconds", summary.milliseconds },
+                          { "processor_milliseconds", summary.processor },
                           { "iterations", shown.report.iterations },
                           { "residual", finite(shown.report.residual) },
                           { "energy", finite(problem.evaluation.elastic.energy) },

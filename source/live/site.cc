@@ -50,10 +50,11 @@ namespace Exemplar::Live
 
     /// Scripts and styles come from here alone, and the page can talk to nobody else.
     std::string
-    content_policy(const std::string &host)
+    content_policy(const std::string &host, const std::string &sources)
     {
-      return "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; "
-             "connect-src 'self' ws://"
+      return "default-src 'none'; " + sources
+             + "; img-src 'self' data:; "
+               "connect-src 'self' ws://"
              + host + " wss://" + host
              + "; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
     }
@@ -81,7 +82,7 @@ namespace Exemplar::Live
     {
       Response response(http::status::ok, request.version());
       response.set(http::field::content_type, file.type);
-      response.set("Content-Security-Policy", content_policy(host));
+      response.set("Content-Security-Policy", content_policy(host, file.sources));
       response.body() = file.bytes;
       return response;
     }
@@ -121,16 +122,25 @@ namespace Exemplar::Live
                     "Install three.js (Debian: libjs-three).");
   }
 
-  Site::Site()
+  Site::Site() : is_live(true)
   {
-    const std::string script = "text/javascript; charset=utf-8";
-    files["/"]               = { "text/html; charset=utf-8", page_file("index.html") };
-    files["/style.css"]      = { "text/css; charset=utf-8", page_file("style.css") };
+    const std::string own = "script-src 'self'; style-src 'self'";
+    const auto add = [&](const std::string &path, const std::string &type, std::string bytes) {
+      files[path] = { type + "; charset=utf-8", std::move(bytes), own };
+    };
+    add("/", "text/html", page_file("index.html"));
+    add("/style.css", "text/css", page_file("style.css"));
     for (const std::string name : { "app.js", "view.js", "messages.js", "pointer.js", "panel.js" })
-      files["/" + name] = { script, page_file(name) };
+      add("/" + name, "text/javascript", page_file(name));
     for (const std::string name :
          { "build/three.module.js", "examples/jsm/controls/OrbitControls.js" })
-      files["/three/" + name] = { script, three_file(name) };
+      add("/three/" + name, "text/javascript", three_file(name));
+  }
+
+  Site::Site(std::string page) : is_live(false)
+  {
+    files["/"] = { "text/html; charset=utf-8", std::move(page),
+                   "script-src 'unsafe-inline'; style-src 'unsafe-inline'" };
   }
 
   const Site::File *

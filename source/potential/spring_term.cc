@@ -1,30 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/potential/spring_term.h>
 
-#include <algorithm>
-
 namespace Exemplar
 {
   namespace
   {
-    /// Sum of the nodes' values, each with its share.
     dealii::Tensor<1, 3>
-    at_point(const Spring &spring, const Vector &field)
+    at_node(const Vector &field, const unsigned int node)
     {
-      dealii::Tensor<1, 3> sum;
-      for (unsigned int a = 0; a < 3; ++a)
-        for (unsigned int c = 0; c < 3; ++c)
-          sum[c] += spring.shares[a] * field[3 * spring.nodes[a] + c];
-      return sum;
+      return dealii::Point<3>(field[3 * node], field[3 * node + 1], field[3 * node + 2]);
     }
 
-    /// Give each node its share of a force.
     void
-    add_shares(const Spring &spring, const dealii::Tensor<1, 3> &force, Vector &gradient)
+    add_to(Vector &gradient, const unsigned int node, const dealii::Tensor<1, 3> &force)
     {
-      for (unsigned int a = 0; a < 3; ++a)
-        for (unsigned int c = 0; c < 3; ++c)
-          gradient[3 * spring.nodes[a] + c] += spring.shares[a] * force[c];
+      for (unsigned int c = 0; c < 3; ++c)
+        gradient[3 * node + c] += force[c];
     }
   } // namespace
 
@@ -40,16 +31,16 @@ namespace Exemplar
   void
   SpringTerm::add(const TermPoint &at, ElasticSums &sums)
   {
-    for (const auto &entry : *springs)
-    {
-      const Spring              &spring  = entry.second;
-      const dealii::Tensor<1, 3> stretch = at_point(spring, at.positions) - spring.anchor;
-      const dealii::Tensor<1, 3> force   = spring.stiffness * stretch;
-      sums->energy += 0.5 * (force * stretch);
-      add_shares(spring, force, sums->gradient);
-      for (unsigned int a = 0; a < 3; ++a)
-        sums->force_scale[spring.nodes[a]] += std::abs(spring.shares[a]) * force.norm();
-    }
+    for (const auto &[name, spring] : *springs)
+      for (const Spring::End &end : spring.ends)
+      {
+        const dealii::Tensor<1, 3> stretch
+            = at_node(at.positions, end.node) - spring.anchor - end.offset;
+        const dealii::Tensor<1, 3> force = spring.stiffness * end.share * stretch;
+        sums->energy += 0.5 * (force * stretch);
+        add_to(sums->gradient, end.node, force);
+        sums->force_scale[end.node] += force.norm();
+      }
   }
 
   void
@@ -58,20 +49,11 @@ namespace Exemplar
                           std::vector<double> &values,
                           std::vector<double> & /*columns*/)
   {
-    for (const auto &entry : *springs)
-    {
-      const Spring &spring = entry.second;
-      for (unsigned int a = 0; a < 3; ++a)
-        for (unsigned int b = 0; b < 3; ++b)
-          for (unsigned int c = 0; c < 3; ++c)
-          {
-            const int i = free_dofs->free_index(3 * spring.nodes[a] + c),
-                      j = free_dofs->free_index(3 * spring.nodes[b] + c);
-            if (i >= j && j >= 0)
-              values[pattern->position(i, j)]
-                  += spring.stiffness * spring.shares[a] * spring.shares[b];
-          }
-    }
+    for (const auto &[name, spring] : *springs)
+      for (const Spring::End &end : spring.ends)
+        for (unsigned int c = 0; c < 3; ++c)
+          if (const int i = free_dofs->free_index(3 * end.node + c); i >= 0)
+            values[pattern->position(i, i)] += spring.stiffness * end.share;
   }
 
   void
@@ -80,14 +62,18 @@ namespace Exemplar
                            const Vector &displacement,
                            ElasticSums  &sums)
   {
-    for (const auto &entry : *springs)
-      add_shares(entry.second, entry.second.stiffness * at_point(entry.second, displacement),
-                 sums->gradient);
+    for (const auto &[name, spring] : *springs)
+      for (const Spring::End &end : spring.ends)
+        add_to(sums->gradient, end.node,
+               spring.stiffness * end.share * at_node(displacement, end.node));
   }
 
   std::size_t
   SpringTerm::memory_consumption() const
   {
-    return springs->size() * sizeof(Springs::value_type);
+    std::size_t n_bytes = 0;
+    for (const auto &[name, spring] : *springs)
+      n_bytes += sizeof(Springs::value_type) + spring.ends.size() * sizeof(Spring::End);
+    return n_bytes;
   }
 } // namespace Exemplar

@@ -56,12 +56,13 @@ class BrowserTest(unittest.TestCase):
         if "SCREENSHOTS" in os.environ:
             page.save_screenshot(str(Path(os.environ["SCREENSHOTS"]) / f"{name}.png"))
 
-    def pixels(self, page):
-        """What the canvas shows, small."""
-        return page.execute_script("""
+    def pixels(self, page, half=None):
+        """What the canvas shows, small; of its left (0) or right half (1), if one is asked for."""
+        width, begin = (64, 0) if half is None else (32, 32 * half)
+        return page.execute_script(f"""
             const small = document.createElement("canvas"); small.width = 64; small.height = 48;
             const pen = small.getContext("2d"); pen.drawImage(document.getElementById("canvas"), 0, 0, 64, 48);
-            return Array.from(pen.getImageData(0, 0, 64, 48).data);""")
+            return Array.from(pen.getImageData({begin}, 0, {width}, 48).data);""")
 
     def assertNothingInConsole(self, page):
         self.assertEqual([entry for entry in page.get_log("browser") if entry["level"] in ("SEVERE", "WARNING")
@@ -113,6 +114,23 @@ class BrowserTest(unittest.TestCase):
         self.wait(lambda: "t = 0.5" in page.find_element("id", "time").text, "it plays")
         self.picture(page, "export")
         self.assertNothingInConsole(page)
+        self.play_two(page, output)
+
+    def play_two(self, page, output):
+        """By the server, side by side."""
+        with Server(output, output, log=self.here / "log.txt") as server:
+            page.get(f"http://{server.host}/?token={server.token}")
+            self.assertEqual(page.current_url, f"http://{server.host}/")
+            self.assertEqual(page.find_element("id", "name").text, "run | run")
+            page.find_element("id", "play").click()
+            page.execute_script("const scrub = document.getElementById('scrub'); scrub.value = 12; scrub.oninput({ target: scrub });")
+            self.assertEqual(page.find_element("id", "time").text, "t = 0.60 s")
+            self.wait(lambda: all(any(self.pixels(page, half)[3::4]) for half in (0, 1)), "both bodies")
+            self.picture(page, "live_runs")
+            self.assertNothingInConsole(page)
+            sock, status = server.handshake()
+            sock.close()
+            self.assertEqual(status, 404)
 
     def test_export_refuses(self):
         (self.here / "mine.html").write_text("mine")

@@ -3,7 +3,7 @@
 #define exemplar_live_hand_h
 
 #include <exemplar/live/command.h>
-#include <exemplar/live/surface_frames.h>
+#include <exemplar/live/surface_patch.h>
 #include <exemplar/run/session/session.h>
 
 #include <map>
@@ -17,19 +17,33 @@ namespace Exemplar::Live
   class Hand
   {
   public:
+    /// What is pulled to where a pointer is. A pointer jumps, because it is told of a few times a second,
+    /// because the body is behind the clock, or because a hand was jerked; what is pulled does not.
+    struct Pull
+    {
+      std::string          moving, ending, of; ///< what its events are, and of what
+      dealii::Point<3>     from;               ///< where it counts from [m]
+      dealii::Point<3>     at, to;             ///< where it is, and where the pointer is [m]
+      dealii::Tensor<1, 3> way = {};           ///< that it went in the last step [m]
+    };
+
     /// What is held by hand, by the names that viewers gave.
     struct Held
     {
-      std::set<std::string>                   springs, pins, handles;
-      std::map<std::string, dealii::Point<3>> hard; ///< where each was grabbed [m]
+      std::map<std::string, Pull> pulls, handles;
+      std::set<std::string>       pins;
     };
 
     /// Of a scene at its beginning; keeps a reference to `surface`.
     Hand(const Problem &problem, const BodySurface &surface);
 
-    /// What is to be done before the next step of the problem. Nothing is, for commands that are no hand's.
+    /// What is to be done at once. Throws for commands that are no hand's.
     Session
     events_of(const Command &command, const Problem &problem);
+
+    /// Let all that is pulled come nearer to its pointer, before the next step of the problem.
+    Session
+    follow(const Problem &problem);
 
     /// All that pulls is let go of; pins stay.
     Session
@@ -38,7 +52,7 @@ namespace Exemplar::Live
     bool
     pulls() const
     {
-      return !held.springs.empty() || !held.hard.empty();
+      return !held.pulls.empty();
     }
 
     const Held &
@@ -64,8 +78,8 @@ namespace Exemplar::Live
   private:
     Session
     grab(const Command &command, const Problem &problem);
-    Session
-    move(const Command &command, const Problem &problem) const;
+    void
+    move(const Command &command);
     Session
     release(const std::string &name, const Problem &problem);
     Session
@@ -74,6 +88,13 @@ namespace Exemplar::Live
     move_handle(const Command &command, const Problem &problem);
     Session
     set(const Command &command, const Problem &problem) const;
+
+    /// Lets the nodes of a patch follow the pointer, without a spring.
+    Session
+    grab_hard(const std::string      &name,
+              const dealii::Point<3> &place,
+              const SurfacePatch     &patch,
+              const Problem          &problem);
 
     /// The nodes of vertices, ascending.
     std::vector<unsigned int>
@@ -85,7 +106,9 @@ namespace Exemplar::Live
 
     const BodySurface                                     &surface;
     const double                                           diameter, stiffness;
-    const std::map<std::string, std::pair<double, double>> bounds; ///< of numbers to set
+    const double                                           max_way; ///< of a pull in a step [m]
+    const Vector                                           rest;    ///< positions [m]
+    const std::map<std::string, std::pair<double, double>> bounds;  ///< of numbers to set
     Held                                                   held;
   };
 } // namespace Exemplar::Live

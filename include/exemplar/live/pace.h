@@ -31,10 +31,20 @@ namespace Exemplar::Live
       return due;
     }
 
+    /// When a step began.
+    struct Moment
+    {
+      Clock::time_point time;
+      double            processor; ///< [s], of this thread alone
+    };
+
+    static Moment
+    now();
+
     /// A step was made that took from `begin` until now. What is behind is caught up, but no more than a
     /// tenth of a second of it.
     void
-    add_step(Clock::time_point begin);
+    add_step(const Moment &begin);
 
     /// How many steps should have been made that were not.
     double
@@ -45,6 +55,7 @@ namespace Exemplar::Live
     {
       double rate;         ///< simulated over real time
       double milliseconds; ///< a step, at most
+      double processor;    ///< the same, without the time in which others had the processor
       double behind;       ///< steps, at most
     };
 
@@ -61,6 +72,7 @@ namespace Exemplar::Live
     Clock::time_point     due, last_summary;
     unsigned int          n_steps = 0;                   ///< since then
     Clock::duration       longest_step{}, most_behind{}; ///< since then
+    double                most_processor = 0.;           ///< of a step since then [s]
   };
 } // namespace Exemplar::Live
 

@@ -27,21 +27,32 @@ namespace Exemplar::Live
   class Site
   {
   public:
-    /// Throws UserError if a file of the page or of three.js is missing.
+    /// The page at which a body is pulled. Throws UserError if a file of it or of three.js is missing.
     Site();
 
-    /// A file's type and bytes.
+    /// One page that needs no other, and no WebSocket.
+    explicit Site(std::string page);
+
+    /// A file's type and bytes, and what of it a browser may carry out.
     struct File
     {
-      std::string type, bytes;
+      std::string type, bytes, sources;
     };
 
     /// Null for paths that are none of the table.
     const File *
     find(const std::string &path) const;
 
+    /// Whether viewers may come.
+    bool
+    has_socket() const
+    {
+      return is_live;
+    }
+
   private:
     std::map<std::string, File> files;
+    bool                        is_live;
   };
 
   /// Why a request is refused before it is looked at, in words for the log; empty: it is not.

@@ -6,26 +6,35 @@
 
 #include <deal.II/base/point.h>
 
-#include <array>
 #include <map>
+#include <memory>
+#include <string>
+#include <vector>
 
 namespace Exemplar
 {
-  /// A spring of no length at rest from a point of a triangle of three nodes, which share a cell, to a
-  /// place.
+  /// What a hand pulls at: nodes, each of which strives to its own place beside the anchor, so that the
+  /// pull is spread over the body instead of crushing one triangle.
   struct Spring
   {
-    std::array<unsigned int, 3> nodes;
-    std::array<double, 3>       shares;    ///< of the nodes: barycentric coordinates
-    dealii::Point<3>            anchor;    ///< the place [m]
-    double                      stiffness; ///< [N/m]
+    /// A node of it.
+    struct End
+    {
+      unsigned int         node;
+      double               share;  ///< of the stiffness
+      dealii::Tensor<1, 3> offset; ///< from the anchor to where it strives [m]
+    };
+
+    std::vector<End> ends;
+    dealii::Point<3> anchor;    ///< [m]
+    double           stiffness; ///< of all together [N/m]
   };
 
   /// Springs by their names.
   using Springs = std::map<std::string, Spring>;
 
-  /// k/2 |p - a|^2 of each spring, where p is its point of the body and a its anchor. Its tangent couples
-  /// only nodes that share a cell, so that springs come and go on the same pattern.
+  /// k/2 sum_i s_i |x_i - a - r_i|^2 of each spring, where s_i and r_i are the share and the offset of
+  /// node i, and a is the anchor. Its tangent is diagonal, so that springs come and go on the same pattern.
   class SpringTerm : public PotentialTerm
   {
   public:

@@ -30,7 +30,7 @@ namespace Exemplar
   } // namespace
 
   const std::map<std::string, SessionPlayer::Verb> SessionPlayer::verbs
-      = { { "grab", { &SessionPlayer::grab, 3, 7 } },
+      = { { "grab", { &SessionPlayer::grab, any_number, any_number } },
           { "move", { &SessionPlayer::move, 0, 3 } },
           { "release", { &SessionPlayer::release, 0, 0 } },
           { "hold", { &SessionPlayer::hold, any_number, any_number } },
@@ -98,22 +98,20 @@ namespace Exemplar
   void
   SessionPlayer::grab(const SessionEvent &event)
   {
-    const std::vector<double> &numbers = event.numbers;
-    const auto                &cells   = problem.body.mesh.get_cells();
-    const auto                 has_all = [&](const std::array<unsigned int, 4> &cell)
-    {
-      return std::all_of(event.nodes.begin(), event.nodes.end(),
-                         [&](const unsigned int node)
-                         { return std::find(cell.begin(), cell.end(), node) != cell.end(); });
-    };
-    if (std::none_of(cells.begin(), cells.end(), has_all))
-      throw UserError(title(event) + ": its three nodes are of no one cell.");
-    if (!(numbers[6] > 0.))
-      throw UserError(title(event) + ": the stiffness of a spring must be above 0.");
-    (*springs)[event.name] = { { { event.nodes[0], event.nodes[1], event.nodes[2] } },
-                               { { numbers[0], numbers[1], numbers[2] } },
-                               point_at(numbers, 3),
-                               numbers[6] };
+    const std::size_t n = event.nodes.size();
+    if (n == 0 || event.numbers.size() != 4 * n + 4)
+      throw UserError(title(event)
+                      + ": it takes nodes, four numbers for each, an anchor and a stiffness.");
+    Spring spring{ {}, point_at(event.numbers, 4 * n), event.numbers.back() };
+    for (std::size_t i = 0; i < n; ++i)
+      spring.ends.push_back(
+          { event.nodes[i], event.numbers[4 * i], point_at(event.numbers, 4 * i + 1) });
+    const bool has_shares = std::all_of(spring.ends.begin(), spring.ends.end(),
+                                        [](const Spring::End &end) { return end.share >= 0.; });
+    if (!has_shares || !(spring.stiffness > 0.))
+      throw UserError(title(event)
+                      + ": the stiffness of a spring must be above 0, and no share below it.");
+    (*springs)[event.name] = std::move(spring);
     problem.solver->forget(); // its factors are of another matrix
   }
 

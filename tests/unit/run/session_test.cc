@@ -35,10 +35,15 @@ namespace Exemplar::Testing
       return {};
     }
 
+    /// Pulls at a face with unequal shares, and offsets that open it.
     SessionEvent
     grab(const Problem &problem)
     {
-      return { 1, "grab", "a", free_face(problem), { 0.2, 0.3, 0.5, 0.7, 0.4, 1.9, 1e3 } };
+      return { 1,
+               "grab",
+               "a",
+               free_face(problem),
+               { 0.2, 0.1, 0., 0., 0.3, 0., 0.2, 0., 0.5, 0., 0., -0.1, 0.7, 0.4, 1.9, 1e3 } };
     }
 
     TEST(SessionPlayer, ASpringPullsAsMuchAsTheHandleHolds)
@@ -50,13 +55,11 @@ namespace Exemplar::Testing
       player.apply(event);
       ASSERT_TRUE(is_success(problem.advance().status));
       dealii::Tensor<1, 3> force;
-      for (unsigned int c = 0; c < 3; ++c)
-      {
-        double point = 0.;
-        for (unsigned int a = 0; a < 3; ++a)
-          point += event.numbers[a] * problem.state.positions[3 * event.nodes[a] + c];
-        force[c] = 1e3 * (event.numbers[3 + c] - point);
-      }
+      for (unsigned int i = 0; i < 3; ++i)
+        for (unsigned int c = 0; c < 3; ++c)
+          force[c] += 1e3 * event.numbers[4 * i]
+                      * (event.numbers[12 + c] + event.numbers[4 * i + 1 + c]
+                         - problem.state.positions[3 * event.nodes[i] + c]);
       const auto reaction = problem.constraints.handles.sum_over(0, problem.evaluation.gradient);
       EXPECT_GT(force.norm(), 1.);
       EXPECT_LT((reaction + force).norm(), 1e-5 * force.norm());
@@ -114,11 +117,16 @@ namespace Exemplar::Testing
       expect_contains(message({ 1, "move", "a", {}, { 0., 0., 0. } }), "no such spring");
       expect_contains(message({ 1, "release", "a", {}, {} }), "no such spring");
       expect_contains(message({ 1, "move", "a", {}, { 0., 0. } }), "2 numbers");
-      expect_contains(message({ 1, "grab", "a", { 0, 1, 100000 }, { 1., 0., 0., 0., 0., 0., 1. } }),
+      expect_contains(message({ 1, "grab", "a", { 100000 }, { 1., 0., 0., 0., 0., 0., 0., 1. } }),
                       "another mesh");
       SessionEvent soft = grab(scene.problem);
-      soft.numbers[6]   = nan;
+      soft.numbers[15]  = nan;
       expect_contains(message(soft), "above 0");
+      SessionEvent pushing = grab(scene.problem);
+      pushing.numbers[4]   = -1.;
+      expect_contains(message(pushing), "no share");
+      expect_contains(message({ 1, "grab", "a", { 0, 1 }, { 1., 0., 0., 0., 1. } }),
+                      "four numbers");
       expect_contains(message({ 1, "hold", "a", { 2, 1 }, std::vector<double>(6) }), "ascending");
       expect_contains(message({ 1, "shift", "left", {}, { 0., 0., 0. } }), "held by hand");
       expect_contains(message({ 1, "let go", "right", {}, {} }), "right");

@@ -18,7 +18,7 @@ namespace Exemplar
   ///
   /// | what | name | nodes | numbers |
   /// |---|---|---|---|
-  /// | grab | of the spring | a triangle's 3 | 3 shares, 3 of the anchor [m], stiffness [N/m] |
+  /// | grab | of the spring | any | a share of the stiffness and an offset from the anchor [m] for each, anchor [m], stiffness [N/m] |
   /// | move | of the spring | | 3 of the anchor [m] |
   /// | release | of the spring | | |
   /// | hold | of the handle | ascending | displacements from rest, 3 a node [m] |
