@@ -180,7 +180,8 @@ class StrangersTest(unittest.TestCase):
     def test_user_errors(self):
         (self.here / "static.prm").write_text(BAR.replace("dynamic", "static"))
         (self.here / "file").write_text("mine")
-        for arguments, words in ((["static.prm"], "only dynamic"), (["."], "exemplar export"), (["nothing.prm"], "nothing.prm"), ([], "SCENE"), (["bar.prm", "--port", "99999"], "port"),
+        for arguments, words in ((["static.prm"], "only dynamic"), (["."], "animation.pvd"), ([".", "--record", "x"], "Leave out"), (["bar.prm", "bar.prm"], "takes one scene"),
+                                  (["nothing.prm"], "nothing.prm"), ([], "SCENE"), (["bar.prm", "--port", "99999"], "port"),
                                  (["bar.prm", "--port", str(self.server.port)], "--port"), (["bar.prm", "--bind", "unix:file"], "this is a file"),
                                  (["bar.prm", "--record", "."], "Nothing has been changed"), (["bar.prm", "--bind", "nowhere"], "--bind")):
             done = subprocess.run([PROGRAM, "live", *arguments], cwd=self.here, capture_output=True, text=True, timeout=60, check=False)
