@@ -14,9 +14,9 @@ cd "$(dirname "$(readlink -f "$0")")"
 
 packages=(git g++ cmake ninja-build libdeal.ii-dev libsuitesparse-dev libopenblas0-pthread
           libmuparser-dev libcli11-dev libfmt-dev nlohmann-json3-dev libssl-dev zlib1g-dev libseccomp-dev libopenmpi-dev
-          openmpi-bin libgtest-dev libxsimd-dev python3 python3-dev python3-numpy pybind11-dev gnuplot-nox help2man)
+          openmpi-bin libgtest-dev libxsimd-dev libboost-dev libjs-three python3 python3-dev python3-numpy pybind11-dev gnuplot-nox help2man)
 packages_for_tests=(blender python3-pip python3-venv python3-wheel python3-matplotlib python3-scipy mypy doxygen mkdocs mkdocs-material
-                    python3-pymdownx libjs-katex)
+                    python3-pymdownx libjs-katex chromium chromium-driver python3-selenium)
 
 # Install those of some packages that are missing; end the script if that fails.
 install_missing() {
@@ -62,9 +62,13 @@ cmake --preset release >/dev/null
 cmake --build --preset release --target exemplar
 
 build/release/exemplar prm/paper/fig2a_cat.prm --output output/fig2a_cat
+build/release/exemplar export output/fig2a_cat --html output/fig2a_cat.html
 echo
 echo "The frames are in $PWD/output/fig2a_cat."
 echo "Open animation.pvd there in ParaView (Debian: apt-get install paraview), press Apply, then Play:"
 echo "  paraview $PWD/output/fig2a_cat/animation.pvd"
 echo "The same drag without the examples, from $PWD:"
 echo "  build/release/exemplar prm/paper/fig2a_cat.prm --set Examples/Importance=0 --output output/fig2a_cat_plain"
+echo "Pull the cat with the mouse, from $PWD:"
+echo "  build/release/exemplar live prm/live/cat.prm"
+echo "See it move, in any browser: file://$PWD/output/fig2a_cat.html"

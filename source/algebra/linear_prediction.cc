@@ -10,6 +10,10 @@ namespace Exemplar
     /// Of the trace of the normal equations; so little that it only decides where they are
     /// singular.
     constexpr double ridge = 1e-10;
+
+    /// How much longer than the last vector the next one may be. Of a body that has been at rest and is
+    /// pulled, the ratio of two velocities is that of a motion to rounding.
+    constexpr double max_growth = 4.;
   } // namespace
 
   void
@@ -61,6 +65,7 @@ namespace Exemplar
     std::vector<double> next(history[0].size(), 0.);
     for (unsigned int j = 0; j < m; ++j)
       Exemplar::add(next, coefficients[j], history[j]);
-    return next;
+    const bool grows = exchange->sum(dot(next, next)) > max_growth * max_growth * products[0][0];
+    return grows ? history[0] : next;
   }
 } // namespace Exemplar

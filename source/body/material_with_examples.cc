@@ -73,9 +73,9 @@ namespace Exemplar
 
   BlendedElasticity::BlendedElasticity(const CellConstants     &constants,
                                        const ExampleElasticity &of_examples,
-                                       const double             importance,
+                                       const double             eta,
                                        const GrainAxes         &axes)
-      : body(constants.grain), examples(elasticity_for(constants, of_examples)), eta(importance),
+      : body(constants.grain), examples(elasticity_for(constants, of_examples)), eta(eta),
         axes(axes),
         body_is_isotropic(!constants.is_orthotropic && !(constants.grain.norm_of_grain() > 0.))
   {

@@ -12,6 +12,7 @@
 #include <exemplar/program/command_line.h>
 #include <exemplar/program/interrupt.h>
 #include <exemplar/program/joint_run.h>
+#include <exemplar/program/live_program.h>
 #include <exemplar/program/mesh_command.h>
 #include <exemplar/program/number_option.h>
 #include <exemplar/program/pose_command.h>
@@ -277,6 +278,8 @@ Exit status:
   int
   run_command_line(const int argc, char *argv[])
   {
+    if (argc > 1 && live_commands.count(argv[1]) > 0)
+      become_live_program(argv);
     Arguments arguments;
     // each of several processes has one core
     arguments.run.n_threads  = JointRun::group().n_processes > 1 ? 1 : n_available_cores();
@@ -292,6 +295,8 @@ Exit status:
     const CLI::App &verify_command = declare_verify(app, arguments);
     const CLI::App &mesh_command   = declare_mesh(app, arguments);
     const CLI::App &pose_command   = declare_pose(app, arguments);
+    for (const auto &[command, description] : live_commands)
+      app.add_subcommand(command, description);
     try
     {
       app.parse(argc, argv);

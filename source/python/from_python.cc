@@ -2,7 +2,6 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/base/nearest_word.h>
 #include <exemplar/base/number_text.h>
-#include <exemplar/prm/assignments.h>
 #include <exemplar/python/arrays_from_python.h>
 #include <exemplar/python/from_python.h>
 #include <exemplar/run/scene/scene_file.h>

@@ -25,7 +25,7 @@ namespace Exemplar
     void
     add(std::vector<double> vector);
 
-    /// Requires that there is a last one.
+    /// The last one, where the combination is more than four times as long. Requires that there is a last one.
     std::vector<double>
     next() const;
 

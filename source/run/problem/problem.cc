@@ -91,6 +91,11 @@ namespace Exemplar
     state.history = potential.get_cells().get_field().get_batches().history();
     start(state);
     check_start(*this);
+    if (!parameters.session.empty())
+    {
+      session = std::make_unique<SessionPlayer>(*this);
+      session->play(read_session(parameters.session));
+    }
   }
 
   void
@@ -111,6 +116,8 @@ namespace Exemplar
   SolveReport
   Problem::advance(const StepInterval &interval)
   {
+    if (session != nullptr)
+      session->begin_step();
     check_weights(*this, interval);
     follow_time(*this, state.time);
     constraints.handles.begin_step(state.time, state.positions);
@@ -160,6 +167,8 @@ namespace Exemplar
   void
   Problem::resume_from(const State &earlier, const std::string &solver_memory)
   {
+    if (session != nullptr)
+      session->catch_up(earlier.step);
     state = earlier;
     solver->forget();
     follow_time(*this, state.time);

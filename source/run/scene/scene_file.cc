@@ -200,6 +200,11 @@ namespace Exemplar
     parameters.initial.declare(keys);
     parameters.time.declare(keys);
     parameters.solver.declare(keys);
+    keys.enter_subsection("Session");
+    keys.add_file("File", parameters.session,
+                  "What a hand did to the body, as exemplar live --record writes it: played again "
+                  "step by step, in the steps in which it was done. Empty: nothing.");
+    keys.leave_subsection();
     parameters.output.declare(keys);
   }
 

@@ -36,6 +36,13 @@ namespace Exemplar::Testing
       return sequence;
     }
 
+    TEST(LinearPrediction, DoesNotContinueRoundingByMotion)
+    {
+      const std::vector<double> rest = { 1e-7, 0., -1e-7 }, motion = { 0.2, 0.1, 0. };
+      EXPECT_EQ(predict({ rest, rest, motion }), motion);
+      EXPECT_EQ(predict({ rest, motion }), motion);
+    }
+
     TEST(LinearPrediction, ContinuesOscillationsAndPolynomials)
     {
       const auto damped = [](const double t)

@@ -6,6 +6,7 @@
 #include <exemplar/base/step_clock.h>
 #include <exemplar/run/problem/laboratory.h>
 #include <exemplar/run/problem/problem_parts.h>
+#include <exemplar/run/problem/session_player.h>
 #include <exemplar/run/problem/step_interval.h>
 #include <exemplar/solvers/step_solver.h>
 
@@ -158,8 +159,9 @@ namespace Exemplar
     void
     follow_parameters();
 
-    Changes                     changes;
-    std::unique_ptr<Laboratory> lab; ///< null until it is asked for
+    Changes                        changes;
+    std::unique_ptr<Laboratory>    lab;     ///< null until it is asked for
+    std::unique_ptr<SessionPlayer> session; ///< null unless the scene has one
   };
 
   /// Gives the body of a problem.

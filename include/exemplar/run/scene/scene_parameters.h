@@ -43,6 +43,7 @@ namespace Exemplar
     TimeParameters                time;
     SolverParameters              solver;
     OutputParameters              output;
+    std::string                   session;  ///< file of what a hand did; empty: nothing
     std::vector<std::string>      warnings; ///< of what the text of the scene says in vain
 
     /// Whether a part of the scene needs the surface of the body.

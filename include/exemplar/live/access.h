@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_live_access_h
+#define exemplar_live_access_h
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace Exemplar::Live
+{
+  /// Who may look and pull. A stranger is a page of another site in the user's browser, or another user
+  /// of the machine: neither knows the token, which is in the address that the program prints, or the
+  /// cookie for which it is exchanged.
+  class Access
+  {
+  public:
+    /// `more_hosts` are names under which a proxy asks, beside those of this machine. Token and cookie are
+    /// drawn by the system; throws std::runtime_error if it has none to give.
+    explicit Access(std::vector<std::string> more_hosts);
+
+    const std::string &
+    get_token() const
+    {
+      return token;
+    }
+
+    /// The whole header line's value by which a browser takes the cookie. Its name has a random part, as
+    /// cookies know no ports: two servers of one machine would take each other's.
+    std::string
+    cookie_to_set() const;
+
+    /// Whether the value of a Host header is a name that is let in, with any port: tunnels change it.
+    /// Other names are those of sites that have been made to lead here.
+    bool
+    knows_host(std::string_view host) const;
+
+    /// Whether the page with this Origin header was loaded from this host.
+    static bool
+    is_own_origin(std::string_view origin, std::string_view host);
+
+    bool
+    is_token(std::string_view text) const;
+
+    /// Whether the cookie is among those of a Cookie header.
+    bool
+    has_cookie(std::string_view header) const;
+
+  private:
+    std::vector<std::string> hosts;
+    const std::string        token, cookie_name, cookie_value;
+  };
+
+  /// The value of a key in what follows the ? of an address; empty if it is not there.
+  std::string_view
+  value_in_query(std::string_view target, std::string_view key);
+} // namespace Exemplar::Live
+
+#endif

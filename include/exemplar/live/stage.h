@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_live_stage_h
+#define exemplar_live_stage_h
+
+#include <exemplar/live/recording.h>
+#include <exemplar/run/problem/session_player.h>
+
+#include <memory>
+#include <optional>
+
+namespace Exemplar::Live
+{
+  /// A problem with all that was done to it, so that it can go back, and be played again.
+  class Stage
+  {
+  public:
+    /// `record_to`: a directory, or empty. Throws UserError for what is no dynamic scene, and what Recording refuses.
+    Stage(const SceneFile &scene, const std::filesystem::path &record_to, unsigned int n_threads);
+
+    const Problem &
+    get_problem() const
+    {
+      return *problem;
+    }
+
+    /// For what the library computes from a state, without changing it.
+    Problem &
+    get_problem()
+    {
+      return *problem;
+    }
+
+    /// The length of all steps [s].
+    double
+    get_step_size() const
+    {
+      return step_size;
+    }
+
+    /// Null unless one is made.
+    Recording *
+    get_recording()
+    {
+      return recording ? &*recording : nullptr;
+    }
+
+    /// Do it before the next step, and note it. Throws UserError for what the problem refuses.
+    void
+    act(const Session &events);
+
+    SolveReport
+    advance();
+
+    /// A step has failed: go on from its start, with nothing remembered.
+    void
+    forget();
+
+    /// Keep this moment for go_back(). Only the newest ones are kept.
+    void
+    keep_moment();
+
+    std::size_t
+    n_moments() const
+    {
+      return moments.size();
+    }
+
+    /// Go back to the moment that was kept last; false if there is none.
+    bool
+    go_back();
+
+    /// Go back to the beginning of the scene.
+    void
+    begin_anew();
+
+    /// Write down what is not on disk yet.
+    void
+    save();
+
+  private:
+    /// Where go_back() leads.
+    struct Moment
+    {
+      State       state;
+      std::string solver_memory;
+      std::size_t n_events;
+    };
+
+    void
+    make_problem_anew();
+
+    const SceneFile               &scene;
+    CompleteScene                  parameters; ///< of the scene, for this many threads
+    std::unique_ptr<Problem>       problem;
+    std::unique_ptr<SessionPlayer> player;
+    const double                   step_size;
+    std::optional<Recording>       recording;
+    Session                        done; ///< since the beginning
+    std::vector<Moment>            moments;
+  };
+} // namespace Exemplar::Live
+
+#endif

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_session_h
+#define exemplar_session_h
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace Exemplar
+{
+  /// One thing that a hand did to a body between two steps. What nodes and numbers mean depends on
+  /// `what`; SessionPlayer knows it.
+  struct SessionEvent
+  {
+    unsigned int              step; ///< before which it was done: that which ends with this number
+    std::string               what; ///< "grab", "move", ...
+    std::string               name; ///< of a spring or a handle; may be empty
+    std::vector<unsigned int> nodes;
+    std::vector<double>       numbers;
+  };
+
+  /// In the order in which it was done.
+  using Session = std::vector<SessionEvent>;
+
+  /// A line of a session file: STEP | WHAT | NAME | NODES | NUMBERS, the numbers with all their digits.
+  std::string
+  line_of(const SessionEvent &event);
+
+  /// With what a session file begins.
+  std::string
+  head_of_session();
+
+  /// Throws UserError, with the line, for what is no session, or for steps that do not ascend.
+  Session
+  read_session(const std::filesystem::path &file);
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/live/mailbox.h>
+
+#include <algorithm>
+
+namespace Exemplar::Live
+{
+  namespace
+  {
+    constexpr std::size_t max_commands = 1000;
+  }
+
+  bool
+  Mailbox::put(Command command)
+  {
+    const std::lock_guard<std::mutex> lock(mutex);
+    // only within one run of moves: what was grabbed and let go in between is not to be mixed
+    for (auto before = commands.rbegin();
+         before != commands.rend() && command.type == "move" && before->type == "move"; ++before)
+      if (before->name == command.name)
+      {
+        *before = std::move(command);
+        return true;
+      }
+    if (commands.size() >= max_commands)
+      return false;
+    commands.push_back(std::move(command));
+    news.notify_one();
+    return true;
+  }
+
+  std::vector<Command>
+  Mailbox::take(const bool waits, const std::chrono::steady_clock::time_point until)
+  {
+    std::unique_lock<std::mutex> lock(mutex);
+    if (waits)
+      news.wait_until(lock, until,
+                      [this] { return has_ended || viewers_are_new || !commands.empty(); });
+    viewers_are_new = false;
+    std::vector<Command> taken;
+    std::swap(taken, commands);
+    return taken;
+  }
+
+  void
+  Mailbox::stop()
+  {
+    const std::lock_guard<std::mutex> lock(mutex);
+    has_ended = true;
+    news.notify_one();
+  }
+
+  bool
+  Mailbox::is_stopped() const
+  {
+    const std::lock_guard<std::mutex> lock(mutex);
+    return has_ended;
+  }
+
+  void
+  Mailbox::set_n_viewers(const unsigned int n)
+  {
+    const std::lock_guard<std::mutex> lock(mutex);
+    n_viewers       = n;
+    viewers_are_new = true;
+    news.notify_one();
+  }
+
+  unsigned int
+  Mailbox::get_n_viewers() const
+  {
+    const std::lock_guard<std::mutex> lock(mutex);
+    return n_viewers;
+  }
+} // namespace Exemplar::Live

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/exemplar.h>
+#include <exemplar/live/export_page.h>
+#include <exemplar/live/server.h>
+
+#include <CLI/CLI.hpp>
+#include <boost/asio/post.hpp>
+#include <deal.II/base/exceptions.h>
+#include <deal.II/base/multithread_info.h>
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <csignal>
+#include <exception>
+#include <filesystem>
+#include <iostream>
+#include <thread>
+
+namespace Exemplar::Live
+{
+  namespace
+  {
+    /// What the command line says.
+    struct Arguments
+    {
+      std::string              record, html;
+      std::vector<std::string> shown, overrides, hosts; ///< shown: a scene, or outputs of runs
+      ListenAt                 place;
+      unsigned int             n_threads = 1;
+    };
+
+    /// What --help ends with.
+    std::string
+    footer(const std::string &example)
+    {
+      return "Examples:\n  $ exemplar " + example + R"(
+
+Exit status:
+  0    done
+  1    the input or the command line is wrong, and nothing is written
+  2    memory or disk ran out, or what a step needs; what was recorded is on disk
+  130  stopped by a signal, as a server always is)";
+    }
+
+    void
+    declare_live(CLI::App &main, Arguments &arguments)
+    {
+      CLI::App &app
+          = *main.add_subcommand("live", "pull the body of a scene with the mouse, in a browser");
+      app.add_option("SCENE", arguments.shown,
+                     "scene file (.prm), or one or two output directories of runs to play")
+          ->required()
+          ->expected(1, 2);
+      app.add_option("--set", arguments.overrides,
+                     "'Section/Key=value' instead of the scene's; repeatable")
+          ->allow_extra_args(false);
+      app.add_option("--port", arguments.place.port, "port; 0: one that is free")
+          ->check(CLI::Range(0, 65535));
+      app.add_option("--bind", arguments.place.address,
+                     "address to listen at, or unix:PATH for a socket of the file system")
+          ->capture_default_str();
+      app.add_option("--allow-host", arguments.hosts, "name under which a proxy asks; repeatable")
+          ->allow_extra_args(false);
+      app.add_option("--record", arguments.record,
+                     "directory in which the session is kept as a scene that plays it again");
+      app.add_option("--threads", arguments.n_threads, "threads of the solver")
+          ->check(CLI::Range(1, 1024))
+          ->capture_default_str();
+      app.footer(footer("live prm/live/cat.prm --record session"));
+    }
+
+    /// Steps of the pace of displays, unless the command line says another.
+    std::vector<std::string>
+    with_step(std::vector<std::string> overrides)
+    {
+      const std::string key = "Time/Step=";
+      if (std::none_of(overrides.begin(), overrides.end(),
+                       [&](const std::string &given)
+                       { return given.compare(0, key.size(), key) == 0; }))
+        overrides.push_back(key + "0.016666666666666666");
+      return overrides;
+    }
+
+    void
+    declare_export(CLI::App &main, Arguments &arguments)
+    {
+      CLI::App &app = *main.add_subcommand(
+          "export", "write the frames of a finished run as one page of HTML");
+      app.add_option("OUTPUT", arguments.shown,
+                     "output directory of the run; of two runs: side by side")
+          ->required()
+          ->expected(1, 2);
+      app.add_option("--html", arguments.html, "the page to write")->required();
+      app.footer(footer("export output/cat --html cat.html"));
+    }
+
+    int
+    do_export(const Arguments &arguments)
+    {
+      const RunPage page = export_page(arguments.shown, arguments.html);
+      std::cout << fmt::format(
+          "{}: {} frames, {:.1f} MB; coordinates are rounded by {:.1e} m at most", arguments.html,
+          page.n_frames, 1e-6 * page.html.size(), page.error)
+                << std::endl;
+      return 0;
+    }
+
+    /// The solver's thread; its error, if it ends by one, ends the server, too.
+    class SolverThread
+    {
+    public:
+      SolverThread(Simulation &simulation, Mailbox &mailbox, boost::asio::io_context &context)
+          : mailbox(mailbox), thread(
+                                  [&simulation, &context, this]
+                                  {
+                                    try
+                                    {
+                                      simulation.run();
+                                    }
+                                    catch (...)
+                                    {
+                                      error = std::current_exception();
+                                      context.stop();
+                                    }
+                                  })
+      {
+      }
+
+      SolverThread(const SolverThread &) = delete;
+      SolverThread &
+      operator=(const SolverThread &)
+          = delete;
+
+      ~SolverThread()
+      {
+        end();
+      }
+
+      void
+      end()
+      {
+        mailbox.stop();
+        if (thread.joinable())
+          thread.join();
+      }
+
+      void
+      rethrow() const
+      {
+        if (error)
+          std::rethrow_exception(error);
+      }
+
+    private:
+      Mailbox           &mailbox;
+      std::exception_ptr error;
+      std::thread        thread;
+    };
+
+    /// Play runs that have ended. Returns the exit status: a signal ends it.
+    int
+    serve_runs(const Arguments &arguments)
+    {
+      if (!arguments.overrides.empty() || !arguments.record.empty())
+        throw UserError(arguments.shown.front()
+                        + " is a directory, of which nothing can be set or recorded. Leave out "
+                          "--set and --record, or give a scene (.prm).");
+      const Access access(arguments.hosts);
+      const Site   site(page_of_runs(arguments.shown).html);
+      Mailbox      mailbox;
+      ServerLog    log;
+      Audience     audience(mailbox, log);
+      Server       server(arguments.place, access, site, audience);
+      std::cout << server.invitation() << std::endl;
+      server.run();
+      return 130;
+    }
+
+    /// Pull a body. Returns the exit status: a signal ends it.
+    int
+    serve_scene(const Arguments &arguments)
+    {
+      if (arguments.shown.size() > 1)
+        throw UserError("exemplar live takes one scene, or one or two output directories of runs.");
+      const SceneFile scene(arguments.shown.front(), with_step(arguments.overrides));
+      const Access    access(arguments.hosts);
+      const Site      site;
+      Stage           stage(scene, arguments.record, arguments.n_threads);
+      Mailbox         mailbox;
+      ServerLog       log;
+      Audience        audience(mailbox, log);
+      Server          server(arguments.place, access, site, audience);
+      auto           &context = server.get_context();
+      const Outbox    outbox
+          = { [&](Bytes frame)
+              { boost::asio::post(context, [&audience, frame] { audience.show(frame); }); },
+              [&](std::string text)
+              { boost::asio::post(context, [&audience, text] { audience.tell(text); }); } };
+      Simulation simulation(stage, mailbox, outbox);
+      audience.set_welcome(simulation.welcome());
+      for (const std::string &warning : stage.get_problem().warnings())
+        std::cerr << "Warning: " << warning << std::endl;
+      std::cout << server.invitation() << std::endl;
+      SolverThread solver(simulation, mailbox, context);
+      server.run();
+      solver.end();
+      solver.rethrow();
+      return 130;
+    }
+
+    int
+    serve(const Arguments &arguments)
+    {
+      const bool is_run = std::filesystem::is_directory(arguments.shown.front());
+      return is_run ? serve_runs(arguments) : serve_scene(arguments);
+    }
+  } // namespace
+
+  /// Returns the exit status.
+  static int
+  run_live(const int argc, char *argv[])
+  {
+    Arguments arguments;
+    CLI::App  app("What exemplar shows in a browser", "exemplar");
+    app.require_subcommand(1);
+    declare_live(app, arguments);
+    declare_export(app, arguments);
+    try
+    {
+      app.parse(argc, argv);
+      return app.got_subcommand("live") ? serve(arguments) : do_export(arguments);
+    }
+    catch (const CLI::Success &request)
+    {
+      return app.exit(request);
+    }
+    catch (const CLI::ParseError &error)
+    {
+      std::cerr << "exemplar: " << error.what() << ". exemplar " << (argc > 1 ? argv[1] : "live")
+                << " --help lists the options." << std::endl;
+      return 1;
+    }
+    catch (const UserError &error)
+    {
+      std::cerr << "exemplar: " << error.what() << std::endl;
+      return 1;
+    }
+    catch (const std::exception &error)
+    {
+      std::cerr << "exemplar: " << error.what() << std::endl;
+      return 2;
+    }
+  }
+} // namespace Exemplar::Live
+
+int
+main(int argc, char *argv[])
+{
+  Exemplar::restart_with_right_core_type(argv);
+  Exemplar::use_one_blas_thread();
+  dealii::MultithreadInfo::set_thread_limit(1);
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+  dealii::deal_II_exceptions::disable_abort_on_exception();
+  const Exemplar::MpiSession mpi;
+  return Exemplar::Live::run_live(argc, argv);
+}

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/live/recording.h>
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace Exemplar::Live
+{
+  namespace fs = std::filesystem;
+
+  namespace
+  {
+    const std::string mark_of_recording
+        = "# A session that exemplar live has recorded; it is played again by: exemplar ";
+
+    /// Whether the directory is of a recording, or empty, or not there.
+    bool
+    is_ours(const fs::path &directory)
+    {
+      if (!fs::exists(directory) || fs::is_empty(directory))
+        return true;
+      std::ifstream scene(directory / "scene.prm");
+      std::string   first;
+      return std::getline(scene, first)
+             && first.compare(0, mark_of_recording.size(), mark_of_recording) == 0;
+    }
+  } // namespace
+
+  Recording::Recording(fs::path where, const SceneFile &scene, const double step_size)
+      : directory(std::move(where)), scene(scene), step_size(step_size)
+  {
+    std::error_code error;
+    if (!is_ours(directory))
+      throw UserError("--record " + directory.string()
+                      + ": this is neither an empty directory nor one of a recording. Nothing has "
+                        "been changed. Give another one.");
+    fs::create_directories(directory, error);
+    session.open(directory / "session.txt", std::ios::binary);
+    if (error || !session)
+      throw UserError("--record " + directory.string()
+                      + ": this cannot be written. Give another directory.");
+    while (fs::exists(directory / fmt::format("pose_{:04}.msh", n_poses + 1)))
+      ++n_poses;
+    replace({}, 0);
+  }
+
+  void
+  Recording::require_written(const std::ostream &out, const fs::path &file) const
+  {
+    if (!out)
+      throw std::runtime_error(file.string() + " cannot be written: is the disk full?");
+  }
+
+  void
+  Recording::add(const SessionEvent &event)
+  {
+    session << line_of(event);
+    require_written(session, directory / "session.txt");
+  }
+
+  void
+  Recording::replace(const Session &all, const unsigned int n_steps)
+  {
+    session.close();
+    session.clear();
+    session.open(directory / "session.txt", std::ios::binary | std::ios::trunc);
+    session << head_of_session();
+    for (const SessionEvent &event : all)
+      add(event);
+    save_scene(n_steps);
+  }
+
+  void
+  Recording::save_scene(const unsigned int n_steps)
+  {
+    session.flush();
+    require_written(session, directory / "session.txt");
+    std::vector<DeclaredKey> keys = scene.get_keys();
+    for (DeclaredKey &key : keys)
+      if (key.path() == "Session/File")
+        key.value = "session.txt";
+      else if (key.path() == "Time/End")
+        key.value = fmt::format("{}", std::max(n_steps, 1U) * step_size);
+      else if (key.path() == "Output/Directory")
+        key.value = "output/session";
+    const fs::path file = directory / "scene.prm", temporary = directory / "scene.prm.tmp";
+    {
+      std::ofstream out(temporary, std::ios::binary);
+      out << mark_of_recording << file.string() << "\n";
+      print_keys(out, keys, false);
+      out.flush();
+      require_written(out, file);
+    }
+    fs::rename(temporary, file);
+  }
+
+  fs::path
+  Recording::save_pose(const Problem &problem)
+  {
+    const fs::path                file = directory / fmt::format("pose_{:04}.msh", ++n_poses);
+    std::vector<dealii::Point<3>> places;
+    const Vector                 &x = problem.state.positions;
+    for (unsigned int node = 0; node < problem.body.mesh.n_nodes(); ++node)
+      places.emplace_back(x[3 * node], x[3 * node + 1], x[3 * node + 2]);
+    problem.body.mesh.write_pose(places, file);
+    return file;
+  }
+} // namespace Exemplar::Live

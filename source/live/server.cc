@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/live/server.h>
+#include <exemplar/live/viewer.h>
+
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/local/stream_protocol.hpp>
+#include <boost/asio/signal_set.hpp>
+#include <boost/asio/steady_timer.hpp>
+
+#include <fmt/core.h>
+
+#include <csignal>
+#include <cstring>
+#include <filesystem>
+#include <optional>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace Exemplar::Live
+{
+  namespace asio  = boost::asio;
+  namespace beast = boost::beast;
+  namespace http  = beast::http;
+
+  namespace
+  {
+    constexpr unsigned int max_connections = 64, max_requests = 200;
+    constexpr auto         max_wait = std::chrono::seconds(10); ///< for a request
+
+    /// One that asks for pages, until it goes or becomes a viewer.
+    class Connection : public std::enable_shared_from_this<Connection>
+    {
+    public:
+      Connection(Stream                stream,
+                 const Access         &access,
+                 const Site           &site,
+                 Audience             &audience,
+                 std::shared_ptr<void> count)
+          : stream(std::move(stream)), access(access), site(site), audience(audience),
+            count(std::move(count))
+      {
+      }
+
+      void
+      read_next()
+      {
+        parser.emplace();
+        parser->header_limit(8192);
+        parser->body_limit(1024);
+        stream.expires_after(max_wait);
+        http::async_read(
+            stream, buffer, *parser,
+            [self = shared_from_this()](const beast::error_code error, std::size_t)
+            {
+              if (!error)
+                self->take(self->parser->release());
+              else if (error != http::error::end_of_stream
+                       && error.category()
+                              == http::make_error_code(http::error::bad_method).category())
+                self->audience.get_log().refuse("what is no request: " + error.message());
+            });
+      }
+
+    private:
+      void
+      take(Request request)
+      {
+        const std::string objection = objection_to(request, access);
+        if (!objection.empty())
+          audience.get_log().refuse(objection);
+        const bool is_socket = site.has_socket() && request.target() == "/ws"
+                               && beast::websocket::is_upgrade(request);
+        if (objection.empty() && is_socket)
+        {
+          std::make_shared<Viewer>(std::move(stream), audience, count)->begin(request);
+          return;
+        }
+        response = answer(request, access, site, objection);
+        if (++n_requests == max_requests)
+          response.keep_alive(false);
+        http::async_write(stream, response,
+                          [self = shared_from_this()](const beast::error_code error, std::size_t)
+                          {
+                            if (!error && self->response.keep_alive())
+                              self->read_next();
+                          });
+      }
+
+      Stream                                                 stream;
+      const Access                                          &access;
+      const Site                                            &site;
+      Audience                                              &audience;
+      std::shared_ptr<void>                                  count;
+      beast::flat_buffer                                     buffer{ 16384 };
+      std::optional<http::request_parser<http::string_body>> parser;
+      Response                                               response;
+      unsigned int                                           n_requests = 0;
+    };
+
+    /// Counts down when it goes.
+    std::shared_ptr<void>
+    counted(const std::shared_ptr<unsigned int> &count)
+    {
+      ++*count;
+      return { nullptr, [count](void *) { --*count; } };
+    }
+
+    const std::string unix_prefix = "unix:";
+  } // namespace
+
+  Server::Server(const ListenAt &place, const Access &access, const Site &site, Audience &audience)
+      : acceptor(context), access(access), site(site), audience(audience)
+  {
+    try
+    {
+      listen(place);
+    }
+    catch (const boost::system::system_error &error)
+    {
+      throw UserError(
+          fmt::format("Nobody can listen at {}, port {}: {}. Give another --port or --bind; "
+                      "--port 0 takes one that is free.",
+                      place.address, place.port, error.code().message()));
+    }
+    accept_next();
+  }
+
+  Server::~Server()
+  {
+    if (!socket_file.empty())
+      unlink(socket_file.c_str());
+  }
+
+  void
+  Server::listen(const ListenAt &place)
+  {
+    if (place.address.compare(0, unix_prefix.size(), unix_prefix) == 0)
+    {
+      const std::string path = place.address.substr(unix_prefix.size());
+      if (std::filesystem::exists(path) && !std::filesystem::is_socket(path))
+        throw UserError("--bind unix:" + path + ": this is a file. Give another name.");
+      if (path.empty() || path.size() > 100)
+        throw UserError("--bind unix:PATH takes a path of at most 100 characters.");
+      const asio::local::stream_protocol::endpoint endpoint(path);
+      unlink(path.c_str());
+      acceptor.open(endpoint.protocol());
+      const mode_t before = umask(0177); // for its owner alone
+      acceptor.bind(endpoint);
+      umask(before);
+      socket_file = path;
+    }
+    else
+    {
+      const asio::ip::tcp::endpoint endpoint(asio::ip::make_address(place.address),
+                                             static_cast<unsigned short>(place.port));
+      acceptor.open(endpoint.protocol());
+      acceptor.set_option(asio::socket_base::reuse_address(true));
+      acceptor.bind(endpoint);
+      asio::ip::tcp::endpoint bound;
+      const auto              generic = acceptor.local_endpoint();
+      std::memcpy(bound.data(), generic.data(), generic.size());
+      port = bound.port();
+    }
+    acceptor.listen();
+  }
+
+  std::string
+  Server::invitation() const
+  {
+    if (socket_file.empty())
+      return fmt::format("Open http://127.0.0.1:{}/?token={}", port, access.get_token());
+    return fmt::format("On the machine where you look: ssh -N -L 8080:{} HOST\n"
+                       "Open http://127.0.0.1:8080/?token={}",
+                       std::filesystem::absolute(socket_file).string(), access.get_token());
+  }
+
+  void
+  Server::accept_next()
+  {
+    acceptor.async_accept(
+        [this](const beast::error_code error, Protocol::socket socket)
+        {
+          if (error == asio::error::operation_aborted)
+            return;
+          if (!error && *n_connections < max_connections)
+            std::make_shared<Connection>(Stream(std::move(socket)), access, site, audience,
+                                         counted(n_connections))
+                ->read_next();
+          else if (!error)
+            audience.get_log().refuse("one connection more than may be");
+          if (!error)
+            return accept_next();
+          // no descriptors are left, say
+          auto timer
+              = std::make_shared<asio::steady_timer>(context, std::chrono::milliseconds(100));
+          timer->async_wait([this, timer](const beast::error_code) { accept_next(); });
+        });
+  }
+
+  void
+  Server::run()
+  {
+    asio::signal_set signals(context, SIGINT, SIGTERM, SIGHUP);
+    signals.async_wait([this](const beast::error_code, int) { context.stop(); });
+    context.run();
+    audience.dismiss(); // whose sockets must not outlive the context
+  }
+} // namespace Exemplar::Live

@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/live/simulation.h>
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace Exemplar::Live
+{
+  namespace
+  {
+    using Json = nlohmann::json;
+
+    /// Other bytes than UTF-8, in names, are replaced.
+    std::string
+    text_of(const Json &json)
+    {
+      return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    }
+
+    Json
+    handles_of(const Problem &problem, const BodySurface &surface)
+    {
+      Json           list = Json::array();
+      const Handles &all  = problem.constraints.handles;
+      for (unsigned int handle = 0; handle < all.size(); ++handle)
+      {
+        Json vertices = Json::array();
+        for (const unsigned int node : all.nodes(handle))
+        {
+          const auto found = std::lower_bound(surface.nodes.begin(), surface.nodes.end(), node);
+          if (found != surface.nodes.end() && *found == node)
+            vertices.push_back(found - surface.nodes.begin());
+        }
+        list.push_back({ { "name", all.name(handle) }, { "vertices", vertices } });
+      }
+      return list;
+    }
+
+    Json
+    names_of_examples(const Problem &problem)
+    {
+      Json names = Json::array();
+      for (unsigned int i = 0; i < problem.examples.poses.size(); ++i)
+        names.push_back(std::filesystem::path(problem.examples.poses.name(i)).stem().string());
+      return names;
+    }
+
+    /// Distances from a pose, which is moved to where the body is.
+    std::vector<double>
+    distances(const Vector &positions, const Vector &pose, const BodySurface &surface)
+    {
+      dealii::Tensor<1, 3> between;
+      const auto           difference = [&](const unsigned int node)
+      {
+        dealii::Tensor<1, 3> d;
+        for (unsigned int c = 0; c < 3; ++c)
+          d[c] = positions[3 * node + c] - pose[3 * node + c];
+        return d;
+      };
+      for (const unsigned int node : surface.nodes)
+        between += difference(node) / static_cast<double>(surface.nodes.size());
+      std::vector<double> result;
+      for (const unsigned int node : surface.nodes)
+        result.push_back((difference(node) - between).norm());
+      return result;
+    }
+  } // namespace
+
+  Simulation::Simulation(Stage &stage, Mailbox &mailbox, Outbox outbox)
+      : stage(stage), mailbox(mailbox), outbox(std::move(outbox)),
+        surface(stage.get_problem().body.mesh), hand(stage.get_problem(), surface),
+        pace(stage.get_step_size())
+  {
+  }
+
+  Welcome
+  Simulation::welcome() const
+  {
+    const Problem       &problem    = stage.get_problem();
+    const CompleteScene &parameters = problem.parameters;
+    std::vector<Bytes>   binaries   = { topology_message(surface) };
+    const ExamplePoses  &poses      = problem.examples.poses;
+    for (unsigned int i = 0; i < poses.size(); ++i)
+      binaries.push_back(frame_message({ BinaryKind::pose, i }, surface, poses.pose(i)));
+    binaries.push_back(frame_message({}, surface, problem.state.positions));
+    const Json text
+        = { { "type", "scene" },
+            { "name", std::filesystem::path(parameters.name).stem().string() },
+            { "step_size", stage.get_step_size() },
+            { "diameter", problem.body.mesh.diameter() },
+            { "cells", problem.body.mesh.n_cells() },
+            { "vertices", surface.nodes.size() },
+            { "triangles", surface.triangles.size() },
+            { "examples", names_of_examples(problem) },
+            { "handles", handles_of(problem, surface) },
+            { "stiffness", hand.unit_stiffness() },
+            { "young", parameters.material.everywhere.youngs_modulus },
+            { "poisson", parameters.material.everywhere.poissons_ratio },
+            { "importance", parameters.examples.importance },
+            { "gravity", parameters.loads.gravity },
+            { "damping", { parameters.time.mass_damping, parameters.time.stiffness_damping } },
+            { "tolerance", parameters.solver.tolerance } };
+    return { text_of(text), binaries };
+  }
+
+  void
+  Simulation::run()
+  {
+    bool was_active = false;
+    for (bool is_active = false; !mailbox.is_stopped(); was_active = is_active)
+    {
+      is_active = mailbox.get_n_viewers() > 0 && (!is_paused || n_single_steps > 0);
+      if (is_active && !was_active)
+        pace.restart();
+      const bool is_due = is_active && pace.is_due();
+      const auto until  = is_active ? pace.get_due() : Pace::Clock::now() + std::chrono::seconds(1);
+      for (const Command &command : mailbox.take(!is_due, until))
+        obey(command);
+      if (is_due)
+        make_step();
+      else if (pace.wants_status())
+        show_status();
+    }
+    stage.save();
+  }
+
+  void
+  Simulation::obey(const Command &command)
+  {
+    try
+    {
+      if (command.type == "pause")
+        is_paused = command.on;
+      else if (command.type == "step")
+        n_single_steps += is_paused ? 1 : 0;
+      else if (command.type == "reset")
+        begin_anew();
+      else if (command.type == "undo")
+        undo();
+      else if (command.type == "colour")
+        shown.colour = command.name;
+      else if (command.type == "save pose")
+        save_pose();
+      else if (command.type == "let go of all")
+        stage.act(hand.let_go_of_all(stage.get_problem()));
+      else
+        touch(command);
+    }
+    catch (const std::invalid_argument &refusal)
+    {
+      tell("refused", command.type + ": " + refusal.what() + ".");
+    }
+    catch (const UserError &refusal)
+    {
+      tell("refused", command.type + ": " + refusal.what());
+    }
+    catch (const SolverFailure &failure) // with the body perhaps changed by half
+    {
+      begin_anew();
+      tell("warning", std::string(failure.what()) + " The body is at its beginning again.");
+    }
+  }
+
+  void
+  Simulation::touch(const Command &command)
+  {
+    const bool begins
+        = !hand.pulls()
+          && (command.type == "grab" || command.type == "pin" || command.type == "unpin");
+    const Hand::Held before = hand.get_held();
+    try
+    {
+      const Session events = hand.events_of(command, stage.get_problem());
+      if (begins)
+      {
+        stage.keep_moment();
+        held_before.push_back(before);
+      }
+      stage.act(events);
+    }
+    catch (...)
+    {
+      hand.restore(before);
+      throw;
+    }
+    if (command.type == "move" || command.type == "grab")
+      shown.pointer = command.sequence;
+  }
+
+  void
+  Simulation::make_step()
+  {
+    const auto  begin = Pace::now();
+    std::string failure;
+    try
+    {
+      stage.act(hand.follow(stage.get_problem()));
+      shown.report = stage.advance();
+      if (!is_success(shown.report.status))
+        failure = stage.get_problem().failure_message(shown.report);
+    }
+    catch (const UserError &error) // of handles that disagree, say
+    {
+      failure = error.what();
+    }
+    catch (const SolverFailure &error)
+    {
+      failure = error.what();
+    }
+    n_single_steps -= n_single_steps > 0 ? 1 : 0;
+    pace.add_step(begin);
+    n_failures = failure.empty() ? 0 : n_failures + 1;
+    if (failure.empty())
+      show_frame();
+    else
+      recover(failure);
+    if (pace.wants_status())
+      show_status();
+  }
+
+  void
+  Simulation::recover(const std::string &message)
+  {
+    if (n_failures > 2)
+    {
+      begin_anew();
+      is_paused = true;
+      tell("warning", message + " The body is at its beginning again, and the simulation pauses.");
+      return;
+    }
+    stage.act(hand.let_go_of_all(stage.get_problem()));
+    stage.forget();
+    tell("warning", message + " All that pulled has been let go of.");
+  }
+
+  void
+  Simulation::undo()
+  {
+    if (!stage.go_back())
+      throw std::invalid_argument("nothing is kept to go back to");
+    const std::size_t n = stage.n_moments();
+    hand.restore(held_before[held_before.size() - 1]);
+    held_before.pop_back();
+    held_before.erase(held_before.begin(), held_before.end() - static_cast<std::ptrdiff_t>(n));
+    pace.restart();
+    show_frame();
+  }
+
+  void
+  Simulation::begin_anew()
+  {
+    stage.begin_anew();
+    hand.restore({});
+    held_before.clear();
+    n_failures = 0;
+    pace.restart();
+    show_frame();
+  }
+
+  void
+  Simulation::save_pose()
+  {
+    Recording *const recording = stage.get_recording();
+    if (recording == nullptr)
+      throw std::invalid_argument("poses are saved by a server that was started with --record DIR");
+    tell("saved", recording->save_pose(stage.get_problem()).string());
+  }
+
+  std::vector<double>
+  Simulation::colours() const
+  {
+    Problem &problem = stage.get_problem();
+    if (shown.colour == "energy" || shown.colour == "det F")
+    {
+      const CellResults cells = problem.potential.get_cells().cell_results(problem.state.positions,
+                                                                           problem.state.weights);
+      return at_vertices(shown.colour == "energy" ? cells.strain_energy_density : cells.det_F,
+                         problem.body.mesh, surface);
+    }
+    for (unsigned int i = 0; i < problem.examples.poses.size(); ++i)
+      if (shown.colour == fmt::format("pose {}", i))
+        return distances(problem.state.positions, problem.examples.poses.pose(i), surface);
+    return {};
+  }
+
+  void
+  Simulation::show_frame()
+  {
+    const State &state = stage.get_problem().state;
+    outbox.frame(frame_message(
+        { BinaryKind::frame, ++shown.n_frames, state.step, shown.pointer, state.time }, surface,
+        state.positions, colours()));
+  }
+
+  void
+  Simulation::show_status()
+  {
+    const Pace::Summary summary = pace.summary();
+    const Problem      &problem = stage.get_problem();
+    const auto          finite = [](const double x) { return std::isfinite(x) ? Json(x) : Json(); };
+    outbox.text(text_of({ { "type", "status" },
+                          { "step", problem.state.step },
+                          { "time", problem.state.time },
+                          { "paused", is_paused },
+                          { "rate", summary.rate },
+                          { "behind", summary.behind },
+                          { "milliseconds", summary.milliseconds },
+                          { "processor_milliseconds", summary.processor },
+                          { "iterations", shown.report.iterations },
+                          { "residual", finite(shown.report.residual) },
+                          { "energy", finite(problem.evaluation.elastic.energy) },
+                          { "min_det_F", finite(problem.evaluation.elastic.min_det_F) },
+                          { "weights", problem.state.weights } }));
+  }
+
+  void
+  Simulation::tell(const std::string &type, const std::string &text) const
+  {
+    outbox.text(text_of({ { "type", type }, { "text", text } }));
+  }
+} // namespace Exemplar::Live

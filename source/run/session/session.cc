@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
+#include <exemplar/base/message_text.h>
+#include <exemplar/base/number_text.h>
+#include <exemplar/base/text_file.h>
+#include <exemplar/base/words.h>
+#include <exemplar/run/session/session.h>
+
+#include <fmt/core.h>
+
+#include <sstream>
+
+namespace Exemplar
+{
+  namespace
+  {
+    const std::string head = "exemplar session 1";
+
+    template <typename Number>
+    std::vector<Number>
+    numbers_in(const std::string &text, const std::string &place)
+    {
+      std::vector<Number> numbers;
+      std::istringstream  words(text);
+      for (std::string word; words >> word;)
+      {
+        const auto number = decimal_number<Number>(word);
+        if (!number)
+          throw UserError(place + ": " + in_quotes(word) + " is no number of a session.");
+        numbers.push_back(*number);
+      }
+      return numbers;
+    }
+
+    SessionEvent
+    event_of(const std::string &line, const std::string &place)
+    {
+      const std::vector<std::string> fields = split_trimmed(line, '|');
+      if (fields.size() != 5)
+        throw UserError(place
+                        + ": a line of a session is STEP | WHAT | NAME | NODES | NUMBERS. Take the "
+                          "file as exemplar live --record has written it.");
+      const auto step = decimal_number<unsigned int>(fields[0]);
+      if (!step || *step == 0)
+        throw UserError(place + ": " + in_quotes(fields[0])
+                        + " is no number of a step, which is 1 or more.");
+      return { *step, fields[1], fields[2], numbers_in<unsigned int>(fields[3], place),
+               numbers_in<double>(fields[4], place) };
+    }
+  } // namespace
+
+  std::string
+  head_of_session()
+  {
+    return head + "\n";
+  }
+
+  std::string
+  line_of(const SessionEvent &event)
+  {
+    std::string line = fmt::format("{} | {} | {} |", event.step, event.what, event.name);
+    for (const unsigned int node : event.nodes)
+      line += fmt::format(" {}", node);
+    line += " |";
+    for (const double number : event.numbers)
+      line += " " + shortest_text(number);
+    return line + "\n";
+  }
+
+  Session
+  read_session(const std::filesystem::path &file)
+  {
+    std::string reason;
+    const auto  text = read_text_file(file, &reason);
+    if (!text)
+      throw UserError("Session/File " + file.string() + " cannot be read: " + reason + ".");
+    std::istringstream lines(*text);
+    std::string        line;
+    if (!std::getline(lines, line) || line != head)
+      throw UserError("Session/File " + file.string() + " does not begin with '" + head
+                      + "'. Give a file that exemplar live --record has written.");
+    Session session;
+    for (unsigned int number = 2; std::getline(lines, line); ++number)
+    {
+      const std::string  place = fmt::format("{}:{}", file.string(), number);
+      const SessionEvent event = event_of(line, place);
+      if (!session.empty() && event.step < session.back().step)
+        throw UserError(fmt::format("{}: step {} comes after step {}. Steps must ascend.", place,
+                                    event.step, session.back().step));
+      session.push_back(event);
+    }
+    return session;
+  }
+} // namespace Exemplar

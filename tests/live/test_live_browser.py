@@ -1,0 +1,147 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The page of exemplar live, and one of exemplar export, in Chromium without a window: the body is seen, follows the mouse, and nothing
+is complained of in the console. Left out where Chromium or selenium is not installed.
+
+Environment: EXEMPLAR, the program. SCREENSHOTS, a directory for pictures, may be set.
+"""
+import os
+import shutil
+import subprocess
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+from live_client import BAR, PROGRAM, Server
+
+try:
+    from selenium import webdriver
+    from selenium.webdriver.chrome.service import Service
+    from selenium.webdriver.common.action_chains import ActionChains
+except ImportError:
+    webdriver = None
+
+CHROMIUM, DRIVER = shutil.which("chromium"), shutil.which("chromedriver")
+
+
+def browser(width=1280, height=800, dark=False):
+    options = webdriver.ChromeOptions()
+    options.binary_location = CHROMIUM
+    for argument in ("--headless=new", "--no-sandbox", "--enable-unsafe-swiftshader", "--disable-dev-shm-usage", f"--window-size={width},{height}",
+                     f"--blink-settings=preferredColorScheme={0 if dark else 1}"):
+        options.add_argument(argument)
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+    return webdriver.Chrome(service=Service(DRIVER), options=options)
+
+
+@unittest.skipUnless(webdriver and CHROMIUM and DRIVER, "chromium, chromedriver or selenium is not installed")
+class BrowserTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.directory = tempfile.TemporaryDirectory()
+        cls.here = Path(cls.directory.name)
+        (cls.here / "bar.prm").write_text(BAR)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.directory.cleanup()
+
+    def wait(self, is_so, what):
+        until = time.monotonic() + 60
+        while not is_so():
+            self.assertLess(time.monotonic(), until, what)
+            time.sleep(.1)
+
+    def picture(self, page, name):
+        if "SCREENSHOTS" in os.environ:
+            page.save_screenshot(str(Path(os.environ["SCREENSHOTS"]) / f"{name}.png"))
+
+    def pixels(self, page, half=None):
+        """What the canvas shows, small; of its left (0) or right half (1), if one is asked for."""
+        width, begin = (64, 0) if half is None else (32, 32 * half)
+        return page.execute_script(f"""
+            const small = document.createElement("canvas"); small.width = 64; small.height = 48;
+            const pen = small.getContext("2d"); pen.drawImage(document.getElementById("canvas"), 0, 0, 64, 48);
+            return Array.from(pen.getImageData({begin}, 0, {width}, 48).data);""")
+
+    def assertNothingInConsole(self, page):
+        self.assertEqual([entry for entry in page.get_log("browser") if entry["level"] in ("SEVERE", "WARNING")
+                          and "GPU stall" not in entry["message"] and "WebGL" not in entry["message"]], [])
+
+    def test_drag(self):
+        with Server(self.here / "bar.prm", log=self.here / "log.txt") as server:
+            page = browser()
+            self.addCleanup(page.quit)
+            page.get(f"http://{server.host}/?token={server.token}")
+            self.assertEqual(page.current_url, f"http://{server.host}/")
+            self.wait(lambda: "real time" in page.find_element("id", "strip").text, "a status")
+            before = self.pixels(page)
+            self.assertGreater(sum(alpha > 0 for alpha in before[3::4]), 100)  # a body
+            self.picture(page, "live_light")
+            canvas = page.find_element("id", "canvas")
+            ActionChains(page).move_to_element(canvas).click_and_hold().move_by_offset(20, -60).move_by_offset(20, -60).perform()
+            self.wait(lambda: sum(abs(a - b) > 20 for a, b in zip(before, self.pixels(page))) > 100, "the body follows")
+            self.picture(page, "live_pulled")
+            ActionChains(page).release().perform()
+            ActionChains(page).send_keys(" ").perform()
+            self.wait(lambda: page.find_element("id", "pause").text == "Go on", "a pause")
+            self.assertNothingInConsole(page)
+
+    def test_phone_and_dark(self):
+        with Server(self.here / "bar.prm", log=self.here / "log.txt") as server:
+            page = browser(500, 900, dark=True)
+            self.addCleanup(page.quit)
+            page.get(f"http://{server.host}/?token={server.token}")
+            self.wait(lambda: "real time" in page.find_element("id", "strip").text, "a status")
+            self.assertLessEqual(page.execute_script("return document.documentElement.scrollWidth - innerWidth"), 0)
+            colour = page.execute_script("return getComputedStyle(document.body).backgroundColor")
+            self.assertEqual(colour, "rgb(20, 23, 28)")
+            self.picture(page, "live_phone_dark")
+            self.assertNothingInConsole(page)
+
+    def test_exported_page(self):
+        scene = self.here / "run.prm"
+        scene.write_text(BAR + "subsection Loads\n  set Gravity = 0, 0, -10\nend\nsubsection Time\n  set Step = 0.05\n  set End = 1\nend\n")
+        output, html = self.here / "run", self.here / "run.html"
+        for call in ([str(scene), "--output", str(output)], ["export", str(output), "--html", str(html)]):
+            done = subprocess.run([PROGRAM, *call], capture_output=True, text=True, timeout=120, check=False)
+            self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("21 frames", done.stdout)
+        self.assertLess(html.stat().st_size, 1.5e6)
+        page = browser()
+        self.addCleanup(page.quit)
+        page.get(f"file://{html}")
+        self.wait(lambda: "t = 0.5" in page.find_element("id", "time").text, "it plays")
+        self.picture(page, "export")
+        self.assertNothingInConsole(page)
+        self.play_two(page, output)
+
+    def play_two(self, page, output):
+        """By the server, side by side."""
+        with Server(output, output, log=self.here / "log.txt") as server:
+            page.get(f"http://{server.host}/?token={server.token}")
+            self.assertEqual(page.current_url, f"http://{server.host}/")
+            self.assertEqual(page.find_element("id", "name").text, "run | run")
+            page.find_element("id", "play").click()
+            page.execute_script("const scrub = document.getElementById('scrub'); scrub.value = 12; scrub.oninput({ target: scrub });")
+            self.assertEqual(page.find_element("id", "time").text, "t = 0.60 s")
+            self.wait(lambda: all(any(self.pixels(page, half)[3::4]) for half in (0, 1)), "both bodies")
+            self.picture(page, "live_runs")
+            self.assertNothingInConsole(page)
+            sock, status = server.handshake()
+            sock.close()
+            self.assertEqual(status, 404)
+
+    def test_export_refuses(self):
+        (self.here / "mine.html").write_text("mine")
+        (self.here / "empty").mkdir()
+        for call, words in ((["empty", "--html", "x.html"], "animation.pvd"), (["nothing", "--html", "x.html"], "animation.pvd"),
+                            (["empty", "--html", "mine.html"], "Nothing has been changed"), (["empty", "--html", "no/x.html"], "no directory")):
+            done = subprocess.run([PROGRAM, "export", *call], cwd=self.here, capture_output=True, text=True, timeout=60, check=False)
+            self.assertEqual(done.returncode, 1)
+            self.assertIn(words, done.stderr)
+        self.assertEqual((self.here / "mine.html").read_text(), "mine")
+
+
+if __name__ == "__main__":
+    unittest.main()
