@@ -281,9 +281,6 @@ namespace Exemplar
       add("mesh_to_surface_mean", percent(back.mean, diagonal));
     }
 
-    /// Of the diagonal [%]: how far the mesh may be from the surface without a note.
-    constexpr double tolerable_distance = 5.;
-
     void
     add_notes(MeshingReport               &report,
               const SurfaceMeshingOptions &options,
@@ -297,17 +294,17 @@ namespace Exemplar
                                            n_slivers, options.cells_option));
       const double distance
           = 100. * judged.judgement.surface_to_mesh.maximum / diagonal_of(body.original.vertices);
-      if (distance > tolerable_distance)
+      if (constexpr double tolerable = 5.; distance > tolerable)
         report.notes.push_back("Parts of the surface are " + short_text(distance)
                                + " % of its diagonal away from the mesh. More cells follow it more "
                                  "closely ("
                                + options.cells_option + ").");
       const std::size_t n_cells = judged.mesh.cells.size();
       if (std::abs(static_cast<double>(n_cells) / options.n_cells - 1.) > .1)
-        report.notes.push_back(fmt::format(
-            "The mesh has {} cells, not {}: of the numbers that were tried none nearer to "
-            "it gave cells without slivers inside a surface that does not intersect itself.",
-            n_cells, options.n_cells));
+        report.notes.push_back(
+            fmt::format("The mesh has {} cells, not {}: none nearer to it was found "
+                        "that has fewer slivers and no intersections.",
+                        n_cells, options.n_cells));
     }
   } // namespace
 

@@ -14,11 +14,11 @@ namespace Exemplar::Testing
 {
   namespace
   {
-    const std::string held_bar
+    const std::string dragged_bar
         = bar + "subsection Handles\n set Names = left\n" + held_left + "end\n";
 
     const std::string held_static
-        = "set Scene = static\n" + held_bar + "subsection Time\n set Increments = 1\nend\n";
+        = "set Scene = static\n" + dragged_bar + "subsection Time\n set Increments = 1\nend\n";
 
     /// The nodes of a face of the boundary that no handle holds.
     std::vector<unsigned int>
