@@ -21,7 +21,7 @@ KATEX = Path("/usr/share/javascript/katex")
 THEMES = Path("/usr/share/mkdocs/themes")
 
 # Beside the pages, what they link to
-FOLDERS = ["doc", "prm", "meshes", "tests/embed", "tests/benchmark/scenes", "tests/scenes"]
+FOLDERS = ["doc", "prm", "meshes", "tests/embed", "tests/benchmark/scenes", "tests/scenes", "tests/live"]
 FILES = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "CITATION.cff", "LICENSE"]
 
 # The elements in which arithmatex left the formulas, set by KaTeX
