@@ -17,7 +17,7 @@ jobs=$(($(nproc) + 1))
 
 build() {
   echo "Building $1"
-  cmake --preset "$1" >/dev/null
+  cmake --preset "$@" >/dev/null
   cmake --build --preset "$1"
 }
 
@@ -25,6 +25,6 @@ build release
 if [ "${1:-}" = "--quick" ]; then
   exec ctest --test-dir build/release -L quick -j "$jobs" --output-on-failure
 fi
-build debug
+build debug -DEXEMPLAR_OPTIMISED_BUILD="$PWD/build/release"
 ctest --test-dir build/debug -L debug -j "$jobs" --output-on-failure
 ctest --test-dir build/release -j "$jobs" --output-on-failure
