@@ -182,17 +182,20 @@ def preview_name():
     return f"{Running.title} running"
 
 
+def previews():
+    return [item for item in results_of(Running.token) if item.name.startswith(preview_name())]
+
+
 def remove_preview():
-    for item in results_of(Running.token):
-        if item.name.startswith(preview_name()):
-            remove_made(item)
+    for item in previews():
+        remove_made(item)
 
 
 def show_frame(places):
     """The newest frame, by an object of its own."""
     if places is None:
         return
-    preview = next((item for item in results_of(Running.token) if item.name.startswith(preview_name())), None)
+    preview = next(iter(previews()), None)
     if preview is None or len(preview.data.vertices) != len(places):
         mesh = bpy.data.meshes.new(preview_name())
         mesh.from_pydata(places.tolist(), [], Running.faces)
