@@ -4,7 +4,7 @@
 Usage: python3 animals.py cat|horse SURFACE.msh DIRECTORY
 SURFACE.msh (MSH 2.2 ASCII) holds the triangles of the rest surface at any resolution: those of the boundary that
 gmsh -2 meshes/cat.geo -setnumber hs .019 -o SURFACE.msh makes (7,000 vertices; horse: .024). Writes
-DIRECTORY/rest.obj and pose_1.obj to pose_10.obj.
+DIRECTORY/rest.obj, pose_1.obj to pose_10.obj, and mild_1.obj to mild_10.obj with .4 times the angles.
 """
 import sys
 from pathlib import Path
@@ -96,7 +96,8 @@ def main():
     share = skinning.smoothed(skinning.weights(points, skeleton, .04), triangles, 10)
     skinning.write_obj(directory / "rest.obj", points, triangles)
     for number, pose in enumerate(make_poses(), 1):
-        skinning.write_obj(directory / f"pose_{number}.obj", skinning.posed(points, share, skeleton, pose), triangles)
+        for name, turns in (("pose", pose), ("mild", skinning.mild(pose))):
+            skinning.write_obj(directory / f"{name}_{number}.obj", skinning.posed(points, share, skeleton, turns), triangles)
     print(f"{len(points)} vertices, {len(triangles)} triangles")
 
 

@@ -2,9 +2,10 @@
 """A simple creature with body, neck, head, four limbs and a tail: its surface, and poses of it by bones.
 
 Usage: python3 creature.py DIRECTORY [--cell H] [--poses strong|tutorial]
-Writes DIRECTORY/rest.obj and, in the same order of vertices, ten strong poses, pose_1.obj to pose_10.obj, or those of
-the tutorial, crouch.obj and reach.obj. The surface is that of round cones around the bones, blended (an isosurface,
-found by surface nets on a grid of spacing H: .0365 gives 7,000 vertices). Units m, facing +x, up +z.
+Writes DIRECTORY/rest.obj and, in the same order of vertices, ten strong poses, pose_1.obj to pose_10.obj, with mild ones
+of .4 times their angles, mild_1.obj to mild_10.obj, or those of the tutorial, crouch.obj and reach.obj. The surface is
+that of round cones around the bones, blended (an isosurface, found by surface nets on a grid of spacing H: .0365 gives
+7,000 vertices). Units m, facing +x, up +z.
 """
 import argparse
 from pathlib import Path
@@ -157,6 +158,8 @@ def main():
     share = skinning.smoothed(skinning.weights(points, skeleton, .1), triangles, round(.3 / arguments.cell))
     skinning.write_obj(arguments.directory / "rest.obj", points, triangles)
     poses = strong_poses() if arguments.poses == "strong" else tutorial_poses()
+    if arguments.poses == "strong":
+        poses |= {name.replace("pose", "mild"): skinning.mild(pose) for name, pose in poses.items()}
     for name, pose in poses.items():
         skinning.write_obj(arguments.directory / f"{name}.obj", skinning.posed(points, share, skeleton, pose), triangles)
     print(f"{len(points)} vertices, {len(triangles)} triangles")

@@ -46,6 +46,11 @@ def smoothed(share, faces, n_times):
     return share
 
 
+def mild(pose):
+    """The same way, less far."""
+    return {bone: (axis, .4 * degrees) for bone, (axis, degrees) in pose.items()}
+
+
 def transformations(skeleton, pose):
     """{bone: (R, t)}, x -> R x + t."""
     result = {}

@@ -56,8 +56,10 @@ namespace Exemplar
         warnings.push_back(pose.file + ": the mesh is up to " + percent(pose.quality.max_error)
                            + " of its diagonal away from this surface ("
                            + percent(pose.quality.mean_error)
-                           + " on average). Attach it more strongly, by Examples/Attach, take "
-                             "more cells, or look where the surface passes through itself.");
+                           + " on average). Where the surface folds or passes through itself "
+                             "there, a stronger Examples/Attach follows it more closely and "
+                             "strains the cells more; elsewhere, as at the corners of a mouth, "
+                             "more cells do (Mesh/Cells).");
     return warnings;
   }
 } // namespace Exemplar

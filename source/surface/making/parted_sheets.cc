@@ -34,15 +34,6 @@ namespace Exemplar
       Vertices              vertices;
     };
 
-    Points
-    as_points(const Vertices &vertices)
-    {
-      Points points;
-      for (const auto &x : vertices)
-        points.emplace_back(x[0], x[1], x[2]);
-      return points;
-    }
-
     std::vector<NearPose>
     read_near_poses(const SurfaceMeshingOptions &options, const RestSurface &rest)
     {

@@ -139,7 +139,7 @@ namespace Exemplar
       sum += of_cell;
     for (std::size_t i = 0; i < x.size(); ++i)
       sum += 0.5 * attachment.stiffness[i] * x[i].distance_square(attachment.target[i]);
-    return sum;
+    return sum + skin.energy(x);
   }
 
   std::vector<double>
@@ -158,6 +158,7 @@ namespace Exemplar
     for (std::size_t i = 0; i < x.size(); ++i)
       for (int d = 0; d < 3; ++d)
         result[3 * i + d] += attachment.stiffness[i] * (x[i][d] - attachment.target[i][d]);
+    skin.add_gradient(x, result);
     return result;
   }
 

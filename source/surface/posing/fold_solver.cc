@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace Exemplar
 {
@@ -17,6 +18,24 @@ namespace Exemplar
 
     /// Settled if a step lowers the energy by no more than this share of it.
     constexpr double settled = 1e-5;
+
+    /// The same on the way to stronger springs.
+    constexpr double nearly_settled = 1e-4;
+
+    /// Springs of the skin become so many times as strong, so many times.
+    constexpr double       strengthening  = 4.;
+    constexpr unsigned int n_strengthened = 4;
+
+    /// The least det F of cells around vertices that are drawn at all, and that are drawn ever more
+    /// strongly. The former is what the least det F of a pose may come to, as well.
+    constexpr double least_drawn = 0.05, least_strengthened = 0.2;
+
+    /// Vertices are drawn on as long as the mean of their errors falls to this share at least.
+    constexpr double worthwhile = 0.95;
+
+    /// To so much of what they were the least det F, below least_drawn, and the greatest error of a vertex may
+    /// come, while the mean falls: they are of a few cells in folds.
+    constexpr double hardly_less = 0.9, hardly_more = 1.05;
 
     /// The least share by which the energy counts as lowered when eps is reduced. Garanzha et al.
     /// take .1; four times as much is faster and mostly does, where a step changes the energy by no
@@ -62,6 +81,25 @@ namespace Exemplar
       return nodes;
     }
 
+    /// The least det F of the cells around the nodes that each vertex of the skin goes with.
+    std::vector<double>
+    determinants_at_skin(const FoldPotential &potential, const Points &x)
+    {
+      constexpr double          relevant     = 0.1; // others are of recovered derivatives
+      const std::vector<double> determinants = potential.determinants(x);
+      std::vector<double>       of_node(x.size(), std::numeric_limits<double>::infinity());
+      for (std::size_t c = 0; c < determinants.size(); ++c)
+        for (const unsigned int i : potential.get_cells()[c])
+          of_node[i] = std::min(of_node[i], determinants[c]);
+      const SkinSprings  &skin = potential.skin;
+      std::vector<double> result(skin.stiffness.size(), std::numeric_limits<double>::infinity());
+      for (std::size_t v = 0; v < result.size(); ++v)
+        for (const auto &[node, share] : skin.shares_of(v))
+          if (std::abs(share) > relevant)
+            result[v] = std::min(result[v], of_node[node]);
+      return result;
+    }
+
     std::size_t
     count(const std::vector<char> &marked)
     {
@@ -69,12 +107,7 @@ namespace Exemplar
     }
   } // namespace
 
-  FoldSolver::FoldSolver(FoldPotential &potential)
-      : potential(potential), system(make_cholesky_operator(potential.get_n_threads())),
-        pattern(potential.block_pattern())
-  {
-    system->reinit(pattern);
-  }
+  FoldSolver::FoldSolver(FoldPotential &potential) : potential(potential), system(potential) {}
 
   /// As-rigid-as-possible (Sorkine and Alexa 2007) on tetrahedra, from the harmonic filling.
   Points
@@ -97,38 +130,15 @@ namespace Exemplar
     return x;
   }
 
-  /// The matrix is positive, but nearly collapsed cells may be so stiff that rounding makes pivots
-  /// negative: a shift of the diagonal then helps.
-  void
-  FoldSolver::factorize_shifted()
-  {
-    const std::vector<double> values = system->values();
-    for (double shift = 1e-14; shift < 1.; shift *= 100.)
-      try
-      {
-        system->factorize({});
-        return;
-      }
-      catch (const SolverFailure &)
-      {
-        for (unsigned int k = 0; k < pattern.n(); ++k)
-          system->values()[pattern.column_start[k]]
-              = (1. + shift) * values[pattern.column_start[k]];
-      }
-    throw indefinite_matrix();
-  }
-
   /// One step of Newton's method, halved until the energy falls as it should (Armijo). Returns the
   /// share of the energy, counted from -5, that is gone.
   double
   FoldSolver::step(Result &result, const double eps)
   {
-    potential.assemble(result.x, eps, system->values());
-    factorize_shifted();
+    system.factorize(result.x, eps);
     const std::vector<double> gradient  = potential.gradient(result.x, eps);
-    std::vector<double>       direction = gradient;
-    system->solve(direction);
-    double slope = 0.;
+    const std::vector<double> direction = system.solve(gradient);
+    double                    slope     = 0.;
     for (std::size_t k = 0; k < gradient.size(); ++k)
       slope -= gradient[k] * direction[k];
     const double before = potential.value(result.x, eps);
@@ -164,9 +174,9 @@ namespace Exemplar
   }
 
   void
-  FoldSolver::settle(Result &result)
+  FoldSolver::settle(Result &result, const double share)
   {
-    for (unsigned int k = 0; k < max_settling && step(result, 0.) > settled; ++k)
+    for (unsigned int k = 0; k < max_settling && step(result, 0.) > share; ++k)
     {
     }
   }
@@ -204,6 +214,30 @@ namespace Exemplar
     }
   }
 
+  void
+  FoldSolver::draw_nearer(Result &result, const std::vector<double> &stiffness)
+  {
+    SkinSprings            &skin   = potential.skin;
+    const SkinSprings::Ways start  = skin.ways(result.x);
+    SkinSprings::Ways       before = start;
+    for (unsigned int time = 0; time <= n_strengthened; ++time)
+    {
+      const std::vector<double> det = determinants_at_skin(potential, result.x);
+      for (std::size_t v = 0; v < stiffness.size(); ++v)
+        if (det[v] > (time == 0 ? least_drawn : least_strengthened))
+          skin.stiffness[v] = time == 0 ? stiffness[v]
+                                        : strengthening * std::max(stiffness[v], skin.stiffness[v]);
+      Result next = result;
+      settle(next, nearly_settled);
+      const SkinSprings::Ways ways = skin.ways(next.x);
+      if (next.min_det < std::min(hardly_less * result.min_det, least_drawn)
+          || ways.mean > worthwhile * before.mean || ways.greatest > hardly_more * start.greatest)
+        return;
+      result = std::move(next);
+      before = ways;
+    }
+  }
+
   FoldSolver::Result
   FoldSolver::solve(const Points &rest)
   {
@@ -216,14 +250,14 @@ namespace Exemplar
       untangle_neighbourhoods(result, rest);
       if (result.min_det <= margin)
         break;
-      settle(result);
+      settle(result, settled);
       if (result.min_det > margin)
         return result;
     }
     potential.attachment = given;
     result.x             = rest;
     for (unsigned int k = 0; k < 5; ++k)
-      settle(result);
+      settle(result, settled);
     return result;
   }
 } // namespace Exemplar

@@ -41,7 +41,7 @@ namespace Exemplar
                                        triangulate(rest.surface));
     check_attachment(attachment, mesh, rest.name);
     PoseTransfer transfer(mesh.get_nodes(), mesh.get_cells(), attachment, attach, n_threads);
-    transfer.measure_by(rest.surface, mesh);
+    transfer.follow_skin(rest.surface, mesh);
     return transfer;
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/mesh/rigid_motion.h>
 #include <exemplar/surface/posing/pose_transfer.h>
+#include <exemplar/surface/shape/surface_geometry.h>
 #include <exemplar/surface/shape/vectors.h>
 
 #include <algorithm>
@@ -41,6 +42,17 @@ namespace Exemplar
       return points;
     }
 
+    /// The part of the area that belongs to each vertex.
+    std::vector<double>
+    areas_of_vertices(const TriangleSurface &surface)
+    {
+      std::vector<double> result(surface.vertices.size(), 0.);
+      for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+        for (const unsigned int v : surface.triangles[t])
+          result[v] += area_of(surface, t) / 3.;
+      return result;
+    }
+
     Points
     selected(const Points &points, const std::vector<unsigned int> &which)
     {
@@ -50,6 +62,15 @@ namespace Exemplar
       return result;
     }
   } // namespace
+
+  PoseTransfer::Points
+  as_points(const SurfaceAttachment::Vertices &vertices)
+  {
+    Points result;
+    for (const auto &x : vertices)
+      result.emplace_back(x[0], x[1], x[2]);
+    return result;
+  }
 
   PoseTransfer::PoseTransfer(const Points               &nodes,
                              const FoldPotential::Cells &cells,
@@ -84,7 +105,9 @@ namespace Exemplar
     const Points      targets = attachment.targets(vertices);
     const RigidMotion motion  = best_rigid_motion(selected(nodes, attachment.get_nodes()), targets);
     attach_to(moved(inverse(motion), targets));
-    const FoldSolver::Result result = solver.solve(nodes);
+    FoldSolver::Result result = solver.solve(nodes);
+    if (skin != nullptr)
+      draw_skin_nearer(result, moved(inverse(motion), as_points(vertices)));
 
     quality            = {};
     quality.rotation   = axis_and_angle(motion.rotation).angle * 180. / M_PI;
@@ -101,7 +124,15 @@ namespace Exemplar
   }
 
   void
-  PoseTransfer::measure_by(const SurfaceMesh &rest, const Mesh &mesh)
+  PoseTransfer::draw_skin_nearer(FoldSolver::Result &result, const Points &places)
+  {
+    potential->skin = SkinSprings(*skin, measured, nodes, places);
+    solver.draw_nearer(result, skin_stiffness);
+    potential->skin = {};
+  }
+
+  void
+  PoseTransfer::follow_skin(const SurfaceMesh &rest, const Mesh &mesh)
   {
     skin = std::make_unique<SurfaceSkin>(rest, mesh);
     measured.clear();
@@ -114,6 +145,13 @@ namespace Exemplar
     }
     std::sort(measured.begin(), measured.end());
     measured.erase(std::unique(measured.begin(), measured.end()), measured.end());
+
+    const std::vector<double> areas    = areas_of_vertices(triangulate(rest));
+    const double              whole    = std::accumulate(areas.begin(), areas.end(), 0.);
+    const double              strength = std::accumulate(stiffness.begin(), stiffness.end(), 0.);
+    skin_stiffness.clear();
+    for (const std::size_t v : measured)
+      skin_stiffness.push_back(strength * areas[v] / whole);
   }
 
   void

@@ -73,4 +73,19 @@ namespace Exemplar
     }
     return places;
   }
+
+  std::vector<NodalSum::Share>
+  SurfaceSkin::shares_of(const std::size_t vertex) const
+  {
+    const auto begin = shares.begin();
+    return { begin + static_cast<std::ptrdiff_t>(vertex == 0 ? 0 : ends[vertex - 1]),
+             begin + static_cast<std::ptrdiff_t>(ends[vertex]) };
+  }
+
+  dealii::Point<3>
+  SurfaceSkin::place_at_rest(const std::size_t vertex) const
+  {
+    const SurfaceMesh::Vertex &x = rest[vertex];
+    return { scale * x[0], scale * x[1], scale * x[2] };
+  }
 } // namespace Exemplar

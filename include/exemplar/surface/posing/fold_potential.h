@@ -4,6 +4,7 @@
 
 #include <exemplar/algebra/spd_operator.h>
 #include <exemplar/kernels/tetrahedron.h>
+#include <exemplar/surface/posing/skin_springs.h>
 
 #include <deal.II/base/point.h>
 
@@ -20,7 +21,7 @@ namespace Exemplar
   };
 
   /// What a pose on tetrahedra minimises: the mean of fold_energy() over the rest volume plus the
-  /// springs' sum_i stiffness_i |x_i - target_i|^2 / 2. Without unit.
+  /// springs' sum_i stiffness_i |x_i - target_i|^2 / 2 and SkinSprings::energy(). Without unit.
   class FoldPotential
   {
   public:
@@ -34,6 +35,9 @@ namespace Exemplar
     /// Both parts have an entry for each node.
     Attachment attachment;
 
+    /// Those of the vertices of a surface; none in the beginning.
+    SkinSprings skin;
+
     /// Infinite if `eps` is zero and a cell is inverted.
     double
     value(const Points &x, double eps) const;
@@ -42,7 +46,8 @@ namespace Exemplar
     std::vector<double>
     gradient(const Points &x, double eps) const;
 
-    /// The second derivative without its negative parts in each cell [1/m^2], on block_pattern().
+    /// The second derivative without its negative parts in each cell and without that of `skin`
+    /// [1/m^2], on block_pattern().
     void
     assemble(const Points &x, double eps, std::vector<double> &values) const;
 

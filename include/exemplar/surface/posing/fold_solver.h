@@ -2,9 +2,8 @@
 #ifndef exemplar_fold_solver_h
 #define exemplar_fold_solver_h
 
-#include <exemplar/surface/posing/fold_potential.h>
+#include <exemplar/surface/posing/fold_system.h>
 
-#include <memory>
 #include <vector>
 
 namespace Exemplar
@@ -38,6 +37,13 @@ namespace Exemplar
     Result
     solve(const Points &rest);
 
+    /// Goes on from a solution towards the places of the skin's vertices: with springs of `stiffness`
+    /// [1/m^2], one a vertex, and then with stronger and stronger ones where cells can bear it, as long as
+    /// that brings the vertices clearly nearer. Cells that are nearly flat are not pulled at, and where a
+    /// step would make a pose worse the one before it is the last.
+    void
+    draw_nearer(Result &result, const std::vector<double> &stiffness);
+
   private:
     Points
     nearest_rotations() const;
@@ -46,17 +52,14 @@ namespace Exemplar
     void
     untangle_neighbourhoods(Result &result, const Points &rest);
     void
-    settle(Result &result);
+    settle(Result &result, double share);
     double
     step(Result &result, double eps);
     void
-    factorize_shifted();
-    void
     release(Result &result);
 
-    FoldPotential               &potential;
-    std::unique_ptr<SpdOperator> system;
-    SymmetricPattern             pattern;
+    FoldPotential &potential;
+    FoldSystem     system;
   };
 } // namespace Exemplar
 

@@ -25,10 +25,10 @@ namespace Exemplar
                  double                      attach,
                  unsigned int                n_threads = 1);
 
-    /// From now on errors are those of all vertices that faces of the surface use, as runs carry them
-    /// (SurfaceSkin); before, of the boundary nodes.
+    /// From now on all vertices that faces of the surface use, as runs carry them (SurfaceSkin), are drawn
+    /// to their places, and errors are theirs; before, both are of the boundary nodes.
     void
-    measure_by(const SurfaceMesh &rest, const Mesh &mesh);
+    follow_skin(const SurfaceMesh &rest, const Mesh &mesh);
 
     /// Places of the nodes [m] for a pose, given by its vertices [m].
     Points
@@ -45,6 +45,8 @@ namespace Exemplar
     void
     attach_to(const Points &targets);
     void
+    draw_skin_nearer(FoldSolver::Result &result, const Points &places);
+    void
     measure(const Points &x, PoseQuality &quality) const;
     void
     measure_boundary(const Points &x, const Points &targets, PoseQuality &quality) const;
@@ -58,10 +60,14 @@ namespace Exemplar
     std::unique_ptr<FoldPotential> potential; ///< stays where it is, for the solver
     FoldSolver                     solver;
     std::vector<double>            stiffness;       ///< of the spring of each boundary node [1/m^2]
-    std::unique_ptr<SurfaceSkin>   skin;            ///< null: errors are of the boundary nodes
+    std::unique_ptr<SurfaceSkin>   skin;            ///< null: only boundary nodes are followed
+    std::vector<double>            skin_stiffness;  ///< of `measured` in the beginning [1/m^2]
     std::vector<std::size_t>       measured;        ///< vertices of the surface
     std::vector<std::array<unsigned int, 2>> edges; ///< of the surface's faces
   };
+
+  PoseTransfer::Points
+  as_points(const SurfaceAttachment::Vertices &vertices);
 } // namespace Exemplar
 
 #endif

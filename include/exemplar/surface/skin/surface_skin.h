@@ -6,6 +6,8 @@
 #include <exemplar/surface/shape/surface_mesh.h>
 #include <exemplar/surface/skin/motion_recovery.h>
 
+#include <deal.II/base/point.h>
+
 namespace Exemplar
 {
   /// A surface that the body carries along. A vertex at X that belongs to the point P of the body (X
@@ -28,6 +30,14 @@ namespace Exemplar
     /// nodes are displaced [m] by three values each.
     std::vector<SurfaceMesh::Vertex>
     carry(const Vector &displacement) const;
+
+    /// The nodes that a vertex goes with: its displacement is the sum of theirs times these.
+    std::vector<NodalSum::Share>
+    shares_of(std::size_t vertex) const;
+
+    /// Where a vertex is [m].
+    dealii::Point<3>
+    place_at_rest(std::size_t vertex) const;
 
   private:
     friend SurfaceSkin
