@@ -26,13 +26,15 @@ namespace Exemplar
                                                        { WeightRule::free, "free" },
                                                        { WeightRule::prescribed, "prescribed" } };
 
-    /// sigma for "auto" and "paper", in units of sum E V.
+    /// sigma for "auto", "weak" and "paper", in units of sum E V.
     double
     default_penalty(const ExampleParameters &parameters)
     {
-      const bool weak
+      if (parameters.weight_penalty == "weak")
+        return 1e-12;
+      const bool is_small
           = parameters.weight_penalty == "auto" && parameters.weights == WeightRule::simplex;
-      return weak ? 1e-9 : 1e-5;
+      return is_small ? 1e-9 : 1e-5;
     }
 
     /// The number in `text`, if it is one and not negative.
@@ -72,11 +74,12 @@ namespace Exemplar
              "eta [-]: 0 is plain elasticity (no pose file is opened), 1 lets the examples "
              "alone be free of stress.",
              Bounds{ 0., 1. });
-    keys.add("Weight penalty", weight_penalty,
-             "sigma [J] of the ridge sigma/2 sum w_i^2 on weights that are not prescribed: paper "
-             "(1e-5 sum E V over the cells), auto (1e-9 sum E V with simplex weights, which "
-             "decides ties and moves nothing; the paper's with free ones, which would "
-             "run away) or a number not less than 0.");
+    keys.add(
+        "Weight penalty", weight_penalty,
+        "sigma [J] of the ridge sigma/2 sum w_i^2 on weights that are not prescribed: paper "
+        "(1e-5 sum E V over the cells), auto (1e-9 sum E V with simplex weights, which "
+        "decides ties and moves hardly anything, and weak with Loads/Balanced; the paper's with "
+        "free ones, which would run away), weak (1e-12 sum E V) or a number not less than 0.");
     keys.add(
         "Energy", energy, energies,
         "scaled: V/2 (strain - eta E(w)) : C : (strain - eta E(w)), as the paper; blended: (1 - "
@@ -219,10 +222,11 @@ namespace Exemplar
   {
     check_memory();
     check_elasticity();
-    if (weight_penalty != "auto" && weight_penalty != "paper"
+    if (weight_penalty != "auto" && weight_penalty != "paper" && weight_penalty != "weak"
         && !non_negative_number(weight_penalty))
-      throw UserError("Examples/Weight penalty = '" + weight_penalty
-                      + "' is not allowed. Allowed: auto, paper or a number not less than 0 [J].");
+      throw UserError(
+          "Examples/Weight penalty = '" + weight_penalty
+          + "' is not allowed. Allowed: auto, paper, weak or a number not less than 0 [J].");
     if (weights == WeightRule::prescribed && in_use() && prescribed_weights.empty())
       throw UserError("Examples/Weights = prescribed, but Examples/Prescribed weights is empty. "
                       "Give one function of t for each example, for instance '1-t; t'.");

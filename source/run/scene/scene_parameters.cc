@@ -27,6 +27,10 @@ namespace Exemplar
     if (const std::optional<CellLaw> law = material.law_of_grain(); law)
       model.strain = law_of_grain(*law);
     model.complete();
+    // the ridge would be all that moves the rest pose
+    if (loads.balanced && examples.weights == WeightRule::simplex
+        && examples.weight_penalty == "auto")
+      examples.weight_penalty = "weak";
     if (solver.method != Method::automatic)
       return;
     if (model.is_frozen())
