@@ -187,14 +187,16 @@ namespace Exemplar
 
       /// All that it says until it ends.
       CopyEnd
-      read(const double timeout, CopyMessages *said, std::string &answer) const
+      read(const CopyTask &task, CopyMessages *said, std::string &answer) const
       {
-        using Clock      = std::chrono::steady_clock;
-        const auto begin = Clock::now();
+        using Clock       = std::chrono::steady_clock;
+        const auto begin  = Clock::now();
         pollfd     ends[] = { { answers.in, POLLIN, 0 }, { messages.in, POLLIN, 0 } };
         for (;;)
         {
           poll(ends, 2, 200);
+          if (task.meanwhile)
+            task.meanwhile();
           std::string ignored;
           if (ends[1].revents != 0 && !append(ends[1].fd, said != nullptr ? said->text : ignored))
             ends[1].fd = -1; // it is not asked again
@@ -203,7 +205,7 @@ namespace Exemplar
             return CopyEnd::of_itself;
           if (said != nullptr && said->text.size() > said->max_bytes)
             return CopyEnd::too_many_messages;
-          if (std::chrono::duration<double>(Clock::now() - begin).count() > timeout)
+          if (std::chrono::duration<double>(Clock::now() - begin).count() > task.timeout)
             return CopyEnd::too_late;
         }
       }
@@ -243,7 +245,7 @@ namespace Exemplar
                   CopyMessages                       *messages)
   {
     std::string answer;
-    const auto  end = Copy(work, messages != nullptr).read(task.timeout, messages, answer);
+    const auto  end = Copy(work, messages != nullptr).read(task, messages, answer);
     require_end(end, task, messages);
     if (answer.size() < 2 || answer.back() != end_mark)
       throw SolverFailure(task.what + " crashed in a library that it uses. " + task.remedy);

@@ -74,6 +74,18 @@ namespace Exemplar
     }
   }
 
+  void
+  Progress::go_on_with(const unsigned int step, const std::string &note)
+  {
+    {
+      const std::lock_guard<std::mutex> lock(mutex);
+      if (done + 1 != step)
+        step_begin = Clock::now();
+      done = step - 1;
+    }
+    go_on(note);
+  }
+
   Progress::Clock::time_point
   Progress::next_sign() const
   {

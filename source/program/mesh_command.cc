@@ -3,6 +3,7 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/base/message_text.h>
 #include <exemplar/base/missing_file.h>
+#include <exemplar/base/progress.h>
 #include <exemplar/base/standard_streams.h>
 #include <exemplar/base/text_file.h>
 #include <exemplar/mesh/mesh_parameters.h>
@@ -13,8 +14,11 @@
 #include <exemplar/surface/making/mesh_making.h>
 #include <exemplar/surface/shape/surface_faults.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <iostream>
+#include <unistd.h>
 
 namespace Exemplar
 {
@@ -102,6 +106,36 @@ namespace Exemplar
       return files;
     }
 
+    std::string
+    name_of(const MeshingPoint &point)
+    {
+      switch (point.stage)
+      {
+      case MeshingStage::checking:
+        return "checking the surface";
+      case MeshingStage::thinning:
+        return "looking for dense triangles";
+      case MeshingStage::filling:
+        return fmt::format("filling it, attempt {}", point.attempt);
+      default:
+        return "measuring";
+      }
+    }
+
+    /// With a bar on a terminal, and nothing elsewhere.
+    MeshingReport
+    make_shown(const SurfaceMeshingOptions &meshing, const MeshCommandOptions &options)
+    {
+      constexpr unsigned int n_stages    = 4;
+      const bool             is_terminal = isatty(STDOUT_FILENO) != 0;
+      Progress progress(std::cout, is_terminal, options.quiet || !is_terminal, 0, n_stages,
+                        "stage");
+      return make_mesh_file(
+          meshing, options.output,
+          [&](const MeshingPoint &point)
+          { progress.go_on_with(static_cast<unsigned int>(point.stage) + 1, name_of(point)); });
+    }
+
     void
     list_faults(const MeshCommandOptions &options)
     {
@@ -133,7 +167,7 @@ namespace Exemplar
     check_options(options);
     SurfaceMeshingOptions meshing = options.meshing;
     meshing.poses                 = pose_files(options.meshing);
-    MeshingReport report          = make_mesh_file(meshing, options.output);
+    MeshingReport report          = make_shown(meshing, options);
     add_unit(report);
     write_table(report, table_of(options));
     if (!options.quiet)

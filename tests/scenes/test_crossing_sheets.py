@@ -6,7 +6,7 @@ import sys
 import unittest
 from pathlib import Path
 
-from exemplar_runner import SceneTest
+from exemplar_runner import SceneTest, prm, read_summary
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "meshes/surfaces"))
 import crossing  # noqa: E402
@@ -42,6 +42,25 @@ class CrossingSheets(SceneTest):
             self.assertEqual((run.status, run.stdout), (1, ""))
             self.assertIn("pairs of intersecting faces", run.stderr)
             self.assertFalse((self.directory / "body.msh").exists())
+
+    def test_a_scene_fills_its_mesh_from_its_own_poses(self):
+        cache = {"XDG_CACHE_HOME": str(self.directory / "cache")}
+        scene = {"Scene": "static", "Mesh/File": "rest.obj", "Mesh/Cells": "3000", "Examples/Poses": "open.obj",
+                 "Handles/Names": "nape", "Handles/nape/Select": "box -2 -1 -1 -1 1 1", "Time/Increments": "1"}
+        self.write("scene.prm", prm(scene))
+        run = self.call("scene.prm", "--output", "out", "--quiet", **cache)
+        self.assertEqual((run.status, run.stderr), (0, ""))
+        summary = read_summary(self.directory / "out")
+        self.assertEqual([pose["inverted_cells"] for pose in summary["poses_carried"]], [0])
+        self.assertLess(summary["poses_carried"][0]["surface_error_max"], 1)
+        self.assertEqual(self.mesh("--poses", "open.obj").status, 0)
+        self.assertEqual((self.directory / "body.msh").read_text().removesuffix("$Comments\na mesh by exemplar\n$EndComments\n"),
+                         (self.directory / "out/rest.msh").read_text())
+        # without a pose that parts them the sheets are a fault
+        self.write("scene.prm", prm({**scene, "Examples/Poses": "shut.obj"}))
+        run = self.call("scene.prm", "--output", "shut", "--quiet", **cache)
+        self.assertEqual((run.status, run.stdout), (1, ""))
+        self.assertIn("pairs of intersecting faces", run.stderr)
 
     def test_poses_of_another_surface_are_refused(self):
         self.write("other.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")

@@ -13,6 +13,8 @@ namespace Exemplar
     std::string what;    ///< is said to have crashed, or to have come to no end
     std::string remedy;  ///< a sentence
     double      timeout; ///< [s]
+    /// Called here several times a second while it works, if it is not empty.
+    std::function<void()> meanwhile = {};
   };
 
   /// What libraries say on the standard streams.

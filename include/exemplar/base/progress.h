@@ -38,6 +38,11 @@ namespace Exemplar
     void
     go_on(const std::string &note);
 
+    /// The same, of step `step`: those before it are done. For steps that take unlike times, of which
+    /// none tells how long the others will take.
+    void
+    go_on_with(unsigned int step, const std::string &note);
+
     /// Step `step` is done; `note` is shown beside it.
     void
     update(unsigned int step, const std::string &note);

@@ -2,7 +2,7 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
 #include <exemplar/surface/filling/body_surface.h>
-#include <exemplar/surface/filling/cell_angles.h>
+#include <exemplar/surface/filling/meshing_report.h>
 #include <exemplar/surface/filling/surface_meshing.h>
 #include <exemplar/surface/filling/surface_msh.h>
 #include <exemplar/surface/filling/surface_remeshing.h>
@@ -96,11 +96,11 @@ namespace Exemplar
     /// The mesh with the number of cells nearest to the one wanted: n ~ h^-p with p from the last
     /// two attempts.
     FilledSurface
-    fill_with(const TriangleSurface &surface,
-              const double           n_cells,
-              const bool             keep_edges,
-              const NearSheets       near_sheets,
-              const std::string     &cells_option)
+    fill_with(const TriangleSurface       &surface,
+              const double                 n_cells,
+              const bool                   keep_edges,
+              const NearSheets             near_sheets,
+              const SurfaceMeshingOptions &options)
     {
       double        h     = edge_length_of(surface, n_cells);
       double        power = 3., last_h = 0., last_n = 0., best_error = 0.;
@@ -108,13 +108,14 @@ namespace Exemplar
       for (unsigned int attempt = 0; attempt < n_attempts; ++attempt)
       {
         TetrahedralMesh mesh;
+        options.tell(MeshingStage::filling);
         try
         {
-          require_few_triangles(surface, h, n_cells, cells_option);
-          const Remeshed remeshed
-              = remesh_without_intersections(surface, h, keep_edges, near_sheets, cells_option);
-          best.has_near_sheets = best.has_near_sheets || remeshed.has_near_sheets;
-          mesh                 = fill(remeshed.surface);
+          require_few_triangles(surface, h, n_cells, options.cells_option);
+          const Remeshed remeshed = remesh_without_intersections(surface, h, keep_edges,
+                                                                 near_sheets, options.cells_option);
+          best.has_near_sheets    = best.has_near_sheets || remeshed.has_near_sheets;
+          mesh                    = fill(remeshed.surface);
         }
         catch (const SolverFailure &)
         {
@@ -143,15 +144,6 @@ namespace Exemplar
       return best;
     }
 
-    /// What a mesh is judged by.
-    struct Judgement
-    {
-      CellAngles      angles;
-      SurfaceDistance surface_to_mesh;
-      SurfaceDistance mesh_to_surface;
-      double          lost = 0.; ///< the farthest that a point of the mended surface is off
-    };
-
     Judgement
     judge(const BodySurface &body, const TetrahedralMesh &mesh)
     {
@@ -162,12 +154,6 @@ namespace Exemplar
                distance_to(NearestTriangle(body.original), boundary),
                distance_to(to_mesh, body.surface).maximum };
     }
-
-    struct JudgedMesh
-    {
-      TetrahedralMesh mesh;
-      Judgement       judgement;
-    };
 
     /// Whether a mesh takes the place of the best one so far: with fewer slivers, and the surface
     /// at most half as far away again.
@@ -183,18 +169,17 @@ namespace Exemplar
     /// sharp edges of the surface kept, or without them where they are noise, and with near sheets held, or
     /// refined. Throws SolverFailure if none gives a mesh.
     JudgedMesh
-    best_of_ways(const BodySurface     &body,
-                 const TriangleSurface &surface,
-                 const double           n_cells,
-                 const std::string     &cells_option,
-                 JudgedMesh             best)
+    best_of_ways(const BodySurface           &body,
+                 const TriangleSurface       &surface,
+                 const double                 n_cells,
+                 const SurfaceMeshingOptions &options,
+                 JudgedMesh                   best)
     {
       for (const bool keep_edges : { true, false })
         for (const NearSheets near_sheets : { NearSheets::held, NearSheets::refined })
           try
           {
-            FilledSurface filled
-                = fill_with(surface, n_cells, keep_edges, near_sheets, cells_option);
+            FilledSurface filled = fill_with(surface, n_cells, keep_edges, near_sheets, options);
             remove_slivers(filled.mesh);
             const Judgement now = judge(body, filled.mesh);
             if (is_better(now, best))
@@ -217,94 +202,15 @@ namespace Exemplar
     best_mesh(const BodySurface &body, const SurfaceMeshingOptions &options)
     {
       constexpr std::size_t few = 1000, quickly_remeshed = 20000;
+      options.tell(MeshingStage::thinning);
       const TriangleSurface surface
           = without_excess(body.surface, options.n_cells, options.cells_option);
       const bool is_quick = options.n_cells <= few && surface.triangles.size() <= quickly_remeshed;
       JudgedMesh best;
       for (const double factor : { 1., 1.07, .93, 1.14, .88 })
         if (factor == 1. || (is_quick && best.judgement.angles.n_slivers > 0))
-          best = best_of_ways(body, surface, factor * options.n_cells, options.cells_option,
-                              std::move(best));
+          best = best_of_ways(body, surface, factor * options.n_cells, options, std::move(best));
       return best;
-    }
-
-    std::string
-    percent(const double part, const double whole)
-    {
-      return short_text(100. * part / whole);
-    }
-
-    void
-    add_counts(MeshingReport         &result,
-               const BodySurface     &body,
-               const TetrahedralMesh &mesh,
-               const std::size_t      n_materials)
-    {
-      const auto add = [&](const std::string &what, const std::size_t n)
-      { result.table.emplace_back(what, fmt::format("{}", n)); };
-      add("surface_vertices", body.original.vertices.size());
-      add("surface_triangles", body.original.triangles.size());
-      add("nodes", mesh.nodes.size());
-      add("cells", mesh.cells.size());
-      add("boundary_triangles", mesh.boundary.triangles.size());
-      add("boundary_ids", std::max<std::size_t>(body.group_names.size(), 1));
-      add("material_ids", n_materials);
-    }
-
-    void
-    add_quality(MeshingReport &result, const BodySurface &body, const JudgedMesh &judged)
-    {
-      const TetrahedralMesh &mesh   = judged.mesh;
-      const CellAngles      &angles = judged.judgement.angles;
-      const auto             add    = [&](const std::string &what, const std::string &value)
-      { result.table.emplace_back(what, value); };
-      add("angle_smallest", short_text(angles.smallest));
-      add("angle_1_percent", short_text(angles.percentile_1));
-      add("angle_median", short_text(angles.median));
-      add("angle_largest", short_text(angles.largest));
-      add("slivers", fmt::format("{}", angles.n_slivers));
-      add("boundary_slivers", fmt::format("{}", angles.n_boundary_slivers));
-      double volume = 0.;
-      for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-      {
-        const auto p = corners_of(mesh, c);
-        volume += six_volumes(p[0], p[1], p[2], p[3]) / 6.;
-      }
-      add("volume", short_text(volume));
-      const double           diagonal = diagonal_of(body.original.vertices);
-      const SurfaceDistance &out      = judged.judgement.surface_to_mesh;
-      const SurfaceDistance &back     = judged.judgement.mesh_to_surface;
-      add("diagonal", short_text(diagonal));
-      add("surface_to_mesh_max", percent(out.maximum, diagonal));
-      add("surface_to_mesh_mean", percent(out.mean, diagonal));
-      add("mesh_to_surface_max", percent(back.maximum, diagonal));
-      add("mesh_to_surface_mean", percent(back.mean, diagonal));
-    }
-
-    void
-    add_notes(MeshingReport               &report,
-              const SurfaceMeshingOptions &options,
-              const BodySurface           &body,
-              const JudgedMesh            &judged)
-    {
-      const std::size_t n_slivers = judged.judgement.angles.n_slivers;
-      if (n_slivers > 0)
-        report.notes.push_back(fmt::format("Some cells are nearly flat: {} have an angle below 3 "
-                                           "degrees. More cells may help ({}).",
-                                           n_slivers, options.cells_option));
-      const double distance
-          = 100. * judged.judgement.surface_to_mesh.maximum / diagonal_of(body.original.vertices);
-      if (constexpr double tolerable = 5.; distance > tolerable)
-        report.notes.push_back("Parts of the surface are " + short_text(distance)
-                               + " % of its diagonal away from the mesh. More cells follow it more "
-                                 "closely ("
-                               + options.cells_option + ").");
-      const std::size_t n_cells = judged.mesh.cells.size();
-      if (std::abs(static_cast<double>(n_cells) / options.n_cells - 1.) > .1)
-        report.notes.push_back(
-            fmt::format("The mesh has {} cells, not {}: none nearer to it was found "
-                        "that has fewer slivers and no intersections.",
-                        n_cells, options.n_cells));
     }
   } // namespace
 
@@ -327,6 +233,7 @@ namespace Exemplar
     placed.vertices    = place.vertices;
     BodySurface body   = make_body_surface(placed, options);
     JudgedMesh  judged = best_mesh(body, options);
+    options.tell(MeshingStage::measuring);
     if (place.carry_back)
     {
       place.carry_back(judged.mesh);
@@ -337,13 +244,7 @@ namespace Exemplar
     const Materials materials
         = seeds.empty() ? materials_by_regions(judged.mesh, regions)
                         : materials_by_seeds(judged.mesh, seeds, regions, options.materials);
-    MeshedSurface  result{ make_surface_msh(judged.mesh, body.group_names, materials), {} };
-    MeshingReport &report = result.report;
-    report.notes          = place.notes;
-    report.notes.insert(report.notes.end(), body.notes.begin(), body.notes.end());
-    add_counts(report, body, judged.mesh, materials.names.size());
-    add_quality(report, body, judged);
-    add_notes(report, options, body, judged);
-    return result;
+    return { make_surface_msh(judged.mesh, body.group_names, materials),
+             make_report(place, body, judged, materials.names.size(), options) };
   }
 } // namespace Exemplar

@@ -2,6 +2,7 @@
 #include <exemplar/base/atomic_file.h>
 #include <exemplar/base/confinement.h>
 #include <exemplar/base/process_copy.h>
+#include <exemplar/base/shared_value.h>
 #include <exemplar/mesh/msh_comment.h>
 #include <exemplar/surface/making/mesh_making.h>
 #include <exemplar/surface/making/parted_sheets.h>
@@ -34,15 +35,22 @@ namespace Exemplar
   const std::string made_mesh_comment = "a mesh by exemplar";
 
   std::string
-  make_mesh(const SurfaceMeshingOptions &options)
+  make_mesh(const SurfaceMeshingOptions &options, const ShowMeshing &show)
   {
-    const auto work = [&]
+    SharedValue<MeshingPoint> point({});
+    const auto                work = [&]
     {
       std::vector<std::filesystem::path> files{ options.surface, options.materials };
       files.insert(files.end(), options.poses.begin(), options.poses.end());
       confine_this_process(files);
-      const MeshedSurface meshed
-          = options.poses.empty() ? mesh_surface(options) : mesh_parted(options);
+      SurfaceMeshingOptions here = options;
+      here.tell                  = [&](const MeshingStage stage)
+      {
+        const MeshingPoint last     = point.load();
+        const bool         is_again = stage == last.stage && stage == MeshingStage::filling;
+        point.store({ stage, static_cast<unsigned short>(is_again ? last.attempt + 1 : 1) });
+      };
+      const MeshedSurface meshed = here.poses.empty() ? mesh_surface(here) : mesh_parted(here);
       return with_comment(msh_text(meshed.mesh), to_text(meshed.report));
     };
     return in_process_copy(
@@ -50,13 +58,20 @@ namespace Exemplar
                 "Ask for another number of cells (" + options.cells_option
                     + "), or clean the surface in the program that made it, for instance by a "
                       "remesh.",
-                time_limit(options) });
+                time_limit(options),
+                [&]
+                {
+                  if (show)
+                    show(point.load());
+                } });
   }
 
   MeshingReport
-  make_mesh_file(const SurfaceMeshingOptions &options, const std::filesystem::path &msh)
+  make_mesh_file(const SurfaceMeshingOptions &options,
+                 const std::filesystem::path &msh,
+                 const ShowMeshing           &show)
   {
-    const std::string made = make_mesh(options);
+    const std::string made = make_mesh(options, show);
     AtomicFile        file(msh);
     file.stream() << without_comment(made) << msh_end(made_mesh_comment);
     file.commit();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/base/process_copy.h>
+#include <exemplar/base/shared_value.h>
 
 #include "expect_contains.h"
 
@@ -11,6 +12,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <new>
+#include <thread>
+#include <vector>
 
 namespace Exemplar::Testing
 {
@@ -47,6 +50,23 @@ namespace Exemplar::Testing
       EXPECT_EQ(error_in_copy<SolverFailure>(throwing(SolverFailure("failed"))), "failed");
       EXPECT_EQ(error_in_copy<std::runtime_error>(throwing(std::runtime_error("odd"))), "odd");
       EXPECT_THROW(in_copy(throwing(std::bad_alloc())), std::bad_alloc);
+    }
+
+    TEST(ProcessCopyTest, WhatItHasComeToIsSeenMeanwhile)
+    {
+      SharedValue<int>  at(0);
+      std::vector<int>  seen;
+      const std::string answer = in_process_copy(
+          [&]
+          {
+            at.store(7);
+            std::this_thread::sleep_for(std::chrono::milliseconds(500));
+            return std::string("done");
+          },
+          { "The work", "Try less.", 60., [&] { seen.push_back(at.load()); } });
+      EXPECT_EQ(answer, "done");
+      ASSERT_FALSE(seen.empty());
+      EXPECT_EQ(seen.back(), 7);
     }
 
     TEST(ProcessCopyTest, NothingThereChangesAnythingHere)

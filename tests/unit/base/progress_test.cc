@@ -33,6 +33,18 @@ namespace Exemplar::Testing
       EXPECT_EQ(text.back(), '\n');
     }
 
+    TEST(Progress, OfStepsOfUnlikeTimesNoTimeLeftIsTold)
+    {
+      std::ostringstream out;
+      Progress           progress(out, true, false, 0, 4, "stage");
+      for (const unsigned int step : { 1, 3, 3 })
+        progress.go_on_with(step, "filling");
+      std::this_thread::sleep_for(std::chrono::milliseconds(1300));
+      progress.finish();
+      expect_contains(out.str(), "[##########..........] stage 3 of 4, 1 s, filling");
+      EXPECT_EQ(out.str().find("left"), std::string::npos);
+    }
+
     TEST(Progress, QuietStaysQuiet)
     {
       EXPECT_EQ(shown(true), "");

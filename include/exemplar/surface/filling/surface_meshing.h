@@ -10,6 +10,15 @@
 
 namespace Exemplar
 {
+  /// What the making of a mesh has come to, in this order.
+  enum class MeshingStage : unsigned short
+  {
+    checking, ///< the surface is read, checked, and mended
+    thinning, ///< dense triangles become as fine as cells can follow
+    filling,  ///< edges become as long as the cells want, and it is filled; several times
+    measuring ///< cells are brought back from where they were made, and distances taken
+  };
+
   /// What to make of a surface.
   struct SurfaceMeshingOptions
   {
@@ -21,6 +30,8 @@ namespace Exemplar
     std::filesystem::path materials          = {}; ///< a table, see read_material_seeds(); or empty
     /// What the user calls cells and repair, for messages.
     std::string cells_option = "--cells", repair_option = "--repair";
+    /// Is called at the beginning of each stage, and again for each attempt at it.
+    std::function<void(MeshingStage)> tell = [](MeshingStage) {};
   };
 
   /// How a mesh became.

@@ -6,16 +6,28 @@
 
 namespace Exemplar
 {
+  /// What the making of a mesh has come to, and in which attempt, from 1.
+  struct MeshingPoint
+  {
+    MeshingStage   stage   = MeshingStage::checking;
+    unsigned short attempt = 1;
+  };
+
+  using ShowMeshing = std::function<void(MeshingPoint)>;
+
   /// mesh_surface() in a confined process of its own (see confine_this_process()), because CGAL and
   /// gmsh may crash or never end on odd surfaces, and gmsh keeps one model for the whole process.
   /// Returns the bytes of a .msh with the report as its comment. Throws as mesh_surface() does, and
-  /// SolverFailure for a crash and after 60 s and 30 ms a cell and 0.1 ms a byte of the surface.
+  /// SolverFailure for a crash and after 60 s and 30 ms a cell and 0.1 ms a byte of the surface. `show`
+  /// is called here, several times a second, with what it has come to.
   std::string
-  make_mesh(const SurfaceMeshingOptions &options);
+  make_mesh(const SurfaceMeshingOptions &options, const ShowMeshing &show = {});
 
   /// The same, written to `msh` without the comment, whole or not at all.
   MeshingReport
-  make_mesh_file(const SurfaceMeshingOptions &options, const std::filesystem::path &msh);
+  make_mesh_file(const SurfaceMeshingOptions &options,
+                 const std::filesystem::path &msh,
+                 const ShowMeshing           &show = {});
 
   /// The comment by which the file is known.
   extern const std::string made_mesh_comment;
