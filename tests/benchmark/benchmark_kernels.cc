@@ -99,7 +99,8 @@ namespace Exemplar
     void
     assembly(benchmark::State &state, const Tangent tangent)
     {
-      std::vector<double> values(scene->problem.potential.matrix_pattern().n_values()), columns;
+      std::vector<double> values(scene->problem.potential.get_tangent().get_pattern().n_values()),
+          columns;
       for (auto _ : state)
         scene->problem.potential.get_cells().assemble_tangent(tangent, scene->positions, {}, values,
                                                               columns);
@@ -131,7 +132,7 @@ namespace Exemplar
     make_matrix()
     {
       auto matrix = make_cholesky_operator();
-      matrix->reinit(scene->problem.potential.matrix_pattern());
+      matrix->reinit(scene->problem.potential.get_tangent().get_pattern());
       std::vector<double> no_columns;
       scene->problem.potential.assemble(scene->positions, {}, 1., matrix->values(), no_columns);
       return matrix;

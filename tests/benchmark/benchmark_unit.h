@@ -57,7 +57,7 @@ namespace Exemplar
       if (!matrix)
       {
         matrix = make_cholmod_operator();
-        matrix->reinit(problem.potential.matrix_pattern());
+        matrix->reinit(problem.potential.get_tangent().get_pattern());
         measure_once(problem); // touches the factor's memory for the first time
       }
       const Sample sample = measure_once(problem);
