@@ -88,8 +88,8 @@ namespace Exemplar
       sample.assemble = duration_of(
           [&]
           {
-            problem.potential.assemble(state.positions, state.weights, 1., matrix->values(),
-                                       coupling, &products);
+            problem.potential.get_tangent().assemble(state.positions, state.weights, 1.,
+                                                     matrix->values(), coupling, &products);
           });
       sample.factorize = duration_of([&] { matrix->factorize(state.positions); });
       column.assign(problem.constraints.free_dofs.size(), 1.);
