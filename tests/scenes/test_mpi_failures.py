@@ -26,8 +26,8 @@ BODY = {
     "Output/Checkpoint minutes": "0",
 }
 STATIC = {**BODY, "Scene": "static", "Time/Increments": "2"}
-DYNAMIC = {**BODY, "Scene": "dynamic", "Time/Increments": None, "Time/Step": "0.01", "Time/End": "0.4", "Output/Every": "15"}
-LAST_STEP = 40
+DYNAMIC = {**BODY, "Scene": "dynamic", "Time/Increments": None, "Time/Step": "0.01", "Time/End": "0.2", "Output/Every": "8"}
+LAST_STEP = 20
 ENDLESS = {**DYNAMIC, "Time/Step": "1e-8", "Output/Every": "1000"}
 FAILING = {**STATIC, "Loads/Gravity": "0, 0, -1e9", "Solver/Maximum iterations": "1", "Time/Increments": "1"}
 LAUNCHER = ["mpirun", "-n", str(N)]
