@@ -15,16 +15,19 @@ fi
 # one more than the cores, as tests of several processes wait for each other
 jobs=$(($(nproc) + 1))
 
+# Usage: build PRESET TARGET [SETTING]...
 build() {
-  echo "Building $1"
-  cmake --preset "$@" >/dev/null
-  cmake --build --preset "$1"
+  local preset=$1 target=$2
+  shift 2
+  echo "Building $preset"
+  cmake --preset "$preset" "$@" >/dev/null
+  cmake --build --preset "$preset" --target "$target"
 }
 
-build release
+build release all
 if [ "${1:-}" = "--quick" ]; then
   exec ctest --test-dir build/release -L quick -j "$jobs" --output-on-failure
 fi
-build debug -DEXEMPLAR_OPTIMISED_BUILD="$PWD/build/release"
+build debug debug_programs -DEXEMPLAR_OPTIMISED_BUILD="$PWD/build/release"
 ctest --test-dir build/debug -L debug -j "$jobs" --output-on-failure
 ctest --test-dir build/release -j "$jobs" --output-on-failure

@@ -211,20 +211,6 @@ namespace Exemplar
     memory.snap(weights);
   }
 
-  std::string
-  ExampleWeights::region_name(const std::string &prefix, const unsigned int region) const
-  {
-    const auto id = poses.get_regions().material_id(region);
-    return id ? fmt::format("{}_{}", prefix, *id) : prefix;
-  }
-
-  std::string
-  ExampleWeights::weight_name(const std::string &prefix, const unsigned int weight) const
-  {
-    return fmt::format("{}_{}", region_name(prefix, weight / n_per_region()),
-                       weight % n_per_region());
-  }
-
   std::size_t
   ExampleWeights::memory_consumption() const
   {

@@ -26,33 +26,13 @@ namespace Exemplar
       return sum;
     }
 
-    /// The nodes of a selection under a key that is itself the selection's.
-    std::vector<unsigned int>
-    choose(const Selection   &selection,
-           const Mesh        &mesh,
-           const std::string &key,
-           const NamedNodes  &named)
-    {
-      try
-      {
-        return selection.nodes(mesh, key, named);
-      }
-      catch (const UserError &error)
-      {
-        std::string text = error.what();
-        for (const std::string wrong = key + "/Select"; text.find(wrong) != std::string::npos;)
-          text.replace(text.find(wrong), wrong.size(), key);
-        throw UserError(text);
-      }
-    }
-
     std::vector<Direction>
     between(const FibreEnds   &ends,
             const Mesh        &mesh,
             const std::string &key,
             const NamedNodes  &named)
     {
-      const auto from = choose(ends.from, mesh, key, named), to = choose(ends.to, mesh, key, named);
+      const auto from = ends.from.nodes(mesh, key, named), to = ends.to.nodes(mesh, key, named);
       std::vector<unsigned int> both;
       std::set_intersection(from.begin(), from.end(), to.begin(), to.end(),
                             std::back_inserter(both));

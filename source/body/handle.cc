@@ -73,7 +73,7 @@ namespace Exemplar
     p.check();
     const std::string key = "Handles/" + p.name;
     Handle            handle{ p.name,
-                   fe_space.numbering().with_middles(p.select.nodes(mesh, key, named_nodes)),
+                   fe_space.numbering().with_middles(p.select.nodes(mesh, key + "/Select", named_nodes)),
                    parse_components(p.components, key),
                    Expression(key + "/Motion", p.motion, "xyzt", 3),
                    Expression(key + "/Progress", p.progress, "t", 1),

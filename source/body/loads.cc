@@ -152,7 +152,7 @@ namespace Exemplar
     set_gravity(parameters.gravity, fe_space, material);
     for (const LoadParameters &p : parameters.named)
     {
-      const std::string         key      = "Loads/" + p.name;
+      const std::string         load = "Loads/" + p.name, key = load + "/Select";
       const auto                vertices = p.select.nodes(mesh, key, named_nodes);
       const auto                nodes    = fe_space.numbering().with_middles(vertices);
       const std::vector<double> weights
@@ -173,7 +173,7 @@ namespace Exemplar
               "mesh's unit.");
       for (double &share : shares)
         share /= sum;
-      loads.push_back({ p.name, nodes, shares, Expression(key + "/Force", p.force, "t", 3) });
+      loads.push_back({ p.name, nodes, shares, Expression(load + "/Force", p.force, "t", 3) });
     }
   }
 

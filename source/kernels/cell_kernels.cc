@@ -10,9 +10,8 @@ namespace Exemplar
     std::vector<const CellKernels *>
     all_kernels_of(const ElementConstant<element> of)
     {
-      static const CellKernels         scalar   = cell_kernels<Instructions::scalar>(of);
       static const CellKernels         baseline = cell_kernels<Instructions::baseline>(of);
-      std::vector<const CellKernels *> all      = { &scalar, &baseline };
+      std::vector<const CellKernels *> all      = { &baseline };
 #ifdef __x86_64__
       // even the function that names the loops is compiled with the instructions of its set
       if (best_instruction_set() >= InstructionSet::avx2)

@@ -25,10 +25,10 @@ namespace Exemplar
           const std::string    &key)
     {
       if (words.rest.empty())
-        throw UserError(key + "/Select = '" + words.kind + "' does not say which " + words.kind
+        throw UserError(key + " = '" + words.kind + "' does not say which " + words.kind
                         + ". Write an id or a name behind it, such as '" + words.kind + " 1'.");
       return find_id(mesh.get_contents(), dimension, words.rest,
-                     key + "/Select = '" + words.kind + " " + words.rest + "'");
+                     key + " = '" + words.kind + " " + words.rest + "'");
     }
 
     std::string
@@ -83,7 +83,7 @@ namespace Exemplar
           nodes.insert(mesh.get_cells()[cell].begin(), mesh.get_cells()[cell].end());
       if (nodes.empty())
         throw UserError(fmt::format("{}: region {} has no cells in {} (present: {}). Give a "
-                                    "Physical Volume that tag, or change {}/Select.",
+                                    "Physical Volume that tag, or change {}.",
                                     key, id, mesh.get_name(),
                                     list(std::set<unsigned int>(ids.begin(), ids.end())), key));
       return { nodes.begin(), nodes.end() };
@@ -107,8 +107,8 @@ namespace Exemplar
             mesh.get_contents().elements.size() == mesh.n_cells()
                 ? "), which has no triangles. Select by box, sphere or region; boundary ids come "
                   "from the Physical Surfaces of a mesh file."
-                : fmt::format("). Give a Physical Surface the tag {}, or change {}/Select.{}", id,
-                              key, remedy_of_geo(mesh.get_contents()))));
+                : fmt::format("). Give a Physical Surface the tag {}, or change {}.{}", id, key,
+                              remedy_of_geo(mesh.get_contents()))));
       return { nodes.begin(), nodes.end() };
     }
 
@@ -120,15 +120,27 @@ namespace Exemplar
     {
       const auto found = named.find(name);
       if (found == named.end())
-        throw UserError(key + "/Select: there are no nodes '" + name
+        throw UserError(key + ": there are no nodes '" + name
                         + "' among the inputs. Hand them in by this name, or read them from a "
                           "file.");
       const std::set<unsigned int> nodes(found->second.begin(), found->second.end());
       if (!nodes.empty() && *nodes.rbegin() >= mesh.n_nodes())
-        throw UserError(fmt::format("{}/Select: the nodes '{}' have the index {}, but the mesh has "
+        throw UserError(fmt::format("{}: the nodes '{}' have the index {}, but the mesh has "
                                     "{} nodes. They are counted from 0.",
                                     key, name, *nodes.rbegin(), mesh.n_nodes()));
       return { nodes.begin(), nodes.end() };
+    }
+
+    /// `key` is SECTION/NAME/Select.
+    [[noreturn]] void
+    fail_unset(const std::string &key)
+    {
+      const std::size_t first = key.find('/'), last = key.rfind('/');
+      const std::string name = key.substr(first + 1, last - first - 1);
+      throw UserError(
+          key + " is not set. Within subsection " + key.substr(0, first) + ", subsection " + name
+          + " needs a line 'set Select = boundary 1'; if it is not there, write " + "'subsection "
+          + name + "' before it and 'end' behind it. Allowed: " + selection_forms + ".");
     }
 
     [[noreturn]] void
@@ -143,7 +155,7 @@ namespace Exemplar
         }
       std::ostringstream message;
       const std::string  doubt = Selection{ text }.doubt();
-      message << key << "/Select = '" << text << "' selects no node. The mesh " << mesh.get_name()
+      message << key << " = '" << text << "' selects no node. The mesh " << mesh.get_name()
               << " lies in the box " << low << "  " << high
               << " [m]; enlarge or move the selection." << (doubt.empty() ? "" : " ") << doubt;
       throw UserError(message.str());
@@ -186,15 +198,10 @@ namespace Exemplar
     else if (words.kind == "boundary")
       nodes = nodes_of_faces(mesh, faces(mesh, key), id_in(words, surface, mesh, key), key);
     else if (words.kind.empty())
-      throw UserError(key + "/Select is not set. Within subsection " + key.substr(0, key.find('/'))
-                      + ", subsection " + key.substr(key.find('/') + 1)
-                      + " needs a line 'set Select = boundary 1'; if it is not there, write "
-                        "'subsection "
-                      + key.substr(key.find('/') + 1)
-                      + "' before it and 'end' behind it. Allowed: " + selection_forms + ".");
+      fail_unset(key);
     else
-      throw UserError(key + "/Select = '" + text + "' is not understood."
-                      + remedy_of_selection(words) + " Allowed: " + selection_forms + ".");
+      throw UserError(key + " = '" + text + "' is not understood." + remedy_of_selection(words)
+                      + " Allowed: " + selection_forms + ".");
 
     if (nodes.empty())
       fail_empty(mesh, key, text);

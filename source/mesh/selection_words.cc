@@ -94,11 +94,11 @@ namespace Exemplar
     bool       are_all = false;
     const auto values  = parse_numbers(words.rest, are_all);
     if (words.rest.find('|') != std::string::npos)
-      throw UserError(key + "/Select = '" + words.kind + " " + words.rest
+      throw UserError(key + " = '" + words.kind + " " + words.rest
                       + "': there is one selection alone, and | joins none. Make a subsection of "
                         "its own for each.");
     if (!are_all || values.size() != n)
-      throw UserError(fmt::format("{}/Select = '{} {}': '{}' takes {} numbers, separated by "
+      throw UserError(fmt::format("{} = '{} {}': '{}' takes {} numbers, separated by "
                                   "blanks, with points as decimal signs.{} Allowed: {}.",
                                   key, words.kind, words.rest, words.kind, n,
                                   remedy_of_numbers(words, n), selection_forms));

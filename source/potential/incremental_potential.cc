@@ -23,27 +23,6 @@ namespace Exemplar
       return ratio;
     }
 
-    /// Of cells and terms.
-    SymmetricPattern
-    pattern_of(const FESpace        &fe_space,
-               const PotentialTerms &elastic_terms,
-               const PotentialTerms &terms,
-               const FreeDofs       &free_dofs,
-               const bool            in_parts)
-    {
-      NodePairs couplings;
-      for (const PotentialTerms *some : { &elastic_terms, &terms })
-        for (const auto &term : *some)
-          if (!in_parts || !term->couples_by_products())
-          {
-            const NodePairs more = term->couplings();
-            couplings.insert(couplings.end(), more.begin(), more.end());
-          }
-      SymmetricPattern pattern   = make_pattern(fe_space, couplings, free_dofs);
-      pattern.products_are_apart = in_parts;
-      return pattern;
-    }
-
     std::vector<PotentialTerm *>
     pointers_to(const PotentialTerms &elastic_terms, const PotentialTerms &terms)
     {
@@ -52,22 +31,6 @@ namespace Exemplar
         for (const auto &term : *some)
           all.push_back(term.get());
       return all;
-    }
-
-    /// a + c (b - a)
-    void
-    mix(std::vector<double> &a, const std::vector<double> &b, const double c)
-    {
-      for (std::size_t i = 0; i < b.size(); ++i)
-        a[i] += c * (b[i] - a[i]);
-    }
-
-    void
-    mix(OuterProducts &a, OuterProducts &b, const double c)
-    {
-      a.scale(1. - c);
-      b.scale(c);
-      a.add(b);
     }
   } // namespace
 
@@ -99,42 +62,21 @@ namespace Exemplar
                                              PotentialTerms      new_terms,
                                              TimeIntegrator     *integrator,
                                              const bool          in_parts)
-      : terms(std::move(new_terms)), fe_space(parts.fe_space),
-        pattern(pattern_of(fe_space, elastic_terms, terms, parts.free_dofs, in_parts)),
-        cells(parts, std::move(elastic_terms), pattern), weights(parts.weights),
-        integrator(integrator), free_dofs(parts.free_dofs),
+      : terms(std::move(new_terms)), tangent(parts, elastic_terms, cells, terms, in_parts),
+        cells(parts, std::move(elastic_terms), tangent.get_pattern()), weights(parts.weights),
+        integrator(integrator), fe_space(parts.fe_space), free_dofs(parts.free_dofs),
         all_terms(pointers_to(cells.get_terms(), terms))
   {
     for (const auto &term : terms)
-      term->attach(pattern, free_dofs, cells.get_field());
-  }
-
-  void
-  IncrementalPotential::renew_pattern()
-  {
-    const unsigned int version = pattern.version;
-    pattern = pattern_of(fe_space, cells.get_terms(), terms, free_dofs, pattern.products_are_apart);
-    pattern.version = version + 1;
-    cells.follow_pattern();
-    for (const auto &term : terms)
-      term->attach(pattern, free_dofs, cells.get_field());
+      tangent.attach(*term);
   }
 
   void
   IncrementalPotential::add_term(std::unique_ptr<PotentialTerm> term)
   {
-    term->attach(pattern, free_dofs, cells.get_field());
+    tangent.attach(*term);
     all_terms.push_back(term.get());
     terms.push_back(std::move(term));
-  }
-
-  void
-  IncrementalPotential::assemble_in_parts(const bool in_parts)
-  {
-    if (pattern.products_are_apart == in_parts)
-      return;
-    pattern.products_are_apart = in_parts;
-    renew_pattern();
   }
 
   void
@@ -167,7 +109,7 @@ namespace Exemplar
       has_new_couplings |= term->has_new_couplings();
     }
     if (free_dofs.exchange().any(has_new_couplings))
-      renew_pattern();
+      tangent.renew_pattern();
   }
 
   void
@@ -264,48 +206,6 @@ namespace Exemplar
     for (const double energy : evaluation.term_energies)
       evaluation.potential += energy;
     held_back.add(exchange, positions, evaluation);
-  }
-
-  void
-  IncrementalPotential::assemble_one(const Tangent              kind,
-                                     const Vector              &positions,
-                                     const std::vector<double> &at_weights,
-                                     std::vector<double>       &values,
-                                     std::vector<double>       &columns,
-                                     OuterProducts             *products)
-  {
-    std::fill(values.begin(), values.end(), 0.);
-    if (products != nullptr)
-      products->clear();
-    cells.assemble_tangent(kind, positions, at_weights, values, columns, products);
-    for (const auto &term : terms)
-      add_tangent_of(*term, { positions, at_weights }, kind, values, columns, products);
-  }
-
-  void
-  IncrementalPotential::assemble(const Vector              &positions,
-                                 const std::vector<double> &at_weights,
-                                 const double               convexity,
-                                 std::vector<double>       &matrix_values,
-                                 std::vector<double>       &columns,
-                                 OuterProducts             *products)
-  {
-    Assert(!pattern.products_are_apart || products != nullptr, dealii::ExcInternalError());
-    if (!pattern.products_are_apart)
-      products = nullptr; // all is on the pattern
-    assemble_one(convexity < 1. ? Tangent::exact : Tangent::convex, positions, at_weights,
-                 matrix_values, columns, products);
-    if (convexity > 0. && convexity < 1.)
-    {
-      std::vector<double> convex_values(matrix_values.size()), convex_columns;
-      OuterProducts       convex_products;
-      assemble_one(Tangent::convex, positions, at_weights, convex_values, convex_columns,
-                   products == nullptr ? nullptr : &convex_products);
-      mix(matrix_values, convex_values, convexity);
-      mix(columns, convex_columns, convexity);
-      if (products != nullptr)
-        mix(*products, convex_products, convexity);
-    }
   }
 
   Residual

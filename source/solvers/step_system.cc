@@ -11,7 +11,7 @@ namespace Exemplar
                          StepClock            &clock,
                          const bool            turns_freely)
       : potential(potential), make_system(std::move(new_make_system)), system(make_system()),
-        pattern_version(potential.matrix_pattern().version), clock(clock),
+        pattern_version(potential.get_tangent().get_pattern().version), clock(clock),
         turns_freely(turns_freely)
   {
   }
@@ -41,15 +41,15 @@ namespace Exemplar
                        const std::vector<double> &weights,
                        const double               convexity)
   {
-    if (pattern_version != potential.matrix_pattern().version)
+    if (pattern_version != potential.get_tangent().get_pattern().version)
     {
       system.reset(); // its memory first
       system          = make_system();
-      pattern_version = potential.matrix_pattern().version;
+      pattern_version = potential.get_tangent().get_pattern().version;
     }
     StepClock::Scope scope(clock, Phase::assemble);
-    potential.assemble(positions, weights, convexity, system->matrix_values(), system->columns(),
-                       system->outer_products());
+    potential.get_tangent().assemble(positions, weights, convexity, system->matrix_values(),
+                                     system->columns(), system->outer_products());
     potential.get_free_dofs().assemble_columns(system->columns());
     ++factorizations;
     factor_of = potential.get_free_dofs().version();

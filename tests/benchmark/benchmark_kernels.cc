@@ -7,6 +7,8 @@
 
 #include <benchmark/benchmark.h>
 
+#include "../unit/kernels/compared_kernels.h"
+
 // The kernels of a step on the cat, a little deformed, one core; "ns" of a cell kernel are
 // those of all cells, and items a second are cells.
 // Usage: benchmark_kernels [SCENE.prm] [options of Google Benchmark]
@@ -99,7 +101,8 @@ namespace Exemplar
     void
     assembly(benchmark::State &state, const Tangent tangent)
     {
-      std::vector<double> values(scene->problem.potential.matrix_pattern().n_values()), columns;
+      std::vector<double> values(scene->problem.potential.get_tangent().get_pattern().n_values()),
+          columns;
       for (auto _ : state)
         scene->problem.potential.get_cells().assemble_tangent(tangent, scene->positions, {}, values,
                                                               columns);
@@ -131,9 +134,10 @@ namespace Exemplar
     make_matrix()
     {
       auto matrix = make_cholesky_operator();
-      matrix->reinit(scene->problem.potential.matrix_pattern());
+      matrix->reinit(scene->problem.potential.get_tangent().get_pattern());
       std::vector<double> no_columns;
-      scene->problem.potential.assemble(scene->positions, {}, 1., matrix->values(), no_columns);
+      scene->problem.potential.get_tangent().assemble(scene->positions, {}, 1., matrix->values(),
+                                                      no_columns);
       return matrix;
     }
 
@@ -187,7 +191,7 @@ main(int argc, char *argv[])
   benchmark::Initialize(&argc, argv);
   Scene the_scene(argc > 1 ? argv[1] : EXEMPLAR_SOURCE_DIR "/tests/benchmark/scenes/cat_grav.prm");
   scene = &the_scene;
-  for (const CellKernels *kernels : all_kernels(Element::P1))
+  for (const CellKernels *kernels : Testing::scalar_and_all_kernels(Element::P1))
   {
     const std::string name = std::string("/") + kernels->name;
     benchmark::RegisterBenchmark(("rotations" + name).c_str(), rotations, kernels);

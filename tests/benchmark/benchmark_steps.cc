@@ -277,7 +277,8 @@ namespace Exemplar
         json["blas_core"]   = blas.core;
         if (options.no_unit)
           return;
-        const FactorSize size  = factor_size(problem_of_unit().potential.matrix_pattern());
+        const FactorSize size
+            = factor_size(problem_of_unit().potential.get_tangent().get_pattern());
         json["factor_gflop"]   = 1e-9 * size.flops;
         json["factor_mib"]     = size.bytes / 1024. / 1024.;
         json["factor_gflop_s"] = 1e-9 * size.flops / median(unit.factorize).cpu;

@@ -57,7 +57,7 @@ namespace Exemplar
       if (!matrix)
       {
         matrix = make_cholmod_operator();
-        matrix->reinit(problem.potential.matrix_pattern());
+        matrix->reinit(problem.potential.get_tangent().get_pattern());
         measure_once(problem); // touches the factor's memory for the first time
       }
       const Sample sample = measure_once(problem);
@@ -88,8 +88,8 @@ namespace Exemplar
       sample.assemble = duration_of(
           [&]
           {
-            problem.potential.assemble(state.positions, state.weights, 1., matrix->values(),
-                                       coupling, &products);
+            problem.potential.get_tangent().assemble(state.positions, state.weights, 1.,
+                                                     matrix->values(), coupling, &products);
           });
       sample.factorize = duration_of([&] { matrix->factorize(state.positions); });
       column.assign(problem.constraints.free_dofs.size(), 1.);

@@ -7,8 +7,6 @@ import numpy as np
 
 import exemplar
 
-BOX = {"Scene": "static", "Mesh": {"Generator": "box", "Box size": [3, 1, 1], "Box cells": (3, 2, 2)},
-       "Handles": {"left": {"Select": "box 0 -1 -1 0 2 2"}}}
 SCENE = {"Scene": "static", "Time": {"Increments": 1},
          "Handles": {"left": {"Select": "box -0.3 -1 -1 0.3 2 2"}, "right": {"Select": "box 2.7 -1 -1 3.3 2 2"}},
          "Material": {"Young's modulus": 1e5, "Poisson's ratio": 0.4, "Density": 900}, "Loads": {"Gravity": [0.5, -1, -3]},
@@ -16,20 +14,31 @@ SCENE = {"Scene": "static", "Time": {"Increments": 1},
 random = np.random.default_rng(5)
 
 
-def bar():
-    """(nodes, cells, material ids) of a bar without any symmetry."""
-    box = exemplar.Problem(BOX)
+def held_box(box_cells):
+    return {"Scene": "static", "Mesh": {"Generator": "box", "Box size": [3, 1, 1], "Box cells": box_cells},
+            "Handles": {"left": {"Select": "box 0 -1 -1 0 2 2"}}}
+
+
+def bar(box_cells, changes):
+    """(nodes, cells, material ids) of a bar that these random changes leave without any symmetry."""
+    box = exemplar.Problem(held_box(box_cells))
     nodes, cells = box.rest_positions.copy(), box.cells.copy()
-    nodes += random.uniform(-0.04, 0.04, nodes.shape)
+    nodes += changes.uniform(-0.04, 0.04, nodes.shape)
     return nodes, cells, np.where(nodes[cells].mean(axis=1)[:, 0] < 1.4, 1, 2)
 
 
-MESH = bar()
+def poses_of(nodes):
+    """Three examples of a bar: twisted, bent, stretched."""
+    x, y, z = nodes.T
+    return [np.stack([x, y + 0.1 * x * (z - 0.5), z - 0.1 * x * (y - 0.5)], axis=1),
+            np.stack([x, y, z + 0.06 * x**2], axis=1),
+            np.stack([1.15 * x, 0.95 * y, 0.95 * z + 0.02 * x * y], axis=1)]
+
+
+MESH = bar((3, 2, 2), random)
 NODES, CELLS, _ = MESH
 X, Y, Z = NODES.T
-POSES = [np.stack([X, Y + 0.1 * X * (Z - 0.5), Z - 0.1 * X * (Y - 0.5)], axis=1),
-         np.stack([X, Y, Z + 0.06 * X**2], axis=1),
-         np.stack([1.15 * X, 0.95 * Y, 0.95 * Z + 0.02 * X * Y], axis=1)]
+POSES = poses_of(NODES)
 
 
 def edges_of(cells):
@@ -180,7 +189,7 @@ class Differences(unittest.TestCase):
 
     def test_no_rest_pose_and_no_examples(self):
         self.assertEqual(len(self.check(scene(Examples={"Include rest pose": False})).found["poses"]), 3)
-        problem = exemplar.Problem({**BOX, "Loads": {"Gravity": [0, 0, -1]}, "Solver": {"Tolerance": 1e-12}})
+        problem = exemplar.Problem({**held_box((3, 2, 2)), "Loads": {"Gravity": [0, 0, -1]}, "Solver": {"Tolerance": 1e-12}})
         problem.run()
         found = problem.vjp(np.ones((problem.positions.shape)))
         self.assertNotIn("importance", found)

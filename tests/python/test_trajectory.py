@@ -12,11 +12,9 @@ import numpy as np
 
 import exemplar
 
-from test_gradients import edges_of, with_middles
+from test_gradients import bar, edges_of, poses_of, with_middles
 from test_gradients_of_laws import FIBRES, ORTHOTROPY
 
-BOX = {"Scene": "static", "Mesh": {"Generator": "box", "Box size": [3, 1, 1], "Box cells": (3, 1, 1)},
-       "Handles": {"left": {"Select": "box 0 -1 -1 0 2 2"}}}
 SCENE = {"Scene": "dynamic", "Time": {"Step": 0.02, "End": 0.3},
          "Handles": {"left": {"Select": "box -0.3 -1 -1 0.3 2 2"}, "right": {"Select": "box 2.7 -1 -1 3.3 2 2"}},
          "Material": {"Young's modulus": 1e5, "Poisson's ratio": 0.4, "Density": 900}, "Loads": {"Gravity": [0.5, -1, -3]},
@@ -26,21 +24,10 @@ DAMPED = {"Mass damping": 0.4, "Stiffness damping": 0.01}
 LENGTHS = [None] * 4 + [0.02, 0.012, 0.02, 0.027] + [None] * 6 + [0.015, 0.02] + [None] * 4
 random = np.random.default_rng(7)
 
-
-def bar():
-    """(nodes, cells, material ids) of a bar without any symmetry."""
-    box = exemplar.Problem(BOX)
-    nodes, cells = box.rest_positions.copy(), box.cells.copy()
-    nodes += random.uniform(-0.04, 0.04, nodes.shape)
-    return nodes, cells, np.where(nodes[cells].mean(axis=1)[:, 0] < 1.4, 1, 2)
-
-
-MESH = bar()
+MESH = bar((3, 1, 1), random)
 NODES, CELLS, _ = MESH
 X, Y, Z = NODES.T
-POSES = [np.stack([X, Y + 0.1 * X * (Z - 0.5), Z - 0.1 * X * (Y - 0.5)], axis=1),
-         np.stack([X, Y, Z + 0.06 * X**2], axis=1),
-         np.stack([1.15 * X, 0.95 * Y, 0.95 * Z + 0.02 * X * Y], axis=1)]
+POSES = poses_of(NODES)
 EDGES = edges_of(CELLS)
 GOALS = np.where(X > 2.7, 1, 0)[:, None] * ([0.25, 0.05, 0.2] + 0.12 * np.stack([0 * X, Z - 0.5, 0.5 - Y], axis=1))
 MATERIAL = {"young": 1e5 * random.uniform(0.7, 1.3, len(CELLS)), "poisson": random.uniform(0.35, 0.42, len(CELLS)),

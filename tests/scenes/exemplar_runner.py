@@ -40,6 +40,19 @@ BAR = {
     "Loads/Gravity": "0, 0, -1",
 }
 
+# What pulls a bar along x from 0 to 4 and lets it become thinner
+TENSED = {
+    "Handles/Names": "x0, y0, z0, pull",
+    "Handles/x0/Select": "box 0 -1 -1 0 1 1",
+    "Handles/x0/Components": "x",
+    "Handles/y0/Select": "box 0 -0.5 -1 4 -0.5 1",
+    "Handles/y0/Components": "y",
+    "Handles/z0/Select": "box 0 -1 -0.5 4 1 -0.5",
+    "Handles/z0/Components": "z",
+    "Handles/pull/Select": "box 4 -1 -1 4 1 1",
+    "Handles/pull/Components": "x",
+}
+
 Run = namedtuple("Run", "status stdout stderr output")
 SceneRun = namedtuple("SceneRun", "status stderr output rows summary")
 

@@ -3,7 +3,7 @@
 
 import unittest
 
-from exemplar_runner import SceneTest, read_csv, read_msh, results
+from exemplar_runner import TENSED, SceneTest, read_csv, read_msh, results
 
 E, NU = 1e6, 0.3
 BOX = {"Scene": "static", "Mesh/Generator": "box", "Mesh/Box size": "4, 1, 1", "Mesh/Box cells": "4, 1, 1",
@@ -11,15 +11,7 @@ BOX = {"Scene": "static", "Mesh/Generator": "box", "Mesh/Box size": "4, 1, 1", "
 # a bar in tension, free to become thinner
 TENSION = {
     **BOX,
-    "Handles/Names": "x0, y0, z0, pull",
-    "Handles/x0/Select": "box 0 -1 -1 0 1 1",
-    "Handles/x0/Components": "x",
-    "Handles/y0/Select": "box 0 -0.5 -1 4 -0.5 1",
-    "Handles/y0/Components": "y",
-    "Handles/z0/Select": "box 0 -1 -0.5 4 1 -0.5",
-    "Handles/z0/Components": "z",
-    "Handles/pull/Select": "box 4 -1 -1 4 1 1",
-    "Handles/pull/Components": "x",
+    **TENSED,
 }
 CELLS = {"Model/Dilatation": "cells"}
 EXAMPLES = {"Examples/Pose functions": "1.3*x; y; z | x; y; z+0.05*x^2", "Examples/Energy": "blended",

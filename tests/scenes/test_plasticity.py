@@ -4,7 +4,7 @@
 import unittest
 from math import cos, log, pi, sin, sqrt
 
-from exemplar_runner import SceneTest, read_csv, read_msh, read_summary, read_vtu, results, write_msh
+from exemplar_runner import TENSED, SceneTest, read_csv, read_msh, read_summary, read_vtu, results, write_msh
 
 E, YIELD, KINEMATIC, ISOTROPIC = 1e6, 1e3, 5e4, 3e4
 ALPHA = 5e5
@@ -21,15 +21,7 @@ TENSION = {
     "Scene": "static",
     **BOX,
     **STEEL,
-    "Handles/Names": "x0, y0, z0, pull",
-    "Handles/x0/Select": "box 0 -1 -1 0 1 1",
-    "Handles/x0/Components": "x",
-    "Handles/y0/Select": "box 0 -0.5 -1 4 -0.5 1",
-    "Handles/y0/Components": "y",
-    "Handles/z0/Select": "box 0 -1 -0.5 4 1 -0.5",
-    "Handles/z0/Components": "z",
-    "Handles/pull/Select": "box 4 -1 -1 4 1 1",
-    "Handles/pull/Components": "x",
+    **TENSED,
 }
 # a bar of which one end is bent up and let go
 BENT = {

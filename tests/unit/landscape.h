@@ -240,7 +240,7 @@ namespace Exemplar::Testing
     plain_system() const
     {
       auto matrix = make_cholesky_operator();
-      matrix->reinit(potential.matrix_pattern());
+      matrix->reinit(potential.get_tangent().get_pattern());
       return make_block_system(std::move(matrix), none.weights->weight_form(), Exchange::serial());
     }
 

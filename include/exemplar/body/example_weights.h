@@ -140,14 +140,6 @@ namespace Exemplar
     WeightResidual
     residual(const std::vector<double> &weights, const std::vector<double> &gradient) const;
 
-    /// Column of statistics.csv: `prefix`_i, or `prefix`_R_i with the material id R.
-    std::string
-    weight_name(const std::string &prefix, unsigned int weight) const;
-
-    /// `prefix`, or `prefix`_R.
-    std::string
-    region_name(const std::string &prefix, unsigned int region) const;
-
     const std::vector<std::string> &
     get_warnings() const
     {

@@ -109,7 +109,7 @@ namespace Exemplar
     void (*multiply_nodes)(const NodalMatrix &, std::size_t n, const double *x, double *product);
   };
 
-  /// For which loops are compiled; the scalar ones are for comparison.
+  /// For which loops are compiled; the scalar ones are for tests alone, which compare.
   namespace Instructions
   {
     struct scalar;
@@ -132,7 +132,7 @@ namespace Exemplar
   const CellKernels &
   best_kernels(Element element);
 
-  /// All that this CPU can run; the first is the scalar one, for comparison.
+  /// All that this CPU can run, the best last.
   std::vector<const CellKernels *>
   all_kernels(Element element);
 } // namespace Exemplar

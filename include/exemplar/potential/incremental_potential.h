@@ -2,8 +2,7 @@
 #ifndef exemplar_incremental_potential_h
 #define exemplar_incremental_potential_h
 
-#include <exemplar/potential/elastic_potential.h>
-#include <exemplar/potential/potential_term.h>
+#include <exemplar/potential/potential_tangent.h>
 
 #include <vector>
 
@@ -61,16 +60,8 @@ namespace Exemplar
                          TimeIntegrator     *integrator,
                          bool                in_parts = false);
 
-    /// From now on the pattern is one with the couplings of outer products, or without them.
-    void
-    assemble_in_parts(bool in_parts);
-
-    /// The free degrees of freedom, or the couplings of terms, are others from now on. All processes
-    /// must call this.
-    void
-    renew_pattern();
-
-    /// One more term, which is none of Psi; one that couples nodes needs renew_pattern().
+    /// One more term, which is none of Psi; one that couples nodes needs
+    /// PotentialTangent::renew_pattern().
     void
     add_term(std::unique_ptr<PotentialTerm> term);
 
@@ -114,16 +105,6 @@ namespace Exemplar
     void
     add_terms(const Vector &positions, Evaluation &evaluation) const;
 
-    /// The matrix A and the columns G: exact for convexity 0, convex for 1, a mixture between. There
-    /// must be `products`, which A is the sum of the values and, where the pattern is without them.
-    void
-    assemble(const Vector              &positions,
-             const std::vector<double> &weights,
-             double                     convexity,
-             std::vector<double>       &matrix_values,
-             std::vector<double>       &columns,
-             OuterProducts             *products = nullptr);
-
     /// Throws SolverFailure if it is not finite.
     Residual
     residual(const State &at, const Evaluation &evaluation) const;
@@ -156,13 +137,6 @@ namespace Exemplar
     /// allows, infinite where none asks.
     double
     max_step(const Vector &positions, const Vector &displacement) const;
-
-    /// Whether weights that remember turn energy into heat.
-    bool
-    dissipates() const
-    {
-      return weights.get_memory().in_use();
-    }
 
     const ExampleWeights &
     get_weights() const
@@ -214,29 +188,25 @@ namespace Exemplar
       return held_back;
     }
 
-    /// Of A.
-    const SymmetricPattern &
-    matrix_pattern() const
+    PotentialTangent &
+    get_tangent()
     {
-      return pattern;
+      return tangent;
+    }
+
+    const PotentialTangent &
+    get_tangent() const
+    {
+      return tangent;
     }
 
   private:
-    /// Exact or convex.
-    void
-    assemble_one(Tangent                    kind,
-                 const Vector              &positions,
-                 const std::vector<double> &weights,
-                 std::vector<double>       &values,
-                 std::vector<double>       &columns,
-                 OuterProducts             *products);
-
     PotentialTerms   terms;
-    const FESpace   &fe_space;
-    SymmetricPattern pattern; ///< of cells and terms
+    PotentialTangent tangent; ///< of cells and terms
     ElasticPotential cells;
     ExampleWeights  &weights;
     TimeIntegrator  *integrator;
+    const FESpace   &fe_space;
     const FreeDofs  &free_dofs;
     /// Those of Psi first.
     std::vector<PotentialTerm *> all_terms;

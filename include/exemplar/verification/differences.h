@@ -35,7 +35,7 @@ namespace Exemplar::Verification
       problem.potential.get_cells().get_field().update_rotations(x);
       at = evaluate(x, w);
       problem.potential.get_cells().get_field().update_rotations(x);
-      matrix.resize(problem.potential.matrix_pattern().n_values());
+      matrix.resize(problem.potential.get_tangent().get_pattern().n_values());
       problem.potential.get_cells().assemble_tangent(
           rotations == Rotations::followed ? Tangent::exact : Tangent::convex, x, w, matrix,
           columns);
@@ -168,7 +168,7 @@ namespace Exemplar::Verification
     {
       if (i < j)
         std::swap(i, j);
-      const auto &pattern  = problem.potential.matrix_pattern();
+      const auto &pattern  = problem.potential.get_tangent().get_pattern();
       const int   position = pattern.position(i, j);
       const bool  is_there
           = position < pattern.column_start[j + 1] && pattern.row[position] == static_cast<int>(i);

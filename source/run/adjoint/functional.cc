@@ -113,14 +113,7 @@ namespace Exemplar
       }
       if (!is_of_nodes)
         fail(name, "it has to select by box, sphere, boundary or region.");
-      try
-      {
-        return selection.choose(problem.body.mesh, key);
-      }
-      catch (const UserError &error) // which takes it for a handle's
-      {
-        throw UserError(std::regex_replace(error.what(), std::regex(key + "/Select"), key));
-      }
+      return selection.choose(problem.body.mesh, key);
     }
   } // namespace
 

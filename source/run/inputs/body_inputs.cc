@@ -22,9 +22,9 @@ namespace Exemplar
           nodes[selection.text] = selection.choose(mesh, key, named);
       };
       for (const HandleParameters &handle : scene.handles)
-        add(handle.select, "Handles/" + handle.name);
+        add(handle.select, "Handles/" + handle.name + "/Select");
       for (const LoadParameters &load : scene.loads.named)
-        add(load.select, "Loads/" + load.name);
+        add(load.select, "Loads/" + load.name + "/Select");
       return nodes;
     }
 

@@ -49,12 +49,12 @@ namespace Exemplar
     readings.shares   = read_painted_shares(from);
     for (const HandleParameters &handle : scene.handles)
     {
-      const std::string key = "Handles/" + handle.name;
+      const std::string key = "Handles/" + handle.name + "/Select";
       add_nodes(from, handle.select, key, readings.nodes);
       add_motion(from, handle, key, readings);
     }
     for (const LoadParameters &load : scene.loads.named)
-      add_nodes(from, load.select, "Loads/" + load.name, readings.nodes);
+      add_nodes(from, load.select, "Loads/" + load.name + "/Select", readings.nodes);
     for (const auto &[selection, key] : scene.material.selections())
       add_nodes(from, selection, key, readings.nodes);
     return readings;

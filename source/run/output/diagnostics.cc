@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/number_text.h>
 #include <exemplar/run/output/diagnostics.h>
+#include <exemplar/run/output/weight_names.h>
 
 #include <fmt/core.h>
 
@@ -124,7 +125,7 @@ namespace Exemplar
   {
     const CellField &cells      = problem.potential.get_cells().get_field();
     const bool       some_yield = cells.get_batches().has_trait(&ModelTraits::dissipated);
-    if (problem.potential.dissipates() || some_yield)
+    if (problem.potential.get_weights().get_memory().in_use() || some_yield)
       append(row, "energy_dissipated",
              shown.dissipated
                  + (some_yield ? problem.body.exchange().sum(cells.dissipated_energy()) : 0.));
@@ -146,13 +147,13 @@ namespace Exemplar
                               const State       &shown,
                               const SolveReport &report) const
   {
-    const ExampleWeights &weights = problem.examples.weights;
+    const ExamplePoses &poses = problem.examples.poses;
     for (unsigned int i = 0; i < shown.weights.size(); ++i)
-      append(row, weights.weight_name("weight", i), shown.weights[i]);
-    if (weights.n_unknown() == 0)
+      append(row, name_of_weight("weight", poses, i), shown.weights[i]);
+    if (problem.examples.weights.n_unknown() == 0)
       return;
     for (unsigned int region = 0; region < shown.multipliers.size(); ++region)
-      append(row, weights.region_name("multiplier", region), shown.multipliers[region]);
+      append(row, name_of_region("multiplier", poses, region), shown.multipliers[region]);
     append(row, "kkt_residual", report.kkt_residual);
   }
 

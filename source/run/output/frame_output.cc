@@ -4,6 +4,7 @@
 #include <exemplar/base/environment.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/run/output/frame_output.h>
+#include <exemplar/run/output/weight_names.h>
 #include <exemplar/run/problem/finiteness.h>
 #include <exemplar/surface/files/write_obj.h>
 
@@ -136,9 +137,8 @@ namespace Exemplar
       file.commit();
     };
     write("rest", Vector(problem.body.fe_space.n_dofs()));
-    const ExampleWeights &weights = problem.examples.weights;
-    for (unsigned int i = 0; i < weights.size(); ++i)
-      write(weights.weight_name("weight", i), displacement_of_weight(i));
+    for (unsigned int i = 0; i < problem.examples.weights.size(); ++i)
+      write(name_of_weight("weight", problem.examples.poses, i), displacement_of_weight(i));
   }
 
   bool

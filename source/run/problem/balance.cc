@@ -125,7 +125,8 @@ namespace Exemplar
         if (is_iterative())
           return 1.;
         InitialStressTerm term(body.fe_space, stresses);
-        term.attach(potential.matrix_pattern(), free_dofs, potential.get_cells().get_field());
+        term.attach(potential.get_tangent().get_pattern(), free_dofs,
+                    potential.get_cells().get_field());
         std::vector<double> of_stresses(stiffness.size(), 0.), none;
         term.add_tangent({ rest(), weights }, Tangent::exact, of_stresses, none);
         double high = 1.;
@@ -161,8 +162,8 @@ namespace Exemplar
       void
       assemble()
       {
-        potential.assemble(rest(), weights, 1., system->matrix_values(), system->columns(),
-                           system->outer_products());
+        potential.get_tangent().assemble(rest(), weights, 1., system->matrix_values(),
+                                         system->columns(), system->outer_products());
         free_dofs.assemble_columns(system->columns());
       }
 

@@ -48,7 +48,8 @@ namespace Exemplar
     std::optional<ExampleStart> best;
     const CellBatches          &batches = potential.get_cells().get_field().get_batches();
     if (problem.parameters.scene != SceneKind::statics || examples.weights.n_unknown() == 0
-        || batches.remembers() || potential.dissipates() || !examples.starts.empty())
+        || batches.remembers() || potential.get_weights().get_memory().in_use()
+        || !examples.starts.empty())
       return best;
     for (unsigned int i = 0; i < examples.poses.size(); ++i)
     {

@@ -162,16 +162,16 @@ namespace Exemplar
   Laboratory::assemble(const Place &at, const Tangent kind)
   {
     evaluate(at); // which finds the rotations
-    values.resize(potential.matrix_pattern().n_values());
-    potential.assemble(at.positions, at.weights, kind == Tangent::convex ? 1. : 0., values,
-                       columns);
+    values.resize(potential.get_tangent().get_pattern().n_values());
+    potential.get_tangent().assemble(at.positions, at.weights, kind == Tangent::convex ? 1. : 0.,
+                                     values, columns);
   }
 
   RowMatrix
   Laboratory::hessian(const Place &at, const Tangent kind)
   {
     assemble(at, kind);
-    return rows.with(potential.matrix_pattern(), values);
+    return rows.with(potential.get_tangent().get_pattern(), values);
   }
 
   void

@@ -24,7 +24,7 @@ namespace Exemplar
     double
     n_values_in_parts(const IncrementalPotential &potential)
     {
-      const SymmetricPattern &pattern = potential.matrix_pattern();
+      const SymmetricPattern &pattern = potential.get_tangent().get_pattern();
       for (const auto &term : potential.get_cells().get_terms())
         if (term->couples_by_products())
           return 21. * pattern.n();
@@ -52,7 +52,7 @@ namespace Exemplar
                         : make_cholesky_operator(solver.n_threads);
       try
       {
-        matrix->reinit(potential.matrix_pattern());
+        matrix->reinit(potential.get_tangent().get_pattern());
       }
       catch (const SolverFailure &)
       {
@@ -78,8 +78,8 @@ namespace Exemplar
   make_bordered_system(const SolverParameters &solver, IncrementalPotential &potential)
   {
     const Exchange &exchange = potential.get_free_dofs().exchange();
-    potential.assemble_in_parts(is_assembled_in_parts(solver, exchange));
-    const SymmetricPattern &pattern = potential.matrix_pattern();
+    potential.get_tangent().assemble_in_parts(is_assembled_in_parts(solver, exchange));
+    const SymmetricPattern &pattern = potential.get_tangent().get_pattern();
     const WeightForm       &form    = potential.get_weights().weight_form();
     if (solver.linear_solver == LinearSolver::umfpack)
       return make_umfpack_system(pattern, form);
@@ -87,7 +87,7 @@ namespace Exemplar
     auto matrix = find_cholesky_operator(solver, exchange.n_processes(), n_examples, potential);
     if (matrix == nullptr)
     {
-      potential.assemble_in_parts(true);
+      potential.get_tangent().assemble_in_parts(true);
       const bool is_last_word = solver.method == Method::one_pass || n_examples > 0;
       matrix                  = make_iterative_operator(potential.get_free_dofs(), is_last_word
                                                                                        ? tolerance_of_last_word

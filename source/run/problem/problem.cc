@@ -34,7 +34,7 @@ namespace Exemplar
     {
       if (!problem.constraints.follow_time(time, problem.parameters, problem.body))
         return;
-      problem.potential.renew_pattern();
+      problem.potential.get_tangent().renew_pattern();
       problem.solver->forget(); // what it remembers is of other unknowns
     }
 

@@ -39,7 +39,7 @@ namespace Exemplar
       throw UserError(parameters.name + ": an interpolation has no handles to change.");
     constraints.change_handles(change, parameters, body);
     changes.count("grab() or let_go()");
-    potential.renew_pattern();
+    potential.get_tangent().renew_pattern();
     solver->forget(); // what it remembers is of other unknowns
   }
 
@@ -110,7 +110,7 @@ namespace Exemplar
     changes.count("add_term()");
     actions.own_terms.push_back({ make, term.get() });
     potential.add_term(std::move(term));
-    potential.renew_pattern();
+    potential.get_tangent().renew_pattern();
     solver->forget(); // its factors are of another matrix
     lab.reset();
     start(state);

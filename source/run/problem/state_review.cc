@@ -246,7 +246,7 @@ namespace Exemplar
     // strains of 1e-4 are no accident, unless cells or weights remember them
     const double energy    = problem.evaluation.elastic.energy;
     const bool   remembers = problem.potential.get_cells().get_field().get_batches().remembers()
-                           || problem.potential.dissipates();
+                           || problem.potential.get_weights().get_memory().in_use();
     if (!remembers && is_unloaded(problem)
         && energy > 1e-8 * unit_energy(problem.body.fe_space, problem.body.material))
       all.push_back(

@@ -101,7 +101,7 @@ namespace Exemplar
                           const std::string &key,
                           const NamedMaps   &maps) const
   {
-    const std::string  choice = key + "/Select = '" + text + "'";
+    const std::string  choice = key + " = '" + text + "'";
     std::istringstream in(text);
     std::string        kind, words;
     in >> kind >> std::ws;

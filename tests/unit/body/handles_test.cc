@@ -58,7 +58,7 @@ namespace Exemplar::Testing
       std::vector<unsigned int>
       end_nodes() const
       {
-        return tip().select.nodes(mesh, "Handles/tip");
+        return tip().select.nodes(mesh, "Handles/tip/Select");
       }
 
       dealii::Vector<double>

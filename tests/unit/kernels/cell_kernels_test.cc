@@ -2,6 +2,7 @@
 #include <exemplar/body/cell_batches.h>
 
 #include "body.h"
+#include "compared_kernels.h"
 #include "matrices.h"
 
 #include <gtest/gtest.h>
@@ -117,7 +118,7 @@ namespace Exemplar::Testing
     TEST_P(CellKernelsTest, AllInstructionSetsAgreeWithTheScalarCode)
     {
       const auto [element, law, per_region] = GetParam();
-      const auto  all                       = all_kernels(element);
+      const auto  all                       = scalar_and_all_kernels(element);
       const Loops scalar(*all[0], element, law, per_region, false);
       EXPECT_GT(scalar.sums.inverted_cells, 0u); // so that guards act, too
       for (const CellKernels *kernels : all)
@@ -148,7 +149,7 @@ namespace Exemplar::Testing
     TEST_P(CellKernelsTest, ACollapsedCellDoesNotSpoilTheStretchGuardBesideIt)
     {
       const auto [element, law, per_region] = GetParam();
-      const auto  all                       = all_kernels(element);
+      const auto  all                       = scalar_and_all_kernels(element);
       const Loops scalar(*all[0], element, law, per_region, true);
       for (const CellKernels *kernels : all)
       {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/kernels/cell_kernels.h>
-
 #include "body.h"
+#include "compared_kernels.h"
 
 #include <gtest/gtest.h>
 
@@ -89,7 +88,7 @@ namespace Exemplar::Testing
     {
       for (const Element element : { Element::P1, Element::P2 })
       {
-        const auto       kernels = all_kernels(element);
+        const auto       kernels = scalar_and_all_kernels(element);
         const PatchLoops scalar(*kernels.front(), element);
         for (const CellKernels *set : kernels)
         {
@@ -111,7 +110,7 @@ namespace Exemplar::Testing
       const std::vector<unsigned int> columns = { 0, 1, 1, 2, 2 };
       const std::vector<double>       values  = { 2., 1., 3., 1., 4. };
       const std::vector<double> x = { 1., 2., 3., 0., 10., 20., 30., 0., 100., 200., 300., 0. };
-      for (const CellKernels *kernels : all_kernels(Element::P1))
+      for (const CellKernels *kernels : scalar_and_all_kernels(Element::P1))
       {
         std::vector<double> product(12, 0.);
         kernels->multiply_nodes({ starts.data(), columns.data(), values.data() }, 3, x.data(),

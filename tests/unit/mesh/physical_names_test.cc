@@ -48,7 +48,7 @@ namespace Exemplar::Testing
       EXPECT_EQ(nodes("region \"bone\""), nodes("region 6"));
       EXPECT_EQ(nodes("boundary left"), nodes("boundary 7"));
       expect_contains(error_of([&] { nodes("region left"); }),
-                      "KEY/Select = 'region left': the mesh");
+                      "KEY = 'region left': the mesh");
     }
   } // namespace
 } // namespace Exemplar::Testing

@@ -153,9 +153,9 @@ namespace Exemplar::Testing
     expect_derivatives_of_each_other(SprungBar &bar)
     {
       const Evaluation    at = bar.evaluate();
-      std::vector<double> matrix(bar.potential.matrix_pattern().n_values()), no_columns;
-      bar.potential.assemble(bar.state.positions, {}, 0., matrix, no_columns);
-      const SymmetricPattern &pattern = bar.potential.matrix_pattern();
+      std::vector<double> matrix(bar.potential.get_tangent().get_pattern().n_values()), no_columns;
+      bar.potential.get_tangent().assemble(bar.state.positions, {}, 0., matrix, no_columns);
+      const SymmetricPattern &pattern = bar.potential.get_tangent().get_pattern();
       const auto             &free    = bar.free_dofs.list();
       const auto              entry   = [&](const int i, const int j)
       {
@@ -197,11 +197,11 @@ namespace Exemplar::Testing
       for (const unsigned int version : { 0, 1 })
       {
         bar.potential.begin_step(bar.state, 0.);
-        EXPECT_EQ(bar.potential.matrix_pattern().version, version);
+        EXPECT_EQ(bar.potential.get_tangent().get_pattern().version, version);
         expect_derivatives_of_each_other(bar);
       }
       bar.free_dofs.reinit({ 0, 1, 2, 3, 4, 5, 7, 20 });
-      bar.potential.renew_pattern();
+      bar.potential.get_tangent().renew_pattern();
       expect_derivatives_of_each_other(bar);
     }
 

@@ -72,9 +72,10 @@ namespace Exemplar::Testing
       const auto         &free      = free_dofs.list();
       std::mt19937        generator(4);
       const Evaluation    here = step.at(0., Vector(step.state.positions.size()));
-      std::vector<double> matrix(step.p.potential.matrix_pattern().n_values()), columns;
-      step.p.potential.assemble(step.state.positions, step.state.weights, 0., matrix, columns);
-      const SymmetricPattern &pattern = step.p.potential.matrix_pattern();
+      std::vector<double> matrix(step.p.potential.get_tangent().get_pattern().n_values()), columns;
+      step.p.potential.get_tangent().assemble(step.state.positions, step.state.weights, 0., matrix,
+                                              columns);
+      const SymmetricPattern &pattern = step.p.potential.get_tangent().get_pattern();
       for (int sample = 0; sample < 5; ++sample)
       {
         Vector u(step.state.positions.size());

@@ -127,9 +127,9 @@ namespace Exemplar::Testing
       const auto assemble = [&](const double convexity)
       {
         std::pair<std::vector<double>, std::vector<double>> result;
-        result.first.resize(p.potential.matrix_pattern().n_values());
-        p.potential.assemble(state.positions, state.weights, convexity, result.first,
-                             result.second);
+        result.first.resize(p.potential.get_tangent().get_pattern().n_values());
+        p.potential.get_tangent().assemble(state.positions, state.weights, convexity, result.first,
+                                           result.second);
         return result;
       };
       const auto exact = assemble(0.), convex = assemble(1.), mixed = assemble(0.125);

@@ -51,7 +51,7 @@ namespace Exemplar::Testing
         ElasticPotential undamped(
             { p.parameters.model.law(), p.body.fe_space, p.body.material, p.body.cell_material,
               p.examples.poses, p.examples.weights, p.constraints.free_dofs },
-            make_elastic_terms(p.body, p.examples), p.potential.matrix_pattern());
+            make_elastic_terms(p.body, p.examples), p.potential.get_tangent().get_pattern());
         std::vector<Vector> x = { p.state.positions }, v = { p.state.velocities };
         while (p.state.step < p.time_axis.n_steps())
         {

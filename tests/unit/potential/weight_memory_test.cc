@@ -128,7 +128,7 @@ namespace Exemplar::Testing
                                 "set Step = 0.05\n set End = 0.5\n"));
       const State a = without.solve(), b = zero.solve();
       EXPECT_TRUE(a == b);
-      EXPECT_FALSE(zero.problem.potential.dissipates());
+      EXPECT_FALSE(zero.problem.potential.get_weights().get_memory().in_use());
       EXPECT_FALSE(zero.problem.examples.weights.get_memory().in_use());
     }
 

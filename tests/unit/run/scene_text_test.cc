@@ -195,7 +195,7 @@ namespace Exemplar::Testing
     {
       const Mesh mesh(box_mesh(4., 4, 1));
       const auto n = [&](const std::string &text)
-      { return Selection{ text }.nodes(mesh, "Handles/a").size(); };
+      { return Selection{ text }.nodes(mesh, "Handles/a/Select").size(); };
       EXPECT_EQ(n("box -1 -1 -1  0 1 1"), 4u);
       EXPECT_EQ(n("box 1 1 1  0 -1 -1"), 8u); // corners in any order
       EXPECT_EQ(n("sphere 0 0.5 0.5  0.1"), 1u);

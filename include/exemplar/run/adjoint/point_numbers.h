@@ -24,10 +24,8 @@ namespace Exemplar
     inline void
     seed(Regular &number, const std::size_t k)
     {
-      if (k >= n_constants)
-        return;
-      number.by[1 + k] = 1.;
-      number.varies    = true;
+      if (k < n_constants)
+        number.by[1 + k] = 1.;
     }
 
     template <std::size_t n_by>

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_potential_tangent_h
+#define exemplar_potential_tangent_h
+
+#include <exemplar/potential/elastic_potential.h>
+#include <exemplar/potential/potential_term.h>
+
+#include <vector>
+
+namespace Exemplar
+{
+  /// The matrix A and the columns G of an incremental potential, Eq. (10), and the pattern of A: sums over the cells and
+  /// the terms.
+  class PotentialTangent
+  {
+  public:
+    /// Of these cells, which are made after it with `elastic_terms`, and terms; all must outlive it. If `in_parts`, the
+    /// pattern is without the couplings of outer products.
+    PotentialTangent(const ElasticParts   &parts,
+                     const PotentialTerms &elastic_terms,
+                     ElasticPotential     &cells,
+                     const PotentialTerms &terms,
+                     bool                  in_parts);
+
+    /// Of A.
+    const SymmetricPattern &
+    get_pattern() const
+    {
+      return pattern;
+    }
+
+    /// From now on the pattern is one with the couplings of outer products, or without them.
+    void
+    assemble_in_parts(bool in_parts);
+
+    /// The free degrees of freedom, or the couplings of terms, are others from now on. All processes
+    /// must call this.
+    void
+    renew_pattern();
+
+    /// A term that is no part of Psi gets to know the pattern.
+    void
+    attach(PotentialTerm &term);
+
+    /// A and G: exact for convexity 0, convex for 1, a mixture between. There must be `products`, which
+    /// A is the sum of the values and, where the pattern is without them.
+    void
+    assemble(const Vector              &positions,
+             const std::vector<double> &weights,
+             double                     convexity,
+             std::vector<double>       &matrix_values,
+             std::vector<double>       &columns,
+             OuterProducts             *products = nullptr);
+
+  private:
+    /// Exact or convex.
+    void
+    assemble_one(Tangent                    kind,
+                 const Vector              &positions,
+                 const std::vector<double> &weights,
+                 std::vector<double>       &values,
+                 std::vector<double>       &columns,
+                 OuterProducts             *products);
+
+    const FESpace        &fe_space;
+    const FreeDofs       &free_dofs;
+    ElasticPotential     &cells;
+    const PotentialTerms &terms;
+    SymmetricPattern      pattern;
+  };
+} // namespace Exemplar
+
+#endif
