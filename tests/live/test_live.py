@@ -9,7 +9,8 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from live_client import BAR, Closed, Server, Viewer
+from live_client import Closed, Viewer
+from live_server import BAR, Server, prm
 
 
 class LiveTest(unittest.TestCase):
@@ -17,7 +18,7 @@ class LiveTest(unittest.TestCase):
     def setUpClass(cls):
         cls.directory = tempfile.TemporaryDirectory()
         scene = Path(cls.directory.name) / "bar.prm"
-        scene.write_text(BAR)
+        scene.write_text(prm(BAR))
         cls.server = Server(scene, log=Path(cls.directory.name) / "log.txt")
 
     @classmethod

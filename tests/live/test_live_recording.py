@@ -4,12 +4,12 @@
 Environment: EXEMPLAR, the program.
 """
 import re
-import subprocess
 import tempfile
 import unittest
 from pathlib import Path
 
-from live_client import BAR, PROGRAM, Server, Viewer
+from live_client import Viewer
+from live_server import BAR, Server, call_program, prm
 
 
 def pose(file):
@@ -27,7 +27,7 @@ class RecordingTest(unittest.TestCase):
         """One session with all that a hand can do; its last pose is saved."""
         cls.directory = tempfile.TemporaryDirectory()
         cls.here = Path(cls.directory.name)
-        (cls.here / "bar.prm").write_text(BAR)
+        (cls.here / "bar.prm").write_text(prm(BAR))
         cls.record = cls.here / "session"
         with Server(cls.here / "bar.prm", "--record", cls.record, log=cls.here / "log.txt") as server, Viewer(server) as viewer:
             cls.drag(viewer)
@@ -75,8 +75,7 @@ class RecordingTest(unittest.TestCase):
         viewer.wait_steps(10)
 
     def play(self, output, *arguments):
-        done = subprocess.run([PROGRAM, str(self.record / "scene.prm"), "--output", str(self.here / output), *arguments],
-                              capture_output=True, text=True, timeout=300, check=False)
+        done = call_program(self.record / "scene.prm", "--output", self.here / output, *arguments, timeout=300)
         self.assertEqual(done.returncode, 0, done.stderr)
         return self.here / output
 
@@ -111,8 +110,8 @@ class RecordingTest(unittest.TestCase):
 
     def test_pose_is_an_example(self):
         scene = self.here / "example.prm"
-        scene.write_text(BAR.replace("set Pose functions = (8/pi-z)*sin(pi*x/8); y; 8/pi-(8/pi-z)*cos(pi*x/8)", f"set Poses = {self.saved}"))
-        done = subprocess.run([PROGRAM, "--validate", str(scene)], capture_output=True, text=True, timeout=60, check=False)
+        scene.write_text(prm({**BAR, "Examples/Pose functions": None, "Examples/Poses": self.saved}))
+        done = call_program("--validate", scene, timeout=60)
         self.assertEqual(done.returncode, 0, done.stderr)
 
     def test_bad_sessions(self):
@@ -125,14 +124,13 @@ class RecordingTest(unittest.TestCase):
             directory.mkdir()
             (directory / "session.txt").write_text(text)
             (directory / "scene.prm").write_text(scene)
-            done = subprocess.run([PROGRAM, str(directory / "scene.prm"), "--output", str(directory / "out")], capture_output=True, text=True,
-                                  timeout=60, check=False)
+            done = call_program(directory / "scene.prm", "--output", directory / "out", timeout=60)
             self.assertEqual(done.returncode, 1, done.stderr)
             self.assertIn(words, re.sub(r"\s+", " ", done.stderr))
             self.assertFalse((directory / "out").exists())
 
     def test_recording_is_not_live_again(self):
-        done = subprocess.run([PROGRAM, "live", str(self.record / "scene.prm")], capture_output=True, text=True, timeout=60, check=False)
+        done = call_program("live", self.record / "scene.prm", timeout=60)
         self.assertEqual(done.returncode, 1)
         self.assertIn("recorded session", done.stderr)
 
