@@ -165,6 +165,8 @@ namespace Exemplar::Live
       throw std::invalid_argument("there is no such pin");
     if (command.type == "handle")
       return move_handle(command, problem);
+    if (command.type == "weights")
+      return { held.weights.want(command.numbers, problem) };
     return set(command, problem);
   }
 
@@ -180,7 +182,7 @@ namespace Exemplar::Live
   Session
   Hand::follow(const Problem &problem)
   {
-    Session    events;
+    Session    events      = held.weights.follow(problem);
     const auto come_nearer = [&](Pull &pull)
     {
       const dealii::Tensor<1, 3> rest_of_way = pull.to - pull.at;

@@ -19,7 +19,7 @@ namespace Exemplar::Python
     require_scene_says_all(const HeldProblem &held)
     {
       const Problem &problem = held.get();
-      if (problem.parameters.scene != SceneKind::dynamic)
+      if (problem.state.velocities.size() == 0)
         throw UserError("live(): only dynamic scenes are live, and this one is not. Make the "
                         "problem with Scene = dynamic.");
       if (!problem.parameters.session.empty())

@@ -128,6 +128,29 @@ class LiveTest(unittest.TestCase):
         viewer.send(type="reset")
         viewer.until(lambda: viewer.frames[-1].step == 0)
 
+    def test_weights_by_hand(self):
+        viewer = self.viewer()
+        self.assertTrue(viewer.scene["finds_weights"])
+        self.assertFalse(viewer.wait_for("status")["weights_by_hand"])
+        viewer.send(type="damping", numbers=[10., 0.])
+        viewer.send(type="weights", numbers=[.25, .75])
+        viewer.wait_steps(120)
+        status = viewer.wait_for("status")
+        self.assertTrue(status["weights_by_hand"])
+        self.assertEqual([round(weight, 12) for weight in status["weights"]], [.25, .75])
+        self.assertGreater(viewer.farthest()[2][2], 1.)  # it bends by itself, as that example does
+        for wrong in ([1.], [.5, .6], [-.5, 1.5], [.5, .25, .25]):
+            viewer.send(type="weights", numbers=wrong)
+            self.assertIn("sum 1", viewer.wait_for("refused")["text"])
+        viewer.send(type="weights", numbers=[])
+        viewer.wait_steps(240)
+        status = viewer.wait_for("status")
+        self.assertFalse(status["weights_by_hand"])
+        self.assertLess(status["weights"][1], .1)
+        viewer.send(type="weights", numbers=[1., 0.])
+        viewer.send(type="reset")
+        viewer.until(lambda: not viewer.wait_for("status")["weights_by_hand"])
+
     def test_numbers_are_set_and_refused(self):
         viewer = self.viewer()
         viewer.send(type="gravity", numbers=[0., 0., -10.])
