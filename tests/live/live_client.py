@@ -7,6 +7,7 @@ well-behaved client would.
         viewer.wait_steps(10)
 """
 import base64
+import functools
 import http.client
 import json
 import os
@@ -74,10 +75,12 @@ class Frame:
     def __init__(self, data):
         (self.kind, self.number, self.step, self.pointer, self.time, *box, n, self.has_colours, self.low,
          self.high) = struct.unpack_from("<4Id6f2I2f", data)
-        shorts = struct.unpack_from(f"<{3 * n}h", data, 64)
-        self.places = [tuple(box[c] + (shorts[3 * i + c] / 32767 + 1) / 2 * box[3 + c] for c in range(3))
-                       for i in range(n)]
-        self.colours = data[64 + 6 * n:]
+        self.box, self.colours, self._shorts = box, data[64 + 6 * n:], data[64:64 + 6 * n]
+
+    @functools.cached_property
+    def places(self):
+        box, shorts = self.box, struct.unpack(f"<{len(self._shorts) // 2}h", self._shorts)
+        return [tuple(box[c] + (shorts[i + c] / 32767 + 1) / 2 * box[3 + c] for c in range(3)) for i in range(0, len(shorts), 3)]
 
 
 class Viewer:
