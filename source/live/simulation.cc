@@ -45,7 +45,12 @@ namespace Exemplar::Live
     {
       Json names = Json::array();
       for (unsigned int i = 0; i < problem.examples.poses.size(); ++i)
-        names.push_back(std::filesystem::path(problem.examples.poses.name(i)).stem().string());
+      {
+        const std::string &name = problem.examples.poses.name(i);
+        names.push_back(name.find(';') == std::string::npos
+                            ? std::filesystem::path(name).stem().string()
+                            : fmt::format("formula {}", i)); // which is long
+      }
       return names;
     }
 

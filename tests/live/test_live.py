@@ -77,7 +77,7 @@ class LiveTest(unittest.TestCase):
         viewer.grab(hit, hard=True)
         goal = (place[0] - .3, place[1], place[2] + .4)
         viewer.move(goal)
-        viewer.wait_steps(50)
+        viewer.wait_steps(150)
         corners = viewer.triangles[triangle]
         at = [sum(s * viewer.frames[-1].places[i][c] for s, i in zip(shares, corners)) for c in range(3)]
         for found, wanted in zip(at, goal):
