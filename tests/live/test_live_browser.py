@@ -86,6 +86,23 @@ class BrowserTest(unittest.TestCase):
             self.wait(lambda: page.find_element("id", "pause").text == "Go on", "a pause")
             self.assertNothingInConsole(page)
 
+    def test_weights_by_hand(self):
+        with Server(self.here / "bar.prm", log=self.here / "log.txt") as server:
+            page = browser()
+            self.addCleanup(page.quit)
+            page.get(f"http://{server.host}/?token={server.token}")
+            self.wait(lambda: "real time" in page.find_element("id", "strip").text, "a status")
+            slider, shown = (page.find_element("css selector", f".weight:last-child {name}") for name in ("input", "output"))
+            self.assertFalse(slider.is_displayed())
+            page.find_element("css selector", "[value='by hand']").click()
+            self.wait(slider.is_displayed, "a slider")
+            page.execute_script("arguments[0].value = 0.75; arguments[0].oninput();", slider)
+            self.wait(lambda: shown.text == "0.75", "the weight follows")
+            self.picture(page, "live_weights")
+            page.find_element("css selector", "[value='automatic']").click()
+            self.wait(lambda: not slider.is_displayed(), "no slider")
+            self.assertNothingInConsole(page)
+
     def test_phone_and_dark(self):
         with Server(self.here / "bar.prm", log=self.here / "log.txt") as server:
             page = browser(500, 900, dark=True)
@@ -110,7 +127,7 @@ class BrowserTest(unittest.TestCase):
         page = browser()
         self.addCleanup(page.quit)
         page.get(f"file://{html}")
-        self.wait(lambda: "t = 0.5" in page.find_element("id", "time").text, "it plays")
+        self.wait(lambda: page.find_element("id", "time").text not in ("", "t = 0.00 s"), "it plays")
         self.picture(page, "export")
         self.assertNothingInConsole(page)
         self.play_two(page, output)
