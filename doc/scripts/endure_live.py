@@ -3,7 +3,7 @@
 
 Usage: python3 doc/scripts/endure_live.py [--minutes 30] [--scene prm/live/cat.prm] [--seed 1] [--set KEY=VALUE]...
 Springs of all strengths and hard hands pull random points of the body to random places, also through it; sliders, pins and handles are
-moved. In the end all is let go of, and the body has ten seconds to come to rest. Printed: the load of the machine, steps, warnings, numbers
+moved. In the end all is let go of, and the body has ten seconds of its own time to come to rest. Printed: the load of the machine, steps, warnings, numbers
 that are not finite, the memory of the server at some times, how far the body ends from its rest, and whether the recording, played
 again, ends in the same bytes. The exit status is 1 if a number was not finite or bytes differ.
 Environment: EXEMPLAR, the program.
@@ -118,13 +118,12 @@ def is_finite(viewer, n_texts):
 
 
 def play(viewer, server, hands, seconds):
-    """(memories [MB], how often numbers were not finite, warnings); hands may be None."""
+    """(memories [MB], how often numbers were not finite, warnings)."""
     begin = time.perf_counter()
     due, memories, n_bad, warnings = begin, [], 0, []
     while (now := time.perf_counter()) < begin + seconds:
         if now >= due:
-            if hands:
-                hands.act(now)
+            hands.act(now)
             due = max(due + 1 / 60, now - .1)
             if now - begin >= seconds * (len(memories) + 1) / N_MEMORIES:
                 memories.append(memory_of(server))
@@ -134,6 +133,17 @@ def play(viewer, server, hands, seconds):
             warnings += [text["text"] for text in viewer.texts if text["type"] in ("warning", "refused")]
             del viewer.frames[:-1], viewer.texts[:]
     return [*memories, memory_of(server)], n_bad, warnings
+
+
+def rest(viewer, seconds):
+    """Let the body have these seconds of its own; (how often numbers were not finite, warnings)."""
+    end, n_bad, warnings = viewer.frames[-1].time + seconds, 0, []
+    while viewer.frames[-1].time < end:
+        viewer.read()
+        n_bad += not is_finite(viewer, 0)
+        warnings += [text["text"] for text in viewer.texts if text["type"] in ("warning", "refused")]
+        del viewer.frames[:-1], viewer.texts[:]
+    return n_bad, warnings
 
 
 def ends_alike(record, saved, directory):
@@ -161,7 +171,7 @@ def main():
             hands = Hands(viewer, arguments.seed)
             memories, n_bad, warnings = play(viewer, server, hands, 60 * arguments.minutes)
             hands.let_go_of_all()
-            _, more_bad, more_warnings = play(viewer, server, None, 10.)
+            more_bad, more_warnings = rest(viewer, 10.)
             viewer.send(type="pause", on=True)
             viewer.until(lambda: viewer.wait_for("status")["paused"])
             viewer.send(type="save pose")
