@@ -27,6 +27,11 @@ from live_server import EXEMPLAR, Server  # noqa: E402
 N_MEMORIES = 10
 
 
+def free_name(letter, used):
+    """Names are taken again, as the page does: a handle that was let go of is still known by its name."""
+    return next(f"{letter}{i}" for i in range(len(used) + 1) if f"{letter}{i}" not in used)
+
+
 class Hands:
     """Random commands, with what is held at present."""
 
@@ -34,7 +39,7 @@ class Hands:
         self.viewer, self.draw = viewer, random.Random(seed)
         self.size = viewer.scene["diameter"]
         self.pulls, self.pins = {}, {}  # name: when it is let go
-        self.targets, self.n = {}, 0
+        self.targets = {}
         self.rest = viewer.frames[-1].places
 
     def somewhere(self):
@@ -42,8 +47,7 @@ class Hands:
         return [x + self.draw.uniform(-.3, .3) * self.size for x in place]
 
     def grab(self, now):
-        self.n += 1
-        name, triangle = f"h{self.n}", self.draw.randrange(len(self.viewer.triangles))
+        name, triangle = free_name("h", self.pulls), self.draw.randrange(len(self.viewer.triangles))
         corners = self.viewer.triangles[triangle]
         places = self.viewer.frames[-1].places
         place = [sum(places[i][c] for i in corners) / 3 for c in range(3)]
@@ -52,11 +56,11 @@ class Hands:
         self.targets[name] = self.somewhere()
 
     def pin(self, now):
-        self.n += 1
+        name = free_name("p", self.pins)
         places, middle = self.viewer.frames[-1].places, self.draw.choice(self.viewer.frames[-1].places)
         near = [i for i, place in enumerate(places) if math.dist(place, middle) < .08 * self.size]
-        self.viewer.send(type="pin", name=f"p{self.n}", vertices=near)
-        self.pins[f"p{self.n}"] = now + self.draw.uniform(1., 6.)
+        self.viewer.send(type="pin", name=name, vertices=near)
+        self.pins[name] = now + self.draw.uniform(1., 6.)
 
     def slide(self, _now):
         scene, draw, send = self.viewer.scene, self.draw, self.viewer.send
