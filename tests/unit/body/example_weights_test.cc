@@ -90,8 +90,9 @@ namespace Exemplar::Testing
       ASSERT_TRUE(changes.found);
       EXPECT_EQ(changes.weights, std::vector<double>(3, 0.));
       EXPECT_EQ(examples.weights->residual(held, { 1., 2., -1e9 }).deviation, 0.);
-      for (const std::vector<double> &wrong :
-           { std::vector<double>{ 0.5, 0.5 }, { 0.5, 0.6, -0.1 }, { 0.5, 0.6, 0.1 } })
+      const std::vector<std::vector<double>> all_wrong
+          = { { 0.5, 0.5 }, { 0.5, 0.6, -0.1 }, { 0.5, 0.6, 0.1 } };
+      for (const std::vector<double> &wrong : all_wrong)
         EXPECT_THROW(examples.weights->hold(wrong), UserError);
       EXPECT_EQ(examples.weights->at(0.3, some), held);
       examples.weights->hold({});
