@@ -106,7 +106,7 @@ class LiveTest(unittest.TestCase):
         left = viewer.scene["handles"][0]["vertices"]
         before = min(viewer.frames[-1].places[i][2] for i in left)
         viewer.send(type="handle", name="left", numbers=[0., 0., .25])
-        viewer.wait_steps(40)
+        viewer.wait_steps(120)
         self.assertAlmostEqual(min(viewer.frames[-1].places[i][2] for i in left), before + .25, delta=1e-3)
 
     def test_pause_step_undo_reset(self):
