@@ -11,6 +11,7 @@ import time
 from pathlib import Path
 
 from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.keys import Keys
 
 TOP = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(TOP / "tests/live"))
@@ -48,6 +49,8 @@ def main():
                 hand.move_by_offset(4, -16)
             hand.perform()
             wait_for(page, 2.5)
+            page.find_element("id", "pause").send_keys(Keys.SPACE)  # the strip is then that of no machine
+            time.sleep(1.)
             page.save_screenshot(str(TOP / "doc/figures/live.png"))
         finally:
             page.quit()
