@@ -18,7 +18,8 @@ from pathlib import Path
 
 TOP = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(TOP / "tests/live"))
-from live_client import Server, Viewer  # noqa: E402
+from live_client import Viewer  # noqa: E402
+from live_server import Server  # noqa: E402
 
 PERIOD = 1 / 60
 

@@ -73,6 +73,28 @@ namespace Exemplar
   }
 
   void
+  ExampleWeights::hold(std::vector<double> values)
+  {
+    if (!bounded || size() == 0)
+      throw UserError("Only weights of Examples/Weights = simplex can be held.");
+    if (!values.empty() && values.size() != size())
+      throw UserError(
+          fmt::format("{} weights are given, but there are {}.", values.size(), size()));
+    for (auto region = values.begin(); region != values.end(); region += n_per_region())
+    {
+      const double sum   = std::accumulate(region, region + n_per_region(), 0.);
+      const double least = *std::min_element(region, region + n_per_region());
+      if (!(least >= 0.) || !(std::abs(sum - 1.) < 1e-6))
+        throw UserError(
+            fmt::format("Weights that are held must not be negative and sum to 1; the least is {}, "
+                        "and the sum {}.",
+                        shortest_text(least), shortest_text(sum)));
+      std::for_each(region, region + n_per_region(), [sum](double &weight) { weight /= sum; });
+    }
+    held = std::move(values);
+  }
+
+  void
   ExampleWeights::compute_form(const ExampleParameters &parameters, const double unit_energy)
   {
     const unsigned int n = poses.n_weights();
@@ -170,6 +192,8 @@ namespace Exemplar
   std::vector<double>
   ExampleWeights::best(const std::vector<double> &c, const std::vector<double> &start) const
   {
+    if (!held.empty())
+      return held;
     const std::vector<double> sums(form.N.m(), 1.);
     WeightLimits              limits(std::vector<double>(bounded ? size() : 0, 0.));
     memory.add_to(limits);
@@ -185,8 +209,9 @@ namespace Exemplar
   {
     WeightLimits limits;
     for (std::size_t i = 0; bounded && i < weights.size(); ++i)
-      limits.lower.push_back(-weights[i]);
-    memory.add_to(limits, weights);
+      limits.lower.push_back((held.empty() ? 0. : held[i]) - weights[i]);
+    if (held.empty()) // else kinks may lie below the bounds
+      memory.add_to(limits, weights);
     return limits;
   }
 

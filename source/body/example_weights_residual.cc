@@ -62,7 +62,12 @@ namespace Exemplar
   {
     const unsigned int k = n_per_region();
     WeightResidual     result;
-    MaxMagnitude       deviation;
+    if (!held.empty()) // whatever the derivatives are
+    {
+      result.multipliers.assign(form.N.m(), 0.);
+      return result;
+    }
+    MaxMagnitude deviation;
     for (unsigned int region = 0; region < form.N.m(); ++region)
     {
       std::vector<Condition> conditions;

@@ -15,6 +15,9 @@ namespace Exemplar::Live
 
     constexpr std::size_t max_name = 64, max_vertices = 20000;
 
+    /// Numbers as many as a body asks for, but not more than this.
+    constexpr std::size_t any_number = 1000;
+
     /// What a type takes beside "type".
     struct Shape
     {
@@ -31,6 +34,7 @@ namespace Exemplar::Live
       { "unpin", { true, 0, false, false, false } },
       { "handle", { true, 3, false, false, false } }, // by how much it is moved
       { "set", { true, 1, false, false, false } },
+      { "weights", { false, any_number, false, false, false } },
       { "gravity", { false, 3, false, false, false } },
       { "damping", { false, 2, false, false, false } },
       { "pause", { false, 0, false, false, true } },
@@ -98,7 +102,7 @@ namespace Exemplar::Live
         command.name = word_of(message, "name");
       if (n_numbers > 0)
         command.numbers = list_of<double>(message, "numbers", n_numbers);
-      if (command.numbers.size() != n_numbers)
+      if (n_numbers < any_number && command.numbers.size() != n_numbers)
         throw std::invalid_argument("numbers are too few");
       if (has_triangle)
         command.triangle = index_of(message, "triangle");

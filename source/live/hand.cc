@@ -18,10 +18,11 @@ namespace Exemplar::Live
     constexpr double relative_radius = 0.1;
 
     /// How fast a pull follows its pointer [1/s], over the diameter of the body.
-    constexpr double relative_speed = 0.75;
+    constexpr double relative_speed = 0.4;
 
-    /// Of the way to its pointer, what a pull strives to go in a step; and how far its way turns to that.
-    constexpr double eagerness = 0.4, agility = 0.4;
+    /// Of the way to its pointer, what a pull strives to go in a step, and how far its way turns to that: as much
+    /// as steps can predict. With half as much eagerness as agility a pull goes hardly beyond its pointer.
+    constexpr double eagerness = 0.1, agility = 0.2;
 
     /// Over the diameter of the body: what is as near as this is there.
     constexpr double relative_nearness = 1e-5;
@@ -165,6 +166,8 @@ namespace Exemplar::Live
       throw std::invalid_argument("there is no such pin");
     if (command.type == "handle")
       return move_handle(command, problem);
+    if (command.type == "weights")
+      return { held.weights.want(command.numbers, problem) };
     return set(command, problem);
   }
 
@@ -180,7 +183,7 @@ namespace Exemplar::Live
   Session
   Hand::follow(const Problem &problem)
   {
-    Session    events;
+    Session    events      = held.weights.follow(problem);
     const auto come_nearer = [&](Pull &pull)
     {
       const dealii::Tensor<1, 3> rest_of_way = pull.to - pull.at;

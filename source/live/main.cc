@@ -4,17 +4,21 @@
 #include <exemplar/live/server.h>
 
 #include <CLI/CLI.hpp>
+#include <boost/asio/posix/stream_descriptor.hpp>
 #include <boost/asio/post.hpp>
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/multithread_info.h>
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <csignal>
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 #include <thread>
+#include <unistd.h>
 
 namespace Exemplar::Live
 {
@@ -26,7 +30,8 @@ namespace Exemplar::Live
       std::string              record, html;
       std::vector<std::string> shown, overrides, hosts; ///< shown: a scene, or outputs of runs
       ListenAt                 place;
-      unsigned int             n_threads = 1;
+      unsigned int             n_threads        = 1;
+      bool                     until_input_ends = false;
     };
 
     /// What --help ends with.
@@ -39,7 +44,7 @@ Exit status:
   0    done
   1    the input or the command line is wrong, and nothing is written
   2    memory or disk ran out, or what a step needs; what was recorded is on disk
-  130  stopped by a signal, as a server always is)";
+  130  stopped by a signal, as a server always is, or as --until-input-ends says)";
     }
 
     void
@@ -66,6 +71,8 @@ Exit status:
       app.add_option("--threads", arguments.n_threads, "threads of the solver")
           ->check(CLI::Range(1, 1024))
           ->capture_default_str();
+      app.add_flag("--until-input-ends", arguments.until_input_ends,
+                   "end when standard input does, for programs that start a server");
       app.footer(footer("live prm/live/cat.prm --record session"));
     }
 
@@ -104,6 +111,35 @@ Exit status:
                 << std::endl;
       return 0;
     }
+
+    /// Ends a server when standard input ends: when the program that has started it closes that, or is gone.
+    class InputWatch
+    {
+    public:
+      explicit InputWatch(boost::asio::io_context &context)
+          : context(context), input(context, dup(STDIN_FILENO))
+      {
+        read_next();
+      }
+
+    private:
+      void
+      read_next()
+      {
+        input.async_read_some(boost::asio::buffer(bytes),
+                              [this](const boost::system::error_code error, std::size_t)
+                              {
+                                if (error)
+                                  context.stop();
+                                else
+                                  read_next();
+                              });
+      }
+
+      boost::asio::io_context              &context;
+      boost::asio::posix::stream_descriptor input;
+      std::array<char, 64>                  bytes{};
+    };
 
     /// The solver's thread; its error, if it ends by one, ends the server, too.
     class SolverThread
@@ -201,6 +237,9 @@ Exit status:
       for (const std::string &warning : stage.get_problem().warnings())
         std::cerr << "Warning: " << warning << std::endl;
       std::cout << server.invitation() << std::endl;
+      std::optional<InputWatch> watch;
+      if (arguments.until_input_ends)
+        watch.emplace(context);
       SolverThread solver(simulation, mailbox, context);
       server.run();
       solver.end();

@@ -34,6 +34,8 @@ export class Panel {
       press[id]();
     });
     find("colour").onchange = ({ target }) => send({ type: "colour", name: target.value });
+    for (const rule of document.querySelectorAll("[name=rule]"))
+      rule.onchange = () => send({ type: "weights", numbers: rule.value === "by hand" ? this.weights || [] : [] });
     const strength = find("strength");
     const show = () => (strength.previousElementSibling.value = `× ${short(this.strength())}`);
     strength.oninput = show;
@@ -54,7 +56,8 @@ export class Panel {
     document.title = `${scene.name} – exemplar live`;
     find("sliders").replaceChildren(...slidersOf(scene).filter(({ needs }) => needs).map((slider) => this.slider(slider)));
     find("examples").hidden = scene.examples.length === 0;
-    this.bars = scene.examples.map((name) => this.bar(name));
+    find("rule").hidden = !scene.finds_weights;
+    this.bars = scene.examples.map((name, i) => this.bar(name, i));
     find("weights").replaceChildren(...this.bars.map(({ element }) => element));
     const colour = find("colour");
     [...colour.options].slice(3).forEach((option) => option.remove());
@@ -79,7 +82,7 @@ export class Panel {
     return label;
   }
 
-  bar(name) {
+  bar(name, i) {
     const element = document.createElement("div");
     element.className = "weight";
     const picture = Object.assign(document.createElement("canvas"), { width: 144, height: 108 });
@@ -89,9 +92,35 @@ export class Panel {
     bar.className = "bar";
     const fill = document.createElement("i");
     bar.append(fill);
-    right.append(name, " ", output, bar);
+    const input = Object.assign(document.createElement("input"), { type: "range", min: 0, max: 1, step: 0.01, hidden: true });
+    input.setAttribute("aria-label", `weight of ${name}`);
+    input.oninput = () => this.holdWeight(i, Number(input.value));
+    right.append(name, " ", output, bar, input);
     element.append(picture, right);
-    return { element, picture, fill, output };
+    return { element, picture, fill, output, input };
+  }
+
+  // The others share what is left as they did before.
+  holdWeight(i, value) {
+    const rest = this.bars.reduce((sum, { input }, k) => sum + (k === i ? 0 : Number(input.value)), 0);
+    const numbers = this.bars.map(({ input }, k) =>
+      k === i ? value : rest > 0 ? ((1 - value) * Number(input.value)) / rest : (1 - value) / Math.max(1, this.bars.length - 1));
+    const sum = numbers.reduce((a, b) => a + b, 0);
+    this.bars.forEach(({ input }, k) => (input.value = numbers[k]));
+    if (sum > 0)
+      this.send({ type: "weights", numbers: numbers.map((weight) => weight / sum) });
+  }
+
+  // Whether they are those of sliders: said by the server, because an undo or a reset may have changed it.
+  showRule(isByHand) {
+    if (this.isByHand !== isByHand)
+      for (const rule of document.querySelectorAll("[name=rule]"))
+        rule.checked = (rule.value === "by hand") === isByHand;
+    for (const { input } of this.bars)
+      input.hidden = !isByHand;
+    if (!isByHand || !this.isByHand)
+      this.bars.forEach(({ input }, i) => (input.value = this.weights[i]));
+    this.isByHand = isByHand;
   }
 
   showStatus(status) {
@@ -104,12 +133,15 @@ export class Panel {
       `${status.behind.toFixed(1)} frames behind`, `${status.iterations} iterations`, `step error ${residual}`,
       `${status.milliseconds.toFixed(0)} ms a step`].map((text) => Object.assign(document.createElement("span"), { textContent: text })));
     const n = this.bars ? this.bars.length : 0;
+    this.weights = [];
     for (let i = 0; i < n; ++i) {
       const regions = status.weights.filter((_, k) => k % n === i);
       const mean = regions.reduce((sum, w) => sum + w, 0) / Math.max(1, regions.length);
       this.bars[i].output.value = mean.toFixed(2);
       this.bars[i].fill.style.width = `${100 * Math.min(1, Math.max(0, mean))}%`;
+      this.weights.push(mean);
     }
+    this.showRule(status.weights_by_hand);
   }
 
   showMouse({ yours, viewers }) {

@@ -15,11 +15,17 @@ namespace Exemplar::Live
     const std::string mark_of_recording
         = "# A session that exemplar live has recorded; it is played again by: exemplar ";
 
-    /// Whether the directory is of a recording, or empty, or not there.
+    /// Whether the directory is of a recording, or not there, or holds nothing but meshes, which stay.
     bool
     is_ours(const fs::path &directory)
     {
-      if (!fs::exists(directory) || fs::is_empty(directory))
+      const auto is_mesh
+          = [](const fs::directory_entry &entry) { return entry.path().extension() == ".msh"; };
+      if (!fs::exists(directory))
+        return true;
+      if (!fs::is_directory(directory))
+        return false;
+      if (std::all_of(fs::directory_iterator(directory), fs::directory_iterator(), is_mesh))
         return true;
       std::ifstream scene(directory / "scene.prm");
       std::string   first;
@@ -34,7 +40,8 @@ namespace Exemplar::Live
     std::error_code error;
     if (!is_ours(directory))
       throw UserError("--record " + directory.string()
-                      + ": this is neither an empty directory nor one of a recording. Nothing has "
+                      + ": this is neither a directory of a recording nor one without other files "
+                        "than meshes. Nothing has "
                         "been changed. Give another one.");
     fs::create_directories(directory, error);
     session.open(directory / "session.txt", std::ios::binary);

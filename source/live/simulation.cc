@@ -45,7 +45,12 @@ namespace Exemplar::Live
     {
       Json names = Json::array();
       for (unsigned int i = 0; i < problem.examples.poses.size(); ++i)
-        names.push_back(std::filesystem::path(problem.examples.poses.name(i)).stem().string());
+      {
+        const std::string &name = problem.examples.poses.name(i);
+        names.push_back(name.find(';') == std::string::npos
+                            ? std::filesystem::path(name).stem().string()
+                            : fmt::format("formula {}", i)); // which is long
+      }
       return names;
     }
 
@@ -101,6 +106,7 @@ namespace Exemplar::Live
             { "young", parameters.material.everywhere.youngs_modulus },
             { "poisson", parameters.material.everywhere.poissons_ratio },
             { "importance", parameters.examples.importance },
+            { "finds_weights", parameters.examples.weights == WeightRule::simplex },
             { "gravity", parameters.loads.gravity },
             { "damping", { parameters.time.mass_damping, parameters.time.stiffness_damping } },
             { "tolerance", parameters.solver.tolerance } };
@@ -314,7 +320,8 @@ namespace Exemplar::Live
                           { "residual", finite(shown.report.residual) },
                           { "energy", finite(problem.evaluation.elastic.energy) },
                           { "min_det_F", finite(problem.evaluation.elastic.min_det_F) },
-                          { "weights", problem.state.weights } }));
+                          { "weights", problem.state.weights },
+                          { "weights_by_hand", hand.holds_weights() } }));
   }
 
   void

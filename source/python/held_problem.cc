@@ -49,7 +49,7 @@ namespace Exemplar::Python
     }
 
     std::shared_ptr<Problem>
-    make_problem(const py::object &scene, const py::object &mesh, const py::object &poses)
+    make_problem(Given given)
     {
       const auto mpi      = mpi_session(); // ends after the last problem
       const auto end_last = [mpi](Problem *problem)
@@ -57,7 +57,7 @@ namespace Exemplar::Python
         const UnlockedWork unlocked; // another thread may use Trilinos for long
         delete problem;
       };
-      return { make_unlocked(from_python(scene, mesh, poses)).release(), end_last };
+      return { make_unlocked(std::move(given)).release(), end_last };
     }
 
     /// While it lives, the problem is this thread's.
@@ -85,8 +85,13 @@ namespace Exemplar::Python
   } // namespace
 
   HeldProblem::HeldProblem(const py::object &scene, const py::object &mesh, const py::object &poses)
-      : problem(make_problem(scene, mesh, poses)), arrays(problem), diagnostics(*problem),
-        initial(save_state(*problem, {})), review(*problem)
+      : HeldProblem(from_python(scene, mesh, poses))
+  {
+  }
+
+  HeldProblem::HeldProblem(Given given)
+      : source(std::move(given.source)), problem(make_problem(std::move(given))), arrays(problem),
+        diagnostics(*problem), initial(save_state(*problem, {})), review(*problem)
   {
     problem->solver->observe = [this](const SolveReport &iteration) { return observe(iteration); };
     require_functional(*problem);
@@ -260,6 +265,20 @@ namespace Exemplar::Python
     diagnostics.resume(target.work);
     report               = {};
     is_warned_of_motions = false;
+  }
+
+  std::string
+  HeldProblem::change_since_made() const
+  {
+    require_no_step("live()");
+    for (const auto &[handle, function] : functions.motions)
+      if (function) // a name that is no handle's has none
+        return "set_motion()";
+    if (problem->get_changes().n > 0)
+      return problem->get_changes().last;
+    if (problem->state == initial.state)
+      return "";
+    return problem->state.step > 0 ? "step()" : "state";
   }
 
   void

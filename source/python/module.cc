@@ -10,6 +10,7 @@
 #include <exemplar/python/plot.h>
 #include <exemplar/python/problem_changes.h>
 #include <exemplar/python/problem_gradients.h>
+#include <exemplar/python/problem_live.h>
 #include <exemplar/python/problem_state.h>
 #include <exemplar/python/problem_type.h>
 #include <exemplar/python/signatures.h>
@@ -306,6 +307,7 @@ namespace Exemplar::Python
       module.attr("Measures")   = measures; // where pickle looks for it
       add_measures(problem, measures);
       add_plot(problem);
+      add_live(problem);
     }
   } // namespace
 } // namespace Exemplar::Python

@@ -27,7 +27,7 @@ from numpy.typing import ArrayLike, NDArray
 # of arguments, by "name" or "function.name"
 ARGUMENTS = {
     "scene": "str | os.PathLike[str] | Mapping[str, Any]", "mesh": "Sequence[ArrayLike]", "poses": "Sequence[ArrayLike]",
-    "name": "str", "kind": "str", "dt": "float", "time": "float", "i": "int", "step": "int",
+    "name": "str", "kind": "str", "dt": "float", "time": "float", "i": "int", "step": "int", "port": "int", "record": "str | os.PathLike[str]",
     "nodes": "ArrayLike", "positions": "ArrayLike", "velocities": "ArrayLike", "weights": "ArrayLike", "values": "ArrayLike",
     "young": "ArrayLike", "poisson": "ArrayLike", "density": "ArrayLike", "dJ_dx": "ArrayLike | Sequence[ArrayLike | None] | None",
     "dJ_dw": "ArrayLike | Sequence[ArrayLike | None] | None", "dJ_dv": "Sequence[ArrayLike | None] | None",

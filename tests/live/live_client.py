@@ -1,68 +1,29 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A server of exemplar live, and a viewer of it without a browser: WebSockets by the standard library alone, so that tests can
-also send what no well-behaved client would. The program is named by the environment variable EXEMPLAR.
+"""A viewer of exemplar live without a browser: WebSockets by the standard library alone, so that tests can also send what no
+well-behaved client would.
+
+    with Viewer(Address("http://127.0.0.1:43695/?token=...")) as viewer:
+        viewer.grab(viewer.farthest())
+        viewer.wait_steps(10)
 """
 import base64
+import functools
 import http.client
 import json
 import os
 import re
-import signal
 import socket
 import struct
-import subprocess
-from pathlib import Path
-
-REPOSITORY = Path(__file__).resolve().parents[2]
-PROGRAM = os.path.abspath(os.environ.get("EXEMPLAR", REPOSITORY / "build/release/exemplar"))
-
-BAR = """set Scene = dynamic
-subsection Mesh
-  set Generator = box
-  set Box size = 4, 1, 1
-  set Box cells = 8, 2, 2
-end
-subsection Handles
-  set Names = left
-  subsection left
-    set Select = boundary 1
-  end
-end
-subsection Examples
-  set Pose functions = (8/pi-z)*sin(pi*x/8); y; 8/pi-(8/pi-z)*cos(pi*x/8)
-  set Importance = 0.8
-end
-"""
 
 
-class Server:
-    """The program on a scene; a context."""
+class Address:
+    """What the program says is to be opened."""
 
-    def __init__(self, scene, *arguments, log):
-        self.log = Path(log)
-        with open(self.log, "w") as errors:
-            self.process = subprocess.Popen([PROGRAM, "live", str(scene), *map(str, arguments)], stdin=subprocess.DEVNULL,
-                                            stdout=subprocess.PIPE, stderr=errors, text=True)
-        self.line = ""
-        while "Open http" not in self.line:
-            self.line = self.process.stdout.readline()
-            if not self.line:
-                raise RuntimeError(self.log.read_text())
-        self.port, self.token = re.search(r":(\d+)/\?token=(\w+)", self.line).groups()
+    def __init__(self, address):
+        self.port, self.token = re.search(r":(\d+)/\?token=(\w+)", address).groups()
         self.port = int(self.port)
         self.host = f"127.0.0.1:{self.port}"
         self._cookie = None
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        if self.process.poll() is None:
-            self.process.send_signal(signal.SIGINT)
-        status = self.process.wait(timeout=60)
-        self.process.stdout.close()
-        if status != 130:
-            raise RuntimeError(f"the server ended with {status}: {self.log.read_text()}")
 
     def connect(self):
         return socket.create_connection(("127.0.0.1", self.port), timeout=30)
@@ -114,10 +75,12 @@ class Frame:
     def __init__(self, data):
         (self.kind, self.number, self.step, self.pointer, self.time, *box, n, self.has_colours, self.low,
          self.high) = struct.unpack_from("<4Id6f2I2f", data)
-        shorts = struct.unpack_from(f"<{3 * n}h", data, 64)
-        self.places = [tuple(box[c] + (shorts[3 * i + c] / 32767 + 1) / 2 * box[3 + c] for c in range(3))
-                       for i in range(n)]
-        self.colours = data[64 + 6 * n:]
+        self.box, self.colours, self._shorts = box, data[64 + 6 * n:], data[64:64 + 6 * n]
+
+    @functools.cached_property
+    def places(self):
+        box, shorts = self.box, struct.unpack(f"<{len(self._shorts) // 2}h", self._shorts)
+        return [tuple(box[c] + (shorts[i + c] / 32767 + 1) / 2 * box[3 + c] for c in range(3)) for i in range(0, len(shorts), 3)]
 
 
 class Viewer:

@@ -9,7 +9,8 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from live_client import BAR, Closed, Server, Viewer
+from live_client import Closed, Viewer
+from live_server import BAR, Server, prm
 
 
 class LiveTest(unittest.TestCase):
@@ -17,7 +18,7 @@ class LiveTest(unittest.TestCase):
     def setUpClass(cls):
         cls.directory = tempfile.TemporaryDirectory()
         scene = Path(cls.directory.name) / "bar.prm"
-        scene.write_text(BAR)
+        scene.write_text(prm(BAR))
         cls.server = Server(scene, log=Path(cls.directory.name) / "log.txt")
 
     @classmethod
@@ -76,7 +77,7 @@ class LiveTest(unittest.TestCase):
         viewer.grab(hit, hard=True)
         goal = (place[0] - .3, place[1], place[2] + .4)
         viewer.move(goal)
-        viewer.wait_steps(50)
+        viewer.wait_steps(150)
         corners = viewer.triangles[triangle]
         at = [sum(s * viewer.frames[-1].places[i][c] for s, i in zip(shares, corners)) for c in range(3)]
         for found, wanted in zip(at, goal):
@@ -105,7 +106,7 @@ class LiveTest(unittest.TestCase):
         left = viewer.scene["handles"][0]["vertices"]
         before = min(viewer.frames[-1].places[i][2] for i in left)
         viewer.send(type="handle", name="left", numbers=[0., 0., .25])
-        viewer.wait_steps(40)
+        viewer.wait_steps(120)
         self.assertAlmostEqual(min(viewer.frames[-1].places[i][2] for i in left), before + .25, delta=1e-3)
 
     def test_pause_step_undo_reset(self):
@@ -126,6 +127,29 @@ class LiveTest(unittest.TestCase):
         self.assertIn("nothing is kept", viewer.wait_for("refused")["text"])
         viewer.send(type="reset")
         viewer.until(lambda: viewer.frames[-1].step == 0)
+
+    def test_weights_by_hand(self):
+        viewer = self.viewer()
+        self.assertTrue(viewer.scene["finds_weights"])
+        self.assertFalse(viewer.wait_for("status")["weights_by_hand"])
+        viewer.send(type="damping", numbers=[10., 0.])
+        viewer.send(type="weights", numbers=[.25, .75])
+        viewer.wait_steps(120)
+        status = viewer.wait_for("status")
+        self.assertTrue(status["weights_by_hand"])
+        self.assertEqual([round(weight, 12) for weight in status["weights"]], [.25, .75])
+        self.assertGreater(viewer.farthest()[2][2], .7)  # it bends by itself, as that example does
+        for wrong in ([1.], [.5, .6], [-.5, 1.5], [.5, .25, .25]):
+            viewer.send(type="weights", numbers=wrong)
+            self.assertIn("sum 1", viewer.wait_for("refused")["text"])
+        viewer.send(type="weights", numbers=[])
+        viewer.wait_steps(240)
+        status = viewer.wait_for("status")
+        self.assertFalse(status["weights_by_hand"])
+        self.assertLess(status["weights"][1], .6)  # found by the steps, and falling
+        viewer.send(type="weights", numbers=[1., 0.])
+        viewer.send(type="reset")
+        viewer.until(lambda: not viewer.wait_for("status")["weights_by_hand"])
 
     def test_numbers_are_set_and_refused(self):
         viewer = self.viewer()

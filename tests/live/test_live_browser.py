@@ -6,13 +6,12 @@ Environment: EXEMPLAR, the program. SCREENSHOTS, a directory for pictures, may b
 """
 import os
 import shutil
-import subprocess
 import tempfile
 import time
 import unittest
 from pathlib import Path
 
-from live_client import BAR, PROGRAM, Server
+from live_server import BAR, Server, call_program, prm
 
 try:
     from selenium import webdriver
@@ -40,7 +39,7 @@ class BrowserTest(unittest.TestCase):
     def setUpClass(cls):
         cls.directory = tempfile.TemporaryDirectory()
         cls.here = Path(cls.directory.name)
-        (cls.here / "bar.prm").write_text(BAR)
+        (cls.here / "bar.prm").write_text(prm(BAR))
 
     @classmethod
     def tearDownClass(cls):
@@ -87,6 +86,23 @@ class BrowserTest(unittest.TestCase):
             self.wait(lambda: page.find_element("id", "pause").text == "Go on", "a pause")
             self.assertNothingInConsole(page)
 
+    def test_weights_by_hand(self):
+        with Server(self.here / "bar.prm", log=self.here / "log.txt") as server:
+            page = browser()
+            self.addCleanup(page.quit)
+            page.get(f"http://{server.host}/?token={server.token}")
+            self.wait(lambda: "real time" in page.find_element("id", "strip").text, "a status")
+            slider, shown = (page.find_element("css selector", f".weight:last-child {name}") for name in ("input", "output"))
+            self.assertFalse(slider.is_displayed())
+            page.find_element("css selector", "[value='by hand']").click()
+            self.wait(slider.is_displayed, "a slider")
+            page.execute_script("arguments[0].value = 0.75; arguments[0].oninput();", slider)
+            self.wait(lambda: shown.text == "0.75", "the weight follows")
+            self.picture(page, "live_weights")
+            page.find_element("css selector", "[value='automatic']").click()
+            self.wait(lambda: not slider.is_displayed(), "no slider")
+            self.assertNothingInConsole(page)
+
     def test_phone_and_dark(self):
         with Server(self.here / "bar.prm", log=self.here / "log.txt") as server:
             page = browser(500, 900, dark=True)
@@ -101,17 +117,17 @@ class BrowserTest(unittest.TestCase):
 
     def test_exported_page(self):
         scene = self.here / "run.prm"
-        scene.write_text(BAR + "subsection Loads\n  set Gravity = 0, 0, -10\nend\nsubsection Time\n  set Step = 0.05\n  set End = 1\nend\n")
+        scene.write_text(prm({**BAR, "Loads/Gravity": "0, 0, -10", "Time/Step": "0.05", "Time/End": "1"}))
         output, html = self.here / "run", self.here / "run.html"
-        for call in ([str(scene), "--output", str(output)], ["export", str(output), "--html", str(html)]):
-            done = subprocess.run([PROGRAM, *call], capture_output=True, text=True, timeout=120, check=False)
+        for call in ([scene, "--output", output], ["export", output, "--html", html]):
+            done = call_program(*call, timeout=120)
             self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("21 frames", done.stdout)
         self.assertLess(html.stat().st_size, 1.5e6)
         page = browser()
         self.addCleanup(page.quit)
         page.get(f"file://{html}")
-        self.wait(lambda: "t = 0.5" in page.find_element("id", "time").text, "it plays")
+        self.wait(lambda: page.find_element("id", "time").text not in ("", "t = 0.00 s"), "it plays")
         self.picture(page, "export")
         self.assertNothingInConsole(page)
         self.play_two(page, output)
@@ -137,7 +153,7 @@ class BrowserTest(unittest.TestCase):
         (self.here / "empty").mkdir()
         for call, words in ((["empty", "--html", "x.html"], "animation.pvd"), (["nothing", "--html", "x.html"], "animation.pvd"),
                             (["empty", "--html", "mine.html"], "Nothing has been changed"), (["empty", "--html", "no/x.html"], "no directory")):
-            done = subprocess.run([PROGRAM, "export", *call], cwd=self.here, capture_output=True, text=True, timeout=60, check=False)
+            done = call_program("export", *call, cwd=self.here, timeout=60)
             self.assertEqual(done.returncode, 1)
             self.assertIn(words, done.stderr)
         self.assertEqual((self.here / "mine.html").read_text(), "mine")

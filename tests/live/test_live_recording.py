@@ -4,12 +4,12 @@
 Environment: EXEMPLAR, the program.
 """
 import re
-import subprocess
 import tempfile
 import unittest
 from pathlib import Path
 
-from live_client import BAR, PROGRAM, Server, Viewer
+from live_client import Viewer
+from live_server import BAR, Server, call_program, prm
 
 
 def pose(file):
@@ -27,7 +27,7 @@ class RecordingTest(unittest.TestCase):
         """One session with all that a hand can do; its last pose is saved."""
         cls.directory = tempfile.TemporaryDirectory()
         cls.here = Path(cls.directory.name)
-        (cls.here / "bar.prm").write_text(BAR)
+        (cls.here / "bar.prm").write_text(prm(BAR))
         cls.record = cls.here / "session"
         with Server(cls.here / "bar.prm", "--record", cls.record, log=cls.here / "log.txt") as server, Viewer(server) as viewer:
             cls.drag(viewer)
@@ -66,17 +66,18 @@ class RecordingTest(unittest.TestCase):
         viewer.send(type="pin", name="1", vertices=[i for i, place in enumerate(viewer.frames[-1].places) if 1.4 < place[0] < 2.2])
         viewer.send(type="set", name="young", numbers=[5e5])
         viewer.send(type="set", name="importance", numbers=[.5])
+        viewer.send(type="weights", numbers=[.3, .7])
         viewer.wait_steps(10)
         viewer.send(type="release", name="b")
         viewer.send(type="handle", name="left", numbers=[0., .1, 0.])
         viewer.wait_steps(10)
+        viewer.send(type="weights", numbers=[])
         viewer.send(type="unpin", name="1")
         viewer.send(type="set", name="poisson", numbers=[.3])
         viewer.wait_steps(10)
 
     def play(self, output, *arguments):
-        done = subprocess.run([PROGRAM, str(self.record / "scene.prm"), "--output", str(self.here / output), *arguments],
-                              capture_output=True, text=True, timeout=300, check=False)
+        done = call_program(self.record / "scene.prm", "--output", self.here / output, *arguments, timeout=300)
         self.assertEqual(done.returncode, 0, done.stderr)
         return self.here / output
 
@@ -94,7 +95,7 @@ class RecordingTest(unittest.TestCase):
         lines = (self.record / "session.txt").read_text().splitlines()
         self.assertEqual(lines[0], "exemplar session 1")
         words = {line.split(" | ")[1] for line in lines[1:]}
-        self.assertTrue({"grab", "move", "release", "hold", "shift", "let go", "gravity", "damping", "young", "poisson", "importance"} <= words, words)
+        self.assertTrue({"grab", "move", "release", "hold", "shift", "let go", "gravity", "damping", "young", "poisson", "importance", "weights"} <= words, words)
 
     def test_other_tolerance_and_elements(self):
         exact = numbers(self.play("exact", "--set", "Solver/Method=newton") / "final.msh")
@@ -111,8 +112,8 @@ class RecordingTest(unittest.TestCase):
 
     def test_pose_is_an_example(self):
         scene = self.here / "example.prm"
-        scene.write_text(BAR.replace("set Pose functions = (8/pi-z)*sin(pi*x/8); y; 8/pi-(8/pi-z)*cos(pi*x/8)", f"set Poses = {self.saved}"))
-        done = subprocess.run([PROGRAM, "--validate", str(scene)], capture_output=True, text=True, timeout=60, check=False)
+        scene.write_text(prm({**BAR, "Examples/Pose functions": None, "Examples/Poses": self.saved}))
+        done = call_program("--validate", scene, timeout=60)
         self.assertEqual(done.returncode, 0, done.stderr)
 
     def test_bad_sessions(self):
@@ -125,14 +126,13 @@ class RecordingTest(unittest.TestCase):
             directory.mkdir()
             (directory / "session.txt").write_text(text)
             (directory / "scene.prm").write_text(scene)
-            done = subprocess.run([PROGRAM, str(directory / "scene.prm"), "--output", str(directory / "out")], capture_output=True, text=True,
-                                  timeout=60, check=False)
+            done = call_program(directory / "scene.prm", "--output", directory / "out", timeout=60)
             self.assertEqual(done.returncode, 1, done.stderr)
             self.assertIn(words, re.sub(r"\s+", " ", done.stderr))
             self.assertFalse((directory / "out").exists())
 
     def test_recording_is_not_live_again(self):
-        done = subprocess.run([PROGRAM, "live", str(self.record / "scene.prm")], capture_output=True, text=True, timeout=60, check=False)
+        done = call_program("live", self.record / "scene.prm", timeout=60)
         self.assertEqual(done.returncode, 1)
         self.assertIn("recorded session", done.stderr)
 

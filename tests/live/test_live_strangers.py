@@ -4,13 +4,13 @@
 Environment: EXEMPLAR, the program.
 """
 import socket
-import subprocess
 import tempfile
 import time
 import unittest
 from pathlib import Path
 
-from live_client import BAR, PROGRAM, Closed, Server, Viewer
+from live_client import Closed, Viewer
+from live_server import BAR, Server, call_program, prm
 
 
 class StrangersTest(unittest.TestCase):
@@ -18,7 +18,7 @@ class StrangersTest(unittest.TestCase):
     def setUpClass(cls):
         cls.directory = tempfile.TemporaryDirectory()
         cls.here = Path(cls.directory.name)
-        (cls.here / "bar.prm").write_text(BAR)
+        (cls.here / "bar.prm").write_text(prm(BAR))
         cls.server = Server(cls.here / "bar.prm", "--allow-host", "Proxy.example", log=cls.here / "log.txt")
 
     @classmethod
@@ -178,13 +178,13 @@ class StrangersTest(unittest.TestCase):
         self.assertFalse(path.exists())
 
     def test_user_errors(self):
-        (self.here / "static.prm").write_text(BAR.replace("dynamic", "static"))
+        (self.here / "static.prm").write_text(prm({**BAR, "Scene": "static"}))
         (self.here / "file").write_text("mine")
         for arguments, words in ((["static.prm"], "only dynamic"), (["."], "animation.pvd"), ([".", "--record", "x"], "Leave out"), (["bar.prm", "bar.prm"], "takes one scene"),
                                   (["nothing.prm"], "nothing.prm"), ([], "SCENE"), (["bar.prm", "--port", "99999"], "port"),
                                  (["bar.prm", "--port", str(self.server.port)], "--port"), (["bar.prm", "--bind", "unix:file"], "this is a file"),
                                  (["bar.prm", "--record", "."], "Nothing has been changed"), (["bar.prm", "--bind", "nowhere"], "--bind")):
-            done = subprocess.run([PROGRAM, "live", *arguments], cwd=self.here, capture_output=True, text=True, timeout=60, check=False)
+            done = call_program("live", *arguments, cwd=self.here, timeout=60)
             self.assertEqual((done.returncode, done.stdout), (1, ""), arguments)
             self.assertIn(words, done.stderr)
             self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)

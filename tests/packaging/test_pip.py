@@ -17,7 +17,7 @@ import exemplar, importlib.metadata, pathlib, sys
 assert exemplar.__file__.startswith(sys.prefix), exemplar.__file__
 assert importlib.metadata.version("exemplar") == exemplar.__version__
 folder = pathlib.Path(exemplar.__file__).parent
-assert {"py.typed", "__init__.pyi", "_plot.py", "_equilibrium.py", "with_torch.py", "with_jax.py"} <= {file.name for file in folder.iterdir()}
+assert {"py.typed", "__init__.pyi", "_plot.py", "_live.py", "_equilibrium.py", "with_torch.py", "with_jax.py"} <= {file.name for file in folder.iterdir()}
 problem = exemplar.Problem("prm/tutorial/step1_bar.prm")
 print(problem.step().iterations, problem.positions.shape)
 """

@@ -55,6 +55,12 @@ namespace Exemplar
     void
     set_parameters(const ExampleParameters &parameters, double unit_energy);
 
+    /// From now on unknown weights are these, of all regions, because bounds leave no others; empty: steps find
+    /// them again. Throws UserError, with nothing changed, unless they are to be found on the simplex and
+    /// these lie there.
+    void
+    hold(std::vector<double> values);
+
     /// As many as there are examples.
     unsigned int
     n_per_region() const
@@ -90,11 +96,13 @@ namespace Exemplar
     std::vector<double>
     at(double time) const;
 
-    /// What these weights are at time t: others if they are prescribed.
+    /// What these weights are at time t: others if they are prescribed or held.
     std::vector<double>
     at(const double time, const std::vector<double> &weights) const
     {
-      return are_prescribed() ? at(time) : weights;
+      if (are_prescribed())
+        return at(time);
+      return held.empty() ? weights : held;
     }
 
     /// Prescribed weights at t = 0; one on the first example if they are unknown.
@@ -171,6 +179,7 @@ namespace Exemplar
     WeightForm                 form;
     dealii::FullMatrix<double> penalty;
     std::vector<Expression>    prescribed; ///< one, or one a region
+    std::vector<double>        held;       ///< empty: nobody holds them
     std::vector<std::string>   warnings;
   };
 } // namespace Exemplar

@@ -4,6 +4,7 @@
 
 #include <exemplar/live/command.h>
 #include <exemplar/live/surface_patch.h>
+#include <exemplar/live/weight_sliders.h>
 #include <exemplar/run/session/session.h>
 
 #include <map>
@@ -32,6 +33,7 @@ namespace Exemplar::Live
     {
       std::map<std::string, Pull> pulls, handles;
       std::set<std::string>       pins;
+      WeightSliders               weights;
     };
 
     /// Of a scene at its beginning; keeps a reference to `surface`.
@@ -53,6 +55,12 @@ namespace Exemplar::Live
     pulls() const
     {
       return !held.pulls.empty();
+    }
+
+    bool
+    holds_weights() const
+    {
+      return held.weights.are_in_use();
     }
 
     const Held &

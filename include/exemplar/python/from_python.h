@@ -2,6 +2,7 @@
 #ifndef exemplar_from_python_h
 #define exemplar_from_python_h
 
+#include <exemplar/python/scene_source.h>
 #include <exemplar/run/inputs/inputs.h>
 #include <exemplar/run/problem/problem.h>
 #include <exemplar/run/scene/scene_parameters.h>
@@ -15,14 +16,10 @@ namespace Exemplar::Python
   /// A scene and what stands in for its files.
   struct Given
   {
+    SceneSource     source;
     SceneParameters scene;
     Inputs          inputs;
   };
-
-  /// What Python's str() makes of a key, a value or a name. Throws UserError for a NUL character,
-  /// at which a message would end; `what` says there what it is.
-  std::string
-  text_of(const pybind11::handle &object, const std::string &what);
 
   /// The arguments of exemplar.Problem: the path of a .prm file, its text or a dictionary of
   /// sections; None or a tuple (nodes, cells) or (nodes, cells, material ids); None or a list of

@@ -2,6 +2,7 @@
 #ifndef exemplar_held_problem_h
 #define exemplar_held_problem_h
 
+#include <exemplar/python/from_python.h>
 #include <exemplar/python/kept_functions.h>
 #include <exemplar/python/saved_state.h>
 #include <exemplar/python/state_arrays.h>
@@ -64,6 +65,18 @@ namespace Exemplar::Python
     void
     on_iteration(const pybind11::object &function);
 
+    /// What the problem was made of.
+    const SceneSource &
+    get_source() const
+    {
+      return source;
+    }
+
+    /// By what the problem is no more as it was made, such as "set_material()"; empty: it is. Throws
+    /// RuntimeError while a step is made.
+    std::string
+    change_since_made() const;
+
     KeptFunctions &
     get_functions()
     {
@@ -102,6 +115,8 @@ namespace Exemplar::Python
     statistics(const std::string &prefix) const;
 
   private:
+    explicit HeldProblem(Given given);
+
     /// Throws what a filter of Python's warnings makes of them.
     void
     warn(const std::vector<std::string> &some);
@@ -123,6 +138,7 @@ namespace Exemplar::Python
     SolveReport
     advance(const StepInterval &interval);
 
+    const SceneSource              source;
     KeptFunctions                  functions;
     const std::shared_ptr<Problem> problem; ///< its memory is shared with arrays
     StateArrays                    arrays;

@@ -79,6 +79,13 @@ namespace Exemplar
   }
 
   void
+  Problem::hold_weights(const std::vector<double> &weights)
+  {
+    examples.weights.hold(weights);
+    changes.count("hold_weights()");
+  }
+
+  void
   Problem::set_gravity(const std::array<double, 3> &acceleration)
   {
     if (make_loads(*this))

@@ -40,6 +40,7 @@ namespace Exemplar
           { "poisson", { &SessionPlayer::set_material, 0, 1 } },
           { "density", { &SessionPlayer::set_material, 0, 1 } },
           { "importance", { &SessionPlayer::set_importance, 0, 1 } },
+          { "weights", { &SessionPlayer::hold_weights, 0, any_number } },
           { "gravity", { &SessionPlayer::set_gravity, 0, 3 } },
           { "damping", { &SessionPlayer::set_damping, 0, 2 } },
           { "forget", { &SessionPlayer::forget, 0, 0 } } };
@@ -192,6 +193,12 @@ namespace Exemplar
   SessionPlayer::set_importance(const SessionEvent &event)
   {
     problem.set_importance(event.numbers[0]);
+  }
+
+  void
+  SessionPlayer::hold_weights(const SessionEvent &event)
+  {
+    problem.hold_weights(event.numbers);
   }
 
   void

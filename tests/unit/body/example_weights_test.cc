@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/weight_qp.h>
+#include <exemplar/base/errors.h>
 #include <exemplar/body/example_weights.h>
 
 #include "body.h"
@@ -71,6 +73,31 @@ namespace Exemplar::Testing
       EXPECT_EQ(weights[1], 0.);
       EXPECT_EQ(examples.weights->missing_sums(weights).size(), 1u);
       EXPECT_NEAR(examples.weights->missing_sums(weights)[0], 1e-3, 1e-15);
+    }
+
+    TEST(ExampleWeights, AreHeldByBoundsThatLeaveNoOther)
+    {
+      const Body                body;
+      const Examples            examples = body.examples(two_poses(WeightRule::simplex));
+      const std::vector<double> some = { 0.5, 0.2, 0.3 }, held = { 0.25, 0.75, 0. };
+      examples.weights->hold(held);
+      EXPECT_EQ(examples.weights->n_unknown(), 3u);
+      EXPECT_EQ(examples.weights->at(0.3, some), held);
+      EXPECT_EQ(examples.weights->best({ 0., 0., 1e9 }, some), held);
+      const auto changes = minimize_over_weights(examples.weights->weight_form().H, { 1., 2., 1e9 },
+                                                 examples.weights->missing_sums(held),
+                                                 examples.weights->limits_of_changes(held));
+      ASSERT_TRUE(changes.found);
+      EXPECT_EQ(changes.weights, std::vector<double>(3, 0.));
+      EXPECT_EQ(examples.weights->residual(held, { 1., 2., -1e9 }).deviation, 0.);
+      const std::vector<std::vector<double>> all_wrong
+          = { { 0.5, 0.5 }, { 0.5, 0.6, -0.1 }, { 0.5, 0.6, 0.1 } };
+      for (const std::vector<double> &wrong : all_wrong)
+        EXPECT_THROW(examples.weights->hold(wrong), UserError);
+      EXPECT_EQ(examples.weights->at(0.3, some), held);
+      examples.weights->hold({});
+      EXPECT_EQ(examples.weights->at(0.3, some), some);
+      EXPECT_THROW(body.examples(two_poses(WeightRule::free)).weights->hold(held), UserError);
     }
   } // namespace
 } // namespace Exemplar::Testing

@@ -60,6 +60,12 @@ namespace Exemplar
     void
     set_importance(double importance);
 
+    /// Between steps, let the weights of the examples be these from the next step on, of each region one after the
+    /// other; empty: steps find them again. Throws UserError, with nothing changed, for what
+    /// ExampleWeights::hold() refuses.
+    void
+    hold_weights(const std::vector<double> &weights);
+
     /// Between steps, let gravity be another [m/s^2]. Throws UserError for an interpolation.
     void
     set_gravity(const std::array<double, 3> &acceleration);

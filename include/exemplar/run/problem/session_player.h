@@ -25,6 +25,7 @@ namespace Exemplar
   /// | shift | of a handle that was held so | | displacement of all of it since then [m] |
   /// | let go | of the handle | | |
   /// | young, poisson, density, importance | | | 1, for all cells |
+  /// | weights | | | one a weight: they are held; none: they are found again |
   /// | gravity | | | 3 [m/s^2] |
   /// | damping | | | mass damping [1/s], stiffness damping [s] |
   /// | forget | | | a step had failed: what the solver remembers counts no more |
@@ -88,6 +89,8 @@ namespace Exemplar
     set_material(const SessionEvent &event);
     void
     set_importance(const SessionEvent &event);
+    void
+    hold_weights(const SessionEvent &event);
     void
     set_gravity(const SessionEvent &event);
     void
