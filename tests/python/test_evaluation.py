@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Energies, forces and matrices anywhere: each against central differences of the one before, and against what the solver found."""
+import re
 import subprocess
 import sys
 import unittest
+import warnings
 
 import numpy as np
 
@@ -289,6 +291,28 @@ class Errors(unittest.TestCase):
                    "except ImportError as error: print(error)\n")
         done = subprocess.run([sys.executable, "-c", program], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         self.assertIn("need scipy", done.stdout, done.stderr)
+
+
+class Balance(unittest.TestCase):
+    @unittest.skipUnless(scipy, "needs scipy")
+    def test_a_balanced_body_stands_beside_its_examples_from_the_stiffness_that_the_warning_names(self):
+        """Below it the energy falls along the example: with its matrices, H_ii - G_i^T K^-1 G_i changes its sign there."""
+        base = {"Scene": "static", "Mesh": {"Generator": "box", "Box size": [8, 1, 1], "Box cells": (8, 1, 1)},
+                "Handles": {"foot": {"Select": "boundary 1"}}, "Loads": {"Gravity": [-9.81, 0, 0], "Balanced": True},
+                "Material": {"Density": 1000, "Poisson's ratio": 0, "Young's modulus": 1e6}, "Time": {"Increments": 1},
+                "Examples": {"Pose functions": [["x-0.01*(z-0.5)*x", "y", "z+0.005*x*x"]], "Importance": 0.8, "Energy": "blended"}}
+        with self.assertWarnsRegex(UserWarning, "with its examples") as warned:
+            exemplar.Problem(base)
+        named = float(re.search(r"modulus = ([-+.e0-9]+[0-9])", str(warned.warning))[1])
+        for factor in 0.98, 1.02:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                problem = exemplar.Problem(scene(base, Material={"Young's modulus": factor * named}))
+            free = np.repeat(problem.rest_positions[:, 0] > 1e-9, 3)
+            tangent, G = problem.hessian()[free][:, free], problem.coupling()[free, 1]
+            schur = problem.weight_hessian()[1, 1] - G @ scipy.sparse.linalg.spsolve(tangent.tocsc(), G)
+            self.assertGreater(np.linalg.eigvalsh(tangent.toarray())[0], 0)
+            self.assertEqual(schur > 0, factor > 1, (named, schur))
 
 
 if __name__ == "__main__":

@@ -7,6 +7,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -94,6 +95,7 @@ namespace Exemplar
         assemble();
         if (!is_iterative())
           stiffness = system->matrix_values();
+        coupling = system->columns();
         system->factorize(rest());
       }
 
@@ -144,7 +146,8 @@ namespace Exemplar
       }
 
     private:
-      static constexpr unsigned int max_corrections = 30;
+      static constexpr unsigned int max_corrections  = 30;
+      static constexpr double       rounding_of_sums = 1e-8;
 
       const Vector &
       rest() const
@@ -234,7 +237,29 @@ namespace Exemplar
         {
           return false;
         }
-        return true;
+        return stands_beside_examples(factor);
+      }
+
+      /// With a small weight w_i > 0 of an example the energy grows by S_ii w_i^2 / 2, where S is the Schur
+      /// complement (11), of which rounding leaves a share; elsewhere the body slides towards the example.
+      bool
+      stands_beside_examples(const double factor)
+      {
+        const WeightForm &form = system->weight_form();
+        if (form.coupled.empty())
+          return true;
+        std::vector<double> G = coupling;
+        for (double &entry : G)
+          entry *= factor;
+        std::vector<double> Z = G;
+        system->apply_inverse(Z);
+        const auto S = make_schur_complement(form, G, Z.data(), free_dofs.list().size(), exchange);
+        return std::all_of(form.coupled.begin(), form.coupled.end(),
+                           [&](const unsigned int i)
+                           {
+                             const double H = form.H(i, i);
+                             return S(i, i) + (factor - 1.) * H > -rounding_of_sums * factor * H;
+                           });
       }
 
       const Body                           &body;
@@ -244,6 +269,7 @@ namespace Exemplar
       IncrementalPotential                  potential;
       const std::unique_ptr<BorderedSystem> system;
       std::vector<double>                   stiffness; ///< K; empty where no factor is made
+      std::vector<double>                   coupling;  ///< G
     };
   } // namespace
 
@@ -262,15 +288,17 @@ namespace Exemplar
     if (loads->has_gravity())
       force += loads->gravity();
     RestingBody         resting(parameters, body, examples, constraints.free_dofs);
-    const PointStresses stresses = resting.stresses_of(force);
+    const PointStresses stresses     = resting.stresses_of(force);
+    const bool          has_examples = examples.weights.n_unknown() > 0;
     if (const double factor = resting.least_factor(stresses); factor > 1.)
       warnings.push_back(fmt::format(
-          "Loads/Balanced: the rest pose is an equilibrium, but no stable one: the body is too "
-          "soft "
-          "for its loads and falls from there at the least disturbance. It stands with {:.3g} "
-          "times "
-          "its stiffness: Material/Young's modulus = {:.3g}, and those of regions and maps alike.",
-          factor, factor * parameters.material.everywhere.youngs_modulus));
+          "Loads/Balanced: the rest pose is an equilibrium, but no stable one: the body{} is too "
+          "soft for its loads and falls from there at the least disturbance. It stands with {:.3g} "
+          "times its stiffness: Material/Young's modulus = {:.3g}, and those of regions and maps "
+          "alike{}.",
+          has_examples ? ", with its examples," : "", factor,
+          factor * parameters.material.everywhere.youngs_modulus,
+          has_examples ? "; or with less Examples/Importance" : ""));
     return stresses;
   }
 } // namespace Exemplar

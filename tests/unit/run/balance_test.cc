@@ -133,28 +133,59 @@ namespace Exemplar::Testing
       }
     }
 
+    /// It buckles under its weight at rho g A L^3 / (E I) = 7.837.
+    constexpr double buckling_modulus = 12. * 1000. * 9.81 * 8. * 8. * 8. / 7.837;
+
+    /// What a column 8 m high that bears its weight is warned of.
+    std::vector<std::string>
+    warnings_of_column(const double youngs_modulus, const std::string &more = "")
+    {
+      Scene scene(
+          "set Scene = static\nsubsection Mesh\n set Generator = box\n set Box size = 8, 1, 1\n"
+          "set Box cells = 8, 1, 1\nend\nsubsection Model\n set Element = P2\nend\n"
+          "subsection Handles\n set Names = left\n"
+          + held_left
+          + "end\nsubsection Loads\n set Gravity = -9.81, 0, 0\n set Balanced = true\nend\n"
+            "subsection Material\n set Density = 1000\n set Poisson's ratio = 0\n"
+          + fmt::format("set Young's modulus = {}\nend\n", youngs_modulus) + more);
+      return scene.problem.actions.warnings;
+    }
+
+    double
+    modulus_in(const std::string &warning)
+    {
+      const std::size_t place = warning.find("modulus = ");
+      return place == std::string::npos ? 0. : std::stod(warning.substr(place + 10));
+    }
+
     TEST(Balance, AColumnStandsFromTheStiffnessOfItsBuckling)
     {
-      // it buckles under its weight at rho g A L^3 / (E I) = 7.837
-      const double      L = 8., E = 12. * 1000. * 9.81 * L * L * L / 7.837;
-      const std::string column
-          = "set Scene = static\nsubsection Mesh\n set Generator = box\n set Box size = 8, 1, 1\n"
-            "set Box cells = 8, 1, 1\nend\nsubsection Model\n set Element = P2\nend\n"
-            "subsection Handles\n set Names = left\n"
-            + held_left
-            + "end\nsubsection Loads\n set Gravity = -9.81, 0, 0\n set Balanced = true\nend\n"
-              "subsection Material\n set Density = 1000\n set Poisson's ratio = 0\n";
-      const auto warnings_with = [&](const double stiffness)
+      const double E = buckling_modulus;
+      EXPECT_TRUE(warnings_of_column(1.1 * E).empty());
+      const auto warnings = warnings_of_column(0.25 * E);
+      ASSERT_EQ(warnings.size(), 1U);
+      EXPECT_NEAR(modulus_in(warnings[0]), E, 0.05 * E);
+    }
+
+    // Along an example like its buckling it loses the more of its stiffness the more the example counts. How much is
+    // compared in tests/python/test_evaluation.py.
+    TEST(Balance, AnExampleOfItsBucklingLetsAColumnGo)
+    {
+      const double      E = buckling_modulus;
+      const std::string buckled
+          = "set Pose functions = x-(z-0.5)*0.02*pi/16*sin(pi*x/16); y; z+0.02*(1-cos(pi*x/16))\n"
+            "set Include rest pose = true\nset Energy = blended\nset Importance = ";
+      EXPECT_TRUE(warnings_of_column(2.2 * E, examples(buckled + "0.5\n")).empty());
+      double before = 1.1 * E;
+      for (const double eta : { 0.5, 0.8 })
       {
-        Scene scene(column + fmt::format("set Young's modulus = {}\nend\n", stiffness));
-        return scene.problem.actions.warnings;
-      };
-      EXPECT_TRUE(warnings_with(1.1 * E).empty());
-      ASSERT_EQ(warnings_with(0.25 * E).size(), 1U);
-      const std::string warning = warnings_with(0.25 * E)[0];
-      const std::size_t place   = warning.find("modulus = ");
-      ASSERT_NE(place, std::string::npos) << warning;
-      EXPECT_NEAR(std::stod(warning.substr(place + 10)), E, 0.05 * E);
+        const auto warnings
+            = warnings_of_column(1.1 * E, examples(buckled + fmt::format("{}\n", eta)));
+        ASSERT_EQ(warnings.size(), 1U);
+        expect_contains(warnings[0], "the body, with its examples, is too soft");
+        EXPECT_GT(modulus_in(warnings[0]), 1.1 * before);
+        before = modulus_in(warnings[0]);
+      }
     }
 
     TEST(Balance, WhatCannotStandIsRefused)
