@@ -271,6 +271,23 @@ namespace Exemplar
       std::vector<double>                   stiffness; ///< K; empty where no factor is made
       std::vector<double>                   coupling;  ///< G
     };
+
+    /// A body with this Young's modulus [Pa] stands with `factor` times that; `is_led` if weights of examples are to
+    /// be found, too, which count in this.
+    std::string
+    warning_of_instability(const double factor, const double youngs_modulus, const bool is_led)
+    {
+      const std::string unstable = "Loads/Balanced: the rest pose is an equilibrium, but no stable "
+                                   "one: the body",
+                        who      = is_led ? ", with its examples, is" : " is",
+                        or_else  = is_led ? "; or with less Examples/Importance." : ".";
+      return unstable + who
+             + fmt::format(" too soft for its loads and falls from there at the least disturbance. "
+                           "It stands with {:.3g} times its stiffness: Material/Young's modulus = "
+                           "{:.3g}, and those of regions and maps alike",
+                           factor, factor * youngs_modulus)
+             + or_else;
+    }
   } // namespace
 
   PointStresses
@@ -288,17 +305,10 @@ namespace Exemplar
     if (loads->has_gravity())
       force += loads->gravity();
     RestingBody         resting(parameters, body, examples, constraints.free_dofs);
-    const PointStresses stresses     = resting.stresses_of(force);
-    const bool          has_examples = examples.weights.n_unknown() > 0;
+    const PointStresses stresses = resting.stresses_of(force);
     if (const double factor = resting.least_factor(stresses); factor > 1.)
-      warnings.push_back(fmt::format(
-          "Loads/Balanced: the rest pose is an equilibrium, but no stable one: the body{} is too "
-          "soft for its loads and falls from there at the least disturbance. It stands with {:.3g} "
-          "times its stiffness: Material/Young's modulus = {:.3g}, and those of regions and maps "
-          "alike{}.",
-          has_examples ? ", with its examples," : "", factor,
-          factor * parameters.material.everywhere.youngs_modulus,
-          has_examples ? "; or with less Examples/Importance" : ""));
+      warnings.push_back(warning_of_instability(
+          factor, parameters.material.everywhere.youngs_modulus, examples.weights.n_unknown() > 0));
     return stresses;
   }
 } // namespace Exemplar
