@@ -65,9 +65,11 @@ class Studies(SceneTest):
         return (self.directory / "out/study.md").read_text()
 
     def records(self):
-        """When the record of each finished run was written."""
+        """When the record of each finished run was written. A run that is still in `running` is not finished: its
+        directory is renamed after its record is written."""
         return {file.parent.name: file.stat().st_mtime_ns
-                for file in self.directory.glob("out/runs/*/record.json")}
+                for file in self.directory.glob("out/runs/*/record.json")
+                if file.parent.name != "running"}
 
     def start(self, wait_for):
         """Start the study and wait for something that it has done."""
