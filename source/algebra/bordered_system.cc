@@ -108,6 +108,14 @@ namespace Exemplar
           find_columns(std::vector<double>(G.size() / form.coupled.size(), 0.));
       }
 
+      std::unique_ptr<BorderedSystem>
+      twin() const override
+      {
+        std::unique_ptr<SpdOperator> matrix = A->twin();
+        return matrix == nullptr ? nullptr
+                                 : std::make_unique<BlockSystem>(std::move(matrix), form, exchange);
+      }
+
       std::unique_ptr<KeptInverse>
       keep() const override
       {

@@ -111,6 +111,16 @@ namespace Exemplar
           throw indefinite_matrix(); // the last factorisation has failed
       }
 
+      std::unique_ptr<SpdOperator>
+      twin() const override
+      {
+        auto other       = std::make_unique<CholeskyOperator>(n_threads);
+        other->pattern   = pattern;
+        other->structure = structure;
+        other->matrix_values.assign(pattern.n_values(), 0.);
+        return other;
+      }
+
       std::unique_ptr<KeptInverse>
       keep() const override
       {

@@ -76,15 +76,20 @@ Exit status:
       app.footer(footer("live prm/live/cat.prm --record session"));
     }
 
-    /// Steps of the pace of displays, unless the command line says another.
+    /// Steps of the pace of displays, none of which waits for a factor, unless the command line says otherwise.
     std::vector<std::string>
-    with_step(std::vector<std::string> overrides)
+    with_defaults(std::vector<std::string> overrides)
     {
-      const std::string key = "Time/Step=";
-      if (std::none_of(overrides.begin(), overrides.end(),
-                       [&](const std::string &given)
-                       { return given.compare(0, key.size(), key) == 0; }))
-        overrides.push_back(key + "0.016666666666666666");
+      const auto given = overrides;
+      for (const std::string setting :
+           { "Time/Step=0.016666666666666666", "Solver/Background factor=true" })
+      {
+        const std::string key = setting.substr(0, setting.find('=') + 1);
+        if (std::none_of(given.begin(), given.end(),
+                         [&](const std::string &other)
+                         { return other.compare(0, key.size(), key) == 0; }))
+          overrides.push_back(setting);
+      }
       return overrides;
     }
 
@@ -218,7 +223,7 @@ Exit status:
     {
       if (arguments.shown.size() > 1)
         throw UserError("exemplar live takes one scene, or one or two output directories of runs.");
-      const SceneFile scene(arguments.shown.front(), with_step(arguments.overrides));
+      const SceneFile scene(arguments.shown.front(), with_defaults(arguments.overrides));
       const Access    access(arguments.hosts);
       const Site      site;
       Stage           stage(scene, arguments.record, arguments.n_threads);

@@ -61,6 +61,7 @@ namespace Exemplar
       report.failure = failure.what();
     }
     ++history.steps;
+    ++next.steps;
     history.iterations += report.iterations;
     history.last_iterations = report.iterations;
     if (report.status == SolveStatus::converged)
@@ -69,6 +70,7 @@ namespace Exemplar
       return report;
     }
     history.positions.reinit(0);
+    next = {};
     metric.clear();
     newton.observe = [this](const SolveReport &so_far)
     {
@@ -90,7 +92,7 @@ namespace Exemplar
     potential.set_time(trial.time, trial);
     prediction.predict(accepted, step_size, trial);
     keep_within_max_step(potential, accepted.positions, trial.positions);
-    rebuild_metric(accepted, step_size);
+    rebuild_metrics(accepted, step_size);
     potential.minimize_over_weights(trial, RotationUse::update, evaluation);
   }
 
@@ -101,7 +103,7 @@ namespace Exemplar
     system.factorize_roughly(positions, weights, 1.);
     StepClock::Scope scope(clock, Phase::factorize);
     potential.get_cells().get_field().node_rotations(node_rotations);
-    metric.reinit(system.bordered(), node_rotations);
+    metric.reinit(system.bordered(), inverse_columns(system.bordered()), node_rotations);
     metric.rotate(node_rotations);
   }
 
@@ -109,15 +111,22 @@ namespace Exemplar
   QuasiNewton::renew_metric(const State &start, const double step_size, const State &trial)
   {
     make_metric(trial.positions, trial.weights);
-    history = { trial.positions,
-                trial.weights,
-                potential.changes_between_steps() ? start : State(),
-                step_size,
-                potential.mass_factor(),
-                0,
-                0,
-                0 };
+    history = new_history(start, step_size, trial);
+    next    = {};
     lbfgs.clear();
+  }
+
+  QuasiNewton::MetricHistory
+  QuasiNewton::new_history(const State &start, const double step_size, const State &trial) const
+  {
+    return { trial.positions,
+             trial.weights,
+             potential.changes_between_steps() ? start : State(),
+             step_size,
+             potential.mass_factor(),
+             0,
+             0,
+             0 };
   }
 
   void
@@ -129,9 +138,14 @@ namespace Exemplar
              && history.last_iterations
                     > (metric.cost_in_iterations() + history.iterations) / history.steps;
     };
+    if (next.mass_factor != potential.mass_factor())
+      next = {};
     // where Newton's method has taken over, there is no metric, but steps since it was made
-    if (history.positions.size() == 0 || history.mass_factor != potential.mass_factor()
-        || is_slow())
+    const bool has_metric
+        = history.positions.size() > 0 && history.mass_factor == potential.mass_factor();
+    if (has_metric && is_next_due())
+      take_next_metric();
+    if (!has_metric || (is_slow() && !begin_next_metric(start, step_size, trial)))
       renew_metric(start, step_size, trial);
     else
     {
@@ -139,21 +153,6 @@ namespace Exemplar
       potential.get_cells().get_field().node_rotations(node_rotations);
       metric.rotate(node_rotations);
     }
-  }
-
-  void
-  QuasiNewton::rebuild_metric(const State &accepted, const double step_size)
-  {
-    if (history.positions.size() == 0 || !metric.empty()
-        || history.mass_factor != potential.mass_factor())
-      return;
-    if (history.start.positions.size() > 0)
-      potential.begin_step(history.start, history.step_size);
-    potential.get_cells().get_field().update_rotations(history.positions);
-    make_metric(history.positions, history.weights);
-    system.count_as_remade();
-    if (history.start.positions.size() > 0)
-      potential.begin_step(accepted, step_size);
   }
 
   double

@@ -17,6 +17,7 @@ namespace Exemplar
     lbfgs.clear();
     metric.clear();
     history = {};
+    next    = {};
   }
 
   void
@@ -30,15 +31,15 @@ namespace Exemplar
       *field = whole(free_dofs.exchange(), *field);
     of_body.start.history = potential.cell_order().whole(history.start.history);
     body_lbfgs.map([&](const std::vector<double> &vector) { return free_dofs.whole(vector); });
-    archive &of_body &body_lbfgs;
+    archive &of_body &next &body_lbfgs; // several processes have no next one
     prediction.save(archive);
   }
 
   void
   QuasiNewton::load(boost::archive::binary_iarchive &archive)
   {
-    const FreeDofs   &free_dofs = potential.get_free_dofs();
-    archive &history &lbfgs;
+    const FreeDofs         &free_dofs = potential.get_free_dofs();
+    archive &history &next &lbfgs;
     history.positions = part(free_dofs.exchange(), history.positions);
     for (Vector *field : history.start.nodal_fields())
       *field = part(free_dofs.exchange(), *field);

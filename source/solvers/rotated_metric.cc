@@ -25,20 +25,19 @@ namespace Exemplar
   }
 
   void
-  RotatedMetric::reinit(BorderedSystem &system, const std::vector<float> &rotations)
+  RotatedMetric::reinit(const BorderedSystem      &system,
+                        const std::vector<double> &inverse_columns,
+                        const std::vector<float>  &rotations)
   {
     if (empty()) // the first time
       find_rotated_nodes();
-    rotations_then              = rotations;
-    inverse                     = system.keep();
-    form                        = &system.weight_form();
-    std::vector<double> columns = system.columns();
-    if (!form->coupled.empty())
-      system.apply_inverse(columns);
-    schur = make_schur_complement(*form, system.columns(), columns.data(), free_dofs.size(),
+    rotations_then = rotations;
+    inverse        = system.keep();
+    form           = &system.weight_form();
+    schur = make_schur_complement(*form, system.columns(), inverse_columns.data(), free_dofs.size(),
                                   free_dofs.exchange());
     G.assign(system.columns().begin(), system.columns().end());
-    Z.assign(columns.begin(), columns.end());
+    Z.assign(inverse_columns.begin(), inverse_columns.end());
   }
 
   void

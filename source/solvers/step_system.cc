@@ -21,7 +21,9 @@ namespace Exemplar
                         const std::vector<double> &weights,
                         const double               convexity)
   {
-    assemble(positions, weights, convexity);
+    follow_pattern();
+    assemble(positions, weights, convexity, *system);
+    count_factor();
     StepClock::Scope scope(clock, Phase::factorize);
     system->factorize(positions);
   }
@@ -31,26 +33,61 @@ namespace Exemplar
                                 const std::vector<double> &weights,
                                 const double               convexity)
   {
-    assemble(positions, weights, convexity);
+    follow_pattern();
+    assemble(positions, weights, convexity, *system);
+    count_factor();
     StepClock::Scope scope(clock, Phase::factorize);
     system->factorize_roughly(positions);
+  }
+
+  bool
+  StepSystem::begin_factor(const Vector              &positions,
+                           const std::vector<double> &weights,
+                           const double               convexity)
+  {
+    follow_pattern();
+    BorderedSystem *const next = background.prepare(*system);
+    if (next == nullptr)
+      return false;
+    assemble(positions, weights, convexity, *next);
+    background.start(positions);
+    return true;
+  }
+
+  std::vector<double>
+  StepSystem::take_factor()
+  {
+    StepClock::Scope scope(clock, Phase::factorize);
+    count_factor();
+    return background.take(system);
+  }
+
+  void
+  StepSystem::follow_pattern()
+  {
+    if (pattern_version == potential.get_tangent().get_pattern().version)
+      return;
+    background.clear();
+    system.reset(); // its memory first
+    system          = make_system();
+    pattern_version = potential.get_tangent().get_pattern().version;
   }
 
   void
   StepSystem::assemble(const Vector              &positions,
                        const std::vector<double> &weights,
-                       const double               convexity)
+                       const double               convexity,
+                       BorderedSystem            &assembled)
   {
-    if (pattern_version != potential.get_tangent().get_pattern().version)
-    {
-      system.reset(); // its memory first
-      system          = make_system();
-      pattern_version = potential.get_tangent().get_pattern().version;
-    }
     StepClock::Scope scope(clock, Phase::assemble);
-    potential.get_tangent().assemble(positions, weights, convexity, system->matrix_values(),
-                                     system->columns(), system->outer_products());
-    potential.get_free_dofs().assemble_columns(system->columns());
+    potential.get_tangent().assemble(positions, weights, convexity, assembled.matrix_values(),
+                                     assembled.columns(), assembled.outer_products());
+    potential.get_free_dofs().assemble_columns(assembled.columns());
+  }
+
+  void
+  StepSystem::count_factor()
+  {
     ++factorizations;
     factor_of = potential.get_free_dofs().version();
   }

@@ -66,6 +66,12 @@ namespace Exemplar
       return G;
     }
 
+    const std::vector<double> &
+    columns() const
+    {
+      return G;
+    }
+
     /// The weights' part; empty without weights to find.
     const WeightForm &
     weight_form() const
@@ -103,6 +109,13 @@ namespace Exemplar
     virtual void
     prepare()
     {
+    }
+
+    /// As SpdOperator::twin().
+    virtual std::unique_ptr<BorderedSystem>
+    twin() const
+    {
+      return nullptr;
     }
 
     /// As SpdOperator::keep().

@@ -117,6 +117,14 @@ namespace Exemplar
     solve(std::vector<double> &columns)
         = 0;
 
+    /// Another operator of the same pattern, with values and a factor of its own, which another thread may make
+    /// at the same time; null for an operator that has none.
+    virtual std::unique_ptr<SpdOperator>
+    twin() const
+    {
+      return nullptr;
+    }
+
     /// What serves as inverse when the matrix has changed. Throws SolverFailure if the operator
     /// has nothing of the kind.
     virtual std::unique_ptr<KeptInverse>

@@ -87,13 +87,31 @@ namespace Exemplar
     void
     renew_metric(const State &start, double step_size, const State &trial);
 
+    MetricHistory
+    new_history(const State &start, double step_size, const State &trial) const;
+
+    /// Whether so many steps have gone by as take as long as a metric, by counts.
+    bool
+    is_next_due() const;
+
+    /// Let a thread make the next metric, if it does not already; false if none may.
+    bool
+    begin_next_metric(const State &start, double step_size, const State &trial);
+
+    /// The thread's part of that: of the tangent there, with the rotations as they are.
+    bool
+    begin_factor(const Vector &positions, const std::vector<double> &weights);
+
+    void
+    take_next_metric();
+
     /// Have a metric for this step: the last, or a new one if that has become slow.
     void
     find_metric(const State &start, double step_size, const State &trial);
 
     /// After a resume: rotations are functions of the positions.
     void
-    rebuild_metric(const State &accepted, double step_size);
+    rebuild_metrics(const State &accepted, double step_size);
 
     /// Find the step at the trial; returns the slope along it.
     double
@@ -141,6 +159,8 @@ namespace Exemplar
     std::vector<float>     node_rotations;
     Lbfgs                  lbfgs; ///< in the frame of the metric
     MetricHistory          history;
+    MetricHistory          next; ///< of the metric that a thread makes; without positions: none
+    std::vector<float>     next_rotations; ///< of the nodes where it was assembled
   };
 } // namespace Exemplar
 

@@ -19,10 +19,13 @@ namespace Exemplar
   public:
     explicit RotatedMetric(const FreeDofs &free_dofs);
 
-    /// Take over the tangent of a system that was just factorised. `rotations` are those of the
-    /// nodes then, nine numbers a node by rows. Throws SolverFailure if the system keeps no inverse.
+    /// Take over the tangent of a system that was factorised last. `inverse_columns` are its inverse times the columns
+    /// of its weights; `rotations` are those of the nodes where it was assembled, nine numbers a node by rows. Throws
+    /// SolverFailure if the system keeps no inverse.
     void
-    reinit(BorderedSystem &system, const std::vector<float> &rotations);
+    reinit(const BorderedSystem      &system,
+           const std::vector<double> &inverse_columns,
+           const std::vector<float>  &rotations);
 
     /// H - G^T Z; empty without weights to find.
     const dealii::FullMatrix<double> &

@@ -5,6 +5,7 @@
 #include <exemplar/algebra/bordered_system.h>
 #include <exemplar/base/step_clock.h>
 #include <exemplar/potential/incremental_potential.h>
+#include <exemplar/solvers/background_factor.h>
 
 #include <functional>
 #include <memory>
@@ -39,6 +40,16 @@ namespace Exemplar
     factorize_roughly(const Vector              &positions,
                       const std::vector<double> &weights,
                       double                     convexity);
+
+    /// Assemble as factorize() does, and let a thread factorise roughly while the last factor is in use. False, with
+    /// nothing done, for a system that cannot.
+    bool
+    begin_factor(const Vector &positions, const std::vector<double> &weights, double convexity);
+
+    /// From now on the factor of the last begin_factor() is in use, for which this waits. Returns its
+    /// inverse_columns(). Throws SolverFailure if there is none.
+    std::vector<double>
+    take_factor();
 
     /// The step that takes the derivatives of `evaluation`, made at `at`, to zero by the last
     /// factor. Throws SolverFailure if the weights are not determined.
@@ -114,8 +125,19 @@ namespace Exemplar
     memory_of_weights() const;
 
   private:
+    /// Have a system for the pattern as it is.
     void
-    assemble(const Vector &positions, const std::vector<double> &weights, double convexity);
+    follow_pattern();
+
+    /// On the pattern of the system, which may be another than the last.
+    void
+    assemble(const Vector              &positions,
+             const std::vector<double> &weights,
+             double                     convexity,
+             BorderedSystem            &assembled);
+
+    void
+    count_factor();
 
     IncrementalPotential           &potential;
     const MakeSystem                make_system;
@@ -123,6 +145,7 @@ namespace Exemplar
     unsigned int                    pattern_version; ///< of the system
     StepClock                      &clock;
     const bool                      turns_freely;
+    BackgroundFactor                background;
     unsigned int                    factorizations = 0, remade = 0;
     unsigned int                    factor_of = 0; ///< FreeDofs::version(); 0: none was made
   };

@@ -55,7 +55,7 @@ namespace Exemplar
   namespace
   {
     /// The first line. The number grows with every change of what follows.
-    const std::string format = "exemplar checkpoint 11";
+    const std::string format = "exemplar checkpoint 12";
 
     const std::string without_resume = " Run the scene without --resume.";
 

@@ -54,6 +54,9 @@ namespace Exemplar
           { "Solver/Step tolerance" },
           "in a scene that is not dynamic, whose steps are solved to Solver/Tolerance. Set that "
           "instead, or remove it." },
+        { !is_dynamic,
+          { "Solver/Background factor" },
+          "in a scene that is not dynamic, whose factors serve for one step. Remove it." },
         { !has_pose_by_surface(scene),
           { "Examples/Attach" },
           "without a pose by a surface (.obj, .ply, .stl) in Examples/Poses. Remove it." },

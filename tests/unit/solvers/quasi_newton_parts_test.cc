@@ -173,7 +173,7 @@ namespace Exemplar::Testing
       const MeshParameters bar = box_mesh(4., 4, 2);
       const Factored       then(bar, 0.), now(bar, 70.);
       RotatedMetric        metric(then.free_dofs);
-      metric.reinit(*then.system, then.rotations);
+      metric.reinit(*then.system, inverse_columns(*then.system), then.rotations);
       metric.rotate(now.rotations);
       std::vector<double> forces = some_forces(now.free_dofs), exact = forces;
       now.system->apply_inverse(exact);

@@ -143,6 +143,68 @@ namespace Exemplar::Testing
       EXPECT_LT(n, scene.problem.time_axis.n_steps() / 3);
     }
 
+    /// Steps of which a factor serves for many, and that of the background is wanted once.
+    std::vector<std::string>
+    swings(const std::string &in_background)
+    {
+      return { "Mesh/Box cells=8, 2, 2",
+               "Material/Young's modulus=1e5",
+               "Material/Density=1000",
+               "Time/Step=0.03",
+               "Time/End=2",
+               "Solver/Background factor=" + in_background };
+    }
+
+    /// How often the metric was made anew in each step.
+    std::vector<unsigned int>
+    factors_of_swings(const std::string &in_background)
+    {
+      Scene                     scene(turned_bar("", "0.03"), swings(in_background));
+      std::vector<unsigned int> factors;
+      while (scene.problem.state.step < scene.problem.time_axis.n_steps())
+        factors.push_back(scene.problem.advance().factorizations);
+      return factors;
+    }
+
+    /// How many steps end before that in which a thread begins a factor.
+    unsigned int
+    steps_before_the_background()
+    {
+      const std::vector<unsigned int> at_once = factors_of_swings("false"),
+                                      later   = factors_of_swings("true");
+      const auto first = std::mismatch(at_once.begin(), at_once.end(), later.begin());
+      EXPECT_NE(first.first, at_once.end());
+      EXPECT_EQ(*first.first, 1U);
+      EXPECT_EQ(*first.second, 0U);
+      return first.first - at_once.begin();
+    }
+
+    TEST(QuasiNewton, AFactorOfTheBackgroundIsTakenStepsAfterItWasWanted)
+    {
+      EXPECT_LT(max_error(turned_bar("", "0.03"), swings("true")), 1e-3);
+      const std::vector<unsigned int> factors = factors_of_swings("true");
+      const auto                      wanted  = factors.begin() + steps_before_the_background();
+      EXPECT_NE(std::find(wanted, factors.end(), 1U), factors.end());
+    }
+
+    TEST(QuasiNewton, AResumeMakesTheFactorOfTheBackgroundAgain)
+    {
+      const std::string  text   = turned_bar("", "0.03");
+      const unsigned int wanted = steps_before_the_background();
+      Scene              scene(text, swings("true")), resumed(text, swings("true"));
+      while (scene.problem.state.step <= wanted)
+        scene.problem.advance();
+      resumed.problem.resume_from(scene.problem.state, scene.problem.solver_memory());
+      unsigned int factors = 0;
+      while (scene.problem.state.step < scene.problem.time_axis.n_steps())
+      {
+        factors += scene.problem.advance().factorizations;
+        resumed.problem.advance();
+        EXPECT_TRUE(resumed.problem.state == scene.problem.state);
+      }
+      EXPECT_GT(factors, 0U);
+    }
+
     TEST(QuasiNewton, SmallStepsOfASlowMethodAreNoSignOfArrival)
     {
       // a metric that is much too stiff along b, where nearly all of the way is

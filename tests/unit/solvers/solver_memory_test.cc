@@ -27,6 +27,7 @@ namespace Exemplar::Testing
           "set Scene = static\n" + bar + drag + poses,
           { "Solver/Method=newton", "Time/Increments=10" } },
         { "quasi_newton", dynamic, { "Solver/Method=quasi newton" } },
+        { "background_factor", dynamic, { "Solver/Background factor=true" } },
         // its convex tangent knows the examples and what the damping remembers
         { "quasi_newton_green", dynamic, { "Solver/Method=quasi newton", "Model/Strain=green" } },
         { "predicted_passes", dynamic, { "Solver/Method=one pass", "Solver/Rotations=predicted" } }
