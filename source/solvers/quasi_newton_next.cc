@@ -7,8 +7,8 @@ namespace Exemplar
 {
   namespace
   {
-    /// Iterations of a step while a thread has the other half of a core's time, by which the cost of a metric is
-    /// counted in steps. One step more or less changes the number of iterations by a fiftieth.
+    /// As many iterations of the cost of a metric count as one step: few, so that its thread is done by then. One
+    /// step earlier or two later changes the number of iterations by a fiftieth.
     constexpr double iterations_of_a_step = 2.;
   } // namespace
 
