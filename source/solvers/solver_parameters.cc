@@ -73,8 +73,7 @@ namespace Exemplar
         "40,000 degrees of freedom.");
     keys.add("Background factor", background_factor,
              "Whether quasi newton has new factors made by a thread beside its steps, which go on "
-             "with the last "
-             "one for a number of steps that follows from the count of operations: results do not "
+             "with the last one for a number of steps that follows from the count of operations: results do not "
              "depend on the thread. exemplar live sets it. Not used with iterative.");
     keys.leave_subsection();
   }

@@ -21,9 +21,7 @@ namespace Exemplar
                         const std::vector<double> &weights,
                         const double               convexity)
   {
-    follow_pattern();
-    assemble(positions, weights, convexity, *system);
-    count_factor();
+    assemble(positions, weights, convexity);
     StepClock::Scope scope(clock, Phase::factorize);
     system->factorize(positions);
   }
@@ -33,9 +31,7 @@ namespace Exemplar
                                 const std::vector<double> &weights,
                                 const double               convexity)
   {
-    follow_pattern();
-    assemble(positions, weights, convexity, *system);
-    count_factor();
+    assemble(positions, weights, convexity);
     StepClock::Scope scope(clock, Phase::factorize);
     system->factorize_roughly(positions);
   }
@@ -71,6 +67,16 @@ namespace Exemplar
     system.reset(); // its memory first
     system          = make_system();
     pattern_version = potential.get_tangent().get_pattern().version;
+  }
+
+  void
+  StepSystem::assemble(const Vector              &positions,
+                       const std::vector<double> &weights,
+                       const double               convexity)
+  {
+    follow_pattern();
+    assemble(positions, weights, convexity, *system);
+    count_factor();
   }
 
   void

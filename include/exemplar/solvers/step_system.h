@@ -129,7 +129,11 @@ namespace Exemplar
     void
     follow_pattern();
 
-    /// On the pattern of the system, which may be another than the last.
+    /// For the factor that comes next.
+    void
+    assemble(const Vector &positions, const std::vector<double> &weights, double convexity);
+
+    /// The same for a system of that pattern.
     void
     assemble(const Vector              &positions,
              const std::vector<double> &weights,
