@@ -6,9 +6,9 @@ import signal
 import subprocess
 import time
 import unittest
-from pathlib import Path
 
 from exemplar_runner import BAR, EXEMPLAR, SceneTest, prm, read_summary
+from process_table import children, is_alive
 
 SCENE = {**BAR, "Mesh/Generator": None, "Mesh/Box size": None, "Mesh/Box cells": None,
          "Mesh/File": "box.geo"}
@@ -17,14 +17,6 @@ Point(1) = {0, 0, 0}; Extrude {length, 0, 0} { Point{1}; Layers{2}; }
 Extrude {0, 1, 0} { Curve{1}; Layers{1}; } Extrude {0, 0, 1} { Surface{5}; Layers{1}; }
 Physical Volume("body", 1) = {1}; Physical Surface("left", 1) = {14}; Physical Surface("right", 2) = {22};
 """
-
-
-def is_alive(pid):
-    try:
-        with open(f"/proc/{pid}/stat") as file:
-            return ") Z " not in file.read()
-    except FileNotFoundError:
-        return False
 
 
 class GeoTest(SceneTest):
@@ -116,17 +108,6 @@ class Meshing(GeoTest):
 
 
 class Ending(GeoTest):
-    def child_of(self, pid):
-        """The process in which gmsh meshes, or None."""
-        for stat in Path("/proc").glob("[0-9]*/stat"):
-            try:
-                words = stat.read_text().rpartition(") ")[2].split()
-            except OSError:
-                continue
-            if int(words[1]) == pid:
-                return int(stat.parent.name)
-        return None
-
     def test_gmsh_does_not_outlive_a_run(self):
         self.write("box.geo", "For i In {1:1e9}\nx = i;\nEndFor\n")
         for how in (signal.SIGKILL, signal.SIGTERM, signal.SIGINT):
@@ -134,13 +115,13 @@ class Ending(GeoTest):
                 with subprocess.Popen([EXEMPLAR, "scene.prm", "--output", "out", *arguments], cwd=self.directory,
                                       env={**os.environ, **self.environment}, stdin=subprocess.DEVNULL,
                                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
-                    while (pid := self.child_of(process.pid)) is None:
+                    while not (mesher := children(process.pid)):
                         self.assertIsNone(process.poll())
                         time.sleep(0.01)
                     process.send_signal(how)
                     process.wait(timeout=60)
                 end = time.monotonic() + 30
-                while is_alive(pid):
+                while is_alive(mesher[0]):
                     self.assertLess(time.monotonic(), end, "gmsh goes on")
                     time.sleep(0.01)
 

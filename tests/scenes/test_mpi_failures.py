@@ -10,9 +10,9 @@ import signal
 import subprocess
 import time
 import unittest
-from pathlib import Path
 
 from exemplar_runner import EXEMPLAR, Run, SceneTest, has_trilinos, prm, read_csv, read_summary, results, without_what_is_meant
+from process_table import children, file_of, handles, is_alive
 
 N = 3
 BODY = {
@@ -99,26 +99,19 @@ class MpiTest(SceneTest):
     def ranks(self, process):
         """Ids of the processes that mpirun has started, in their order."""
         found = {}
-        for children in Path(f"/proc/{process.pid}/task").glob("*/children"):
-            for child in map(int, children.read_text().split()):
-                try:
-                    text = Path(f"/proc/{child}/environ").read_bytes().decode(errors="replace")
-                except OSError:
-                    continue
-                number = re.search(r"\0OMPI_COMM_WORLD_RANK=(\d+)\0", text)
-                if number:
-                    found[int(number[1])] = child
+        for child in children(process.pid):
+            if number := re.search(r"\0OMPI_COMM_WORLD_RANK=(\d+)\0", file_of(child, "environ")):
+                found[int(number[1])] = child
         return [found[number] for number in sorted(found)]
 
     def all_take(self, process, how):
         """Whether no process would end by the signal."""
         ranks = self.ranks(process)
-        masks = [int(re.search(r"SigCgt:\s*(\w+)", Path(f"/proc/{rank}/status").read_text())[1], 16) for rank in ranks]
-        return len(ranks) == N and all(mask >> how - 1 & 1 for mask in masks)
+        return len(ranks) == N and all(handles(rank, how) for rank in ranks)
 
     def wait_for_death(self, ids):
         end = time.monotonic() + 20
-        while any(Path(f"/proc/{number}").exists() for number in ids):
+        while any(is_alive(number) for number in ids):
             self.assertLess(time.monotonic(), end, "they live on")
             time.sleep(0.01)
 

@@ -9,6 +9,7 @@ import time
 import unittest
 
 from exemplar_runner import (BAR, EXEMPLAR, SceneTest, needs_trilinos, own_words, prm, read_csv, read_summary, results)
+from process_table import handles
 
 DYNAMIC = {**BAR, "Scene": "dynamic", "Time/Increments": None, "Material/Young's modulus": "1e4", "Time/Step": "0.01", "Time/End": "0.1"}
 ENDLESS = {**DYNAMIC, "Time/Step": "1e-9", "Output/Every": "1000", "Output/Checkpoint minutes": "0"}
@@ -207,18 +208,11 @@ class Streams(ProcessTest):
             self.assertEqual(done.returncode, status)
 
 
-def handles(process, which):
-    """Whether a process has a handler for a signal."""
-    with open(f"/proc/{process.pid}/status", encoding="ascii") as file:
-        caught = next(line for line in file if line.startswith("SigCgt:"))
-    return int(caught.split()[1], 16) >> which - 1 & 1
-
-
 class Signals(ProcessTest):
     def interrupt(self, which, *arguments, **how):
         """Send a signal as soon as the program can know what to do; its status and what it says."""
         process = self.start(*arguments, **how)
-        self.wait_until(lambda: handles(process, which), process)
+        self.wait_until(lambda: handles(process.pid, which), process)
         process.send_signal(which)
         return self.result_of(process)
 
@@ -241,7 +235,7 @@ class Signals(ProcessTest):
         whole = results(self.solve(scene, output="whole"))
         for i in range(12):
             process = self.start("scene.prm", "--output", "out", "--quiet")
-            self.wait_until(lambda: handles(process, signal.SIGINT), process)
+            self.wait_until(lambda: handles(process.pid, signal.SIGINT), process)
             time.sleep(0.03 * i)
             process.send_signal(signal.SIGINT)
             status, message = self.result_of(process)

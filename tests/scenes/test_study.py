@@ -10,9 +10,9 @@ import subprocess
 import sys
 import time
 import unittest
-from pathlib import Path
 
 from exemplar_runner import BAR, EXEMPLAR, REPOSITORY, SceneTest, prm
+from process_table import children, is_alive
 
 DYNAMIC = {**BAR, "Scene": "dynamic", "Time/Increments": None, "Material/Young's modulus": "1e4", "Time/Step": "0.1",
            "Time/End": "0.4"}
@@ -22,22 +22,6 @@ MEASURES = ["status", "error_position_l2", "error_position_max", "error_energy",
             "seconds_min", "steps", "iterations", "factorizations", "residual", "kkt_residual",
             "condition_matrix", "condition_schur", "min_det_F", "energy_growth",
             "bound_excess", "max_displacement", "peak_memory_mib", "exit_status", "run", "message"]
-
-
-def state_and_parent(identity):
-    """Of a process; None if it has ended."""
-    try:
-        fields = Path(f"/proc/{identity}/stat").read_text().rpartition(")")[2].split()
-    except OSError:
-        return None
-    return None if fields[0] == "Z" else (fields[0], int(fields[1]))
-
-
-def children(process):
-    """The ids of a process's children."""
-    everyone = [int(entry.name) for entry in Path("/proc").glob("[0-9]*")]
-    return [identity for identity in everyone
-            if (state_and_parent(identity) or (None, None))[1] == process.pid]
 
 
 class Studies(SceneTest):
@@ -210,7 +194,7 @@ class Studies(SceneTest):
     def test_a_crash_is_a_row(self):
         self.prepare({**DYNAMIC, "Time/End": "0.1"}, "Time/Step: 1e-9 0.1")  # a hundred million steps
         process = self.start(lambda process: self.is_running())
-        os.kill(children(process)[0], signal.SIGSEGV)
+        os.kill(children(process.pid)[0], signal.SIGSEGV)
         self.assertEqual((process.communicate(timeout=300)[1], process.returncode), ("", 0))
         crash, good = self.rows()
         self.assertEqual((crash["status"], crash["exit_status"]), ("crash", str(128 + 11)))
@@ -265,10 +249,10 @@ class Studies(SceneTest):
         self.study(status=1)
         self.assertIn("Another study is running in the output directory out. Give another",
                       self.run_of_study.stderr)
-        [run] = children(process)
+        [run] = children(process.pid)
         process.kill()
         process.communicate(timeout=300)
-        self.wait_until(lambda: state_and_parent(run) is None)  # it would take minutes by itself
+        self.wait_until(lambda: not is_alive(run))  # it would take minutes by itself
 
     def test_only_what_has_changed_is_run_anew(self):
         self.prepare(DYNAMIC, "Time/Step: 0.1 0.05", Reference="Time/Step=0.01")
