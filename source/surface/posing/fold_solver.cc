@@ -24,18 +24,19 @@ namespace Exemplar
 
     /// Springs of the skin become so many times as strong, so many times.
     constexpr double       strengthening  = 4.;
-    constexpr unsigned int n_strengthened = 4;
+    constexpr unsigned int n_strengthened = 5;
 
     /// The least det F of cells around vertices that are drawn at all, and that are drawn ever more
     /// strongly. The former is what the least det F of a pose may come to, as well.
     constexpr double least_drawn = 0.05, least_strengthened = 0.2;
 
     /// Vertices are drawn on as long as the mean of their errors falls to this share at least.
-    constexpr double worthwhile = 0.95;
+    constexpr double worthwhile = 0.99;
 
-    /// To so much of what they were the least det F, below least_drawn, and the greatest error of a vertex may
-    /// come, while the mean falls: they are of a few cells in folds.
-    constexpr double hardly_less = 0.9, hardly_more = 1.05;
+    /// If it falls to this share, a few cells in folds may pay for it: the least det F, below least_drawn, and the
+    /// greatest error of a vertex may come to so much of what they were. For less the former stays, and the latter
+    /// comes back to what it was without stronger springs.
+    constexpr double much_nearer = 0.95, hardly_less = 0.9, hardly_more = 1.05;
 
     /// The least share by which the energy counts as lowered when eps is reduced. Garanzha et al.
     /// take .1; four times as much is faster and mostly does, where a step changes the energy by no
@@ -230,8 +231,12 @@ namespace Exemplar
       Result next = result;
       settle(next, nearly_settled);
       const SkinSprings::Ways ways = skin.ways(next.x);
-      if (next.min_det < std::min(hardly_less * result.min_det, least_drawn)
-          || ways.mean > worthwhile * before.mean || ways.greatest > hardly_more * start.greatest)
+      const bool   much      = ways.mean <= much_nearer * before.mean;
+      const double least_det = (much ? hardly_less : 1.) * result.min_det;
+      const double most      = much ? hardly_more * start.greatest
+                                    : std::min(hardly_more * before.greatest, start.greatest);
+      if (ways.mean > worthwhile * before.mean || ways.greatest > most
+          || next.min_det < std::min(least_det, least_drawn))
         return;
       result = std::move(next);
       before = ways;
