@@ -78,7 +78,7 @@ def set_up():
 
 def look():
     running = sys.modules[ADDON].Running
-    if running.job.is_running() or not running.said.startswith("Done"):
+    if running.job is not None:
         return .2
     print(f"{time.monotonic() - begin:.1f} s, {running.said}")
     result = bpy.data.objects["creature result"]
