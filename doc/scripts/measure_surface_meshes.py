@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """How well `exemplar mesh` meets the number of cells that it is asked for, and what a dense surface does to the mesh.
 
-Usage: python3 doc/scripts/measure_surface_meshes.py DIRECTORY [sizes|dense]     (an hour of one core; numpy, gmsh)
+Usage: python3 doc/scripts/measure_surface_meshes.py DIRECTORY [sizes|dense]     (a quarter of an hour of one core; numpy, gmsh)
 `sizes`: twelve surfaces, made in DIRECTORY, with 3,000 to 100,000 cells. `dense`: the horse's skin with each triangle divided at the
 middles of its edges, once and twice, and 10,000 cells. Environment: EXEMPLAR, the program.
 """
@@ -13,7 +13,6 @@ import time
 from pathlib import Path
 
 from scene_runs import PROGRAM, TOP, print_table
-
 from surface_bar import read_obj
 from surfaces import divided, write_obj
 

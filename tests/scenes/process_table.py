@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the system knows of other processes, which may end at any time: a file below /proc is gone then or cannot be read."""
 
+import os
 import re
 from pathlib import Path
 
@@ -21,7 +22,11 @@ def is_alive(pid):
 
 def children(pid):
     """The ids of the processes that go on and that a process has started."""
-    found = [child for task in Path(f"/proc/{pid}/task").glob("*") for child in file_of(pid, f"task/{task.name}/children").split()]
+    try:
+        tasks = os.listdir(f"/proc/{pid}/task")
+    except OSError:
+        return []
+    found = [child for task in tasks for child in file_of(pid, f"task/{task}/children").split()]
     return [int(child) for child in found if is_alive(child)]
 
 
