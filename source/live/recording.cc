@@ -4,7 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <sstream>
+#include <fstream>
 
 namespace Exemplar::Live
 {
@@ -44,46 +44,17 @@ namespace Exemplar::Live
                         "than meshes. Nothing has "
                         "been changed. Give another one.");
     fs::create_directories(directory, error);
-    session.open(directory / "session.txt", std::ios::binary);
-    if (error || !session)
+    if (error || !std::ofstream(session_file()))
       throw UserError("--record " + directory.string()
                       + ": this cannot be written. Give another directory.");
     while (fs::exists(directory / fmt::format("pose_{:04}.msh", n_poses + 1)))
       ++n_poses;
-    replace({}, 0);
-  }
-
-  void
-  Recording::require_written(const std::ostream &out, const fs::path &file) const
-  {
-    if (!out)
-      throw std::runtime_error(file.string() + " cannot be written: is the disk full?");
-  }
-
-  void
-  Recording::add(const SessionEvent &event)
-  {
-    session << line_of(event);
-    require_written(session, directory / "session.txt");
-  }
-
-  void
-  Recording::replace(const Session &all, const unsigned int n_steps)
-  {
-    session.close();
-    session.clear();
-    session.open(directory / "session.txt", std::ios::binary | std::ios::trunc);
-    session << head_of_session();
-    for (const SessionEvent &event : all)
-      add(event);
-    save_scene(n_steps);
+    save_scene(0);
   }
 
   void
   Recording::save_scene(const unsigned int n_steps)
   {
-    session.flush();
-    require_written(session, directory / "session.txt");
     std::vector<DeclaredKey> keys = scene.get_keys();
     for (DeclaredKey &key : keys)
       if (key.path() == "Session/File")
@@ -98,7 +69,8 @@ namespace Exemplar::Live
       out << mark_of_recording << file.string() << "\n";
       print_keys(out, keys, false);
       out.flush();
-      require_written(out, file);
+      if (!out)
+        throw std::runtime_error(file.string() + " cannot be written: is the disk full?");
     }
     fs::rename(temporary, file);
   }

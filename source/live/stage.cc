@@ -32,9 +32,10 @@ namespace Exemplar::Live
       : scene(scene), parameters(for_threads(scene.get_parameters(), n_threads)),
         step_size(parameters.time.step)
   {
-    make_problem_anew();
+    make_problem_anew(); // first, as a scene that is refused must leave an earlier recording
     if (!record_to.empty())
       recording.emplace(record_to, scene, step_size);
+    done.emplace(recording ? recording->session_file() : std::filesystem::path());
   }
 
   void
@@ -44,8 +45,6 @@ namespace Exemplar::Live
     problem.reset(); // before the next, for its memory
     problem = make_problem(parameters);
     player  = std::make_unique<SessionPlayer>(*problem);
-    for (const SessionEvent &event : done)
-      player->apply(event);
   }
 
   void
@@ -54,9 +53,7 @@ namespace Exemplar::Live
     for (const SessionEvent &event : events)
     {
       player->apply(event);
-      done.push_back(event);
-      if (recording)
-        recording->add(event);
+      done->add(event);
     }
   }
 
@@ -66,8 +63,8 @@ namespace Exemplar::Live
     const unsigned int next = problem->state.step + 1;
     const SolveReport  report
         = problem->advance({ next * step_size, step_size }); // as TimeAxis has it
-    if (recording && is_success(report.status) && next % steps_until_saved == 0)
-      recording->save_scene(next);
+    if (is_success(report.status) && next % steps_until_saved == 0)
+      save();
     return report;
   }
 
@@ -82,7 +79,7 @@ namespace Exemplar::Live
   {
     if (moments.size() == max_moments)
       moments.erase(moments.begin());
-    moments.push_back({ problem->state, problem->solver_memory(), done.size() });
+    moments.push_back({ problem->state, problem->solver_memory(), done->size() });
   }
 
   bool
@@ -92,28 +89,29 @@ namespace Exemplar::Live
       return false;
     const Moment moment = std::move(moments.back());
     moments.pop_back();
-    done.resize(moment.n_events);
+    done->cut(moment.done);
     make_problem_anew();
+    done->for_each([this](const SessionEvent &event) { player->apply(event); });
     problem->resume_from(moment.state, moment.solver_memory);
-    if (recording)
-      recording->replace(done, problem->state.step);
+    save();
     return true;
   }
 
   void
   Stage::begin_anew()
   {
-    done.clear();
+    done->cut(0);
     moments.clear();
     make_problem_anew();
-    if (recording)
-      recording->replace(done, 0);
+    save();
   }
 
   void
   Stage::save()
   {
-    if (recording)
-      recording->save_scene(problem->state.step);
+    if (!recording)
+      return;
+    done->flush(); // before the scene that names it
+    recording->save_scene(problem->state.step);
   }
 } // namespace Exemplar::Live

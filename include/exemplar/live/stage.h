@@ -3,6 +3,7 @@
 #define exemplar_live_stage_h
 
 #include <exemplar/live/recording.h>
+#include <exemplar/live/session_log.h>
 #include <exemplar/run/problem/session_player.h>
 
 #include <memory>
@@ -83,7 +84,7 @@ namespace Exemplar::Live
     {
       State       state;
       std::string solver_memory;
-      std::size_t n_events;
+      long        done; ///< size of what was done
     };
 
     void
@@ -95,7 +96,7 @@ namespace Exemplar::Live
     std::unique_ptr<SessionPlayer> player;
     const double                   step_size;
     std::optional<Recording>       recording;
-    Session                        done; ///< since the beginning
+    std::optional<SessionLog>      done; ///< since the beginning
     std::vector<Moment>            moments;
   };
 } // namespace Exemplar::Live

@@ -31,23 +31,23 @@ namespace Exemplar
       }
       return numbers;
     }
-
-    SessionEvent
-    event_of(const std::string &line, const std::string &place)
-    {
-      const std::vector<std::string> fields = split_trimmed(line, '|');
-      if (fields.size() != 5)
-        throw UserError(place
-                        + ": a line of a session is STEP | WHAT | NAME | NODES | NUMBERS. Take the "
-                          "file as exemplar live --record has written it.");
-      const auto step = decimal_number<unsigned int>(fields[0]);
-      if (!step || *step == 0)
-        throw UserError(place + ": " + in_quotes(fields[0])
-                        + " is no number of a step, which is 1 or more.");
-      return { *step, fields[1], fields[2], numbers_in<unsigned int>(fields[3], place),
-               numbers_in<double>(fields[4], place) };
-    }
   } // namespace
+
+  SessionEvent
+  event_of_line(const std::string &line, const std::string &place)
+  {
+    const std::vector<std::string> fields = split_trimmed(line, '|');
+    if (fields.size() != 5)
+      throw UserError(place
+                      + ": a line of a session is STEP | WHAT | NAME | NODES | NUMBERS. Take the "
+                        "file as exemplar live --record has written it.");
+    const auto step = decimal_number<unsigned int>(fields[0]);
+    if (!step || *step == 0)
+      throw UserError(place + ": " + in_quotes(fields[0])
+                      + " is no number of a step, which is 1 or more.");
+    return { *step, fields[1], fields[2], numbers_in<unsigned int>(fields[3], place),
+             numbers_in<double>(fields[4], place) };
+  }
 
   std::string
   head_of_session()
@@ -83,7 +83,7 @@ namespace Exemplar
     for (unsigned int number = 2; std::getline(lines, line); ++number)
     {
       const std::string  place = fmt::format("{}:{}", file.string(), number);
-      const SessionEvent event = event_of(line, place);
+      const SessionEvent event = event_of_line(line, place);
       if (!session.empty() && event.step < session.back().step)
         throw UserError(fmt::format("{}: step {} comes after step {}. Steps must ascend.", place,
                                     event.step, session.back().step));

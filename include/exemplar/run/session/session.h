@@ -26,6 +26,10 @@ namespace Exemplar
   std::string
   line_of(const SessionEvent &event);
 
+  /// The opposite. Throws UserError, with the place of the line, for what is none.
+  SessionEvent
+  event_of_line(const std::string &line, const std::string &place);
+
   /// With what a session file begins.
   std::string
   head_of_session();
