@@ -43,6 +43,7 @@ namespace Exemplar::Live
     flush();
 
   private:
+    /// Ends what fopen began.
     struct Close
     {
       void
