@@ -54,8 +54,8 @@ namespace Exemplar::Live
   SessionLog::for_each(const std::function<void(const SessionEvent &)> &action)
   {
     flush();
-    std::ifstream lines("/proc/self/fd/"
-                        + std::to_string(fileno(file.get()))); // it may have no name
+    // by its descriptor, as it may have no name
+    std::ifstream lines("/proc/self/fd/" + std::to_string(fileno(file.get())));
     std::string   line;
     if (!std::getline(lines, line)) // the head
       throw std::runtime_error(name + " cannot be read.");

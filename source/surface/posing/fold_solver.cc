@@ -34,8 +34,8 @@ namespace Exemplar
     constexpr double worthwhile = 0.99;
 
     /// If it falls to this share, a few cells in folds may pay for it: the least det F, below least_drawn, and the
-    /// greatest error of a vertex may come to so much of what they were. For less the former stays, and the latter
-    /// comes back to what it was without stronger springs.
+    /// greatest error of a vertex may come to so much of what they were. If it falls by less, the former must not fall,
+    /// and the latter must stay below what it was before any spring became stronger.
     constexpr double much_nearer = 0.95, hardly_less = 0.9, hardly_more = 1.05;
 
     /// The least share by which the energy counts as lowered when eps is reduced. Garanzha et al.
