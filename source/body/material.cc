@@ -99,6 +99,7 @@ namespace Exemplar
     {
       CellMaterial<double> elasticity     = elasticity_of(values);
       double               youngs_modulus = values.youngs_modulus;
+      double               poissons_ratio = values.poissons_ratio;
       const Orthotropy     grain          = grain_of(values, elasticity);
       const bool           is_orthotropic = !values.orthotropy.empty();
       if (is_orthotropic)
@@ -106,11 +107,19 @@ namespace Exemplar
         elasticity               = grain.isotropic_part();
         const auto &[lambda, mu] = elasticity;
         youngs_modulus           = mu * (3. * lambda + 2. * mu) / (lambda + mu);
+        poissons_ratio           = lambda / (2. * (lambda + mu));
       }
       const double lambda_of_patches
           = values.has_grain() ? grain.lambda_of_patches() : elasticity.lambda;
-      return { elasticity,     values.density,    youngs_modulus, values.importance,
-               std::move(own), lambda_of_patches, grain,          0.,
+      return { elasticity,
+               values.density,
+               youngs_modulus,
+               poissons_ratio,
+               values.importance,
+               std::move(own),
+               lambda_of_patches,
+               grain,
+               0.,
                is_orthotropic };
     }
 
@@ -265,12 +274,10 @@ namespace Exemplar
     for (unsigned int cell = 0; cell < constants_of_cell.size(); ++cell)
     {
       const CellConstants &before = constants[constants_of_cell[cell]];
-      const double         lambda = before.elasticity.lambda, mu = before.elasticity.mu;
-      const double         nu = lambda / (2. * (lambda + mu));
       if (own != before.own.get())
         values.own = *(own = before.own.get());
       values.youngs_modulus = changed_to(changed.youngs_modulus, cell, before.youngs_modulus);
-      values.poissons_ratio = changed_to(changed.poissons_ratio, cell, nu);
+      values.poissons_ratio = changed_to(changed.poissons_ratio, cell, before.poissons_ratio);
       values.density        = changed_to(changed.density, cell, before.density);
       values.importance     = before.importance;
       check_constants(values, cell, "");

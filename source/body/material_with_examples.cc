@@ -16,9 +16,8 @@ namespace Exemplar
     Orthotropy
     elasticity_for(const CellConstants &body, const ExampleElasticity &own)
     {
-      const auto &[lambda, mu] = body.elasticity;
-      const double E           = own.youngs_modulus.value_or(body.youngs_modulus);
-      const double nu          = own.poissons_ratio.value_or(lambda / (2. * (lambda + mu)));
+      const double E  = own.youngs_modulus.value_or(body.youngs_modulus);
+      const double nu = own.poissons_ratio.value_or(body.poissons_ratio);
       return Orthotropy({ E * nu / ((1. + nu) * (1. - 2. * nu)), E / (2. * (1. + nu)) }, 0.);
     }
   } // namespace
@@ -63,12 +62,10 @@ namespace Exemplar
   Material::BodyConstants
   Material::of_body_alone(const unsigned int cell) const
   {
-    const unsigned int   i    = constants_of_cell[cell];
-    const CellConstants &body = has_elasticity_of_examples() ? of_body[i] : constants[i];
-    const auto &[lambda, mu]  = body.elasticity;
-    const char *const alpha   = Fibrous<double>::own_constants[0].name;
-    return { body.youngs_modulus, lambda / (2. * (lambda + mu)), body.own->at(alpha),
-             body.is_orthotropic };
+    const unsigned int   i     = constants_of_cell[cell];
+    const CellConstants &body  = has_elasticity_of_examples() ? of_body[i] : constants[i];
+    const char *const    alpha = Fibrous<double>::own_constants[0].name;
+    return { body.youngs_modulus, body.poissons_ratio, body.own->at(alpha), body.is_orthotropic };
   }
 
   BlendedElasticity::BlendedElasticity(const CellConstants     &constants,

@@ -91,7 +91,9 @@ namespace Exemplar::Live
     moments.pop_back();
     done->cut(moment.done);
     make_problem_anew();
-    done->for_each([this](const SessionEvent &event) { player->apply(event); });
+    LastingEvents until_then;
+    done->for_each([&](const SessionEvent &event) { until_then.add(event); });
+    player->catch_up(until_then);
     problem->resume_from(moment.state, moment.solver_memory);
     save();
     return true;

@@ -45,11 +45,12 @@ namespace Exemplar
   /// The constants of a region, or of a cell where they are painted.
   struct CellConstants
   {
-    CellMaterial<double>                elasticity;
-    double                              density;
-    double                              youngs_modulus;
-    double                              importance;        ///< factor of Examples/Importance
-    std::shared_ptr<const OwnConstants> own;               ///< mostly the same in many cells
+    CellMaterial<double> elasticity;
+    double               density;
+    double               youngs_modulus;
+    double               poissons_ratio;     ///< as given: Lame's constants know it to rounding
+    double               importance;         ///< factor of Examples/Importance
+    std::shared_ptr<const OwnConstants> own; ///< mostly the same in many cells
     double                              lambda_of_patches; ///< [Pa]
     Orthotropy                          grain;             ///< all of C, in the cell's axes
     double                              lambda_of_others;  ///< what of it patches have taken [Pa]
@@ -62,8 +63,8 @@ namespace Exemplar
       OwnConstants numbers;
       if constexpr (Archive::is_saving::value)
         numbers = *own;
-      archive &elasticity.lambda &elasticity.mu &density &youngs_modulus &importance &numbers
-          &lambda_of_patches &grain &lambda_of_others &is_orthotropic;
+      archive &elasticity.lambda &elasticity.mu &density &youngs_modulus &poissons_ratio &importance
+          &numbers &lambda_of_patches &grain &lambda_of_others &is_orthotropic;
       if constexpr (Archive::is_loading::value)
         own = std::make_shared<const OwnConstants>(std::move(numbers));
     }

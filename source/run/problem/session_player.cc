@@ -92,8 +92,17 @@ namespace Exemplar
   {
     if (n_played > 0 && recorded[n_played - 1].step > step + 1)
       throw UserError("A scene with a Session/File does not go back. Make the problem anew.");
+    LastingEvents until_there;
     for (; n_played < recorded.size() && recorded[n_played].step <= step;)
-      apply(recorded[n_played++]);
+      until_there.add(recorded[n_played++]);
+    catch_up(until_there);
+  }
+
+  void
+  SessionPlayer::catch_up(const LastingEvents &events)
+  {
+    for (const SessionEvent &event : events.get())
+      apply(event);
   }
 
   void

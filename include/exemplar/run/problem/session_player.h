@@ -3,7 +3,7 @@
 #define exemplar_session_player_h
 
 #include <exemplar/potential/spring_term.h>
-#include <exemplar/run/session/session.h>
+#include <exemplar/run/session/lasting_events.h>
 
 #include <map>
 #include <memory>
@@ -52,6 +52,10 @@ namespace Exemplar
     /// Throws UserError for a step before that.
     void
     catch_up(unsigned int step);
+
+    /// The same with all that these events lead to. Throws as apply().
+    void
+    catch_up(const LastingEvents &events);
 
     /// Those that pull now.
     const Springs &
