@@ -152,7 +152,8 @@ def rest(viewer, seconds):
 
 def ends_alike(record, saved, directory):
     """Whether the recording, played again, ends in the pose that was saved."""
-    subprocess.run([EXEMPLAR, str(record / "scene.prm"), "--output", str(directory / "again"), "--quiet", "--set", "Output/Every=0"], check=True)
+    subprocess.run([EXEMPLAR, str(record / "scene.prm"), "--output", str(directory / "again"), "--quiet", "--set", "Output/Every=0",
+                    "--threads", "1"], check=True)
 
     def nodes(file):
         return file.read_text().split("$Nodes")[1].split("$EndNodes")[0]
