@@ -79,7 +79,7 @@ namespace Exemplar::Live
   {
     if (moments.size() == max_moments)
       moments.erase(moments.begin());
-    moments.push_back({ problem->state, problem->solver_memory(), done->size() });
+    moments.push_back({ problem->state, StoredBytes(problem->solver_memory()), done->size() });
   }
 
   bool
@@ -94,7 +94,7 @@ namespace Exemplar::Live
     LastingEvents until_then;
     done->for_each([&](const SessionEvent &event) { until_then.add(event); });
     player->catch_up(until_then);
-    problem->resume_from(moment.state, moment.solver_memory);
+    problem->resume_from(moment.state, moment.solver_memory.get());
     save();
     return true;
   }

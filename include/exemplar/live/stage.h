@@ -4,6 +4,7 @@
 
 #include <exemplar/live/recording.h>
 #include <exemplar/live/session_log.h>
+#include <exemplar/live/stored_bytes.h>
 #include <exemplar/run/problem/session_player.h>
 
 #include <memory>
@@ -83,7 +84,7 @@ namespace Exemplar::Live
     struct Moment
     {
       State       state;
-      std::string solver_memory;
+      StoredBytes solver_memory;
       long        done; ///< size of what was done
     };
 

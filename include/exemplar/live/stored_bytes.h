@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_live_stored_bytes_h
+#define exemplar_live_stored_bytes_h
+
+#include <cstdio>
+#include <memory>
+#include <string>
+
+namespace Exemplar::Live
+{
+  /// Bytes that are seldom needed again, on disk in a file without a name, which ends with this.
+  class StoredBytes
+  {
+  public:
+    /// Throws std::runtime_error if they cannot be written.
+    explicit StoredBytes(const std::string &bytes);
+
+    /// Throws std::runtime_error if they cannot be read.
+    std::string
+    get() const;
+
+  private:
+    /// Ends what tmpfile began.
+    struct Close
+    {
+      void
+      operator()(std::FILE *file) const
+      {
+        std::fclose(file);
+      }
+    };
+
+    std::unique_ptr<std::FILE, Close> file;
+    std::size_t                       size;
+  };
+} // namespace Exemplar::Live
+
+#endif
