@@ -2,12 +2,12 @@
 #ifndef exemplar_live_session_log_h
 #define exemplar_live_session_log_h
 
+#include <exemplar/live/c_file.h>
 #include <exemplar/run/session/session.h>
 
-#include <cstdio>
 #include <filesystem>
 #include <functional>
-#include <memory>
+#include <string>
 
 namespace Exemplar::Live
 {
@@ -43,22 +43,12 @@ namespace Exemplar::Live
     flush();
 
   private:
-    /// Ends what fopen began.
-    struct Close
-    {
-      void
-      operator()(std::FILE *file) const
-      {
-        std::fclose(file);
-      }
-    };
-
     void
     write(const std::string &text);
 
-    std::string                       name; ///< for messages
-    std::unique_ptr<std::FILE, Close> file;
-    long                              n_bytes = 0; ///< without the head
+    std::string name; ///< for messages
+    CFile       file;
+    long        n_bytes = 0; ///< without the head
   };
 } // namespace Exemplar::Live
 

@@ -2,8 +2,8 @@
 #ifndef exemplar_live_stored_bytes_h
 #define exemplar_live_stored_bytes_h
 
-#include <cstdio>
-#include <memory>
+#include <exemplar/live/c_file.h>
+
 #include <string>
 
 namespace Exemplar::Live
@@ -20,18 +20,8 @@ namespace Exemplar::Live
     get() const;
 
   private:
-    /// Ends what tmpfile began.
-    struct Close
-    {
-      void
-      operator()(std::FILE *file) const
-      {
-        std::fclose(file);
-      }
-    };
-
-    std::unique_ptr<std::FILE, Close> file;
-    std::size_t                       size;
+    CFile       file;
+    std::size_t size;
   };
 } // namespace Exemplar::Live
 
