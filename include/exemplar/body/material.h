@@ -45,12 +45,12 @@ namespace Exemplar
   /// The constants of a region, or of a cell where they are painted.
   struct CellConstants
   {
-    CellMaterial<double> elasticity;
-    double               density;
-    double               youngs_modulus;
-    double               poissons_ratio;     ///< as given: Lame's constants know it to rounding
-    double               importance;         ///< factor of Examples/Importance
-    std::shared_ptr<const OwnConstants> own; ///< mostly the same in many cells
+    CellMaterial<double>                elasticity;
+    double                              density;
+    double                              youngs_modulus;
+    double                              poissons_ratio;    ///< as given, where isotropic
+    double                              importance;        ///< factor of Examples/Importance
+    std::shared_ptr<const OwnConstants> own;               ///< mostly the same in many cells
     double                              lambda_of_patches; ///< [Pa]
     Orthotropy                          grain;             ///< all of C, in the cell's axes
     double                              lambda_of_others;  ///< what of it patches have taken [Pa]
