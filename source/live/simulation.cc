@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <system_error>
 
 namespace Exemplar::Live
 {
@@ -182,10 +183,7 @@ namespace Exemplar::Live
     {
       const Session events = hand.events_of(command, stage.get_problem());
       if (begins)
-      {
-        stage.keep_moment();
-        held_before.push_back(before);
-      }
+        keep_moment(before);
       stage.act(events);
     }
     catch (...)
@@ -195,6 +193,20 @@ namespace Exemplar::Live
     }
     if (command.type == "move" || command.type == "grab")
       shown.pointer = command.sequence;
+  }
+
+  void
+  Simulation::keep_moment(const Hand::Held &held)
+  {
+    try
+    {
+      stage.keep_moment();
+      held_before.push_back(held);
+    }
+    catch (const std::system_error &error) // a full disk is no reason to end a session
+    {
+      tell("warning", std::string(error.what()) + ". Undo does not come back to here.");
+    }
   }
 
   void

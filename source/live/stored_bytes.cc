@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/live/stored_bytes.h>
 
+#include <cerrno>
 #include <stdexcept>
+#include <system_error>
 
 namespace Exemplar::Live
 {
@@ -9,9 +11,9 @@ namespace Exemplar::Live
   {
     if (!file || std::fwrite(bytes.data(), 1, size, file.get()) != size
         || std::fflush(file.get()) != 0)
-      throw std::runtime_error(
-          "A temporary file in " P_tmpdir
-          ", which keeps what Undo needs, cannot be written: is the disk full?");
+      throw std::system_error(errno, std::generic_category(),
+                              "A temporary file in " P_tmpdir
+                              ", which keeps what Undo needs, cannot be written");
   }
 
   std::string

@@ -4,6 +4,7 @@
 Environment: EXEMPLAR, the program.
 """
 import random
+import resource
 import string
 import tempfile
 import unittest
@@ -17,9 +18,9 @@ class LiveTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.directory = tempfile.TemporaryDirectory()
-        scene = Path(cls.directory.name) / "bar.prm"
-        scene.write_text(prm(BAR))
-        cls.server = Server(scene, log=Path(cls.directory.name) / "log.txt")
+        cls.scene = Path(cls.directory.name) / "bar.prm"
+        cls.scene.write_text(prm(BAR))
+        cls.server = Server(cls.scene, log=Path(cls.directory.name) / "log.txt")
 
     @classmethod
     def tearDownClass(cls):
@@ -127,6 +128,19 @@ class LiveTest(unittest.TestCase):
         self.assertIn("nothing is kept", viewer.wait_for("refused")["text"])
         viewer.send(type="reset")
         viewer.until(lambda: viewer.frames[-1].step == 0)
+
+    def test_full_disk_costs_undo_alone(self):
+        with Server(self.scene, log=Path(self.directory.name) / "full.txt") as server, Viewer(server) as viewer:
+            viewer.wait_steps(10)  # so that the solver knows something
+            resource.prlimit(server.process.pid, resource.RLIMIT_FSIZE, (5000, 5000))  # less than that
+            top = max(z for _, _, z in viewer.frames[-1].places)
+            viewer.grab(viewer.farthest())
+            self.assertIn("Undo does not come back to here", viewer.wait_for("warning")["text"])
+            viewer.move((4., 0., 1.))
+            viewer.wait_steps(10)
+            self.assertGreater(max(z for _, _, z in viewer.frames[-1].places), top + .02)
+            viewer.send(type="undo")
+            self.assertIn("nothing is kept", viewer.wait_for("refused")["text"])
 
     def test_weights_by_hand(self):
         viewer = self.viewer()

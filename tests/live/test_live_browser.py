@@ -4,14 +4,14 @@ is complained of in the console. Left out where Chromium or selenium is not inst
 
 Environment: EXEMPLAR, the program. SCREENSHOTS, a directory for pictures, may be set.
 """
+import functools
 import os
 import shutil
 import tempfile
-import time
 import unittest
 from pathlib import Path
 
-from live_server import BAR, Server, call_program, prm
+from live_server import BAR, Server, call_program, prm, wait_until
 
 try:
     from selenium import webdriver
@@ -21,6 +21,7 @@ except ImportError:
     webdriver = None
 
 CHROMIUM, DRIVER = shutil.which("chromium"), shutil.which("chromedriver")
+wait = functools.partial(wait_until, pause=.1)  # as each look is work for the browser
 
 
 def browser(width=1280, height=800, dark=False):
@@ -45,12 +46,6 @@ class BrowserTest(unittest.TestCase):
     def tearDownClass(cls):
         cls.directory.cleanup()
 
-    def wait(self, is_so, what):
-        until = time.monotonic() + 60
-        while not is_so():
-            self.assertLess(time.monotonic(), until, what)
-            time.sleep(.1)
-
     def picture(self, page, name):
         if "SCREENSHOTS" in os.environ:
             page.save_screenshot(str(Path(os.environ["SCREENSHOTS"]) / f"{name}.png"))
@@ -73,17 +68,17 @@ class BrowserTest(unittest.TestCase):
             self.addCleanup(page.quit)
             page.get(f"http://{server.host}/?token={server.token}")
             self.assertEqual(page.current_url, f"http://{server.host}/")
-            self.wait(lambda: "real time" in page.find_element("id", "strip").text, "a status")
+            wait(lambda: "real time" in page.find_element("id", "strip").text)
             before = self.pixels(page)
             self.assertGreater(sum(alpha > 0 for alpha in before[3::4]), 100)  # a body
             self.picture(page, "live_light")
             canvas = page.find_element("id", "canvas")
             ActionChains(page).move_to_element(canvas).click_and_hold().move_by_offset(20, -60).move_by_offset(20, -60).perform()
-            self.wait(lambda: sum(abs(a - b) > 20 for a, b in zip(before, self.pixels(page))) > 100, "the body follows")
+            wait(lambda: sum(abs(a - b) > 20 for a, b in zip(before, self.pixels(page))) > 100)
             self.picture(page, "live_pulled")
             ActionChains(page).release().perform()
             ActionChains(page).send_keys(" ").perform()
-            self.wait(lambda: page.find_element("id", "pause").text == "Go on", "a pause")
+            wait(lambda: page.find_element("id", "pause").text == "Go on")
             self.assertNothingInConsole(page)
 
     def test_weights_by_hand(self):
@@ -91,16 +86,16 @@ class BrowserTest(unittest.TestCase):
             page = browser()
             self.addCleanup(page.quit)
             page.get(f"http://{server.host}/?token={server.token}")
-            self.wait(lambda: "real time" in page.find_element("id", "strip").text, "a status")
+            wait(lambda: "real time" in page.find_element("id", "strip").text)
             slider, shown = (page.find_element("css selector", f".weight:last-child {name}") for name in ("input", "output"))
             self.assertFalse(slider.is_displayed())
             page.find_element("css selector", "[value='by hand']").click()
-            self.wait(slider.is_displayed, "a slider")
+            wait(slider.is_displayed)
             page.execute_script("arguments[0].value = 0.75; arguments[0].oninput();", slider)
-            self.wait(lambda: shown.text == "0.75", "the weight follows")
+            wait(lambda: shown.text == "0.75")
             self.picture(page, "live_weights")
             page.find_element("css selector", "[value='automatic']").click()
-            self.wait(lambda: not slider.is_displayed(), "no slider")
+            wait(lambda: not slider.is_displayed())
             self.assertNothingInConsole(page)
 
     def test_phone_and_dark(self):
@@ -108,7 +103,7 @@ class BrowserTest(unittest.TestCase):
             page = browser(500, 900, dark=True)
             self.addCleanup(page.quit)
             page.get(f"http://{server.host}/?token={server.token}")
-            self.wait(lambda: "real time" in page.find_element("id", "strip").text, "a status")
+            wait(lambda: "real time" in page.find_element("id", "strip").text)
             self.assertLessEqual(page.execute_script("return document.documentElement.scrollWidth - innerWidth"), 0)
             colour = page.execute_script("return getComputedStyle(document.body).backgroundColor")
             self.assertEqual(colour, "rgb(20, 23, 28)")
@@ -127,7 +122,7 @@ class BrowserTest(unittest.TestCase):
         page = browser()
         self.addCleanup(page.quit)
         page.get(f"file://{html}")
-        self.wait(lambda: page.find_element("id", "time").text not in ("", "t = 0.00 s"), "it plays")
+        wait(lambda: page.find_element("id", "time").text not in ("", "t = 0.00 s"))
         self.picture(page, "export")
         self.assertNothingInConsole(page)
         self.play_two(page, output)
@@ -141,7 +136,7 @@ class BrowserTest(unittest.TestCase):
             page.find_element("id", "play").click()
             page.execute_script("const scrub = document.getElementById('scrub'); scrub.value = 12; scrub.oninput({ target: scrub });")
             self.assertEqual(page.find_element("id", "time").text, "t = 0.60 s")
-            self.wait(lambda: all(any(self.pixels(page, half)[3::4]) for half in (0, 1)), "both bodies")
+            wait(lambda: all(any(self.pixels(page, half)[3::4]) for half in (0, 1)))
             self.picture(page, "live_runs")
             self.assertNothingInConsole(page)
             sock, status = server.handshake()

@@ -15,6 +15,7 @@ import struct
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 import xml.etree.ElementTree
 import zlib
@@ -68,6 +69,17 @@ def run_program(*arguments, program=EXEMPLAR, **how):
     """Run the program as it is called, with changes to the environment; without what libraries say."""
     done = call_program(*arguments, program=program, **how)
     return Run(done.returncode, done.stdout, own_words(done.stderr, program), None)
+
+
+def wait_until(is_so, process=None, seconds=120, pause=1e-3):
+    """Until something is so. Fails if it is not by then, or if the process ends before."""
+    end = time.monotonic() + seconds
+    while not is_so():
+        if process is not None and process.poll() is not None:
+            raise AssertionError("the program has ended already")
+        if time.monotonic() > end:
+            raise AssertionError("it does not happen")
+        time.sleep(pause)
 
 
 def without_numbers(line):

@@ -4,10 +4,9 @@
 import os
 import signal
 import subprocess
-import time
 import unittest
 
-from exemplar_runner import BAR, EXEMPLAR, SceneTest, prm, read_summary
+from exemplar_runner import BAR, EXEMPLAR, SceneTest, prm, read_summary, wait_until
 from process_table import children, is_alive
 
 SCENE = {**BAR, "Mesh/Generator": None, "Mesh/Box size": None, "Mesh/Box cells": None,
@@ -115,15 +114,11 @@ class Ending(GeoTest):
                 with subprocess.Popen([EXEMPLAR, "scene.prm", "--output", "out", *arguments], cwd=self.directory,
                                       env={**os.environ, **self.environment}, stdin=subprocess.DEVNULL,
                                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
-                    while not (mesher := children(process.pid)):
-                        self.assertIsNone(process.poll())
-                        time.sleep(0.01)
+                    wait_until(lambda: children(process.pid), process)
+                    mesher, *_ = children(process.pid)
                     process.send_signal(how)
                     process.wait(timeout=60)
-                end = time.monotonic() + 30
-                while is_alive(mesher[0]):
-                    self.assertLess(time.monotonic(), end, "gmsh goes on")
-                    time.sleep(0.01)
+                wait_until(lambda: not is_alive(mesher))
 
 
 if __name__ == "__main__":

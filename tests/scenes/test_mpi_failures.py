@@ -11,7 +11,7 @@ import subprocess
 import time
 import unittest
 
-from exemplar_runner import EXEMPLAR, Run, SceneTest, has_trilinos, prm, read_csv, read_summary, results, without_what_is_meant
+from exemplar_runner import EXEMPLAR, Run, SceneTest, has_trilinos, prm, read_csv, read_summary, results, without_what_is_meant, wait_until
 from process_table import children, file_of, handles, is_alive
 
 N = 3
@@ -109,12 +109,6 @@ class MpiTest(SceneTest):
         ranks = self.ranks(process)
         return len(ranks) == N and all(handles(rank, how) for rank in ranks)
 
-    def wait_for_death(self, ids):
-        end = time.monotonic() + 20
-        while any(is_alive(number) for number in ids):
-            self.assertLess(time.monotonic(), end, "they live on")
-            time.sleep(0.01)
-
     def rows(self):
         try:
             return (self.directory / "out/statistics.csv").read_bytes().count(b"\n")
@@ -125,11 +119,7 @@ class MpiTest(SceneTest):
         """Start a run; return when it has made steps."""
         self.write("scene.prm", prm(scene))
         process = self.start("scene.prm", "--output", "out", "--quiet", *arguments, **how)
-        end = time.monotonic() + 60
-        while self.rows() < rows:
-            self.assertIsNone(process.poll(), "the program has ended already")
-            self.assertLess(time.monotonic(), end, "it makes no steps")
-            time.sleep(1e-3)
+        wait_until(lambda: self.rows() >= rows, process)
         return process
 
     def stop_in_the_middle(self):
@@ -358,9 +348,7 @@ class Death(MpiTest):
         # it waits for the run, which then ends at once
         self.write("scene.prm", prm({**ENDLESS, "Mesh/Box cells": "24, 12, 12"}))
         process = self.start("scene.prm", "--output", "out", "--quiet")
-        while not self.all_take(process, signal.SIGUSR1):
-            self.assertIsNone(process.poll())
-            time.sleep(1e-3)
+        wait_until(lambda: self.all_take(process, signal.SIGUSR1), process)
         process.send_signal(signal.SIGUSR1)
         self.check_end(self.result_of(process), 130, r"^Interrupted after step \d+\. Go on with --resume\.$")
 
@@ -374,7 +362,7 @@ class Death(MpiTest):
                 run = self.result_of(process)
                 self.assertEqual(run.status, 1)
                 self.assertLessEqual(len(self.messages(run)), 1, run.stderr)
-                self.wait_for_death(ranks)
+                wait_until(lambda: not any(map(is_alive, ranks)))
                 self.check_resumed()
 
     def test_mpirun_killed(self):
@@ -382,7 +370,7 @@ class Death(MpiTest):
         ranks = self.ranks(process)
         process.kill()
         process.communicate(timeout=60)
-        self.wait_for_death(ranks)
+        wait_until(lambda: not any(map(is_alive, ranks)))
 
     def test_interrupted_twice(self):
         process = self.start_and_wait({**ENDLESS, "Mesh/Box cells": "24, 12, 12"}, rows=3)

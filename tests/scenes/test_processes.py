@@ -8,7 +8,8 @@ import subprocess
 import time
 import unittest
 
-from exemplar_runner import (BAR, EXEMPLAR, SceneTest, needs_trilinos, own_words, prm, read_csv, read_summary, results)
+from exemplar_runner import (BAR, EXEMPLAR, SceneTest, needs_trilinos, own_words, prm, read_csv, read_summary, results,
+                             wait_until)
 from process_table import handles
 
 DYNAMIC = {**BAR, "Scene": "dynamic", "Time/Increments": None, "Material/Young's modulus": "1e4", "Time/Step": "0.01", "Time/End": "0.1"}
@@ -29,13 +30,6 @@ class ProcessTest(SceneTest):
         if process.poll() is None:
             process.kill()
         process.communicate()
-
-    def wait_until(self, condition, process=None):
-        end = time.monotonic() + 120
-        while not condition():
-            self.assertTrue(process is None or process.poll() is None, "the program has ended already")
-            self.assertLess(time.monotonic(), end, "it does not happen")
-            time.sleep(2e-4)
 
     def result_of(self, process):
         """Its status and what it says on stderr."""
@@ -58,7 +52,7 @@ class TwoRuns(ProcessTest):
         """Start a run that would take years; return when it makes steps."""
         earlier = self.rows() if "--resume" in arguments else 0
         process = self.start("scene.prm", "--output", "out", "--quiet", *arguments)
-        self.wait_until(lambda: self.rows() > earlier + 3, process)
+        wait_until(lambda: self.rows() > earlier + 3, process)
         return process
 
     def refuse_all(self):
@@ -92,12 +86,12 @@ class TwoRuns(ProcessTest):
         self.write("scene.prm", prm(ENDLESS))
         for _ in range(3):
             both = [self.start("scene.prm", "--output", "out", "--quiet") for _ in range(2)]
-            self.wait_until(lambda: any(process.poll() is not None for process in both))
+            wait_until(lambda: any(process.poll() is not None for process in both))
             refused, alive = sorted(both, key=lambda process: process.poll() is None)
             status, message = self.result_of(refused)
             self.assertEqual(status, 1)
             self.assertIn(BUSY, message)
-            self.wait_until(lambda: self.rows() > 3, alive)
+            wait_until(lambda: self.rows() > 3, alive)
             alive.send_signal(signal.SIGTERM)
             self.assertEqual(self.result_of(alive)[0], 130)
             rows = read_csv(self.directory / "out")
@@ -212,7 +206,7 @@ class Signals(ProcessTest):
     def interrupt(self, which, *arguments, **how):
         """Send a signal as soon as the program can know what to do; its status and what it says."""
         process = self.start(*arguments, **how)
-        self.wait_until(lambda: handles(process.pid, which), process)
+        wait_until(lambda: handles(process.pid, which), process)
         process.send_signal(which)
         return self.result_of(process)
 
@@ -235,7 +229,7 @@ class Signals(ProcessTest):
         whole = results(self.solve(scene, output="whole"))
         for i in range(12):
             process = self.start("scene.prm", "--output", "out", "--quiet")
-            self.wait_until(lambda: handles(process.pid, signal.SIGINT), process)
+            wait_until(lambda: handles(process.pid, signal.SIGINT), process)
             time.sleep(0.03 * i)
             process.send_signal(signal.SIGINT)
             status, message = self.result_of(process)
@@ -251,7 +245,7 @@ class Signals(ProcessTest):
         # the first iteration of a large body takes a while
         self.write("scene.prm", prm({**DYNAMIC, "Mesh/Box cells": "24, 24, 24", "Output/Every": "0"}))
         process = self.start("scene.prm", "--output", "out", "--quiet")
-        self.wait_until(lambda: (self.directory / "out/checkpoint.bin").exists(), process)
+        wait_until(lambda: (self.directory / "out/checkpoint.bin").exists(), process)
         process.send_signal(signal.SIGINT)
         time.sleep(0.05)
         process.send_signal(signal.SIGINT)
@@ -262,7 +256,7 @@ class Signals(ProcessTest):
     def test_hangup(self):
         self.write("scene.prm", prm(ENDLESS))
         process = self.start("scene.prm", "--output", "out", "--quiet")
-        self.wait_until(lambda: self.rows() > 3, process)
+        wait_until(lambda: self.rows() > 3, process)
         process.send_signal(signal.SIGHUP)
         status, message = self.result_of(process)
         self.assertEqual(status, 130)
@@ -271,10 +265,10 @@ class Signals(ProcessTest):
         # nohup has it ignored
         process = self.start("scene.prm", "--output", "out", "--quiet",
                              preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))
-        self.wait_until(lambda: self.rows() > 3, process)
+        wait_until(lambda: self.rows() > 3, process)
         rows = self.rows()
         process.send_signal(signal.SIGHUP)
-        self.wait_until(lambda: self.rows() > rows + 3, process)
+        wait_until(lambda: self.rows() > rows + 3, process)
 
 
 class Surroundings(ProcessTest):

@@ -7,7 +7,7 @@ import time
 import unittest
 
 from exemplar_runner import (EXEMPLAR, SceneTest, needs_trilinos, own_words, prm, read_csv, read_pvd, read_summary, results,
-                             timeless_statistics)
+                             timeless_statistics, wait_until)
 
 EACH_STEP = ["--set", "Output/Checkpoint minutes=0"]
 
@@ -49,9 +49,7 @@ class Resume(SceneTest):
             stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
         with process:
             # the header, the initial state and the steps
-            while process.poll() is None and not (
-                    rows.exists() and rows.read_bytes().count(b"\n") >= after + 2):
-                time.sleep(1e-3)
+            wait_until(lambda: rows.exists() and rows.read_bytes().count(b"\n") >= after + 2, process)
             time.sleep(delay)
             process.send_signal(how)
             message = process.communicate(timeout=300)[1]

@@ -8,10 +8,9 @@ import shutil
 import signal
 import subprocess
 import sys
-import time
 import unittest
 
-from exemplar_runner import BAR, EXEMPLAR, REPOSITORY, SceneTest, prm
+from exemplar_runner import BAR, EXEMPLAR, REPOSITORY, SceneTest, prm, wait_until
 from process_table import children, is_alive
 
 DYNAMIC = {**BAR, "Scene": "dynamic", "Time/Increments": None, "Material/Young's modulus": "1e4", "Time/Step": "0.1",
@@ -60,16 +59,8 @@ class Studies(SceneTest):
         process = subprocess.Popen([EXEMPLAR, "study", "study.prm", "--output", "out"],
                                    cwd=self.directory, text=True, stdin=subprocess.DEVNULL,
                                    stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
-        while process.poll() is None and not wait_for(process):
-            time.sleep(1e-3)
-        self.assertIsNone(process.poll(), "the study has ended already")
+        wait_until(lambda: wait_for(process), process)
         return process
-
-    def wait_until(self, condition):
-        end = time.monotonic() + 60
-        while not condition():
-            self.assertLess(time.monotonic(), end, "it does not happen")
-            time.sleep(1e-3)
 
     def is_running(self):
         return (self.directory / "out/runs/running/statistics.csv").exists()
@@ -252,7 +243,7 @@ class Studies(SceneTest):
         [run] = children(process.pid)
         process.kill()
         process.communicate(timeout=300)
-        self.wait_until(lambda: not is_alive(run))  # it would take minutes by itself
+        wait_until(lambda: not is_alive(run))  # it would take minutes by itself
 
     def test_only_what_has_changed_is_run_anew(self):
         self.prepare(DYNAMIC, "Time/Step: 0.1 0.05", Reference="Time/Step=0.01")

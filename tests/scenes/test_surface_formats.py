@@ -6,10 +6,9 @@ import math
 import signal
 import struct
 import subprocess
-import time
 import unittest
 
-from exemplar_runner import EXEMPLAR, SceneTest, bent, bend, prm, results, write_msh
+from exemplar_runner import EXEMPLAR, SceneTest, bent, bend, prm, results, write_msh, wait_until
 from surface_bar import bar_surface, obj_text, read_mdd, read_obj, read_pc2, read_ply, read_usda
 
 SCENE = {
@@ -179,8 +178,7 @@ class SurfaceFormats(SceneTest):
             process = subprocess.Popen([EXEMPLAR, "scene.prm", "--output", "out", "--quiet", *arguments], cwd=self.directory,
                                        stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
             rows = self.directory / "out/statistics.csv"
-            while process.poll() is None and not (rows.exists() and rows.read_bytes().count(b"\n") > after):
-                time.sleep(1e-3)
+            wait_until(lambda: rows.exists() and rows.read_bytes().count(b"\n") > after, process)
             process.send_signal(how)
             process.communicate(timeout=300)
             self.assertEqual(process.returncode, -9 if how == signal.SIGKILL else 130)

@@ -7,11 +7,10 @@ import resource
 import shutil
 import signal
 import subprocess
-import time
 import unittest
 from pathlib import Path
 
-from exemplar_runner import EXEMPLAR, SceneTest, prm, read_csv, read_pvd, read_summary, results
+from exemplar_runner import EXEMPLAR, SceneTest, prm, read_csv, read_pvd, read_summary, results, wait_until
 
 # a frame a step, which takes about as long to write as the step to compute
 BOX = {
@@ -173,8 +172,7 @@ class Threads(SceneTest):
                                            stderr=subprocess.PIPE)
                 output = self.directory / "out"
                 with process:
-                    while process.poll() is None and not (output / frame(8)).exists():
-                        time.sleep(1e-3)
+                    wait_until((output / frame(8)).exists, process)
                     process.send_signal(signal.SIGINT)
                     message = process.communicate(timeout=300)[1]
                 self.assertEqual(process.returncode, 130, message)

@@ -51,6 +51,10 @@ namespace Exemplar::Live
     void
     touch(const Command &command);
 
+    /// For Undo, if it can be kept, with what is held at present.
+    void
+    keep_moment(const Hand::Held &held);
+
     void
     make_step();
 

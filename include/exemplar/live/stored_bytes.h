@@ -12,7 +12,7 @@ namespace Exemplar::Live
   class StoredBytes
   {
   public:
-    /// Throws std::runtime_error if they cannot be written.
+    /// Throws std::system_error if they cannot be written.
     explicit StoredBytes(const std::string &bytes);
 
     /// Throws std::runtime_error if they cannot be read.
