@@ -27,6 +27,8 @@ namespace Exemplar
   LinearPrediction::restore(std::deque<std::vector<double>> vectors)
   {
     history = std::move(vectors);
+    if (history.size() > order + 1) // of one of higher order
+      history.resize(order + 1);
     for (std::size_t i = history.size(); i-- > 0;)
       multiply_out(i);
   }
@@ -34,7 +36,7 @@ namespace Exemplar
   void
   LinearPrediction::add(std::vector<double> vector)
   {
-    if (history.size() == max_vectors)
+    if (history.size() == order + 1)
       history.pop_back();
     history.push_front(std::move(vector));
     for (std::size_t i = history.size() - 1; i > 0; --i)

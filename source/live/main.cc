@@ -76,13 +76,15 @@ Exit status:
       app.footer(footer("live prm/live/cat.prm --record session"));
     }
 
-    /// Steps of the pace of displays, none of which waits for a factor, unless the command line says otherwise.
+    /// Steps of the pace of displays, none of which waits for a factor, and of motions that are not smooth, unless
+    /// the command line says otherwise.
     std::vector<std::string>
     with_defaults(std::vector<std::string> overrides)
     {
       const auto given = overrides;
       for (const std::string setting :
-           { "Time/Step=0.016666666666666666", "Solver/Background factor=true" })
+           { "Time/Step=0.016666666666666666", "Solver/Background factor=true",
+             "Solver/Prediction order=3" })
       {
         const std::string key = setting.substr(0, setting.find('=') + 1);
         if (std::none_of(given.begin(), given.end(),

@@ -14,7 +14,7 @@ namespace Exemplar
                              const Handles          &handles,
                              StepClock              &clock)
       : parameters(parameters), potential(potential), system(system), handles(handles),
-        clock(clock), prediction(potential.get_free_dofs(), handles)
+        clock(clock), prediction(potential.get_free_dofs(), handles, parameters.prediction_order)
   {
   }
 

@@ -3,8 +3,11 @@
 
 namespace Exemplar
 {
-  MotionPrediction::MotionPrediction(const FreeDofs &free_dofs, const Handles &handles)
-      : free_dofs(free_dofs), handles(handles), velocities(free_dofs.exchange())
+  MotionPrediction::MotionPrediction(const FreeDofs    &free_dofs,
+                                     const Handles     &handles,
+                                     const unsigned int order)
+      : free_dofs(free_dofs), handles(handles), order(order),
+        velocities(free_dofs.exchange(), order)
   {
   }
 

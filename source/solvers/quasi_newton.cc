@@ -33,8 +33,8 @@ namespace Exemplar
                            StepClock              &clock)
       : parameters(parameters), potential(potential), system(system), clock(clock),
         newton(parameters, potential, system, handles, clock),
-        prediction(potential.get_free_dofs(), handles), metric(potential.get_free_dofs()),
-        lbfgs(potential.get_free_dofs().exchange())
+        prediction(potential.get_free_dofs(), handles, parameters.prediction_order),
+        metric(potential.get_free_dofs()), lbfgs(potential.get_free_dofs().exchange())
   {
   }
 

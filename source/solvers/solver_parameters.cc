@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/linear_prediction.h>
 #include <exemplar/prm/key_table.h>
 #include <exemplar/solvers/solver_parameters.h>
 
@@ -71,6 +72,11 @@ namespace Exemplar
         "checking; umfpack: the whole bordered matrix at once, for checking; auto: cholesky, or "
         "iterative where that is faster by the count of operations, in compact bodies from about "
         "40,000 degrees of freedom.");
+    keys.add("Prediction order", prediction_order,
+             "Of how many past velocities quasi newton, and passes with Rotations = predicted, predict the "
+             "next ones. Five are best for motions that are smooth in time; fewer for those that are "
+             "not: exemplar live sets 3.",
+             Bounds{ 1, LinearPrediction::max_order });
     keys.add("Background factor", background_factor,
              "Whether quasi newton has new factors made by a thread beside its steps, which go on "
              "with the last one for a number of steps that follows from the count of operations: results do not "

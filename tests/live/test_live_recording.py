@@ -91,6 +91,11 @@ class RecordingTest(unittest.TestCase):
         again = self.play("threads", "--threads", "2")
         self.assertEqual((again / "final.msh").read_bytes(), (output / "final.msh").read_bytes())
 
+    def test_steps_are_those_of_hands(self):
+        keys = [line.strip() for line in (self.record / "scene.prm").read_text().splitlines()]
+        for key in ("set Step = 0.016666666666666666", "set Background factor = true", "set Prediction order = 3"):
+            self.assertIn(key, keys)
+
     def test_session_is_text(self):
         lines = (self.record / "session.txt").read_text().splitlines()
         self.assertEqual(lines[0], "exemplar session 1")

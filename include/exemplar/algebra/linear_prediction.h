@@ -17,10 +17,14 @@ namespace Exemplar
   class LinearPrediction
   {
   public:
-    static constexpr std::size_t max_vectors = 6;
+    /// Most vectors of a combination.
+    static constexpr unsigned int max_order = 5;
 
-    /// `exchange` must outlive this.
-    explicit LinearPrediction(const Exchange &exchange) : exchange(&exchange) {}
+    /// `exchange` must outlive this; `order`, from 1 to max_order, is how many vectors are combined.
+    LinearPrediction(const Exchange &exchange, unsigned int order)
+        : exchange(&exchange), order(order)
+    {
+    }
 
     void
     add(std::vector<double> vector);
@@ -55,9 +59,12 @@ namespace Exemplar
     void
     multiply_out(std::size_t i);
 
-    const Exchange                                          *exchange;
-    std::deque<std::vector<double>>                          history;    ///< the last first
-    std::array<std::array<double, max_vectors>, max_vectors> products{}; ///< [i][j], i <= j
+    using Products = std::array<std::array<double, max_order + 1>, max_order + 1>;
+
+    const Exchange                 *exchange;
+    unsigned int                    order;
+    std::deque<std::vector<double>> history;    ///< the last first, order + 1 at most
+    Products                        products{}; ///< [i][j], i <= j
   };
 } // namespace Exemplar
 

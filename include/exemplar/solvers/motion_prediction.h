@@ -13,8 +13,9 @@ namespace Exemplar
   class MotionPrediction
   {
   public:
-    /// Both must outlive the object.
-    MotionPrediction(const FreeDofs &free_dofs, const Handles &handles);
+    /// Both must outlive the object; `order`: of how many velocities it makes the next one, 1 to
+    /// LinearPrediction::max_order.
+    MotionPrediction(const FreeDofs &free_dofs, const Handles &handles, unsigned int order);
 
     /// Put `trial`, which is at the positions of `accepted` but has the time of the step's end,
     /// where the last velocities lead in a step of length h [s]. To be called once a step.
@@ -24,7 +25,7 @@ namespace Exemplar
     void
     forget()
     {
-      velocities = LinearPrediction(free_dofs.exchange());
+      velocities = LinearPrediction(free_dofs.exchange(), order);
     }
 
     std::size_t
@@ -58,6 +59,7 @@ namespace Exemplar
   private:
     const FreeDofs  &free_dofs;
     const Handles   &handles;
+    unsigned int     order;
     LinearPrediction velocities; ///< of the last steps, by free degree of freedom
   };
 } // namespace Exemplar

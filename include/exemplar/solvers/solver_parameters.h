@@ -52,6 +52,7 @@ namespace Exemplar
     PassRotations rotations          = PassRotations::last;
     Starts        starts             = Starts::state;
     LinearSolver  linear_solver      = LinearSolver::automatic;
+    unsigned int  prediction_order   = 5;
     bool          background_factor  = false;
     unsigned int  n_threads = 1; ///< at work; no key of scene files, as no result depends on it
 

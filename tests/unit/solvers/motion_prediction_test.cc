@@ -20,7 +20,7 @@ namespace Exemplar::Testing
       MotionPredictionTest()
           : scene("set Scene = dynamic\n" + bar + drag),
             free_dofs(scene.problem.constraints.free_dofs),
-            prediction(free_dofs, scene.problem.constraints.handles), state(scene.problem.state)
+            prediction(free_dofs, scene.problem.constraints.handles, 5), state(scene.problem.state)
       {
       }
 

@@ -17,9 +17,10 @@ namespace Exemplar::Testing
   {
     /// What follows a sequence, the oldest first.
     std::vector<double>
-    predict(const std::vector<std::vector<double>> &sequence)
+    predict(const std::vector<std::vector<double>> &sequence,
+            const unsigned int                      order = LinearPrediction::max_order)
     {
-      LinearPrediction prediction(Exchange::serial());
+      LinearPrediction prediction(Exchange::serial(), order);
       for (const std::vector<double> &vector : sequence)
         prediction.add(vector);
       return prediction.next();
@@ -60,6 +61,22 @@ namespace Exemplar::Testing
           EXPECT_NEAR(predict(samples(damped, n))[i], damped(0.1)[i], 1e-4);
       for (unsigned int i = 0; i < 3; ++i)
         EXPECT_NEAR(predict(samples(parabola, 4))[i], parabola(0.1)[i], 1e-4);
+    }
+
+    TEST(LinearPrediction, CombinesAsManyVectorsAsItsOrderSays)
+    {
+      const auto cubic = [](const double t) {
+        return std::vector<double>{ 1., t, t * t, t * t * t };
+      };
+      // of a cubic the next value follows from four, and not from three
+      const auto error = [&](const unsigned int order)
+      { return std::abs(predict(samples(cubic, 9), order)[3] - cubic(0.1)[3]); };
+      EXPECT_LT(error(4), 1e-4);
+      EXPECT_GT(error(3), 1e-3);
+      // one vector is only made longer or shorter
+      const std::vector<double> turned = predict({ { 1., 0. }, { 2., 2. } }, 1);
+      EXPECT_NEAR(turned[0], 4., 1e-8);
+      EXPECT_NEAR(turned[1], 4., 1e-8);
     }
 
     TEST(LinearPrediction, NeedsNoHistory)

@@ -27,6 +27,7 @@ namespace Exemplar::Testing
           "set Scene = static\n" + bar + drag + poses,
           { "Solver/Method=newton", "Time/Increments=10" } },
         { "quasi_newton", dynamic, { "Solver/Method=quasi newton" } },
+        { "prediction_order", dynamic, { "Solver/Prediction order=2" } },
         { "background_factor", dynamic, { "Solver/Background factor=true" } },
         // its convex tangent knows the examples and what the damping remembers
         { "quasi_newton_green", dynamic, { "Solver/Method=quasi newton", "Model/Strain=green" } },
