@@ -3,7 +3,7 @@
 
 Usage: python3 doc/scripts/endure_live.py [--minutes 30] [--scene prm/live/cat.prm] [--seed 1] [--set KEY=VALUE]...
 Springs of all strengths and hard hands pull random points of the body to random places, also through it; sliders, pins and handles are
-moved. In the end all is let go of, and the body has ten seconds of its own time to come to rest. Printed: the load of the machine, steps, warnings, numbers
+moved. In the end all is let go of, and the body has 30 seconds of its own time to come to rest. Printed: the load of the machine, steps, warnings, numbers
 that are not finite, the memory of the server at some times, how far the body ends from its rest, and whether the recording, played
 again, ends in the same bytes. The exit status is 1 if a number was not finite or bytes differ.
 Environment: EXEMPLAR, the program.
@@ -176,7 +176,7 @@ def main():
             hands = Hands(viewer, arguments.seed)
             memories, n_bad, warnings = play(viewer, server, hands, 60 * arguments.minutes)
             hands.let_go_of_all()
-            more_bad, more_warnings = rest(viewer, 10.)
+            more_bad, more_warnings = rest(viewer, 30.)
             viewer.send(type="pause", on=True)
             viewer.until(lambda: viewer.wait_for("status")["paused"])
             viewer.send(type="save pose")
