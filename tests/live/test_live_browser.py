@@ -21,7 +21,7 @@ except ImportError:
     webdriver = None
 
 CHROMIUM, DRIVER = shutil.which("chromium"), shutil.which("chromedriver")
-wait = functools.partial(wait_until, pause=.1)  # as each look is work for the browser
+wait = functools.partial(wait_until, seconds=60, pause=.1)  # as each look is work for the browser
 
 
 def browser(width=1280, height=800, dark=False):

@@ -118,7 +118,7 @@ class Ending(GeoTest):
                     mesher, *_ = children(process.pid)
                     process.send_signal(how)
                     process.wait(timeout=60)
-                wait_until(lambda: not is_alive(mesher))
+                wait_until(lambda: not is_alive(mesher), seconds=30)
 
 
 if __name__ == "__main__":

@@ -119,7 +119,7 @@ class MpiTest(SceneTest):
         """Start a run; return when it has made steps."""
         self.write("scene.prm", prm(scene))
         process = self.start("scene.prm", "--output", "out", "--quiet", *arguments, **how)
-        wait_until(lambda: self.rows() >= rows, process)
+        wait_until(lambda: self.rows() >= rows, process, seconds=60)
         return process
 
     def stop_in_the_middle(self):
@@ -362,7 +362,7 @@ class Death(MpiTest):
                 run = self.result_of(process)
                 self.assertEqual(run.status, 1)
                 self.assertLessEqual(len(self.messages(run)), 1, run.stderr)
-                wait_until(lambda: not any(map(is_alive, ranks)))
+                wait_until(lambda: not any(map(is_alive, ranks)), seconds=20)
                 self.check_resumed()
 
     def test_mpirun_killed(self):
@@ -370,7 +370,7 @@ class Death(MpiTest):
         ranks = self.ranks(process)
         process.kill()
         process.communicate(timeout=60)
-        wait_until(lambda: not any(map(is_alive, ranks)))
+        wait_until(lambda: not any(map(is_alive, ranks)), seconds=20)
 
     def test_interrupted_twice(self):
         process = self.start_and_wait({**ENDLESS, "Mesh/Box cells": "24, 12, 12"}, rows=3)

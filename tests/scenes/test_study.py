@@ -243,7 +243,7 @@ class Studies(SceneTest):
         [run] = children(process.pid)
         process.kill()
         process.communicate(timeout=300)
-        wait_until(lambda: not is_alive(run))  # it would take minutes by itself
+        wait_until(lambda: not is_alive(run), seconds=60)  # it would take minutes by itself
 
     def test_only_what_has_changed_is_run_anew(self):
         self.prepare(DYNAMIC, "Time/Step: 0.1 0.05", Reference="Time/Step=0.01")
