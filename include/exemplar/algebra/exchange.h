@@ -261,7 +261,7 @@ namespace Exemplar
     if (field.size() == 0)
       return field;
     const std::vector<double> all = exchange.whole(field.begin(), 3, field.size() / 3, everywhere);
-    return { all.begin(), all.end() };
+    return Vector(all.begin(), all.end());
   }
 
   /// Exchange::part() of a field by degree of freedom.
@@ -271,7 +271,7 @@ namespace Exemplar
     if (field.size() == 0)
       return field;
     const std::vector<double> own = exchange.part({ field.begin(), field.end() }, 3);
-    return { own.begin(), own.end() };
+    return Vector(own.begin(), own.end());
   }
 } // namespace Exemplar
 
