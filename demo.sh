@@ -57,9 +57,14 @@ if [ "${1:-}" = "--install-only" ]; then
   exit 0
 fi
 
+# what this scene needs, where nothing more is built already
+preset=release
+if [ ! -e build/release/CMakeCache.txt ] || grep -q "^EXEMPLAR_SCENES_ONLY:BOOL=ON" build/release/CMakeCache.txt; then
+  preset=scenes
+fi
 echo "Building (a few minutes the first time)"
-cmake --preset release >/dev/null
-cmake --build --preset release --target exemplar
+cmake --preset $preset >/dev/null
+cmake --build --preset $preset --target exemplar
 
 build/release/exemplar prm/paper/fig2a_cat.prm --output output/fig2a_cat
 build/release/exemplar export output/fig2a_cat --html output/fig2a_cat.html
@@ -69,6 +74,7 @@ echo "Open animation.pvd there in ParaView (Debian: apt-get install paraview), p
 echo "  paraview $PWD/output/fig2a_cat/animation.pvd"
 echo "The same drag without the examples, from $PWD:"
 echo "  build/release/exemplar prm/paper/fig2a_cat.prm --set Examples/Importance=0 --output output/fig2a_cat_plain"
-echo "Pull the cat with the mouse, from $PWD:"
+echo "Pull the cat with the mouse, from $PWD (the first line builds the rest of exemplar, which takes minutes):"
+echo "  cmake --preset release && cmake --build --preset release"
 echo "  build/release/exemplar live prm/live/cat.prm"
 echo "See it move, in any browser: file://$PWD/output/fig2a_cat.html"

@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/algebra/front_kernels.h>
-#include <exemplar/base/instruction_set.h>
+#include <exemplar/base/built_instruction_sets.h>
 
 namespace Exemplar
 {
   template <typename Number>
   FrontKernels<Number>
   front_kernels_baseline();
-#ifdef __x86_64__
   template <typename Number>
   FrontKernels<Number>
   front_kernels_avx2();
   template <typename Number>
   FrontKernels<Number>
   front_kernels_avx512();
-#endif
 
   namespace
   {
@@ -22,11 +20,13 @@ namespace Exemplar
     FrontKernels<Number>
     choose_kernels()
     {
-      switch (best_instruction_set())
+      switch (built_instruction_set())
       {
-#ifdef __x86_64__
+#ifdef EXEMPLAR_HAS_AVX512
       case InstructionSet::avx512:
         return front_kernels_avx512<Number>();
+#endif
+#ifdef EXEMPLAR_HAS_AVX2
       case InstructionSet::avx2:
         return front_kernels_avx2<Number>();
 #endif

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/built_instruction_sets.h>
 #include <exemplar/base/environment.h>
 
 #include <algorithm>
@@ -78,6 +79,16 @@ namespace Exemplar
            + ". If that is the reference BLAS, factorisations take four to five times as long as "
              "they need. Install OpenBLAS; on Debian: apt-get install libopenblas0-pthread, or if "
              "it is there choose it by update-alternatives.";
+  }
+
+  std::string
+  instruction_set_warning()
+  {
+    if (built_instruction_set() == best_instruction_set())
+      return "";
+    return "This program was built for another kind of CPU. Its loops over cells leave out "
+           "instructions that this one has, and take up to four times as long as they need. Build "
+           "it here, or for all by cmake -DEXEMPLAR_INSTRUCTION_SETS=all.";
   }
 
   unsigned int

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/base/instruction_set.h>
+#include <exemplar/base/built_instruction_sets.h>
 #include <exemplar/kernels/cell_kernels.h>
 
 namespace Exemplar
@@ -12,13 +12,15 @@ namespace Exemplar
     {
       static const CellKernels         baseline = cell_kernels<Instructions::baseline>(of);
       std::vector<const CellKernels *> all      = { &baseline };
-#ifdef __x86_64__
       // even the function that names the loops is compiled with the instructions of its set
+#ifdef EXEMPLAR_HAS_AVX2
       if (best_instruction_set() >= InstructionSet::avx2)
       {
         static const CellKernels avx2 = cell_kernels<Instructions::avx2>(of);
         all.push_back(&avx2);
       }
+#endif
+#ifdef EXEMPLAR_HAS_AVX512
       if (best_instruction_set() >= InstructionSet::avx512)
       {
         static const CellKernels avx512 = cell_kernels<Instructions::avx512>(of);

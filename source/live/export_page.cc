@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/exemplar.h>
 #include <exemplar/live/export_page.h>
+#include <exemplar/live/page_files.h>
 #include <exemplar/live/run_frames.h>
-#include <exemplar/live/site.h>
 #include <exemplar/live/surface_frames.h>
 
 #include <deal.II/base/utilities.h>

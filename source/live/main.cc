@@ -8,7 +8,6 @@
 #include <boost/asio/post.hpp>
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/multithread_info.h>
-#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>
@@ -27,7 +26,7 @@ namespace Exemplar::Live
     /// What the command line says.
     struct Arguments
     {
-      std::string              record, html;
+      std::string              record;
       std::vector<std::string> shown, overrides, hosts; ///< shown: a scene, or outputs of runs
       ListenAt                 place;
       unsigned int             n_threads        = 1;
@@ -93,30 +92,6 @@ Exit status:
           overrides.push_back(setting);
       }
       return overrides;
-    }
-
-    void
-    declare_export(CLI::App &main, Arguments &arguments)
-    {
-      CLI::App &app = *main.add_subcommand(
-          "export", "write the frames of a finished run as one page of HTML");
-      app.add_option("OUTPUT", arguments.shown,
-                     "output directory of the run; of two runs: side by side")
-          ->required()
-          ->expected(1, 2);
-      app.add_option("--html", arguments.html, "the page to write")->required();
-      app.footer(footer("export output/cat --html cat.html"));
-    }
-
-    int
-    do_export(const Arguments &arguments)
-    {
-      const RunPage page = export_page(arguments.shown, arguments.html);
-      std::cout << fmt::format(
-          "{}: {} frames, {:.1f} MB; coordinates are rounded by {:.1e} m at most", arguments.html,
-          page.n_frames, 1e-6 * page.html.size(), page.error)
-                << std::endl;
-      return 0;
     }
 
     /// Ends a server when standard input ends: when the program that has started it closes that, or is gone.
@@ -270,11 +245,10 @@ Exit status:
     CLI::App  app("What exemplar shows in a browser", "exemplar");
     app.require_subcommand(1);
     declare_live(app, arguments);
-    declare_export(app, arguments);
     try
     {
       app.parse(argc, argv);
-      return app.got_subcommand("live") ? serve(arguments) : do_export(arguments);
+      return serve(arguments);
     }
     catch (const CLI::Success &request)
     {
@@ -282,8 +256,8 @@ Exit status:
     }
     catch (const CLI::ParseError &error)
     {
-      std::cerr << "exemplar: " << error.what() << ". exemplar " << (argc > 1 ? argv[1] : "live")
-                << " --help lists the options." << std::endl;
+      std::cerr << "exemplar: " << error.what() << ". exemplar live --help lists the options."
+                << std::endl;
       return 1;
     }
     catch (const UserError &error)

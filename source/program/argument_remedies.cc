@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
 #include <exemplar/base/message_text.h>
 #include <exemplar/base/nearest_word.h>
+#include <exemplar/mesh/mesh_parameters.h>
 #include <exemplar/program/argument_remedies.h>
 
 #include <CLI/CLI.hpp>
@@ -237,5 +239,27 @@ namespace Exemplar
     if (message.empty())
       message = in_own_words(error, line) + ".";
     return message + " " + help + " lists what is allowed.";
+  }
+
+  void
+  require_scene(const std::filesystem::path &file)
+  {
+    std::error_code ignored;
+    const auto      is_there
+        = [&](const std::filesystem::path &path) { return std::filesystem::exists(path, ignored); };
+    if (!file.empty() && is_there(file / "parameters.prm"))
+      throw UserError(file.string() + " is the directory of a run. Its scene is run by: exemplar "
+                      + (file / "parameters.prm").string() + ".");
+    if (!file.empty() && !file.has_extension() && !is_there(file)
+        && !is_there(file.string() + ".prm"))
+      throw UserError(in_quotes(file.string())
+                      + " is neither a scene nor a command. A scene is run by: exemplar "
+                        "SCENE.prm; exemplar --help lists commands and options.");
+    const std::string extension = file.extension().string();
+    if (extension == ".msh" || extension == ".geo" || is_surface_file(file.string()))
+      throw UserError(file.string()
+                      + " is a mesh or a surface, not a scene. Write a scene (.prm) "
+                        "that names it, by 'set File = "
+                      + file.filename().string() + "' in subsection Mesh, and run that.");
   }
 } // namespace Exemplar

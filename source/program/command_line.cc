@@ -10,6 +10,7 @@
 #include <exemplar/mesh/mesh_parameters.h>
 #include <exemplar/program/argument_remedies.h>
 #include <exemplar/program/command_line.h>
+#include <exemplar/program/export_command.h>
 #include <exemplar/program/interrupt.h>
 #include <exemplar/program/joint_run.h>
 #include <exemplar/program/live_program.h>
@@ -43,6 +44,7 @@ namespace Exemplar
 
       MeshCommandOptions mesh;
       PoseOptions        pose;
+      PageOptions        page;
     };
 
     /// What --help ends with.
@@ -179,6 +181,21 @@ Exit status:
       return command;
     }
 
+    CLI::App &
+    declare_export(CLI::App &app, Arguments &arguments)
+    {
+      CLI::App &command
+          = add_command(app, "export", "write the frames of a finished run as one page of HTML",
+                        "output/cat --html cat.html");
+      command
+          .add_option("OUTPUT", arguments.page.runs,
+                      "output directory of the run; of two runs: side by side")
+          ->required()
+          ->expected(1, 2);
+      command.add_option("--html", arguments.page.html, "the page to write")->required();
+      return command;
+    }
+
     int
     do_verify(const Arguments &arguments)
     {
@@ -228,29 +245,6 @@ Exit status:
         throw UserError(command + " cannot be done by several processes. Call it without mpirun.");
     }
 
-    /// A mesh, a directory or a misspelt command cannot be run.
-    void
-    require_scene(const std::filesystem::path &file)
-    {
-      std::error_code ignored;
-      const auto      is_there = [&](const std::filesystem::path &path)
-      { return std::filesystem::exists(path, ignored); };
-      if (!file.empty() && is_there(file / "parameters.prm"))
-        throw UserError(file.string() + " is the directory of a run. Its scene is run by: exemplar "
-                        + (file / "parameters.prm").string() + ".");
-      if (!file.empty() && !file.has_extension() && !is_there(file)
-          && !is_there(file.string() + ".prm"))
-        throw UserError(in_quotes(file.string())
-                        + " is neither a scene nor a command. A scene is run by: exemplar "
-                          "SCENE.prm; exemplar --help lists commands and options.");
-      const std::string extension = file.extension().string();
-      if (extension == ".msh" || extension == ".geo" || is_surface_file(file.string()))
-        throw UserError(file.string()
-                        + " is a mesh or a surface, not a scene. Write a scene (.prm) "
-                          "that names it, by 'set File = "
-                        + file.filename().string() + "' in subsection Mesh, and run that.");
-    }
-
     void
     do_scene(const Arguments &arguments)
     {
@@ -278,7 +272,7 @@ Exit status:
   int
   run_command_line(const int argc, char *argv[])
   {
-    if (argc > 1 && live_commands.count(argv[1]) > 0)
+    if (argc > 1 && std::string(argv[1]) == "live")
       become_live_program(argv);
     Arguments arguments;
     // each of several processes has one core
@@ -295,12 +289,12 @@ Exit status:
     const CLI::App &verify_command = declare_verify(app, arguments);
     const CLI::App &mesh_command   = declare_mesh(app, arguments);
     const CLI::App &pose_command   = declare_pose(app, arguments);
-    for (const auto &[command, description] : live_commands)
-      app.add_subcommand(command, description);
+    const CLI::App &export_command = declare_export(app, arguments);
+    app.add_subcommand("live", "pull the body of a scene with the mouse, in a browser");
     try
     {
       app.parse(argc, argv);
-      const bool is_scene = !study_command && !verify_command && !mesh_command && !pose_command;
+      const bool is_scene = app.get_subcommands().empty();
       if (is_scene && !arguments.print && arguments.run.scene_file.empty())
         throw CLI::RequiredError("SCENE");
       if (mesh_command && mesh_command.count("--list-faults") == 0)
@@ -319,7 +313,8 @@ Exit status:
     {
       throw UserError(message_of_arguments(app, error, { argv + 1, argv + argc }));
     }
-    for (const CLI::App *command : { &study_command, &mesh_command, &pose_command })
+    for (const CLI::App *command :
+         { &study_command, &mesh_command, &pose_command, &export_command })
       if (*command)
         refuse_processes("exemplar " + command->get_name());
     if (arguments.validate || arguments.print)
@@ -343,6 +338,8 @@ Exit status:
       run_mesh_command(arguments.mesh);
     else if (pose_command)
       carry_poses(arguments.pose);
+    else if (export_command)
+      write_page(arguments.page);
     else
       do_scene(arguments);
     return 0;

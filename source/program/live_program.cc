@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
+#include <exemplar/base/whole_program.h>
 #include <exemplar/program/live_program.h>
 
 #include <cerrno>
@@ -10,10 +11,6 @@
 
 namespace Exemplar
 {
-  const std::map<std::string, std::string> live_commands
-      = { { "live", "pull the body of a scene with the mouse, in a browser" },
-          { "export", "write the frames of a finished run as one page of HTML" } };
-
   void
   become_live_program(char *argv[])
   {
@@ -21,7 +18,7 @@ namespace Exemplar
     const std::filesystem::path own     = std::filesystem::read_symlink("/proc/self/exe", ignored);
     const std::string           program = (own.parent_path() / "exemplar-live").string();
     execv(program.c_str(), argv);
-    throw UserError(program + " cannot be started, which exemplar " + argv[1]
-                    + " needs: " + std::strerror(errno) + ". Install exemplar whole.");
+    throw UserError(program + " cannot be started, which exemplar live needs: "
+                    + std::strerror(errno) + ". " + build_whole_program + "; or install it whole.");
   }
 } // namespace Exemplar

@@ -170,8 +170,9 @@ namespace Exemplar
     RunWriter writer(*problem, scene);
     is_interrupted(); // from now on a signal waits until the run has written what it has
     take_directory(options, *problem, writer, log);
-    if (const std::string warning = blas_warning(); !warning.empty())
-      log.warn(warning);
+    for (const std::string &warning : { blas_warning(), instruction_set_warning() })
+      if (!warning.empty())
+        log.warn(warning);
     {
       StepClock::Scope scope(problem->clock, Phase::output);
       log.say(header_text(*problem));

@@ -22,6 +22,10 @@ namespace Exemplar
   std::string
   blas_warning();
 
+  /// A sentence if this CPU has instructions for which the loops of this build were not compiled, or nothing.
+  std::string
+  instruction_set_warning();
+
   /// Cores that are available to this process.
   unsigned int
   n_available_cores();

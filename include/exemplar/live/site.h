@@ -16,13 +16,6 @@ namespace Exemplar::Live
   using Request  = boost::beast::http::request<boost::beast::http::string_body>;
   using Response = boost::beast::http::response<boost::beast::http::string_body>;
 
-  /// The bytes of a file of ours, or of three.js as Debian has it. Throws UserError if it is missing.
-  std::string
-  page_file(const std::string &name);
-
-  std::string
-  three_file(const std::string &name);
-
   /// The files of the page, read once: a request names one of a table, and no path of it reaches the disk.
   class Site
   {

@@ -2,6 +2,7 @@
 #ifndef exemplar_argument_remedies_h
 #define exemplar_argument_remedies_h
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,10 @@ namespace Exemplar
   message_of_arguments(const CLI::App                 &app,
                        const CLI::ParseError          &error,
                        const std::vector<std::string> &words);
+
+  /// Throws UserError for a mesh, a directory or a misspelt command, which cannot be run, and says what can.
+  void
+  require_scene(const std::filesystem::path &file);
 } // namespace Exemplar
 
 #endif

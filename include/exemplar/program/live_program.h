@@ -2,14 +2,8 @@
 #ifndef exemplar_live_program_h
 #define exemplar_live_program_h
 
-#include <map>
-#include <string>
-
 namespace Exemplar
 {
-  /// Commands of exemplar-live, and what they do.
-  extern const std::map<std::string, std::string> live_commands;
-
   /// Go on as exemplar-live, the program beside this one, with the arguments of this one; returns only
   /// by UserError.
   [[noreturn]] void

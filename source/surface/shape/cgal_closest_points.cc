@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/surface/shape/cgal_search.h>
 #include <exemplar/surface/shape/closest_points.h>
 
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_tree.h>
-#include <CGAL/AABB_triangle_primitive.h>
 #include <CGAL/Simple_cartesian.h>
 
 #include <algorithm>
@@ -14,8 +12,7 @@ namespace Exemplar
   {
     using Kernel    = CGAL::Simple_cartesian<double>;
     using Triangles = std::vector<Kernel::Triangle_3>;
-    using Primitive = CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>;
-    using Tree      = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
+    using Tree      = TriangleSearch<Kernel, Triangles::const_iterator>;
 
     /// Shares of the corners at a point of the triangle, by areas; rounding is cut off.
     std::array<double, 3>

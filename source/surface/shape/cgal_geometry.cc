@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/surface/shape/cgal_search.h>
 #include <exemplar/surface/shape/cgal_surface.h>
 #include <exemplar/surface/shape/surface_edges.h>
 #include <exemplar/surface/shape/surface_geometry.h>
 #include <exemplar/surface/shape/vectors.h>
 
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_tree.h>
-#include <CGAL/AABB_triangle_primitive.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Side_of_triangle_mesh.h>
 
@@ -31,8 +29,7 @@ namespace Exemplar
   struct NearestTriangle::Tree
   {
     using Triangles = std::vector<CgalKernel::Triangle_3>;
-    using Primitive = CGAL::AABB_triangle_primitive<CgalKernel, Triangles::const_iterator>;
-    using Search    = CGAL::AABB_tree<CGAL::AABB_traits<CgalKernel, Primitive>>;
+    using Search    = TriangleSearch<CgalKernel, Triangles::const_iterator>;
 
     Triangles triangles;
     Search    search;
@@ -114,5 +111,19 @@ namespace Exemplar
         }
     }
     return around;
+  }
+
+  void
+  take_nearest_groups(TriangleSurface &surface, const TriangleSurface &from)
+  {
+    const NearestTriangle nearest(from);
+    for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+    {
+      SurfaceMesh::Vertex middle{ { 0., 0., 0. } };
+      for (const unsigned int vertex : surface.triangles[t])
+        for (unsigned int d = 0; d < 3; ++d)
+          middle[d] += surface.vertices[vertex][d] / 3.;
+      surface.groups[t] = from.groups[nearest(middle).second];
+    }
   }
 } // namespace Exemplar

@@ -15,7 +15,7 @@
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Polygon_mesh_processing/stitch_borders.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
-#include <CGAL/alpha_wrap_3.h>
+#include <CGAL/version.h>
 
 #include <cmath>
 
@@ -25,20 +25,8 @@ namespace Exemplar
 
   namespace
   {
-    using Points   = std::vector<CgalPoint>;
-    using Polygons = std::vector<std::vector<std::size_t>>;
-
-    void
-    to_soup(const TriangleSurface &surface, Points &points, Polygons &polygons)
-    {
-      for (const auto &vertex : surface.vertices)
-        points.push_back(to_cgal(vertex));
-      for (const auto &t : surface.triangles)
-        polygons.push_back({ t[0], t[1], t[2] });
-    }
-
     TriangleSurface
-    from_soup(const Points &points, const Polygons &polygons)
+    from_soup(const CgalPoints &points, const CgalPolygons &polygons)
     {
       TriangleSurface surface;
       for (const CgalPoint &point : points)
@@ -72,8 +60,8 @@ namespace Exemplar
     CgalMesh
     make_manifold(const TriangleSurface &surface, Report &report)
     {
-      Points   points;
-      Polygons polygons;
+      CgalPoints   points;
+      CgalPolygons polygons;
       to_soup(surface, points, polygons);
       PMP::repair_polygon_soup(points, polygons);
       report.add("vertices joined or left out", surface.vertices.size() - points.size());
@@ -94,6 +82,22 @@ namespace Exemplar
       return mesh;
     }
 
+    /// The faces that fill it.
+    std::vector<CgalMesh::Face_index>
+    fill_hole(CgalMesh &mesh, const CgalMesh::Halfedge_index border)
+    {
+      std::vector<CgalMesh::Face_index> faces;
+#if CGAL_VERSION_MAJOR >= 6
+      PMP::triangulate_and_refine_hole(
+          mesh, border, CGAL::parameters::face_output_iterator(std::back_inserter(faces)));
+#else
+      std::vector<CgalMesh::Vertex_index> vertices;
+      PMP::triangulate_and_refine_hole(mesh, border, std::back_inserter(faces),
+                                       std::back_inserter(vertices));
+#endif
+      return faces;
+    }
+
     void
     fill_holes(CgalMesh &mesh, Report &report)
     {
@@ -101,13 +105,7 @@ namespace Exemplar
       PMP::extract_boundary_cycles(mesh, std::back_inserter(borders));
       std::size_t n_filled = 0;
       for (const auto border : borders)
-      {
-        std::vector<CgalMesh::Face_index>   faces;
-        std::vector<CgalMesh::Vertex_index> vertices;
-        PMP::triangulate_and_refine_hole(mesh, border, std::back_inserter(faces),
-                                         std::back_inserter(vertices));
-        n_filled += faces.empty() ? 0 : 1;
-      }
+        n_filled += fill_hole(mesh, border).empty() ? 0 : 1;
       report.add("holes filled", n_filled);
     }
 
@@ -134,20 +132,6 @@ namespace Exemplar
       surface = std::move(kept);
       drop_unused_vertices(surface);
     }
-
-    void
-    take_groups(TriangleSurface &surface, const TriangleSurface &from)
-    {
-      const NearestTriangle nearest(from);
-      for (std::size_t t = 0; t < surface.triangles.size(); ++t)
-      {
-        SurfaceMesh::Vertex middle{ { 0., 0., 0. } };
-        for (const unsigned int vertex : surface.triangles[t])
-          for (unsigned int d = 0; d < 3; ++d)
-            middle[d] += surface.vertices[vertex][d] / 3.;
-        surface.groups[t] = from.groups[nearest(middle).second];
-      }
-    }
   } // namespace
 
   RepairedSurface
@@ -171,21 +155,7 @@ namespace Exemplar
       report.add("shells turned outwards", turn_outermost_outwards(result.surface));
       drop_small_shells(result.surface, report);
     }
-    take_groups(result.surface, surface);
+    take_nearest_groups(result.surface, surface);
     return result;
-  }
-
-  TriangleSurface
-  wrap(const TriangleSurface &surface, const double openings)
-  {
-    Points   points;
-    Polygons polygons;
-    to_soup(surface, points, polygons);
-    const double alpha = openings * diagonal_of(surface.vertices);
-    CgalMesh     mesh;
-    CGAL::alpha_wrap_3(points, polygons, alpha, wrap_distance * alpha, mesh);
-    TriangleSurface wrapped = from_cgal_mesh(mesh, [](const CgalMesh::Face_index) { return 0U; });
-    take_groups(wrapped, surface);
-    return wrapped;
   }
 } // namespace Exemplar

@@ -27,6 +27,19 @@ namespace Exemplar
     return { { point.x(), point.y(), point.z() } };
   }
 
+  using CgalPoints   = std::vector<CgalPoint>;
+  using CgalPolygons = std::vector<std::vector<std::size_t>>;
+
+  /// Appends vertices and triangles.
+  inline void
+  to_soup(const TriangleSurface &surface, CgalPoints &points, CgalPolygons &polygons)
+  {
+    for (const auto &vertex : surface.vertices)
+      points.push_back(to_cgal(vertex));
+    for (const auto &t : surface.triangles)
+      polygons.push_back({ t[0], t[1], t[2] });
+  }
+
   /// A surface with manifold edges as CGAL has it, vertices and faces in their order.
   inline CgalMesh
   make_cgal_mesh(const TriangleSurface &surface)

@@ -48,6 +48,10 @@ namespace Exemplar
   enclosing_shells(const TriangleSurface           &surface,
                    const std::vector<unsigned int> &shells,
                    unsigned int                     n_shells);
+
+  /// Each triangle gets the group of the triangle of `from` that is nearest to its middle.
+  void
+  take_nearest_groups(TriangleSurface &surface, const TriangleSurface &from);
 } // namespace Exemplar
 
 #endif
