@@ -6,7 +6,6 @@ of one process, or all refuse the scene by the same message.
     python3 tests/scenes/test_collectives.py --measure [NAME...]  the whole scenes, or those with NAME in their path: prints a table
 """
 
-import os
 import re
 import shutil
 import sys
@@ -15,8 +14,9 @@ import unittest
 from pathlib import Path
 
 from exemplar_runner import (REPOSITORY, SceneTest, greatest_distance, has_trilinos, nodes_of, run_program, set_words, write_msh,
-                             read_msh, write_scene)
+                             write_scene)
 from mpirun import first_difference, launch, mismatch
+from surface_bar import bar_surface, obj_text
 
 TIGHT = {"Solver/Tolerance": "1e-12", "Solver/Step tolerance": "1e-12"}
 BOX = {"Mesh/Generator": "box", "Mesh/Box size": "4, 1, 1", "Mesh/Box cells": "8, 2, 2"}
@@ -27,6 +27,7 @@ CORNER = {**BAR, "Mesh/Box size": "1, 1, 1", "Mesh/Box cells": "6, 6, 6", "Handl
 EXAMPLE = {"Examples/Pose functions": "x; y; z + 0.1*x^2", "Examples/Importance": "0.8"}
 ELSEWHERE = "1/(x - 4)"  # is no number at nodes of one process alone
 TWO = {**BAR, "Mesh/Generator": None, "Mesh/Box size": None, "Mesh/Box cells": None, "Mesh/File": "two.msh"}
+PAINTED = {**BAR, "Mesh/Surface": "bar.obj", "Examples/Pose functions": "1.2*x; y; z", "Examples/Importance": "0.8"}
 
 # What one process alone has of a body: shared nodes of handles, an importance, all nodes held, formulas that fail.
 OF_ONE_PROCESS = {
@@ -40,12 +41,14 @@ OF_ONE_PROCESS = {
     "importance of a region": {**TWO, "Scene": "interpolation", "Handles/Names": None, "Handles/left/Select": None,
                                "Loads/Gravity": None, "Examples/Pose functions": "x; y; z + 0.1*x^2", "Examples/Importance": "1",
                                "Examples/Include rest pose": "true", "Examples/Prescribed weights": "1-t; t",
-                               "Material/region 2/Importance": "0.5"},
+                               "Material/region 2/Importance factor": "0.5"},
     "a region that yields": {**TWO, "Material/region 2/Yield stress": "1e3"},
     "no node of a process is free from now on": {**BAR, **EXAMPLE, "Examples/Weights": "free", "Time/Increments": "4",
-                                                 "Handles/Names": "left, half", "Handles/half/Select": "box 0 -1 -1 2.6 1 1",
+                                                 "Handles/Names": "left, half", "Handles/half/Select": "box 0.1 -1 -1 2.6 1 1",
                                                  "Handles/half/From": "0.5"},
-    "motion that fails later": {**BAR, "Time/Increments": "8", "Handles/Names": "left, right", "Handles/right/Select": "boundary 2",
+    "painted weights": {**PAINTED, "Examples/Weight maps": "right.csv"},
+    "painted weights of two regions": {**PAINTED, "Examples/Weight maps": "left.csv, right.csv"},
+    "motion that is no number in between": {**BAR, "Time/Increments": "8", "Handles/Names": "left, right", "Handles/right/Select": "boundary 2",
                                 "Handles/right/Motion": "0; 0; 0.01/(t - 0.5)"},
     "pose that is no number": {**BAR, **EXAMPLE, "Examples/Pose functions": f"x; y; {ELSEWHERE}"},
     "start that is no number": {**BAR, "Initial/Pose function": f"x; y; {ELSEWHERE}"},
@@ -77,8 +80,16 @@ def write_two_regions(directory, box):
     write_msh(directory / "two.msh", box._replace(elements=marked))
 
 
+def write_painted_surface(directory):
+    """The bar's surface, and maps that are 1 at one of its ends and 0 at the other."""
+    surface = bar_surface()
+    (directory / "bar.obj").write_text(obj_text(surface))
+    for name, place in (("left", lambda x: 2. - x), ("right", lambda x: x - 2.)):
+        (directory / f"{name}.csv").write_text("\n".join(str(min(1., max(0., place(x)))) for x, _, _ in surface.vertices) + "\n")
+
+
 class Outcome:
-    """What a number of processes makes of a scene: final nodes, or the message by which it is refused."""
+    """What a number of processes makes of a scene: final nodes, or the message by which it is refused; and warnings."""
 
     def __init__(self, n, file, settings, directory, timeout=60):
         output = Path(directory) / f"on_{n}"
@@ -89,7 +100,7 @@ class Outcome:
         else:
             self.status, _, done = launch(n, *words, cwd=directory, timeout=timeout)
             stderr = done.stderr
-        self.messages = [line for line in stderr.splitlines() if line.startswith("exemplar: ")]
+        self.messages = [line for line in stderr.splitlines() if line.startswith(("exemplar: ", "Warning: "))]
         self.nodes = nodes_of(output / "final.msh") if self.status == 0 else {}
         shutil.rmtree(output, ignore_errors=True)
 
@@ -123,6 +134,7 @@ class Collectives(SceneTest):
 
     def test_what_one_process_has_alone(self):
         write_two_regions(self.directory, self.write_box(BOX, "box.msh"))
+        write_painted_surface(self.directory)
         refused = set()
         for name, scene in OF_ONE_PROCESS.items():
             if self.compare(write_scene(self.directory / f"{name}.prm", scene), TIGHT, 1e-9).status:
