@@ -59,17 +59,16 @@ OF_ONE_PROCESS = {
 
 def files_of_scenes():
     """Those of prm/ that are scenes, and no studies."""
-    return [file for file in sorted(REPOSITORY.glob("prm/**/*.prm")) if re.search("^set Scene = ", file.read_text(), re.M)]
-
-
-def value_in(file, key, otherwise):
-    found = re.search(f"^ *set {key} *= *([^ #\n]+)", file.read_text(), re.M)
-    return float(found.group(1)) if found else otherwise
+    return [file for file in sorted(REPOSITORY.glob("prm/**/*.prm"))
+            if re.search("^set Scene *= *(static|dynamic|interpolation)", file.read_text(), re.M)]
 
 
 def first_steps(file):
-    """Two steps of dynamics. Increments of other scenes depend on their number."""
-    return {"Time/End": 2 * value_in(file, "Step", 0.01)} if value_in(file, "End", 0) else {}
+    """Two steps of dynamics, and few increments of other scenes."""
+    text = file.read_text()
+    if "Scene = dynamic" in text:
+        return {"Time/End": 2 * float(re.search(r"^ *set Step *= *(\S+)", text, re.M).group(1))}
+    return {"Time/Increments": 4 if "Scene = interpolation" in text else 1 if "Increments = 1\n" in text else 2}
 
 
 def write_two_regions(directory, box):
