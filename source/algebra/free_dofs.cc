@@ -38,11 +38,8 @@ namespace Exemplar
   }
 
   void
-  FreeDofs::assemble_columns(std::vector<double> &columns) const
+  FreeDofs::assemble_columns(std::vector<double> &columns, const std::size_t n_columns) const
   {
-    if (dofs.empty())
-      return;
-    const std::size_t   n_columns = columns.size() / dofs.size();
     std::vector<double> assembled, unknowns;
     Vector              field(n_dofs());
     for (std::size_t column = 0; column < n_columns; ++column)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/agreement.h>
 #include <exemplar/algebra/long_vectors.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
@@ -39,7 +40,7 @@ namespace Exemplar
         return {};
       const unsigned int n_points = points_per_cell(fe_space.element());
       if (!painted.empty())
-        return RegionShares(painted, n_points);
+        return RegionShares(painted, n_points, mesh.exchange());
       if (!parameters.weights_per_region)
         return {};
       // beyond the body's size all regions have the same share everywhere
@@ -99,8 +100,12 @@ namespace Exemplar
     {
       const Expression              expression("Examples/Pose functions", function, "xyz", 3);
       std::vector<dealii::Point<3>> images;
-      for (unsigned int node = 0; node < fe_space.n_nodes(); ++node)
-        images.emplace_back(expression.vector(fe_space.rest_position(node), 0.));
+      const auto                    find = [&]
+      {
+        for (unsigned int node = 0; node < fe_space.n_nodes(); ++node)
+          images.emplace_back(expression.vector(fe_space.rest_position(node), 0.));
+      };
+      do_in_agreement(fe_space.exchange(), find); // it may fail at nodes of one process alone
       return images;
     }
   } // namespace

@@ -4,8 +4,12 @@
 #include <exemplar/body/handle_overlaps.h>
 
 #include <cmath>
+#include <limits>
 #include <map>
+#include <numeric>
+#include <optional>
 #include <set>
+#include <utility>
 
 namespace Exemplar
 {
@@ -30,6 +34,119 @@ namespace Exemplar
     return shared;
   }
 
+  namespace
+  {
+    /// A node that two handles hold and must not.
+    struct Conflict
+    {
+      unsigned int first, second; ///< handles
+      unsigned int node;
+    };
+
+    /// The same as all processes know it.
+    struct AgreedConflict
+    {
+      const Handle &first, &second;
+      std::string   node; ///< in words
+    };
+
+    /// The index of a node of this process among all of the body.
+    std::size_t
+    index_in_whole(const unsigned int node, const FESpace &fe_space)
+    {
+      const Exchange     &exchange = fe_space.exchange();
+      std::vector<double> indices(exchange.n_nodes(fe_space.n_nodes()));
+      std::iota(indices.begin(), indices.end(), 0.);
+      return static_cast<std::size_t>(exchange.part(std::move(indices), 1)[node]);
+    }
+
+    /// Of what processes find first in the order of second handles and their nodes, that which one
+    /// process would find first, so that the message is the same for any number of them. All
+    /// processes must call this.
+    std::optional<AgreedConflict>
+    agree(const std::optional<Conflict> &own,
+          const std::vector<Handle>     &handles,
+          const Mesh                    &mesh,
+          const FESpace                 &fe_space)
+    {
+      constexpr double none     = std::numeric_limits<double>::max();
+      const Exchange  &exchange = fe_space.exchange();
+      const double     n_nodes  = exchange.n_nodes(fe_space.n_nodes());
+      const double     place
+          = own ? own->second * n_nodes + static_cast<double>(index_in_whole(own->node, fe_space))
+                : none;
+      const double first = min_of_all(exchange, place);
+      if (first == none)
+        return {};
+      const bool is_own = place == first;
+      const auto handle = [&](const unsigned int number) -> const Handle &
+      { return handles[static_cast<std::size_t>(exchange.max(number))]; };
+      const Handle &other   = handle(is_own ? own->first : 0);
+      const Handle &holding = handle(is_own ? own->second : 0);
+      return AgreedConflict{
+        other, holding, exchange.first_text(is_own ? name_of_node(own->node, mesh, fe_space) : "")
+      };
+    }
+
+    std::optional<Conflict>
+    find_disagreement(const std::vector<Handle>                            &handles,
+                      const std::set<unsigned int>                         &shared,
+                      const std::vector<std::vector<dealii::Tensor<1, 3>>> &displacements,
+                      const double                                          tolerance)
+    {
+      struct Target
+      {
+        double       displacement;
+        unsigned int handle;
+      };
+      std::map<unsigned int, Target> targets;
+      for (unsigned int h = 0; h < handles.size(); ++h)
+        for (unsigned int point = 0; point < handles[h].held_nodes().size(); ++point)
+        {
+          const unsigned int node = handles[h].nodes[point];
+          if (shared.count(node) == 0)
+            continue;
+          const dealii::Tensor<1, 3> &displacement = displacements[h][point];
+          for (const unsigned int c : handles[h].components)
+          {
+            const Target target = { displacement[c], h };
+            const Target first  = targets.emplace(3 * node + c, target).first->second;
+            if (std::abs(first.displacement - displacement[c]) > tolerance)
+              return Conflict{ first.handle, h, node };
+          }
+        }
+      return {};
+    }
+
+    /// Whether a handle of the two has caught what it holds by this time.
+    const Handle *
+    find_catching(const Handle &first,
+                  const Handle &second,
+                  const double  time,
+                  const double  rounding)
+    {
+      for (const Handle *handle : { &second, &first })
+        if (handle->time.has_caught(time, rounding))
+          return handle;
+      return nullptr;
+    }
+
+    std::optional<Conflict>
+    find_shared_catch(const std::vector<Handle> &handles, const double time, const double rounding)
+    {
+      std::map<unsigned int, unsigned int> holders;
+      for (unsigned int h = 0; h < handles.size(); ++h)
+        for (const unsigned int node : handles[h].held_nodes())
+          for (const unsigned int c : handles[h].components)
+          {
+            const auto [first, is_new] = holders.emplace(3 * node + c, h);
+            if (!is_new && find_catching(handles[first->second], handles[h], time, rounding))
+              return Conflict{ first->second, h, node };
+          }
+      return {};
+    }
+  } // namespace
+
   void
   check_agreement(const std::vector<Handle>                            &handles,
                   const std::set<unsigned int>                         &shared,
@@ -38,35 +155,18 @@ namespace Exemplar
                   const Mesh                                           &mesh,
                   const FESpace                                        &fe_space)
   {
-    const double tolerance = 1e-10 * mesh.diameter();
-    struct Target
-    {
-      double       displacement;
-      unsigned int handle;
-    };
-    std::map<unsigned int, Target> targets;
-    for (unsigned int h = 0; h < handles.size(); ++h)
-      for (unsigned int point = 0; point < handles[h].held_nodes().size(); ++point)
-      {
-        const unsigned int node = handles[h].nodes[point];
-        if (shared.count(node) == 0)
-          continue;
-        const dealii::Tensor<1, 3> &displacement = displacements[h][point];
-        for (const unsigned int c : handles[h].components)
-        {
-          const auto [first, is_new] = targets.emplace(3 * node + c, Target{ displacement[c], h });
-          if (std::abs(first->second.displacement - displacement[c]) > tolerance)
-            throw UserError("Handles '" + handles[first->second.handle].name + "' and '"
-                            + handles[h].name + "' both hold " + name_of_node(node, mesh, fe_space)
-                            + ", but move it differently at t = " + shortest_text(time)
-                            + (handles[first->second.handle].nodes.size() == fe_space.n_nodes()
-                                   ? remedy_of_all(handles[first->second.handle].name)
-                               : handles[h].nodes.size() == fe_space.n_nodes()
-                                   ? remedy_of_all(handles[h].name)
-                                   : ". Change Handles/" + handles[h].name
-                                         + "/Select so that they do not overlap."));
-        }
-      }
+    const auto conflict
+        = agree(find_disagreement(handles, shared, displacements, 1e-10 * mesh.diameter()), handles,
+                mesh, fe_space);
+    if (!conflict)
+      return;
+    const auto &[first, second, node] = *conflict;
+    std::string remedy = ". Change Handles/" + second.name + "/Select so that they do not overlap.";
+    for (const Handle *handle : { &second, &first })
+      if (!fe_space.exchange().any(handle->nodes.size() < fe_space.n_nodes()))
+        remedy = remedy_of_all(handle->name);
+    throw UserError("Handles '" + first.name + "' and '" + second.name + "' both hold " + node
+                    + ", but move it differently at t = " + shortest_text(time) + remedy);
   }
 
   void
@@ -76,21 +176,16 @@ namespace Exemplar
                         const Mesh                &mesh,
                         const FESpace             &fe_space)
   {
-    std::map<unsigned int, const Handle *> holders;
-    for (const Handle &handle : handles)
-      for (const unsigned int node : handle.held_nodes())
-        for (const unsigned int c : handle.components)
-        {
-          const auto [first, is_new] = holders.emplace(3 * node + c, &handle);
-          const Handle &other        = *first->second;
-          const Handle &catching     = handle.time.has_caught(time, rounding) ? handle : other;
-          if (!is_new && catching.time.has_caught(time, rounding))
-            throw UserError("Handles '" + other.name + "' and '" + handle.name + "' both hold "
-                            + name_of_node(node, mesh, fe_space) + " at t = " + shortest_text(time)
-                            + ", which '" + catching.name
-                            + "' catches wherever it is then. Let the other one go before (Handles/"
-                            + (&catching == &handle ? other : handle).name
-                            + "/Until), or change a Select so that they do not overlap.");
-        }
+    const auto conflict
+        = agree(find_shared_catch(handles, time, rounding), handles, mesh, fe_space);
+    if (!conflict)
+      return;
+    const auto &[first, second, node] = *conflict;
+    const Handle &catching            = *find_catching(first, second, time, rounding);
+    throw UserError("Handles '" + first.name + "' and '" + second.name + "' both hold " + node
+                    + " at t = " + shortest_text(time) + ", which '" + catching.name
+                    + "' catches wherever it is then. Let the other one go before (Handles/"
+                    + (&catching == &second ? first : second).name
+                    + "/Until), or change a Select so that they do not overlap.");
   }
 } // namespace Exemplar

@@ -163,6 +163,16 @@ namespace Exemplar
       return angle;
     }
 
+    /// Where all of its nodes are at rest. All processes look at the whole handle, so that they say the same, or fail
+    /// alike.
+    Points
+    rest_of_whole(const Handle &handle, const FESpace &fe_space)
+    {
+      Points own = rest_positions(handle, fe_space);
+      return fe_space.exchange().n_processes() == 1 ? own
+                                                    : whole_handle(handle.nodes, own, fe_space);
+    }
+
     std::string
     describe_large_turn(const Handle &handle, const FESpace &fe_space, const TimeAxis &axis)
     {
@@ -170,7 +180,7 @@ namespace Exemplar
       if (handle.path || handle.function || handle.components.size() < 3)
         return {};
       Points            rest;
-      const Points      all    = rest_positions(handle, fe_space);
+      const Points      all    = rest_of_whole(handle, fe_space);
       const std::size_t stride = all.size() / max_nodes + 1;
       for (std::size_t i = 0; i < all.size(); i += stride)
         rest.push_back(all[i]);
@@ -217,21 +227,26 @@ namespace Exemplar
     std::string
     describe_straight_turn(const Handle &handle, const FESpace &fe_space, const TimeAxis &axis)
     {
-      // a fit to fewer components would say nothing, and few points cannot be crushed
-      if (handle.path || handle.components.size() < 3 || handle.nodes.size() < 3)
+      // a fit to fewer components would say nothing, and few points cannot be crushed; a program's function knows
+      // the nodes of its process alone
+      if (handle.path || handle.components.size() < 3
+          || (handle.function && fe_space.exchange().n_processes() > 1))
+        return {};
+      const Points rest = rest_of_whole(handle, fe_space);
+      if (rest.size() < 3)
         return {};
       // long runs of large handles: not in all steps, to stay below a tenth of a second
-      const std::size_t   max_samples = std::max<std::size_t>(20, 100000 / handle.nodes.size());
+      const std::size_t   max_samples = std::max<std::size_t>(20, 100000 / rest.size());
       const std::size_t   n_samples   = std::min<std::size_t>(axis.n_steps(), max_samples);
-      const Points        rest        = rest_positions(handle, fe_space);
       std::vector<Points> places;
       for (std::size_t k = 0; k <= n_samples; ++k)
       {
         places.push_back(rest);
-        const double time = axis.time(static_cast<unsigned int>(k * axis.n_steps() / n_samples));
-        const Arms   displacements = handle.displacements(rest, time);
+        const double time  = axis.time(static_cast<unsigned int>(k * axis.n_steps() / n_samples));
+        const Arms   given = handle.function ? handle.displacements(rest, time) : Arms();
         for (std::size_t point = 0; point < rest.size(); ++point)
-          places.back()[point] += displacements[point];
+          places.back()[point]
+              += handle.function ? given[point] : handle.motion.vector(rest[point], time);
       }
       const StraightTurn turn = find_straight_turn(rest, places);
       const std::string  key  = "Handles/" + handle.name;

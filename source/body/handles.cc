@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/agreement.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/body/handle_overlaps.h>
 #include <exemplar/body/handles.h>
@@ -38,23 +39,16 @@ namespace Exemplar
   Handles::displacements(const double time) const
   {
     Displacements all;
-    std::string   failure; // a process may have no node of a handle that fails
-    try
-    {
-      for (const Handle &handle : handles)
-      {
-        all.push_back(handle.displacements(rest_positions(handle, fe_space), time));
-        for (std::size_t point = 0; point < handle.offsets.size(); ++point)
-          all.back()[point] += handle.offsets[point];
-      }
-    }
-    catch (const SolverFailure &error)
-    {
-      failure = error.what();
-    }
-    failure = fe_space.exchange().first_text(std::move(failure));
-    if (!failure.empty())
-      throw SolverFailure(failure);
+    do_in_agreement(fe_space.exchange(), // a process may have no node of a handle that fails
+                    [&]
+                    {
+                      for (const Handle &handle : handles)
+                      {
+                        all.push_back(handle.displacements(rest_positions(handle, fe_space), time));
+                        for (std::size_t point = 0; point < handle.offsets.size(); ++point)
+                          all.back()[point] += handle.offsets[point];
+                      }
+                    });
     return all;
   }
 

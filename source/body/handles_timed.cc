@@ -77,18 +77,26 @@ namespace Exemplar
   void
   Handles::check_overlaps(const TimeAxis &axis)
   {
+    // what handles share may lie in one process, but the checks and displacements() are of all
+    std::set<unsigned int> shared;
+    bool                   any_shares  = false;
+    const auto             find_shared = [&]
+    {
+      shared     = shared_nodes(handles);
+      any_shares = fe_space.exchange().any(!shared.empty());
+    };
     follow_time(axis.time(0));
-    std::set<unsigned int> shared = shared_nodes(handles);
-    for (unsigned int step = 0; step <= axis.n_steps() && (!shared.empty() || have_times()); ++step)
+    find_shared();
+    for (unsigned int step = 0; step <= axis.n_steps() && (any_shares || have_times()); ++step)
     {
       const double begin = axis.time(std::max(step, 1U) - 1);
       if (follow_time(begin) || step == 0)
       {
-        shared = shared_nodes(handles);
+        find_shared();
         if (have_times())
           refuse_shared_catches(handles, begin, rounding, mesh, fe_space);
       }
-      if (!shared.empty())
+      if (any_shares)
         check_agreement(handles, shared, displacements(axis.time(step)), axis.time(step), mesh,
                         fe_space);
     }

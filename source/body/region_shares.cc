@@ -76,7 +76,8 @@ namespace Exemplar
   }
 
   RegionShares::RegionShares(const std::vector<std::vector<double>> &painted,
-                             const unsigned int                      points_per_cell)
+                             const unsigned int                      points_per_cell,
+                             const Exchange                         &exchange)
   {
     const std::size_t                n = painted.size();
     std::vector<std::vector<double>> shares_of_cell(painted.front().size());
@@ -96,7 +97,7 @@ namespace Exemplar
       for (double &share : of_cell)
         share /= of_cell[0] + sum;
     }
-    for (std::size_t id = has_rest ? 0 : 1; id <= n; ++id)
+    for (std::size_t id = exchange.any(has_rest) ? 0 : 1; id <= n; ++id)
       ids.push_back(static_cast<unsigned int>(id));
     std::vector<bool> acts(n_regions(), false);
     for (const std::vector<double> &of_cell : shares_of_cell)
@@ -111,7 +112,7 @@ namespace Exemplar
     }
     start.push_back(shares.size());
     for (unsigned int region = 0; region < n_regions(); ++region)
-      if (!acts[region])
+      if (!exchange.any(acts[region]))
         throw UserError(
             fmt::format("Examples/Weight maps: map {} is 0 in all cells, so its weights would act "
                         "nowhere. Paint it, or remove it from the list.",

@@ -88,7 +88,8 @@ namespace Exemplar
     StepClock::Scope scope(clock, Phase::assemble);
     potential.get_tangent().assemble(positions, weights, convexity, assembled.matrix_values(),
                                      assembled.columns(), assembled.outer_products());
-    potential.get_free_dofs().assemble_columns(assembled.columns());
+    potential.get_free_dofs().assemble_columns(assembled.columns(),
+                                               assembled.weight_form().coupled.size());
   }
 
   void

@@ -1,22 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The same scene by several processes under mpirun: its results are those of one process."""
 
-import os
 import re
 import shutil
-import subprocess
 import unittest
 import xml.etree.ElementTree
 
 from math import cos, sin
 
-from exemplar_runner import (EXEMPLAR, REPOSITORY, SceneTest, bend, greatest_distance, has_trilinos, nodes_of, read_csv, read_msh,
-                             read_pvd, read_summary, read_vtu, results, timeless_statistics, twist, without_what_is_meant,
-                             write_msh, write_scene)
-
-MPI_ENVIRONMENT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-                   "OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_MCA_hwloc_base_binding_policy": "none",
-                   "OMPI_MCA_mpi_yield_when_idle": "1", "HWLOC_HIDE_ERRORS": "2"}
+from exemplar_runner import (REPOSITORY, SceneTest, bend, greatest_distance, has_trilinos, nodes_of, read_csv, read_msh, read_pvd,
+                             read_summary, read_vtu, results, timeless_statistics, twist, write_msh, write_scene)
+from mpirun import launch
 
 # A bar of two regions, held and lifted, with an example of unknown weight.
 BODY = {
@@ -84,15 +78,6 @@ SCENES = {
                     "Solver/Tolerance": "1e-10", "Solver/Maximum iterations": "200"},
     "interpolation": TWISTED,
 }
-
-
-def launch(n, *arguments, environment=None, timeout=240):
-    """mpirun -n N exemplar ...; what it said on stderr of our own words."""
-    done = subprocess.run(["mpirun", "-n", str(n), EXEMPLAR, *map(str, arguments)], text=True, stdin=subprocess.DEVNULL,
-                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=timeout,
-                          env={**os.environ, **MPI_ENVIRONMENT, **(environment or {})})
-    own = [line for line in done.stderr.splitlines() if line.startswith(("exemplar: ", "Warning: "))]
-    return done.returncode, without_what_is_meant(own), done
 
 
 @unittest.skipUnless(shutil.which("mpirun") and has_trilinos(), "without mpirun, or built without Trilinos")

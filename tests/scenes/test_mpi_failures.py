@@ -12,6 +12,7 @@ import time
 import unittest
 
 from exemplar_runner import EXEMPLAR, Run, SceneTest, has_trilinos, prm, read_csv, read_summary, results, without_what_is_meant, wait_until
+from mpirun import mpi_environment
 from process_table import children, file_of, handles, is_alive
 
 N = 3
@@ -40,19 +41,13 @@ def needs_mpi(test):
     return unittest.skipUnless(has_trilinos() and shutil.which("mpirun"), "needs Trilinos and mpirun")(test)
 
 
-def environment():
-    """As root and on few cores, too."""
-    allowed = ("OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "OMPI_MCA_rmaps_base_oversubscribe")
-    return {**os.environ, **{name: "1" for name in allowed}}
-
-
 @needs_mpi
 class MpiTest(SceneTest):
     whole = None  # what a run of DYNAMIC leaves that nothing happens to
 
     def start(self, *arguments, launcher=(), script=None):
         process = subprocess.Popen([*(launcher or LAUNCHER), *(["sh", "-c", script] if script else []), EXEMPLAR,
-                                    *map(str, arguments)], cwd=self.directory, text=True, env=environment(),
+                                    *map(str, arguments)], cwd=self.directory, text=True, env=mpi_environment(),
                                    stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         self.addCleanup(self.end, process)
         return process

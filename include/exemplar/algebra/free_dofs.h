@@ -115,9 +115,9 @@ namespace Exemplar
     }
 
     /// Columns that this process' cells have summed, by local_list(), become those of the body, by
-    /// list().
+    /// list(). Where a process has nothing to move, they do not tell how many there are.
     void
-    assemble_columns(std::vector<double> &columns) const;
+    assemble_columns(std::vector<double> &columns, std::size_t n_columns) const;
 
     /// Numbers by unknown, for the whole body at the root, in the order of one process.
     std::vector<double>

@@ -14,7 +14,7 @@ namespace Exemplar
   shared_nodes(const std::vector<Handle> &handles);
 
   /// Throws UserError if handles move a node that they share differently, by their displacements at
-  /// time t [s].
+  /// time t [s]; the same in all processes, which must all call this and the next.
   void
   check_agreement(const std::vector<Handle>                            &handles,
                   const std::set<unsigned int>                         &shared,

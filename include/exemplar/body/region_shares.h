@@ -29,9 +29,10 @@ namespace Exemplar
     /// Regions that are painted: for each of them, from number 1 on, its map's value in every
     /// cell. Where values sum to more than one they are divided by their sum; where they sum to
     /// less, the rest is of a region 0, which is not there if nothing is left anywhere. Throws
-    /// UserError for a map that is zero everywhere.
+    /// UserError for a map that is zero everywhere. All processes must call this.
     explicit RegionShares(const std::vector<std::vector<double>> &painted,
-                          unsigned int                            points_per_cell = 1);
+                          unsigned int                            points_per_cell = 1,
+                          const Exchange                         &exchange = Exchange::serial());
 
     unsigned int
     n_regions() const

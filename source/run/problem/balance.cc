@@ -167,7 +167,7 @@ namespace Exemplar
       {
         potential.get_tangent().assemble(rest(), weights, 1., system->matrix_values(),
                                          system->columns(), system->outer_products());
-        free_dofs.assemble_columns(system->columns());
+        free_dofs.assemble_columns(system->columns(), system->weight_form().coupled.size());
       }
 
       Vector

@@ -18,13 +18,11 @@ namespace Exemplar
       return max_entry(numbers.begin(), numbers.end()) < 1e150;
     }
 
-    /// `what` is not finite in this process, or what to call it if it is in another one; empty if all
-    /// is finite in all.
+    /// What is not finite in the first process where something is not; empty if all is finite in all.
     std::string
     agreed_by_all(const std::string &what, const Exchange &exchange)
     {
-      const bool is_any = exchange.any(!what.empty());
-      return is_any && what.empty() ? "numbers" : what;
+      return exchange.first_text(what);
     }
   } // namespace
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/agreement.h>
 #include <exemplar/prm/expression.h>
 #include <exemplar/run/problem/initial_state.h>
 
@@ -16,12 +17,16 @@ namespace Exemplar
     state.positions           = fe_space.rest_positions();
     const auto set_node_field = [&](const Expression &expression, dealii::Vector<double> &field)
     {
-      for (unsigned int node = 0; node < fe_space.n_nodes(); ++node)
+      const auto set = [&]
       {
-        const dealii::Tensor<1, 3> value = expression.vector(fe_space.rest_position(node), 0.);
-        for (unsigned int c = 0; c < 3; ++c)
-          field[3 * node + c] = value[c];
-      }
+        for (unsigned int node = 0; node < fe_space.n_nodes(); ++node)
+        {
+          const dealii::Tensor<1, 3> value = expression.vector(fe_space.rest_position(node), 0.);
+          for (unsigned int c = 0; c < 3; ++c)
+            field[3 * node + c] = value[c];
+        }
+      };
+      do_in_agreement(fe_space.exchange(), set); // a formula may fail at nodes of one process alone
     };
     if (!parameters.pose.empty())
     {

@@ -132,7 +132,8 @@ namespace Exemplar
     only_example(const Problem &problem)
     {
       const ExamplePoses &poses = problem.examples.poses;
-      if (poses.constants().importance != 1. || problem.body.material.importance_varies())
+      if (poses.constants().importance != 1.
+          || problem.body.exchange().any(problem.body.material.importance_varies()))
         return {};
       std::optional<unsigned int> only;
       for (unsigned int weight = 0; weight < problem.state.weights.size(); ++weight)
