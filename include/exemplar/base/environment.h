@@ -22,30 +22,17 @@ namespace Exemplar
   std::string
   blas_warning();
 
-  /// Cores that are available to this process.
-  unsigned int
-  n_available_cores();
-
-  /// While it lives, OpenMP's parallel regions that this thread begins may have several threads,
-  /// or have one each: libraries such as CHOLMOD begin regions of their own, whose threads cost
-  /// more than they bring.
-  class OpenMPScope
+  /// While it lives, parallel regions of OpenMP that libraries such as CHOLMOD begin in this thread
+  /// have one thread: more cost more than they bring, and spin where others need the cores.
+  class OneOpenMPThread
   {
   public:
-    /// How many threads OpenMP may use.
-    enum class Threads
-    {
-      one,
-      several
-    };
+    OneOpenMPThread();
+    ~OneOpenMPThread();
 
-    /// Until it ends, parallel regions of this thread have one thread, or several again.
-    explicit OpenMPScope(Threads threads);
-    ~OpenMPScope();
-
-    OpenMPScope(const OpenMPScope &) = delete;
-    OpenMPScope &
-    operator=(const OpenMPScope &)
+    OneOpenMPThread(const OneOpenMPThread &) = delete;
+    OneOpenMPThread &
+    operator=(const OneOpenMPThread &)
         = delete;
 
   private:
