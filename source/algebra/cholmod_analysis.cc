@@ -61,7 +61,7 @@ namespace Exemplar
     // random numbers of the C library, and the order decides the last digits.
     static std::mutex                 of_random_numbers;
     const std::lock_guard<std::mutex> lock(of_random_numbers);
-    const OpenMPScope                 scope(OpenMPScope::Threads::one);
+    const OneOpenMPThread             one_thread;
     cholmod_sparse                    matrix = cholmod_view(pattern, nullptr);
     cholmod_factor                   *factor = cholmod_analyze(&matrix, &common);
     common.check("analysis");

@@ -56,7 +56,7 @@ namespace Exemplar
       {
         if (pattern.n() == 0)
           return;
-        const OpenMPScope scope(OpenMPScope::Threads::one);
+        const OneOpenMPThread one_thread;
         cholmod_factorize(&matrix, factor, &common);
         common.check("factorisation");
       }
@@ -75,7 +75,7 @@ namespace Exemplar
         right_side.x     = columns.data();
         right_side.xtype = CHOLMOD_REAL;
         right_side.dtype = CHOLMOD_DOUBLE;
-        const OpenMPScope scope(OpenMPScope::Threads::one);
+        const OneOpenMPThread one_thread;
         cholmod_solve2(CHOLMOD_A, factor, &right_side, nullptr, &solution, nullptr, &workspace_y,
                        &workspace_e, &common);
         common.check("solve");

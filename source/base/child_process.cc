@@ -2,6 +2,7 @@
 #include <exemplar/base/child_process.h>
 #include <exemplar/base/descriptor.h>
 #include <exemplar/base/errors.h>
+#include <exemplar/base/time_limit.h>
 
 #include <fcntl.h>
 #include <sys/prctl.h>
@@ -19,8 +20,6 @@ namespace Exemplar
 {
   namespace
   {
-    using Clock = std::chrono::steady_clock;
-
     /// In the forked process, where nothing but system calls is safe.
     [[noreturn]] void
     become(char *const argv[], const int out, const pid_t parent)
@@ -90,6 +89,12 @@ namespace Exemplar
         return ended;
       }
 
+      pid_t
+      get_id() const
+      {
+        return id;
+      }
+
       void
       kill() const
       {
@@ -119,22 +124,21 @@ namespace Exemplar
     const Descriptor out(open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
     if (out.number < 0)
       throw std::system_error(errno, std::generic_category(), log.string());
-    ChildEnd   end;
-    const auto begin = Clock::now();
-    const auto seconds
-        = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
-    Child child(command, out.number);
+    ChildEnd        end;
+    const TimeLimit time(timeout);
+    Child           child(command, out.number);
     while (!child.has_ended())
     {
       if (stop && stop())
         throw Interrupted("Interrupted.");
-      end.timed_out = end.timed_out || (timeout > 0. && seconds() > timeout);
-      if (end.timed_out)
+      if (timeout > 0. && end.exceeded.empty())
+        end.exceeded = time.exceeded_by(child.get_id()).value_or("");
+      if (!end.exceeded.empty())
         child.kill();
       // often enough for runs of a tenth of a second, and too seldom to disturb them
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
-    end.seconds     = seconds();
+    end.seconds     = time.seconds();
     const int state = child.get_status();
     end.signal      = WIFSIGNALED(state) ? WTERMSIG(state) : 0;
     end.exit_status = end.signal != 0 ? 128 + end.signal : WEXITSTATUS(state);

@@ -2,11 +2,9 @@
 #include <exemplar/base/built_instruction_sets.h>
 #include <exemplar/base/environment.h>
 
-#include <algorithm>
 #include <csignal>
 #include <cstdlib>
 #include <dlfcn.h>
-#include <omp.h>
 #include <sstream>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -21,6 +19,20 @@ namespace Exemplar
     find_function(const char *name)
     {
       return reinterpret_cast<Function *>(dlsym(RTLD_DEFAULT, name));
+    }
+
+    /// How many levels of OpenMP's parallel regions may have several threads, here and now, and how many
+    /// could before. Libraries bring OpenMP, or there is none.
+    int
+    set_openmp_levels(const int n)
+    {
+      const auto get = find_function<int()>("omp_get_max_active_levels");
+      const auto set = find_function<void(int)>("omp_set_max_active_levels");
+      if (get == nullptr || set == nullptr)
+        return 0;
+      const int before = get();
+      set(n);
+      return before;
     }
 
     /// The best core type of OpenBLAS for this CPU, by its instruction sets.
@@ -91,20 +103,11 @@ namespace Exemplar
            "it here, or for all by cmake -DEXEMPLAR_INSTRUCTION_SETS=all.";
   }
 
-  unsigned int
-  n_available_cores()
-  {
-    return static_cast<unsigned int>(std::max(1, omp_get_num_procs()));
-  }
+  OneOpenMPThread::OneOpenMPThread() : levels_before(set_openmp_levels(0)) {}
 
-  OpenMPScope::OpenMPScope(const Threads threads) : levels_before(omp_get_max_active_levels())
+  OneOpenMPThread::~OneOpenMPThread()
   {
-    omp_set_max_active_levels(threads == Threads::one ? 0 : 1);
-  }
-
-  OpenMPScope::~OpenMPScope()
-  {
-    omp_set_max_active_levels(levels_before);
+    set_openmp_levels(levels_before);
   }
 
   void
@@ -112,7 +115,7 @@ namespace Exemplar
   {
     if (const auto set_threads = find_function<void(int)>("openblas_set_num_threads"))
       set_threads(1);
-    omp_set_max_active_levels(0);
+    set_openmp_levels(0);
   }
 
   void

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/base/process_copy.h>
+#include <exemplar/base/time_limit.h>
 
 #include <fmt/core.h>
 
@@ -13,7 +14,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -143,14 +143,6 @@ namespace Exemplar
       _exit(0);
     }
 
-    /// Why nothing more is read of a copy.
-    enum class CopyEnd
-    {
-      of_itself,
-      too_late,
-      too_many_messages
-    };
-
     /// A copy of the process, killed in the end with all that it has started.
     class Copy
     {
@@ -185,13 +177,13 @@ namespace Exemplar
           ;
       }
 
-      /// All that it says until it ends.
-      CopyEnd
-      read(const CopyTask &task, CopyMessages *said, std::string &answer) const
+      /// All that it says until it ends. Throws if it goes beyond a limit.
+      std::string
+      read(const CopyTask &task, CopyMessages *said) const
       {
-        using Clock       = std::chrono::steady_clock;
-        const auto begin  = Clock::now();
-        pollfd     ends[] = { { answers.in, POLLIN, 0 }, { messages.in, POLLIN, 0 } };
+        std::string     answer;
+        const TimeLimit time(task.timeout);
+        pollfd          ends[] = { { answers.in, POLLIN, 0 }, { messages.in, POLLIN, 0 } };
         for (;;)
         {
           poll(ends, 2, 200);
@@ -202,11 +194,14 @@ namespace Exemplar
             ends[1].fd = -1; // it is not asked again
           const bool has_ended = ends[0].revents != 0 && !append(ends[0].fd, answer);
           if (has_ended && ends[1].revents == 0) // what it has started may keep its messages open
-            return CopyEnd::of_itself;
+            return answer;
           if (said != nullptr && said->text.size() > said->max_bytes)
-            return CopyEnd::too_many_messages;
-          if (std::chrono::duration<double>(Clock::now() - begin).count() > task.timeout)
-            return CopyEnd::too_late;
+            throw SolverFailure(
+                fmt::format("{} wrote more than {} MiB of messages and was ended. {}", task.what,
+                            said->max_bytes >> 20, task.remedy));
+          if (const auto exceeded = time.exceeded_by(id))
+            throw SolverFailure(fmt::format("{} did not come to an end within {} and was ended. {}",
+                                            task.what, *exceeded, task.remedy));
         }
       }
 
@@ -225,18 +220,6 @@ namespace Exemplar
       Pipe  answers, messages;
       pid_t id = -1;
     };
-
-    /// Throws if a copy did not come to its own end.
-    void
-    require_end(const CopyEnd end, const CopyTask &task, const CopyMessages *messages)
-    {
-      if (end == CopyEnd::too_late)
-        throw SolverFailure(fmt::format("{} did not come to an end within {} s and was ended. {}",
-                                        task.what, static_cast<long>(task.timeout), task.remedy));
-      if (end == CopyEnd::too_many_messages)
-        throw SolverFailure(fmt::format("{} wrote more than {} MiB of messages and was ended. {}",
-                                        task.what, messages->max_bytes >> 20, task.remedy));
-    }
   } // namespace
 
   std::string
@@ -244,9 +227,7 @@ namespace Exemplar
                   const CopyTask                     &task,
                   CopyMessages                       *messages)
   {
-    std::string answer;
-    const auto  end = Copy(work, messages != nullptr).read(task, messages, answer);
-    require_end(end, task, messages);
+    const std::string answer = Copy(work, messages != nullptr).read(task, messages);
     if (answer.size() < 2 || answer.back() != end_mark)
       throw SolverFailure(task.what + " crashed in a library that it uses. " + task.remedy);
     const std::string text = answer.substr(1, answer.size() - 2);

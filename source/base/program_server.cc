@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/base/program_server.h>
+#include <exemplar/base/time_limit.h>
 
 #include <fcntl.h>
 #include <poll.h>
@@ -11,7 +12,6 @@
 
 #include <array>
 #include <cerrno>
-#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
@@ -206,34 +206,32 @@ namespace Exemplar
   {
     if (connection == nullptr)
       return run_child(arguments, log, timeout, stop);
-    using Clock = std::chrono::steady_clock;
     if (const Descriptor out(open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
         out.number < 0)
       throw std::system_error(errno, std::generic_category(), log.string());
-    const int   socket = connection->number;
-    const auto  begin  = Clock::now();
-    std::string texts  = log.string() + '\0';
+    const int       socket = connection->number;
+    const TimeLimit time(timeout);
+    std::string     texts = log.string() + '\0';
     for (const std::string &argument : arguments)
       texts += argument + '\0';
     pid_t      run      = -1;
     const bool has_come = give(socket, texts.size())
                           && send_bytes(socket, texts.data(), texts.size()) && take(socket, run)
                           && run > 0;
-    ChildEnd   end;
-    const auto seconds
-        = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
-    bool is_interrupted = false;
+    ChildEnd end;
+    bool     is_interrupted = false;
     for (pollfd answer = { socket, POLLIN, 0 }; has_come && poll(&answer, 1, 5) <= 0;)
     {
       is_interrupted = is_interrupted || (stop && stop());
-      end.timed_out  = end.timed_out || (timeout > 0. && seconds() > timeout);
-      if (is_interrupted || end.timed_out)
+      if (timeout > 0. && end.exceeded.empty())
+        end.exceeded = time.exceeded_by(run).value_or("");
+      if (is_interrupted || !end.exceeded.empty())
         kill(run, SIGKILL);
     }
     int status = 0;
     if (!take(socket, status) || !give(socket, '.'))
       status = end_server(); // who has killed it has killed the run
-    end.seconds = seconds();
+    end.seconds = time.seconds();
     if (is_interrupted)
       throw Interrupted("Interrupted.");
     tell(status, end);

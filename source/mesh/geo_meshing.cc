@@ -197,7 +197,7 @@ namespace Exemplar
         throw UserError(directory.string() + " cannot be entered.");
       if (confinement == Confinement::kernel)
         confine_or_refuse(directory, walls);
-      const OpenMPScope one_thread(OpenMPScope::Threads::one); // others are not in the copy
+      const OneOpenMPThread one_thread; // others are not in the copy
       return mesh_by_gmsh(script, walls);
     }
   } // namespace

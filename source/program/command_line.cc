@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/base/environment.h>
 #include <exemplar/base/errors.h>
+#include <exemplar/base/free_cores.h>
 #include <exemplar/base/launcher.h>
 #include <exemplar/base/message_text.h>
 #include <exemplar/base/mpi_session.h>
@@ -276,7 +276,7 @@ Exit status:
       become_live_program(argv);
     Arguments arguments;
     // each of several processes has one core
-    arguments.run.n_threads  = JointRun::group().n_processes > 1 ? 1 : n_available_cores();
+    arguments.run.n_threads  = JointRun::group().n_processes > 1 ? 1 : n_free_cores();
     arguments.pose.n_threads = arguments.run.n_threads;
     arguments.study.stop     = is_interrupted;
     CLI::App app("Elastic solids that deform the way their examples say", "exemplar");

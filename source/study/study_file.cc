@@ -43,7 +43,9 @@ namespace Exemplar
         keys.add("Repeats", repeats,
                  "How often each combination is run, for the median of the seconds.", Bounds{ 1 });
         keys.add("Timeout", timeout,
-                 "Seconds after which a run is ended, with the status timeout; 0: never.",
+                 "Seconds of processor time after which a run is ended, with the status timeout, "
+                 "or thirty "
+                 "times as many of the clock; 0: never.",
                  Bounds{ 0. });
         keys.add("Threads", threads, "Threads of each run.", Bounds{ 1, 1024 });
         keys.add("Columns", columns,

@@ -2,7 +2,6 @@
 #include <exemplar/base/atomic_file.h>
 #include <exemplar/base/digest.h>
 #include <exemplar/base/errors.h>
-#include <exemplar/base/number_text.h>
 #include <exemplar/base/text_file.h>
 #include <exemplar/run/output/output_directory.h>
 #include <exemplar/run/output/run_directory.h>
@@ -128,12 +127,6 @@ namespace Exemplar
       return message;
     }
 
-    std::string
-    seconds_text(const double seconds)
-    {
-      return shortest_text(seconds) + " s";
-    }
-
     StudyRecord
     make_record(const ChildEnd &end, const Json &summary, const fs::path &log, const double timeout)
     {
@@ -141,14 +134,14 @@ namespace Exemplar
       record.exit_status = end.exit_status;
       record.timeout     = timeout;
       record.message     = end.exit_status == 0 ? "" : message_in(log);
-      if (end.timed_out && end.signal != 0)
+      if (!end.exceeded.empty() && end.signal != 0)
       {
         record.status  = "timeout";
-        record.message = "Ended after " + seconds_text(timeout) + ", the study's Timeout.";
+        record.message = "Ended after " + end.exceeded + ", by the study's Timeout.";
       }
       else if (end.signal != 0)
       {
-        record.status  = "crash";
+        record.status = "crash";
         record.message
             = fmt::format("Killed by signal {} ({}).", end.signal, strsignal(end.signal));
       }

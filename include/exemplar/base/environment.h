@@ -22,6 +22,7 @@ namespace Exemplar
   std::string
   blas_warning();
 
+<<<<<<< HEAD
   /// A sentence if this CPU has instructions for which the loops of this build were not compiled, or nothing.
   std::string
   instruction_set_warning();
@@ -34,22 +35,19 @@ namespace Exemplar
   /// or have one each: libraries such as CHOLMOD begin regions of their own, whose threads cost
   /// more than they bring.
   class OpenMPScope
+=======
+  /// While it lives, parallel regions of OpenMP that libraries such as CHOLMOD begin in this thread
+  /// have one thread: more cost more than they bring, and spin where others need the cores.
+  class OneOpenMPThread
+>>>>>>> threads
   {
   public:
-    /// How many threads OpenMP may use.
-    enum class Threads
-    {
-      one,
-      several
-    };
+    OneOpenMPThread();
+    ~OneOpenMPThread();
 
-    /// Until it ends, parallel regions of this thread have one thread, or several again.
-    explicit OpenMPScope(Threads threads);
-    ~OpenMPScope();
-
-    OpenMPScope(const OpenMPScope &) = delete;
-    OpenMPScope &
-    operator=(const OpenMPScope &)
+    OneOpenMPThread(const OneOpenMPThread &) = delete;
+    OneOpenMPThread &
+    operator=(const OneOpenMPThread &)
         = delete;
 
   private:

@@ -12,7 +12,7 @@ namespace Exemplar
   {
     std::string what;    ///< is said to have crashed, or to have come to no end
     std::string remedy;  ///< a sentence
-    double      timeout; ///< [s]
+    double      timeout; ///< [s], of a TimeLimit
     /// Called here several times a second while it works, if it is not empty.
     std::function<void()> meanwhile = {};
   };
@@ -30,7 +30,7 @@ namespace Exemplar
   /// so does what it has started. `messages` takes what is said there; without it nobody hears it.
   /// What `work` throws (UserError, SolverFailure, std::bad_alloc, any other std::exception) is
   /// thrown here. If the copy crashes, or goes beyond a limit, this throws SolverFailure:
-  /// "`what` crashed ...", "`what` did not come to an end within ... s" and so on, and `remedy`.
+  /// "`what` crashed ...", "`what` did not come to an end within ... s of processor time" and so on, and `remedy`.
   std::string
   in_process_copy(const std::function<std::string()> &work,
                   const CopyTask                     &task,

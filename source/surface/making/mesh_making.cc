@@ -9,6 +9,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
+
 namespace Exemplar
 {
   namespace
@@ -21,7 +23,8 @@ namespace Exemplar
     {
       std::error_code none;
       const auto      n_bytes = std::filesystem::file_size(options.surface, none);
-      return 60. + .03 * options.n_cells + (none ? 0. : 1e-4 * static_cast<double>(n_bytes));
+      return std::ceil(60. + .03 * options.n_cells
+                       + (none ? 0. : 1e-4 * static_cast<double>(n_bytes)));
     }
 
     std::string

@@ -34,9 +34,12 @@ namespace Exemplar::Testing
 
     TEST_F(ChildProcessTest, ItIsEndedAfterItsTime)
     {
-      const ChildEnd late = run({ "sleep", "1000" }, 0.05);
-      EXPECT_TRUE(late.timed_out);
+      const ChildEnd late = run({ "sleep", "1000" }, 0.02);
+      EXPECT_EQ(late.exceeded, "0.6 s");
       EXPECT_EQ(late.signal, SIGKILL);
+      EXPECT_EQ(run({ "sh", "-c", "while :; do :; done" }, 0.2).exceeded,
+                "0.2 s of processor time");
+      EXPECT_EQ(run({ "true" }).exceeded, "");
     }
   } // namespace
 } // namespace Exemplar::Testing

@@ -101,8 +101,16 @@ namespace Exemplar::Testing
                             for (;;)
                               pause();
                           },
-                          0.),
-                      "The work did not come to an end within 0 s and was ended. Try less.");
+                          0.02),
+                      "The work did not come to an end within 0.6 s and was ended. Try less.");
+      expect_contains(error_in_copy<SolverFailure>(
+                          []() -> std::string
+                          {
+                            for (;;)
+                              ;
+                          },
+                          0.2),
+                      "The work did not come to an end within 0.2 s of processor time and was");
       EXPECT_EQ(error_in_copy<SolverFailure>([]() -> std::string { std::exit(0); }), crashed);
     }
 
