@@ -4,7 +4,9 @@
 // request that comes through the socket whose number is in FORK_SERVER_SOCKET. fork_server.py is
 // the other end. A request is a Request with the descriptors of standard output and standard error,
 // then the strings, each ended by NUL: working directory and arguments, then the environment. The
-// answers, 64-bit numbers, are the run's process and, when it has ended, its status.
+// answers, 64-bit numbers, are the run's process and, when it has ended, its status. A run that is
+// to stand still has stopped itself before main(), and main() waits for SIGCONT: so long strace can
+// be attached to it.
 
 #include <csignal>
 #include <cstdint>
@@ -18,10 +20,11 @@
 
 namespace
 {
-  /// Numbers of bytes: of the strings, and the run's limits; no address space: no limit.
+  /// Numbers of bytes: of the strings, and the run's limits; no address space: no limit. Then
+  /// whether the run is to stand still.
   struct Request
   {
-    std::uint64_t arguments, environment, address_space, file_size;
+    std::uint64_t arguments, environment, address_space, file_size, stands_still;
   };
 
   void
@@ -118,6 +121,11 @@ namespace
     // _start reads the number of arguments before them
     reinterpret_cast<std::int64_t *>(argv)[-1] = static_cast<std::int64_t>(words.n);
     environ                                    = environment.pointers;
+    if (request.stands_still != 0)
+    {
+      prctl(PR_SET_PTRACER, PR_SET_PTRACER_ANY); // strace need not be a parent
+      raise(SIGSTOP);
+    }
   }
 
   __attribute__((constructor)) void
@@ -144,9 +152,12 @@ namespace
         close(socket);
         return;
       }
-      answer(socket, child);
       int status = 0;
-      waitpid(child, &status, 0);
+      if (request.stands_still != 0)
+        waitpid(child, &status, WUNTRACED);
+      answer(socket, child);
+      if (request.stands_still == 0 || WIFSTOPPED(status))
+        waitpid(child, &status, 0);
       answer(socket, WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status));
       delete words;
       delete environment;

@@ -8,6 +8,7 @@ import socket
 import struct
 import subprocess
 import tempfile
+import time
 from pathlib import Path
 
 MOST_ARGUMENTS = 200
@@ -51,23 +52,54 @@ class ForkServer:
             raise RuntimeError("the fork server has ended")
         return struct.unpack("q", answer)[0]
 
-    def run(self, arguments, directory, environment, memory, file_size, time_limit):
-        """(status, stdout, stderr) of a run with at most MOST_ARGUMENTS arguments, within `memory` (None: no limit) and files
-        of `file_size` [bytes]. After the time limit [s] it gets SIGTERM, ten seconds later SIGKILL."""
+    def start(self, arguments, directory, environment, memory=None, file_size=1 << 50, stands_still=False):
+        """A run with at most MOST_ARGUMENTS arguments, within `memory` (None: no limit) and files of `file_size` [bytes]; the next
+        one starts when it has ended. One that stands still waits for SIGCONT before its main()."""
         def joined(words):
             return b"".join(os.fsencode(word) + b"\0" for word in words)
 
         words = joined([directory, *arguments])
         variables = joined(f"{name}={value}" for name, value in environment.items())
-        with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
-            head = struct.pack("QQQQ", len(words), len(variables), memory or 0, file_size)
-            socket.send_fds(self.socket, [head], [out.fileno(), err.fileno()])
-            self.socket.sendall(words + variables)
-            run = self.number()
-            for limit, after in ((time_limit, signal.SIGTERM), (10., signal.SIGKILL), (None, None)):
-                try:
-                    status = self.number(limit)
-                    break
-                except TimeoutError:
-                    os.kill(run, after)
-            return status, *(file.seek(0) or file.read() for file in (out, err))
+        out, err = tempfile.TemporaryFile(), tempfile.TemporaryFile()
+        head = struct.pack("QQQQQ", len(words), len(variables), memory or 0, file_size, stands_still)
+        socket.send_fds(self.socket, [head], [out.fileno(), err.fileno()])
+        self.socket.sendall(words + variables)
+        return ServedRun(self, self.number(), out, err)
+
+    def run(self, arguments, directory, environment, memory, file_size, time_limit):
+        """(status, stdout, stderr) of a run."""
+        return self.start(arguments, directory, environment, memory, file_size).end(time_limit)
+
+
+class ServedRun:
+    """A run that a ForkServer has started, with the id of its process."""
+
+    def __init__(self, server, pid, out, err):
+        self.server, self.pid, self.streams = server, pid, (out, err)
+
+    def end(self, time_limit=None):
+        """(status, stdout, stderr), the status negative after a signal. After the time limit [s] it gets SIGTERM, ten seconds
+        later SIGKILL."""
+        limits = ((time_limit, signal.SIGTERM), (10., signal.SIGKILL)) if time_limit else ()
+        for limit, after in (*limits, (None, None)):
+            try:
+                status = self.server.number(limit)
+                break
+            except TimeoutError:
+                os.kill(self.pid, after)
+        said = []
+        for file in self.streams:
+            with file:
+                file.seek(0)
+                said.append(file.read())
+        return status, *said
+
+    def wait_for_tracer(self, tracer):
+        """Until strace, a process that was started for this, has come to the run, which then goes on. Fails if it ends before."""
+        while "TracerPid:\t0\n" in Path(f"/proc/{self.pid}/status").read_text():
+            if tracer.poll() is not None:
+                os.kill(self.pid, signal.SIGKILL)
+                self.end()
+                raise RuntimeError("strace has ended")
+            time.sleep(1e-3)
+        os.kill(self.pid, signal.SIGCONT)

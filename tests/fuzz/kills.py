@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Kills, interrupts and starves runs, resumes them, and holds what comes out to a run that nothing happened to.
 
-Usage: python3 tests/fuzz/kills.py [--kills N] [--seed S] [--program P] [--trial NAME] [--keep DIRECTORY]
+Usage: python3 tests/fuzz/kills.py [--kills N] [--seed S] [--program P] [--fork-server L] [--trial NAME] [--keep DIRECTORY]
 
-A resumed run gives the same bytes, or is refused with a reason, and then a new run gives them. A trial that fails leaves the
+Runs are copies of one process that has loaded the program, but for those that need streams of their own or are two at once. A resumed run gives the same bytes, or is refused with a reason, and then a new run gives them. A trial that fails leaves the
 directory as it was before --resume in fuzz_failures. Ends with status 1 if there was one.
 """
 
 import argparse
+import contextlib
 import errno
 import os
 import random
@@ -24,6 +25,7 @@ from pathlib import Path
 import bases
 import oracle
 from cases import prm_bytes
+from fork_server import ForkServer
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "scenes"))
 from exemplar_runner import EXEMPLAR, results  # noqa: E402
@@ -41,8 +43,9 @@ RUN = ["scene.prm", "--output", "out", "--threads"]
 class Trials:
     """One program, and what its run leaves when nobody disturbs it."""
 
-    def __init__(self, program, seed):
+    def __init__(self, program, library, seed):
         self.program, self.seed = os.path.abspath(program), seed
+        self.server = ForkServer(self.program, library)
         with tempfile.TemporaryDirectory(prefix="fuzz") as holder:
             directory = self.prepare(Path(holder), False)
             begin = time.monotonic()
@@ -62,13 +65,31 @@ class Trials:
             self.end(directory)
         return directory
 
-    def start(self, directory, *more, before=(), threads="1", **keywords):
+    def serve(self, directory, *more, threads="1", **keywords):
+        """Start a run of the program server."""
+        return self.server.start([*RUN, threads, *more], directory, oracle.environment(directory), **keywords)
+
+    def end(self, directory, *more, run=None):
+        """A run that is there, or a new one, to its end."""
+        begin = time.monotonic()
+        status, out, err = (run or self.serve(directory, *more)).end(60)
+        return oracle.Ended(status, out, err, 0. if status >= 0 else time.monotonic() - begin)
+
+    def under_strace(self, directory, log, *options):
+        """How a run ended whose calls strace watched from main() on."""
+        run = self.serve(directory, stands_still=True)
+        with subprocess.Popen(["strace", "-f", "-qq", "-o", str(log), *options, "-p", str(run.pid)],
+                              stderr=subprocess.DEVNULL) as tracer:
+            run.wait_for_tracer(tracer)
+            return self.end(directory, run=run)
+
+    def start(self, directory, *more, threads="1", **keywords):
+        """Start the program as it is called; what limits files would limit those that the server writes its words to, too."""
         streams = {"stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL, "stderr": subprocess.PIPE}
-        return subprocess.Popen([*before, self.program, *RUN, threads, *more], cwd=directory, env=oracle.environment(directory),
+        return subprocess.Popen([self.program, *RUN, threads, *more], cwd=directory, env=oracle.environment(directory),
                                 **{**streams, **keywords})
 
-    def end(self, directory, *more, process=None):
-        process = process or self.start(directory, *more)
+    def end_of_process(self, process):
         begin = time.monotonic()
         try:
             err = process.communicate(timeout=60)[1]
@@ -82,8 +103,10 @@ class Trials:
         with tempfile.TemporaryDirectory(prefix="fuzz") as holder:
             directory = self.prepare(Path(holder), True)
             log = directory / "log"
-            process = self.start(directory, before=["strace", "-f", "-qq", "-o", str(log), "-e", "trace=" + ",".join(CALLS)])
-            if self.end(directory, process=process).status:
+            try:
+                if self.under_strace(directory, log, "-e", "trace=" + ",".join(CALLS)).status:
+                    return []
+            except RuntimeError:  # no right to it
                 return []
             counts, found = defaultdict(int), []
             for line in log.read_text(errors="replace").splitlines():
@@ -111,28 +134,28 @@ class Trials:
     def kill_at_moments(self, r, number, directory):
         self.prepare(directory, r.random() < 0.5)
         for more in [[], ["--resume"], ["--resume"]][:r.choice([1, 1, 2, 3])]:
-            process = self.start(directory, *more, threads=r.choice("12"))
+            run = self.serve(directory, *more, threads=r.choice("12"))
             time.sleep(r.uniform(0, 1.1 * self.seconds))
-            process.kill()
-            process.communicate()
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(run.pid, signal.SIGKILL)
+            run.end()
 
     def kill_at_calls(self, r, number, directory):
         self.prepare(directory, True)
         if number % 2:
             shutil.rmtree(directory / "out")
         name, count = self.calls[number * 7919 % len(self.calls)]  # evenly, and no two near in a row
-        process = self.start(directory, before=["strace", "-f", "-qq", "-o", "/dev/null", "-e", "trace=" + name, "-e",
-                                                f"inject={name}:signal=SIGKILL:when={count}"])
-        process.communicate()
+        self.under_strace(directory, "/dev/null", "-e", "trace=" + name, "-e", f"inject={name}:signal=SIGKILL:when={count}")
 
     def interrupt(self, r, number, directory):
         self.prepare(directory, r.random() < 0.3)
         before = oracle.tree(directory)
-        process = self.start(directory, threads=r.choice("12"))
+        run = self.serve(directory, threads=r.choice("12"))
         time.sleep(r.uniform(0, 1.1 * self.seconds))
         sent = r.choice([signal.SIGINT, signal.SIGTERM])
-        process.send_signal(sent)
-        ended = self.end(directory, process=process)
+        with contextlib.suppress(ProcessLookupError):
+            os.kill(run.pid, sent)
+        ended = self.end(directory, run=run)
         if ended.status == -sent:  # before the program was there
             return [] if oracle.tree(directory) == before else ["killed by the signal, but had written"]
         return oracle.faults_of_end(ended, allowed=(0, 130)) or None
@@ -142,7 +165,7 @@ class Trials:
         size = r.choice([0, 1, 100, r.randrange(self.largest), r.randrange(self.largest)])
         process = self.start(directory, threads=r.choice("12"),
                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size)))
-        return oracle.faults_of_end(self.end(directory, process=process)) or None
+        return oracle.faults_of_end(self.end_of_process(process)) or None
 
     def streams(self, r, number, directory):
         """Closed or broken streams change nothing."""
@@ -163,7 +186,7 @@ class Trials:
                 os.close(descriptor)
 
         process = self.start(directory, *r.choice([[], ["--verbose"]]), preexec_fn=close, **keywords)
-        status = self.end(directory, process=process).status
+        status = self.end_of_process(process).status
         for stream in keywords.values():
             try:
                 stream.close() if hasattr(stream, "close") else os.close(stream)
@@ -179,7 +202,7 @@ class Trials:
         for _ in range(2):
             processes.append(self.start(directory, *r.choice([[], ["--resume"]] if has_earlier else [[]])))
             time.sleep(r.choice([0, r.uniform(0, self.seconds)]))
-        ends = [self.end(directory, process=process) for process in processes]
+        ends = [self.end_of_process(process) for process in processes]
         faults = [fault for ended in ends for fault in oracle.faults_of_end(ended, allowed=(0, 1))]
         if all(ended.status for ended in ends):
             faults.append("both were refused")
@@ -210,11 +233,13 @@ def main():
     parser.add_argument("--kills", type=int, default=40)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--program", default=EXEMPLAR)
+    parser.add_argument("--fork-server", help="library of fork_server.cc; that of the program's build without it")
     parser.add_argument("--trial", choices=sorted(set(SHARES)), help="this one alone")
     parser.add_argument("--keep", default="fuzz_failures")
     options = parser.parse_args()
 
-    trials = Trials(options.program, options.seed)
+    library = options.fork_server or Path(options.program).resolve().parent / "tests/libfork_server.so"
+    trials = Trials(options.program, str(library), options.seed)
     names = [options.trial] if options.trial else SHARES if trials.calls else [name for name in SHARES if name != "kill_at_calls"]
     done, failed = Counter(), 0
     for i in range(options.kills):
@@ -224,6 +249,7 @@ def main():
             failed += 1
             print(f"{name} {done[name]}: {'; '.join(faults)}", flush=True)
         done[name] += 1
+    trials.server.close()
     print(f"{failed} of {options.kills} failed: " + ", ".join(f"{name} {n}" for name, n in done.items()))
     return 1 if failed else 0
 

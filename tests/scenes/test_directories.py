@@ -1,15 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Nothing is removed or replaced that no run has written, and a kill at any call leaves a directory that can be used."""
 
+import functools
 import os
 import re
 import shutil
+import signal
 import subprocess
-import tempfile
 import unittest
 from pathlib import Path
 
-from exemplar_runner import BAR, EXEMPLAR, SceneTest, own_words, prm, results
+from exemplar_runner import BAR, SceneTest, fork_server, own_words, prm, results
 
 DYNAMIC = {**BAR, "Scene": "dynamic", "Time/Increments": None, "Material/Young's modulus": "1e4", "Time/Step": "0.1", "Time/End": "0.4",
            "Output/Every": "2"}
@@ -24,14 +25,19 @@ def tree(directory):
                    path.lstat().st_mode) for path in Path(directory).rglob("*")}
 
 
+@functools.lru_cache(maxsize=None)
 def strace_works():
-    """Whether calls can be counted and answered by a kill."""
-    try:
-        done = subprocess.run(["strace", "-f", "-o", "/dev/null", "-e", "inject=unlink:signal=KILL:when=1", "true"],
-                              stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False)
-        return done.returncode == 0
-    except OSError:
+    """Whether calls of a run of the program server can be counted and answered by a kill."""
+    if fork_server() is None or not shutil.which("strace"):
         return False
+    run = fork_server().start(["--version"], Path.cwd(), os.environ, stands_still=True)
+    with subprocess.Popen(["strace", "-o", "/dev/null", "-e", "inject=write:signal=KILL:when=1", "-p", str(run.pid)],
+                          stderr=subprocess.DEVNULL) as tracer:
+        try:
+            run.wait_for_tracer(tracer)
+        except RuntimeError:
+            return False
+        return run.end()[0] == -signal.SIGKILL
 
 
 class DirectoryTest(SceneTest):
@@ -62,12 +68,13 @@ class DirectoryTest(SceneTest):
 
     def is_killed(self, call, number, arguments, follow):
         """Run the program, killed at so manieth of these calls; whether it came to that."""
-        with tempfile.NamedTemporaryFile() as trace:
-            done = subprocess.run(["strace", *(["-f"] if follow else []), "-o", trace.name, "-e", f"trace={call}", "-e",
-                                   f"inject={call}:signal=KILL:when={number}", EXEMPLAR, *arguments],
-                                  cwd=self.directory, check=False, stdout=subprocess.DEVNULL,
-                                  stderr=subprocess.PIPE, text=True, timeout=300)
-        return done.returncode != 0 or "KILL" in own_words(done.stderr)
+        run = fork_server().start(arguments, self.directory, os.environ, stands_still=True)
+        with subprocess.Popen(["strace", *(["-f"] if follow else []), "-o", "/dev/null", "-e", f"trace={call}", "-e",
+                               f"inject={call}:signal=KILL:when={number}", "-p", str(run.pid)],
+                              stderr=subprocess.DEVNULL) as tracer:
+            run.wait_for_tracer(tracer)
+            status, _, stderr = run.end(300)
+        return status != 0 or "KILL" in own_words(stderr.decode())
 
 
 class WhatIsNotOurs(DirectoryTest):
