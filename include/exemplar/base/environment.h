@@ -22,24 +22,13 @@ namespace Exemplar
   std::string
   blas_warning();
 
-<<<<<<< HEAD
   /// A sentence if this CPU has instructions for which the loops of this build were not compiled, or nothing.
   std::string
   instruction_set_warning();
 
-  /// Cores that are available to this process.
-  unsigned int
-  n_available_cores();
-
-  /// While it lives, OpenMP's parallel regions that this thread begins may have several threads,
-  /// or have one each: libraries such as CHOLMOD begin regions of their own, whose threads cost
-  /// more than they bring.
-  class OpenMPScope
-=======
   /// While it lives, parallel regions of OpenMP that libraries such as CHOLMOD begin in this thread
   /// have one thread: more cost more than they bring, and spin where others need the cores.
   class OneOpenMPThread
->>>>>>> threads
   {
   public:
     OneOpenMPThread();
