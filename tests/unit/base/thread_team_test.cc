@@ -145,7 +145,7 @@ namespace Exemplar::Testing
         other.join();
         return threads;
       };
-      EXPECT_EQ(in_process_copy(in_copy, { "Three tasks", "", 60. }), "000");
+      EXPECT_EQ(in_process_copy(in_copy, { "Three tasks", "", 10. }), "000");
     }
 
     TEST(ThreadTeamTest, ACopyOfTheProcessHasThreadsOfItsOwn)
@@ -163,7 +163,7 @@ namespace Exemplar::Testing
                       });
         return std::to_string(n_begun);
       };
-      EXPECT_EQ(in_process_copy(in_copy, { "Two tasks", "", 60. }), "2");
+      EXPECT_EQ(in_process_copy(in_copy, { "Two tasks", "", 10. }), "2");
     }
   } // namespace
 } // namespace Exemplar::Testing
