@@ -5,7 +5,8 @@ import unittest
 
 import numpy as np
 
-from test_gradients import CELLS, NODES, POSES, Differences as Checks, scene
+import test_gradients  # by name its tests would be taken for some of this file
+from test_gradients import CELLS, NODES, POSES, scene
 
 DILATATIONS = {"cells": {"Dilatation": "cells"}, "patches": {"Dilatation": "patches"}}
 FIBRES = {"Fibre stiffness": 8e4, "Fibre direction": "1; 0.3; -0.2"}
@@ -15,7 +16,7 @@ PRESCRIBED = {"Weights": "prescribed", "Prescribed weights": "0.1; 0.2; 0.3; 0.4
 
 
 class OfLaws(unittest.TestCase):
-    check = Checks.check
+    check = test_gradients.Differences.check
 
     def check_both(self, model=None, is_near=False, **sections):
         for name, dilatation in DILATATIONS.items():
@@ -78,7 +79,7 @@ def stretches(problem):
 
 
 class Guarded(unittest.TestCase):
-    check = Checks.check
+    check = test_gradients.Differences.check
     MATERIALS = {"isotropic": {}, "fibres": FIBRES, "orthotropy": ORTHOTROPY}
 
     def both(self, keys, **of_case):
