@@ -213,6 +213,11 @@ class Handles(unittest.TestCase):
         problem.step()
         np.testing.assert_array_equal(problem.positions[[3, 9]], problem.rest_positions[[3, 9]])
 
+    def test_a_handle_that_is_not_there(self):
+        for base, remedy in (STATIC, "has: left, right"), (without(DYNAMIC, "Handles"), "Add it to Handles/Names"):
+            with self.subTest(remedy), self.assertRaisesRegex(exemplar.UserError, f"There is no handle 'up'.*{remedy}"):
+                exemplar.Problem(base).let_go("up")
+
     def test_what_is_refused_changes_nothing(self):
         problem = exemplar.Problem(STATIC)
         for words, change in (("There is no handle 'up'", lambda: problem.let_go("up")), ("There is a handle 'left' already", lambda: problem.hold("left", [1])),

@@ -104,9 +104,9 @@ def run_processes(n, *command, environment=None, timeout=240, cwd=None):
     return done
 
 
-def launch(n, *arguments, **how):
+def launch(n, *arguments, program=EXEMPLAR, **how):
     """mpirun -n N exemplar ...: its status, what it said on stderr of our own words, and all of it."""
-    done = run_processes(n, EXEMPLAR, *arguments, **how)
+    done = run_processes(n, program, *arguments, **how)
     own = [line for line in done.stderr.splitlines() if line.startswith(("exemplar: ", "Warning: "))]
     return done.returncode, without_what_is_meant(own), done
 

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Several processes under mpirun that fail, are killed or interrupted: no hang, one message, one status, and what was computed is good."""
+"""Several processes under mpirun that fail, are killed or interrupted: no hang, one message, one status, and what was computed is good.
+
+That all processes are told the same of a wrong scene, and of all kinds of those, is held by tests/mpi/refusals_test.cc in one start.
+"""
 
 import contextlib
 import os
@@ -15,7 +18,6 @@ from exemplar_runner import EXEMPLAR, Run, SceneTest, has_trilinos, prm, read_cs
 from mpirun import mpi_environment
 from process_table import children, file_of, handles, is_alive
 
-N = 3
 BODY = {
     "Mesh/Generator": "box",
     "Mesh/Box size": "2, 1, 1",
@@ -31,7 +33,6 @@ DYNAMIC = {**BODY, "Scene": "dynamic", "Time/Increments": None, "Time/Step": "0.
 LAST_STEP = 20
 ENDLESS = {**DYNAMIC, "Time/Step": "1e-8", "Output/Every": "1000"}
 FAILING = {**STATIC, "Loads/Gravity": "0, 0, -1e9", "Solver/Maximum iterations": "1", "Time/Increments": "1"}
-LAUNCHER = ["mpirun", "-n", str(N)]
 
 # One process is started by this shell script instead, with the same arguments.
 ONE_BY_SCRIPT = 'if [ "$OMPI_COMM_WORLD_RANK" = {} ]; then {}; fi; exec "$0" "$@"'
@@ -43,10 +44,11 @@ def needs_mpi(test):
 
 @needs_mpi
 class MpiTest(SceneTest):
+    n = 2  # processes
     whole = None  # what a run of DYNAMIC leaves that nothing happens to
 
     def start(self, *arguments, launcher=(), script=None):
-        process = subprocess.Popen([*(launcher or LAUNCHER), *(["sh", "-c", script] if script else []), EXEMPLAR,
+        process = subprocess.Popen([*(launcher or ["mpirun", "-n", str(self.n)]), *(["sh", "-c", script] if script else []), EXEMPLAR,
                                     *map(str, arguments)], cwd=self.directory, text=True, env=mpi_environment(),
                                    stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         self.addCleanup(self.end, process)
@@ -82,7 +84,7 @@ class MpiTest(SceneTest):
         self.assertEqual(len(said), 1, run.stderr)
         self.assertRegex(said[0], message)
         places = [] if of is None else [str(of)]
-        self.assertEqual(re.findall(f" [(]process ([0-9]+) of {N}, on .*[)]$", said[0]), places, said[0])
+        self.assertEqual(re.findall(f" [(]process ([0-9]+) of {self.n}, on .*[)]$", said[0]), places, said[0])
         self.assertEqual(run.status, status, run.stderr)
 
     def refuse(self, scene, message, *arguments, of=None, **how):
@@ -102,7 +104,7 @@ class MpiTest(SceneTest):
     def all_take(self, process, how):
         """Whether no process would end by the signal."""
         ranks = self.ranks(process)
-        return len(ranks) == N and all(handles(rank, how) for rank in ranks)
+        return len(ranks) == self.n and all(handles(rank, how) for rank in ranks)
 
     def rows(self):
         try:
@@ -125,7 +127,7 @@ class MpiTest(SceneTest):
             with contextlib.suppress(ProcessLookupError):
                 for rank in ranks:
                     os.kill(rank, signal.SIGSTOP)
-            if len(ranks) == N and self.rows() < LAST_STEP:
+            if len(ranks) == self.n and self.rows() < LAST_STEP:
                 return process, ranks
             self.end(process)  # a busy machine has let this one come too near to its end
             shutil.rmtree(self.directory / "out")
@@ -181,17 +183,17 @@ class Start(MpiTest):
         shutil.copy(EXEMPLAR, other)
         with open(other, "ab") as file:
             file.write(b"\n")  # still the same program, but not the same bytes
-        self.refuse(STATIC, "^Process 1 of 3 is another program than process 0. Install the same exemplar .* on all machines.$",
+        self.refuse(STATIC, "^Process 1 of 2 is another program than process 0. Install the same exemplar .* on all machines.$",
                     script=ONE_BY_SCRIPT.format(1, f'exec "{other}" "$@"'))
 
     def test_other_arguments(self):
-        self.refuse(STATIC, "^Process 2 of 3 was given other arguments than process 0. Start all by one command: mpirun -n 3",
-                    script=ONE_BY_SCRIPT.format(2, 'exec "$0" "$@" --verbose'))
+        self.refuse(STATIC, "^Process 1 of 2 was given other arguments than process 0. Start all by one command: mpirun -n 2",
+                    script=ONE_BY_SCRIPT.format(1, 'exec "$0" "$@" --verbose'))
 
     def test_another_scene_behind_the_same_name(self):
         (self.directory / "elsewhere").mkdir()
         self.write("elsewhere/scene.prm", prm({**STATIC, "Loads/Gravity": "0, 0, -2"}))
-        self.refuse(STATIC, "^Process 1 of 3 reads another scene than process 0. Let all machines see the same files.$",
+        self.refuse(STATIC, "^Process 1 of 2 reads another scene than process 0. Let all machines see the same files.$",
                     script=ONE_BY_SCRIPT.format(1, "cd elsewhere"))
 
     def test_a_scene_that_one_process_cannot_read(self):
@@ -223,22 +225,9 @@ class Input(MpiTest):
     def test_bad_scene(self):
         self.refuse({**STATIC, "Scene": "x"}, "^scene.prm:[0-9]+: Scene")
 
-    def test_no_scene(self):
-        run = self.result_of(self.start("nothing.prm"))
-        self.check_end(run, 1, "^nothing.prm: cannot be read")
-
-    def test_bad_meshes_and_poses(self):
-        self.write("bad.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\nx\n")
-        for name, keys in (("bad.msh", {"Mesh/Generator": None, "Mesh/File": "bad.msh", "Mesh/Box size": None,
-                                        "Mesh/Box cells": None}),
-                           ("nothing.msh", {"Mesh/Generator": None, "Mesh/File": "nothing.msh", "Mesh/Box size": None,
-                                            "Mesh/Box cells": None}),
-                           ("pose.msh", {"Examples/Poses": "pose.msh"})):
-            with self.subTest(name):
-                self.refuse({**STATIC, **keys}, name)
-
-    def test_a_handle_that_selects_nothing(self):
-        self.refuse({**STATIC, "Handles/left/Select": "boundary 77"}, "boundary id 77 has no faces")
+    def test_a_mesh_that_the_root_cannot_read(self):
+        self.refuse({**STATIC, "Mesh/Generator": None, "Mesh/File": "nothing.msh", "Mesh/Box size": None, "Mesh/Box cells": None},
+                    "nothing.msh")
 
     def test_directories(self):
         self.write("file", "")
@@ -247,9 +236,6 @@ class Input(MpiTest):
         self.start_and_wait(ENDLESS)
         run = self.result_of(self.start("scene.prm", "--output", "out"))
         self.check_end(run, 1, "^Another run is writing into the output directory out.")
-
-    def test_more_processes_than_cells(self):
-        self.refuse({**STATIC, "Mesh/Box cells": "1, 1, 1"}, "cells", launcher=["mpirun", "-n", "25"])
 
     def test_damaged_checkpoint(self):
         output = self.solve_all(STATIC)
@@ -268,8 +254,10 @@ class Input(MpiTest):
 
 
 class Death(MpiTest):
+    n = 3  # a middle one has two neighbours
+
     def test_killed(self):
-        for killed in range(N):
+        for killed in range(self.n):
             with self.subTest(killed=killed):
                 process, ranks = self.stop_in_the_middle()
                 os.kill(ranks[killed], signal.SIGKILL)
@@ -295,7 +283,7 @@ class Death(MpiTest):
 
     def test_replaced_directory(self):
         scene = {**DYNAMIC, "Time/End": "1000", "Output/Every": "1", "Output/Keep states": "true"}
-        for processes, moments in ((N, 4), (1, 2)):
+        for processes, moments in ((self.n, 4), (1, 2)):
             for moment in range(moments):
                 with self.subTest(processes=processes, moment=moment):
                     process = self.start_and_wait(scene, launcher=["mpirun", "-n", str(processes)])

@@ -3,6 +3,7 @@
 
 import csv
 import math
+import re
 import signal
 import struct
 import subprocess
@@ -44,6 +45,15 @@ class SurfaceFormats(SceneTest):
         super().setUp()
         self.surface = bar_surface()
         self.write("bar.obj", obj_text(self.surface))
+
+    def test_texture_points_counted_from_the_end(self):
+        scene = {**SCENE, "Time/End": "0.02", "Output/Formats": "usda"}
+        whole = results(self.solve(scene))
+        n = len(self.surface.texture)
+        counted = re.sub(r"(\d+)/(\d+)", lambda corner: f"{corner[1]}/{int(corner[2]) - n - 1}", obj_text(self.surface))
+        self.assertIn(f"/-{n}", counted)
+        self.write("bar.obj", counted)
+        self.assertTrue(results(self.solve(scene)) == whole)  # without looking for the differences, which takes a minute
 
     def frames(self, output):
         """By step: flat coordinates in double precision."""
