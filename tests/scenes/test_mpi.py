@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The same scene by several processes under mpirun: its results are those of one process."""
 
+import os
 import re
 import shutil
 import unittest
