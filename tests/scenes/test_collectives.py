@@ -13,8 +13,8 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from exemplar_runner import (REPOSITORY, SceneTest, greatest_distance, has_trilinos, nodes_of, run_program, set_words, write_msh,
-                             write_scene)
+from exemplar_runner import (REPOSITORY, SceneTest, greatest_distance, has_trilinos, nodes_of, run_program, serve, set_words,
+                             write_msh, write_scene)
 from mpirun import first_difference, launch, mismatch
 from surface_bar import bar_surface, obj_text
 
@@ -90,11 +90,11 @@ def write_painted_surface(directory):
 class Outcome:
     """What a number of processes makes of a scene: final nodes, or the message by which it is refused; and warnings."""
 
-    def __init__(self, n, file, settings, directory, timeout=60):
+    def __init__(self, n, file, settings, directory, timeout=120):
         output = Path(directory) / f"on_{n}"
         words = [file, "--quiet", "--output", output, *set_words({"Output/Every": 0, "Output/Formats": "vtu", **settings})]
         if n == 1:
-            run = run_program(*words, cwd=directory, timeout=timeout)
+            run = serve(list(map(str, words)), directory, {}) or run_program(*words, cwd=directory, timeout=timeout)
             self.status, stderr = run.status, run.stderr
         else:
             self.status, _, done = launch(n, *words, cwd=directory, timeout=timeout)
