@@ -173,6 +173,7 @@ class Studies(SceneTest):
         self.assertEqual((limit["steps"], limit["error_position_l2"]), ("0", ""))
         self.assertIn("What failed", self.report())
         self.assertIn(limit["message"], self.report())
+        self.assertEqual(self.study()[2], limit)  # as its record says, without another run
 
     def test_a_reference_that_fails(self):
         self.prepare(DYNAMIC, "Time/Step: 0.1 0.2", Base="Solver/Method=fixed point",
