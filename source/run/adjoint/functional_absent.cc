@@ -3,7 +3,7 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/base/whole_program.h>
 #include <exemplar/run/adjoint/functional.h>
-#include <exemplar/run/problem.h>
+#include <exemplar/run/problem/problem.h>
 
 namespace Exemplar
 {
