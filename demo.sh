@@ -15,7 +15,7 @@ cd "$(dirname "$(readlink -f "$0")")"
 packages=(git g++ cmake ninja-build libdeal.ii-dev libsuitesparse-dev libopenblas0-pthread
           libmuparser-dev libcli11-dev libfmt-dev nlohmann-json3-dev libssl-dev zlib1g-dev libseccomp-dev libopenmpi-dev
           openmpi-bin libgtest-dev libxsimd-dev libboost-dev libjs-three python3 python3-dev python3-numpy pybind11-dev gnuplot-nox help2man)
-packages_for_tests=(blender python3-pip python3-venv python3-wheel python3-matplotlib python3-scipy mypy doxygen mkdocs mkdocs-material
+packages_for_tests=(blender clang python3-pip python3-venv python3-wheel python3-matplotlib python3-scipy mypy doxygen mkdocs mkdocs-material
                     python3-pymdownx libjs-katex chromium chromium-driver python3-selenium)
 
 # Install those of some packages that are missing; end the script if that fails.

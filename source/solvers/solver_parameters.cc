@@ -38,12 +38,14 @@ namespace Exemplar
         "descent with the factor, or the multigrid hierarchy, of an earlier step, for dynamic "
         "scenes, to Step tolerance; auto: quasi newton in dynamic scenes, newton in others, fixed "
         "point with frozen forces, for which nothing else converges.");
-    keys.add("Tolerance", tolerance,
-             "Relative residual at which a step has converged: the greatest free residual "
-             "force over the greatest nodal force scale. With newton, in static scenes and "
-             "interpolations, also the error of the positions over the body's size, estimated by a "
-             "further step with the same matrix. Not used by one pass.",
-             Bounds{ 1e-16, 1. });
+    keys.add(
+        "Tolerance", tolerance,
+        "Relative residual at which a step has converged: the greatest free residual "
+        "force over the greatest nodal force scale. With newton, in static scenes and "
+        "interpolations, also the error of the positions over the body's size, estimated by a "
+        "further step with the same matrix. Of one pass, which does not converge, the residual of "
+        "its linear solve where conjugate gradients make it, 1e-8 at most.",
+        Bounds{ 1e-16, 1. });
     keys.add("Step tolerance", step_tolerance,
              "Error of the positions at which a step of quasi newton has converged, "
              "over the greatest displacement in this step; its relative residual must be "
@@ -72,14 +74,17 @@ namespace Exemplar
         "checking; umfpack: the whole bordered matrix at once, for checking; auto: cholesky, or "
         "iterative where that is faster by the count of operations, in compact bodies from about "
         "40,000 degrees of freedom.");
-    keys.add("Prediction order", prediction_order,
-             "Of how many past velocities quasi newton, and passes with Rotations = predicted, predict the "
-             "next ones. Five are best for motions that are smooth in time; fewer for those that are "
-             "not: exemplar live sets 3.",
-             Bounds{ 1, LinearPrediction::max_order });
+    keys.add(
+        "Prediction order", prediction_order,
+        "Of how many past velocities quasi newton, and passes with Rotations = predicted, predict "
+        "the "
+        "next ones. Five are best for motions that are smooth in time; fewer for those that are "
+        "not: exemplar live sets 3.",
+        Bounds{ 1, LinearPrediction::max_order });
     keys.add("Background factor", background_factor,
              "Whether quasi newton has new factors made by a thread beside its steps, which go on "
-             "with the last one for a number of steps that follows from the count of operations: results do not "
+             "with the last one for a number of steps that follows from the count of operations: "
+             "results do not "
              "depend on the thread. exemplar live sets it. Not used with iterative.");
     keys.leave_subsection();
   }

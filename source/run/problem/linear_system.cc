@@ -2,6 +2,8 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/run/problem/problem_parts.h>
 
+#include <algorithm>
+
 // Which linear solver a scene gets.
 
 namespace Exemplar
@@ -35,6 +37,14 @@ namespace Exemplar
     /// correct the rest in their next iteration; one pass has none, and Schur complements
     /// are small differences of what these solves give.
     constexpr double tolerance_of_iterations = 1e-4, tolerance_of_last_word = 1e-8;
+
+    double
+    tolerance_of_solves(const SolverParameters &solver, const unsigned int n_examples)
+    {
+      if (solver.method == Method::one_pass)
+        return std::min(tolerance_of_last_word, solver.tolerance);
+      return n_examples > 0 ? tolerance_of_last_word : tolerance_of_iterations;
+    }
 
     /// A Cholesky factorisation for a pattern, unless it is to be chosen and is not worth it.
     std::unique_ptr<SpdOperator>
@@ -88,10 +98,8 @@ namespace Exemplar
     if (matrix == nullptr)
     {
       potential.get_tangent().assemble_in_parts(true);
-      const bool is_last_word = solver.method == Method::one_pass || n_examples > 0;
-      matrix                  = make_iterative_operator(potential.get_free_dofs(), is_last_word
-                                                                                       ? tolerance_of_last_word
-                                                                                       : tolerance_of_iterations);
+      matrix = make_iterative_operator(potential.get_free_dofs(),
+                                       tolerance_of_solves(solver, n_examples));
       matrix->reinit(pattern);
     }
     return make_block_system(std::move(matrix), form, exchange);

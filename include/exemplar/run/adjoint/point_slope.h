@@ -39,9 +39,10 @@ namespace Exemplar
                   const Wish                           &wish,
                   const RegularPoint<OfPoint::Regular> &found)
   {
-    using Number                    = OfPoint::Regular;
-    const auto &[by_shape, by_wish] = found.stress;
-    const auto along                = [&](const auto &part)
+    using Number         = OfPoint::Regular;
+    const auto &by_shape = found.stress.by_shape;
+    const auto &by_wish  = found.stress.by_wish;
+    const auto  along    = [&](const auto &part)
     {
       return contract(OfPoint::parts_of<double>(by_shape, part), shape.get_change())
              + contract(OfPoint::parts_of<double>(by_wish, part), wish.change)
