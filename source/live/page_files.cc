@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/base/errors.h>
+#include <exemplar/exemplar.h>
 #include <exemplar/live/page_files.h>
 
 #include <filesystem>
