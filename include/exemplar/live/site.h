@@ -6,7 +6,6 @@
 
 #include <boost/beast/http.hpp>
 
-#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
