@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Install what is missing, build exemplar and run the cat of the paper's Fig. 2a. --install-only also installs what pip, the
+# Install what is missing, build exemplar and drag a cat with its examples and without. --install-only also installs what pip, the
 # pages and some tests need, if that is to be had.
 # Usage: ./demo.sh [--install-only]
 set -euo pipefail
@@ -66,15 +66,14 @@ echo "Building (a few minutes the first time)"
 cmake --preset $preset >/dev/null
 cmake --build --preset $preset --target exemplar
 
-build/release/exemplar prm/paper/fig2a_cat.prm --output output/fig2a_cat
-build/release/exemplar export output/fig2a_cat --html output/fig2a_cat.html
+build/release/exemplar prm/demo.prm --output output/with_examples
+build/release/exemplar prm/demo.prm --set Examples/Importance=0 --output output/without_examples
+build/release/exemplar export output/with_examples output/without_examples --html output/demo.html
 echo
-echo "The frames are in $PWD/output/fig2a_cat."
+echo "See both move side by side, in any browser: file://$PWD/output/demo.html"
+echo "The frames are in $PWD/output/with_examples and without_examples."
 echo "Open animation.pvd there in ParaView (Debian: apt-get install paraview), press Apply, then Play:"
-echo "  paraview $PWD/output/fig2a_cat/animation.pvd"
-echo "The same drag without the examples, from $PWD:"
-echo "  build/release/exemplar prm/paper/fig2a_cat.prm --set Examples/Importance=0 --output output/fig2a_cat_plain"
+echo "  paraview $PWD/output/with_examples/animation.pvd"
 echo "Pull the cat with the mouse, from $PWD (the first line builds the rest of exemplar, which takes minutes):"
 echo "  cmake --preset release && cmake --build --preset release"
 echo "  build/release/exemplar live prm/live/cat.prm"
-echo "See it move, in any browser: file://$PWD/output/fig2a_cat.html"

@@ -73,7 +73,7 @@ namespace Exemplar
   }
 
   void
-  ExampleWeights::hold(std::vector<double> values)
+  ExampleWeights::check_held(const std::vector<double> &values) const
   {
     if (!bounded || size() == 0)
       throw UserError("Only weights of Examples/Weights = simplex can be held.");
@@ -89,6 +89,16 @@ namespace Exemplar
             fmt::format("Weights that are held must not be negative and sum to 1; the least is {}, "
                         "and the sum {}.",
                         shortest_text(least), shortest_text(sum)));
+    }
+  }
+
+  void
+  ExampleWeights::hold(std::vector<double> values)
+  {
+    check_held(values);
+    for (auto region = values.begin(); region != values.end(); region += n_per_region())
+    {
+      const double sum = std::accumulate(region, region + n_per_region(), 0.);
       std::for_each(region, region + n_per_region(), [sum](double &weight) { weight /= sum; });
     }
     held = std::move(values);

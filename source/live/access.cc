@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
+#include <exemplar/base/message_text.h>
 #include <exemplar/live/access.h>
 
 #include <openssl/crypto.h>
@@ -66,14 +68,32 @@ namespace Exemplar::Live
                            && port.find_first_not_of("0123456789") == std::string_view::npos;
       return is_port ? host.substr(0, colon) : std::string_view();
     }
+    /// Throws UserError for what no Host header names.
+    void
+    require_host(const std::string &host)
+    {
+      const bool        is_ip6 = host.size() > 2 && host.front() == '[' && host.back() == ']';
+      const std::string allowed
+          = is_ip6 ? "[]0123456789abcdefABCDEF:."
+                   : "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.-_";
+      if (host.empty() || host.find_first_not_of(allowed) != std::string::npos)
+        throw UserError("--allow-host " + in_quotes(host)
+                        + ": this is no name of a machine. Give one without http:// and without a "
+                          "port, like box.example or [fe80::1]; any port is let in.");
+    }
   } // namespace
 
-  Access::Access(std::vector<std::string> more_hosts)
+  Access::Access(const std::vector<std::string> &more_hosts, const std::string &listening)
       : hosts{ "127.0.0.1", "localhost", "[::1]" }, token(random_word<16>()),
         cookie_name("exemplar_" + random_word<4>()), cookie_value(random_word<16>())
   {
     for (const std::string &host : more_hosts)
+    {
+      require_host(host);
       hosts.push_back(lower(host));
+    }
+    if (!listening.empty())
+      hosts.push_back(lower(listening));
   }
 
   std::string

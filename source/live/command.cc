@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/message_text.h>
 #include <exemplar/live/command.h>
+#include <exemplar/prm/assignments.h>
 
 #include <nlohmann/json.hpp>
 
@@ -83,8 +85,13 @@ namespace Exemplar::Live
       if (!value.is_string() || value.get_ref<const std::string &>().size() > max_name)
         throw std::invalid_argument(std::string(key) + " is no word, or too long");
       const auto word = value.get<std::string>();
-      if (word.empty() || word.find_first_of("|\n\r") != std::string::npos)
-        throw std::invalid_argument(std::string(key) + " is empty, or has a | or a new line");
+      if (word.empty() || word.find('|') != std::string::npos
+          || find_unprintable(word) != std::string::npos || word.find('\t') != std::string::npos
+          || word
+                 != trim(word)) // a session file keeps words between | without blanks at their ends
+        throw std::invalid_argument(std::string(key)
+                                    + " is empty, begins or ends with a blank, or has a | or what "
+                                      "is no text");
       return word;
     }
 

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/atomic_file.h>
+#include <exemplar/base/message_text.h>
+#include <exemplar/base/number_text.h>
+#include <exemplar/base/text_file.h>
 #include <exemplar/exemplar.h>
 #include <exemplar/live/export_page.h>
 #include <exemplar/live/page_files.h>
 #include <exemplar/live/run_frames.h>
 #include <exemplar/live/surface_frames.h>
+#include <exemplar/run/output/output_directory.h>
 
 #include <deal.II/base/utilities.h>
 #include <fmt/core.h>
@@ -12,6 +17,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <sstream>
 
 namespace Exemplar::Live
@@ -25,19 +31,17 @@ namespace Exemplar::Live
     const std::string mark_of_page = "<!DOCTYPE html>\n<!-- written by exemplar export -->\n";
 
     void
-    require_replaceable(const fs::path &file)
+    require_page(const fs::path &file)
     {
-      std::ifstream in(file, std::ios::binary);
-      std::string   begin(mark_of_page.size(), '\0');
-      if (fs::exists(file)
-          && (!in.read(begin.data(), std::streamsize(begin.size())) || begin != mark_of_page))
-        throw UserError(file.string()
-                        + " is there, and is no page that exemplar export has written. Nothing has "
-                          "been changed. Give another name by --html.");
+      const std::string remedy = " Give another name by --html.", end = file.extension().string();
+      if (end != ".html" && end != ".htm")
+        throw UserError("--html: a page is written, found " + in_quotes(file.string())
+                        + ". Give a name that ends in .html.");
       const fs::path parent = fs::absolute(file).parent_path();
       if (!fs::is_directory(parent))
         throw UserError(parent.string()
                         + " is no directory. Make it, or give another name by --html.");
+      require_replaceable({ file, mark_of_page }, {}, remedy);
     }
 
     std::string
@@ -46,13 +50,23 @@ namespace Exemplar::Live
       return dealii::Utilities::encode_base64({ bytes.begin(), bytes.end() });
     }
 
+    /// Whether there is a file that a page may do without; a pipe is none, as it would be waited for.
+    bool
+    is_there(const fs::path &file)
+    {
+      std::error_code none;
+      return fs::is_regular_file(file, none);
+    }
+
     /// Columns of statistics.csv that are worth a plot, with the times.
     Json
     plots_of(const fs::path &directory)
     {
-      std::ifstream            table(directory / "statistics.csv");
       std::vector<std::string> names;
-      std::string              line, cell;
+      if (!is_there(directory / "statistics.csv"))
+        return Json::object();
+      std::ifstream table(directory / "statistics.csv");
+      std::string   line, cell;
       std::getline(table, line);
       for (std::istringstream cells(line); std::getline(cells, cell, ',');)
         names.push_back(cell);
@@ -90,23 +104,82 @@ namespace Exemplar::Live
       return surface;
     }
 
-    /// Puts texts into the places of a page.
-    void
-    replace(std::string &page, const std::string &place, const std::string &text)
+    /// Vertices of a surface among nodes that are given as ranges, as summary.json has them: "0-3 7".
+    Json
+    vertices_in(const std::string &ranges, const BodySurface &surface)
     {
-      const auto where = page.find(place);
-      if (where == std::string::npos)
-        throw std::runtime_error("The page lacks " + place);
-      page.replace(where, place.size(), text);
+      Json               vertices = Json::array();
+      std::istringstream words(ranges);
+      for (std::string word; words >> word;)
+      {
+        const auto dash  = word.find('-');
+        const auto first = decimal_number<unsigned int>(word.substr(0, dash));
+        const auto last  = dash == std::string::npos
+                               ? first
+                               : decimal_number<unsigned int>(word.substr(dash + 1));
+        if (!first || !last)
+          continue;
+        const auto begin = surface.nodes.begin(), end = surface.nodes.end();
+        for (auto node = std::lower_bound(begin, end, *first); node != end && *node <= *last;
+             ++node)
+          vertices.push_back(node - begin);
+      }
+      return vertices;
     }
 
-    /// JSON that may stand in a script.
+    /// What summary.json says of the run, if it is there: names of examples, and who is held.
+    void
+    add_names(const fs::path &directory, const BodySurface &surface, Json &data)
+    {
+      data["examples"] = data["handles"] = Json::array();
+      if (!is_there(directory / "summary.json"))
+        return;
+      const auto text    = read_text_file(directory / "summary.json");
+      const Json summary = Json::parse(text.value_or(""), nullptr, false);
+      if (!summary.is_object())
+        return;
+      for (const Json &name : summary.value("example_names", Json::array()))
+        data["examples"].push_back(name.is_string() ? name : Json(""));
+      for (const Json &handle : summary.value("handles", Json::array()))
+        if (handle.is_object() && handle.value("name", Json()).is_string()
+            && handle.value("nodes", Json()).is_string())
+          data["handles"].push_back(
+              { { "name", handle["name"] },
+                { "vertices", vertices_in(handle["nodes"].get<std::string>(), surface) } });
+    }
+
+    /// A page with texts in its places, which stand between @; what the texts hold is no place.
+    std::string
+    filled(const std::string &page, const std::map<std::string, std::string> &texts)
+    {
+      std::string result;
+      std::size_t n_filled = 0;
+      for (std::size_t i = 0; i < page.size();)
+      {
+        const auto end = page[i] == '@' ? page.find('@', i + 1) : std::string::npos;
+        const auto text
+            = end == std::string::npos ? texts.end() : texts.find(page.substr(i, end + 1 - i));
+        if (text == texts.end())
+          result += page[i++];
+        else
+        {
+          result += text->second;
+          i = end + 1;
+          ++n_filled;
+        }
+      }
+      if (n_filled != texts.size())
+        throw std::runtime_error("The page lacks a place. Install exemplar anew.");
+      return result;
+    }
+
+    /// JSON that may stand in a script, which no < ends or makes a comment of.
     std::string
     in_script(const Json &data)
     {
-      std::string text = data.dump(-1, ' ', true, Json::error_handler_t::replace);
-      for (std::size_t i = 0; (i = text.find("</", i)) != std::string::npos; i += 3)
-        text.replace(i, 2, "<\\/"); // must not end the script
+      std::string text;
+      for (const char letter : data.dump(-1, ' ', true, Json::error_handler_t::replace))
+        text += letter == '<' ? "\\u003c" : std::string(1, letter);
       return text;
     }
 
@@ -122,13 +195,14 @@ namespace Exemplar::Live
     PageRun
     run_in(const fs::path &directory)
     {
-      const std::vector<RunFrame> frames  = frames_of_run(directory);
-      const BodySurface           surface = surface_in(frames.front().file);
+      const std::vector<RunFrame> frames        = frames_of_run(directory);
+      const BodySurface           surface       = surface_in(frames.front().file);
+      const std::size_t           n_coordinates = places_in(frames.front().file).size();
       PageRun                     run;
       for (std::uint32_t i = 0; i < frames.size(); ++i)
       {
         const std::vector<double> places = places_in(frames[i].file);
-        if (3 * surface.nodes.back() + 2 >= places.size())
+        if (places.size() != n_coordinates)
           throw UserError(frames[i].file.string() + " has other nodes than the first frame.");
         const Vector positions(places.begin(), places.end());
         run.frames
@@ -141,6 +215,7 @@ namespace Exemplar::Live
                        { "frames", frames.size() },
                        { "error", run.error },
                        { "plots", plots_of(directory) } };
+      add_names(directory, surface, run.data);
       return run;
     }
 
@@ -150,21 +225,6 @@ namespace Exemplar::Live
     {
       return fmt::format("<script type=\"text/plain\" id=\"{}-{}\">{}</script>\n", name, i,
                          in_base64(bytes));
-    }
-
-    void
-    write(const std::string &page, const fs::path &file)
-    {
-      const fs::path temporary = file.string() + ".tmp";
-      std::ofstream  out(temporary, std::ios::binary);
-      out << page << std::flush;
-      if (!out)
-      {
-        std::error_code ignored;
-        fs::remove(temporary, ignored);
-        throw std::runtime_error(file.string() + " cannot be written: is the disk full?");
-      }
-      fs::rename(temporary, file);
     }
   } // namespace
 
@@ -183,13 +243,14 @@ namespace Exemplar::Live
       result.n_frames += run.n_frames;
       result.error = std::max(result.error, run.error);
     }
-    std::string page = page_file("export.html");
-    replace(page, "@THREE@", three_file("three.min.js"));
-    replace(page, "@CONTROLS@", three_file("examples/js/controls/OrbitControls.js"));
-    replace(page, "@PLAYER@", page_file("player.js"));
-    replace(page, "@STYLE@", page_file("style.css"));
-    replace(page, "@DATA@", in_script({ { "runs", runs } }));
-    replace(page, "@RUNS@", elements);
+    const std::string page
+        = filled(page_file("export.html"),
+                 { { "@THREE@", three_file("three.min.js") },
+                   { "@CONTROLS@", three_file("examples/js/controls/OrbitControls.js") },
+                   { "@PLAYER@", page_file("player.js") },
+                   { "@STYLE@", page_file("style.css") },
+                   { "@DATA@", in_script({ { "runs", runs } }) },
+                   { "@RUNS@", elements } });
     result.html = mark_of_page + page;
     return result;
   }
@@ -197,9 +258,11 @@ namespace Exemplar::Live
   RunPage
   export_page(const std::vector<std::string> &directories, const fs::path &file)
   {
-    require_replaceable(file);
-    RunPage page = page_of_runs(directories);
-    write(page.html, file);
+    require_page(file);
+    RunPage    page = page_of_runs(directories);
+    AtomicFile out(file);
+    out.stream() << page.html;
+    out.commit();
     return page;
   }
 } // namespace Exemplar::Live

@@ -2,13 +2,24 @@
 #include <exemplar/live/mailbox.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace Exemplar::Live
 {
   namespace
   {
     constexpr std::size_t max_commands = 1000;
-  }
+
+    /// Room for a command, beyond which it is refused. What ends a pull has room of its own, as else a viewer who has
+    /// asked for too much would leave the body on its spring.
+    std::size_t
+    room_for(const Command &command)
+    {
+      if (command.type == "let go of all") // which the server says, once for a viewer that leaves
+        return std::numeric_limits<std::size_t>::max();
+      return command.type == "release" ? 2 * max_commands : max_commands;
+    }
+  } // namespace
 
   bool
   Mailbox::put(Command command)
@@ -22,7 +33,7 @@ namespace Exemplar::Live
         *before = std::move(command);
         return true;
       }
-    if (commands.size() >= max_commands)
+    if (commands.size() >= room_for(command))
       return false;
     commands.push_back(std::move(command));
     news.notify_one();

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/message_text.h>
 #include <exemplar/exemplar.h>
 #include <exemplar/live/export_page.h>
 #include <exemplar/live/server.h>
@@ -183,7 +184,7 @@ Exit status:
         throw UserError(arguments.shown.front()
                         + " is a directory, of which nothing can be set or recorded. Leave out "
                           "--set and --record, or give a scene (.prm).");
-      const Access access(arguments.hosts);
+      const Access access(arguments.hosts, host_of(arguments.place));
       const Site   site(page_of_runs(arguments.shown).html);
       Mailbox      mailbox;
       ServerLog    log;
@@ -201,7 +202,7 @@ Exit status:
       if (arguments.shown.size() > 1)
         throw UserError("exemplar live takes one scene, or one or two output directories of runs.");
       const SceneFile scene(arguments.shown.front(), with_defaults(arguments.overrides));
-      const Access    access(arguments.hosts);
+      const Access    access(arguments.hosts, host_of(arguments.place));
       const Site      site;
       Stage           stage(scene, arguments.record, arguments.n_threads);
       Mailbox         mailbox;
@@ -218,6 +219,9 @@ Exit status:
       audience.set_welcome(simulation.welcome());
       for (const std::string &warning : stage.get_problem().warnings())
         std::cerr << "Warning: " << warning << std::endl;
+      if (const auto earlier = stage.begin(); !earlier.empty())
+        std::cerr << "The earlier recording is played by " << message_text(earlier.string())
+                  << " from now on." << std::endl;
       std::cout << server.invitation() << std::endl;
       std::optional<InputWatch> watch;
       if (arguments.until_input_ends)

@@ -7,6 +7,8 @@
   const { runs } = JSON.parse(find("data").textContent);
   const COLOURS = ["#1f6feb", "#e5484d", "#2f9e44", "#b45309", "#8250df", "#0e8a93"];
   const BODIES = ["#e08a3c", "#4b8fd8"];
+  const HELD = "#1d4ed8", MOVED = "#dc2626";
+  const short = (x) => (x === 0 ? "0" : Math.abs(x) >= 1e4 || Math.abs(x) < 1e-2 ? x.toExponential(1) : String(Number(x.toPrecision(3))));
   const HEAD = 64;
 
   const canvas = find("canvas");
@@ -15,6 +17,19 @@
   const camera = new THREE.PerspectiveCamera(40, 1, 0.01, 100);
   camera.up.set(0, 0, 1);
   const controls = new THREE.OrbitControls(camera, canvas);
+
+  // A ring with a pale border, which is seen on any colour.
+  const ring = new THREE.CanvasTexture(Object.assign(document.createElement("canvas"), { width: 32, height: 32 }));
+  {
+    const pen = ring.image.getContext("2d");
+    for (const [colour, width] of [["#ffffff", 12], ["#888888", 6]]) {
+      pen.strokeStyle = colour === "#888888" ? "#ffffff" : "#00000088";
+      pen.lineWidth = width;
+      pen.beginPath();
+      pen.arc(16, 16, 9, 0, 7);
+      pen.stroke();
+    }
+  }
 
   // A body in motion, in a scene of its own.
   class Body {
@@ -37,6 +52,26 @@
         new THREE.MeshPhongMaterial({ color: BODIES[i % BODIES.length], side: THREE.DoubleSide, shininess: 15, specular: "#222222" }));
       mesh.frustumCulled = false;
       this.scene.add(mesh);
+      this.marks = this.handles.filter(({ vertices }) => vertices.length).map(({ vertices }) => this.mark(vertices));
+    }
+
+    // Rings on vertices that are held, in another colour if they are moved in the course of the run.
+    mark(vertices) {
+      const geometry = new THREE.BufferGeometry();
+      geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(3 * vertices.length), 3));
+      const far = [0, 1, 2].some((c) => Math.abs(this.coordinate(this.frames - 1, 3 * vertices[0] + c) - this.coordinate(0, 3 * vertices[0] + c)) >
+        0.002 * Math.max(...[0, 1, 2].map((d) => this.view.getFloat32(36 + 4 * d, true))));
+      const points = new THREE.Points(geometry, new THREE.PointsMaterial(
+        { color: far ? MOVED : HELD, size: 9, sizeAttenuation: false, map: ring, transparent: true, alphaTest: 0.3 }));
+      points.frustumCulled = false;
+      this.scene.add(points);
+      return { vertices, geometry, isMoved: far };
+    }
+
+    coordinate(frame, i) {
+      const begin = frame * this.stride;
+      return this.view.getFloat32(begin + 24 + 4 * (i % 3), true) +
+        ((this.view.getInt16(begin + HEAD + 2 * i, true) / 32767 + 1) / 2) * this.view.getFloat32(begin + 36 + 4 * (i % 3), true);
     }
 
     timeOf(frame) {
@@ -55,15 +90,14 @@
       if (frame === this.shown)
         return;
       this.shown = frame;
-      const begin = frame * this.stride;
-      const shorts = new DataView(this.all, begin + HEAD);
-      for (let i = 0; i < 3 * this.n; ++i) {
-        const c = i % 3;
-        this.positions.array[i] = this.view.getFloat32(begin + 24 + 4 * c, true) +
-          ((shorts.getInt16(2 * i, true) / 32767 + 1) / 2) * this.view.getFloat32(begin + 36 + 4 * c, true);
-      }
+      for (let i = 0; i < 3 * this.n; ++i)
+        this.positions.array[i] = this.coordinate(frame, i);
       this.positions.needsUpdate = true;
       this.geometry.computeVertexNormals();
+      for (const { vertices, geometry } of this.marks) {
+        vertices.forEach((v, k) => geometry.attributes.position.array.set(this.positions.array.subarray(3 * v, 3 * v + 3), 3 * k));
+        geometry.attributes.position.needsUpdate = true;
+      }
     }
   }
 
@@ -85,45 +119,88 @@
     camera.updateProjectionMatrix();
   }
 
+  // "weight_1" is of example 1, "weight_7_1" of example 1 in region 7.
+  function nameOf(column, run) {
+    const [kind, ...numbers] = column.split("_");
+    if (kind !== "weight")
+      return numbers.join(" ");
+    const example = run.examples[Number(numbers[numbers.length - 1])] || `example ${numbers[numbers.length - 1]}`;
+    return numbers.length > 1 ? `${example}, region ${numbers[0]}` : example;
+  }
+
   // Of plots: one of the weights, one of the energies; the second run is dashed.
   const plots = [["weight_", "Weights of the examples"], ["energy_", "Energies [J]"]].map(([prefix, title]) => ({
-    title, lines: runs.flatMap((run, k) => Object.keys(run.plots).filter((name) => name.startsWith(prefix)).map((name) => (
-      { name: name.slice(7).replace(/_/g, " "), dash: k ? [8, 6] : [], times: run.plots.time, values: run.plots[name] }))) }))
+    title, lines: runs.flatMap((run, k) => Object.keys(run.plots).filter((column) => column.startsWith(prefix)).map((column) => (
+      { name: nameOf(column, run), run: run.name, dash: k ? [8, 6] : [], times: run.plots.time, values: run.plots[column].map(Number) }))) }))
     .filter(({ lines }) => lines.length);
   const colourOf = ({ name }, lines) => COLOURS[[...new Set(lines.map((line) => line.name))].indexOf(name) % COLOURS.length];
   for (const plot of plots) {
     const box = document.createElement("fieldset");
     const title = Object.assign(document.createElement("legend"), { textContent: plot.title });
     plot.canvas = Object.assign(document.createElement("canvas"), { className: "plot", width: 480, height: 300 });
+    plot.canvas.setAttribute("role", "img");
+    plot.canvas.setAttribute("aria-label", `${plot.title} over time`);
     const key = Object.assign(document.createElement("div"), { className: "key" });
     plot.lines.forEach((line) => {
-      const entry = Object.assign(document.createElement("span"), { textContent: `${line.dash.length ? "╌" : "—"} ${line.name}` });
+      const entry = document.createElement("span");
       entry.style.color = colourOf(line, plot.lines);
+      line.output = document.createElement("output");
+      entry.append(`${line.dash.length ? "╌" : "—"} ${line.name} `, line.output);
       key.append(entry);
     });
     box.append(title, plot.canvas, key);
     find("plots").append(box);
   }
 
-  function drawPlots(time) {
-    for (const { lines, canvas: target } of plots) {
-      const pen = target.getContext("2d");
-      const values = lines.flatMap((line) => line.values);
-      const [low, high] = values.reduce(([a, b], v) => [Math.min(a, v), Math.max(b, v)], [0, -Infinity]);
-      const x = (t) => (t / Math.max(1e-9, end)) * (target.width - 4) + 2;
-      const y = (v) => target.height - 4 - ((v - low) / Math.max(1e-30, high - low)) * (target.height - 8);
-      pen.clearRect(0, 0, target.width, target.height);
-      lines.forEach((line) => {
-        pen.strokeStyle = colourOf(line, lines);
-        pen.lineWidth = 2;
-        pen.setLineDash(line.dash);
-        pen.beginPath();
-        line.values.forEach((v, k) => pen.lineTo(x(line.times[k]), y(v)));
-        pen.stroke();
-      });
-      pen.fillStyle = "#8888";
-      pen.fillRect(x(time), 0, 2, target.height);
+  // Of a line, the value of the last row that is not after this time.
+  const valueAt = ({ times, values }, time) => {
+    const after = times.findIndex((t) => t > time + 1e-9);
+    return values[after < 0 ? values.length - 1 : Math.max(0, after - 1)];
+  };
+
+  // The lines of a plot within its axes: zero and the greatest and least values across, seconds along.
+  function drawPlot({ lines, canvas: target }, time) {
+    const pen = target.getContext("2d");
+    const values = lines.flatMap((line) => line.values).filter(Number.isFinite);
+    const [low, high] = values.reduce(([a, b], v) => [Math.min(a, v), Math.max(b, v)], [0, 1e-30]);
+    const [left, bottom, top] = [70, target.height - 34, 12];
+    const x = (t) => left + (t / Math.max(1e-9, end)) * (target.width - left - 8);
+    const y = (v) => bottom - ((v - low) / (high - low)) * (bottom - top);
+    const text = getComputedStyle(target);
+    pen.clearRect(0, 0, target.width, target.height);
+    pen.font = "20px system-ui, sans-serif";
+    pen.fillStyle = text.color;
+    pen.strokeStyle = text.color;
+    pen.setLineDash([]);
+    pen.lineWidth = 1;
+    pen.textAlign = "right";
+    for (const v of new Set([low, 0, high])) {
+      pen.fillText(short(v), left - 6, y(v) + 7);
+      pen.globalAlpha = v === 0 ? 0.7 : 0.2;
+      pen.beginPath();
+      pen.moveTo(left, y(v));
+      pen.lineTo(target.width - 8, y(v));
+      pen.stroke();
+      pen.globalAlpha = 1;
     }
+    pen.fillText(`${short(end)} s`, target.width - 8, target.height - 8);
+    pen.textAlign = "left";
+    pen.fillText("0", left, target.height - 8);
+    pen.lineWidth = 3;
+    lines.forEach((line) => {
+      pen.strokeStyle = colourOf(line, lines);
+      pen.setLineDash(line.dash);
+      pen.beginPath();
+      line.values.forEach((v, k) => Number.isFinite(v) && pen.lineTo(x(line.times[k]), y(v)));
+      pen.stroke();
+      line.output.value = short(valueAt(line, time));
+    });
+    pen.fillStyle = "#8888";
+    pen.fillRect(x(time), top, 2, bottom - top);
+  }
+
+  function drawPlots(time) {
+    plots.forEach((plot) => drawPlot(plot, time));
   }
 
   let playing = true;
@@ -147,6 +224,15 @@
     }
   });
   find("name").textContent = runs.map(({ name }) => name).join(" | ");
+  runs.forEach(({ name }, i) => {
+    const caption = Object.assign(document.createElement("span"), { textContent: name });
+    caption.style.left = `${(100 * (i + 0.5)) / runs.length}%`;
+    caption.style.borderColor = BODIES[i % BODIES.length];
+    find("captions").append(caption);
+  });
+  const marks = bodies.flatMap((body) => body.marks);
+  for (const [is, id] of [[false, "held"], [true, "moved"]])
+    find(id).hidden = !marks.some(({ isMoved }) => isMoved === is);
   document.title = `${find("name").textContent} – exemplar`;
   find("error").textContent = runs.map(({ name, frames, error }) =>
     `${name}: ${frames} frames; coordinates are rounded by ${error.toExponential(1)} m at most.`).join(" ");

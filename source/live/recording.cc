@@ -1,10 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/atomic_file.h>
+#include <exemplar/base/message_text.h>
+#include <exemplar/base/number_text.h>
+#include <exemplar/base/text_file.h>
 #include <exemplar/live/recording.h>
+#include <exemplar/run/output/output_directory.h>
 
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <fstream>
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <sstream>
+#include <system_error>
 
 namespace Exemplar::Live
 {
@@ -15,69 +24,143 @@ namespace Exemplar::Live
     const std::string mark_of_recording
         = "# A session that exemplar live has recorded; it is played again by: exemplar ";
 
+    const std::string remedy = " Give another directory by --record.";
+
+    /// Characters that the value of Time/End takes, so that a longer one replaces it in its place.
+    constexpr std::size_t width_of_end = 24;
+
+    /// Whether nothing but meshes is in a directory.
+    bool
+    has_meshes_alone(const fs::path &directory)
+    {
+      const auto is_mesh
+          = [](const fs::directory_entry &entry) { return entry.path().extension() == ".msh"; };
+      return std::all_of(fs::directory_iterator(directory), fs::directory_iterator(), is_mesh);
+    }
+
     /// Whether the directory is of a recording, or not there, or holds nothing but meshes, which stay.
     bool
     is_ours(const fs::path &directory)
     {
-      const auto is_mesh
-          = [](const fs::directory_entry &entry) { return entry.path().extension() == ".msh"; };
-      if (!fs::exists(directory))
+      if (is_absent(directory))
         return true;
-      if (!fs::is_directory(directory))
-        return false;
-      if (std::all_of(fs::directory_iterator(directory), fs::directory_iterator(), is_mesh))
-        return true;
-      std::ifstream scene(directory / "scene.prm");
-      std::string   first;
-      return std::getline(scene, first)
-             && first.compare(0, mark_of_recording.size(), mark_of_recording) == 0;
+      return fs::is_directory(directory)
+             && (has_meshes_alone(directory)
+                 || (fs::is_regular_file(directory / "scene.prm")
+                     && read_text_file(directory / "scene.prm")
+                                .value_or("")
+                                .compare(0, mark_of_recording.size(), mark_of_recording)
+                            == 0));
+    }
+
+    /// The greatest number in names like BEGIN0012END in a directory; 0: there is none.
+    unsigned int
+    greatest_number(const fs::path &directory, const std::string &begin, const std::string &end)
+    {
+      unsigned int greatest = 0;
+      for (const fs::directory_entry &entry : fs::directory_iterator(directory))
+      {
+        const std::string name = entry.path().filename().string();
+        if (name.size() <= begin.size() + end.size() || name.compare(0, begin.size(), begin) != 0
+            || name.compare(name.size() - end.size(), end.size(), end) != 0)
+          continue;
+        const auto number = decimal_number<unsigned int>(
+            name.substr(begin.size(), name.size() - begin.size() - end.size()));
+        greatest = std::max(greatest, number.value_or(0));
+      }
+      return greatest;
+    }
+
+    std::string
+    first_line(const fs::path &scene)
+    {
+      return mark_of_recording + message_text(scene.string()) + "\n";
+    }
+
+    /// The text of a scene that plays session.txt, for another session.
+    std::string
+    for_session(std::string text, const fs::path &scene, const std::string &session)
+    {
+      const std::string before = "set File = session.txt\n";
+      if (const auto place = text.find(before); place != std::string::npos)
+        text.replace(place, before.size(), "set File = " + session + "\n");
+      return first_line(scene) + text.substr(std::min(text.find('\n'), text.size() - 1) + 1);
+    }
+
+    void
+    write(const fs::path &file, const std::string &text)
+    {
+      AtomicFile out(file);
+      out.stream() << text;
+      out.commit_without_sync();
     }
   } // namespace
 
-  Recording::Recording(fs::path where, const SceneFile &scene, const double step_size)
-      : directory(std::move(where)), scene(scene), step_size(step_size)
+  Recording::Recording(fs::path where, const double step_size)
+      : directory(std::move(where)), step_size(step_size)
   {
-    std::error_code error;
     if (!is_ours(directory))
       throw UserError("--record " + directory.string()
                       + ": this is neither a directory of a recording nor one without other files "
-                        "than meshes. Nothing has "
-                        "been changed. Give another one.");
-    fs::create_directories(directory, error);
-    if (error || !std::ofstream(session_file()))
-      throw UserError("--record " + directory.string()
-                      + ": this cannot be written. Give another directory.");
-    while (fs::exists(directory / fmt::format("pose_{:04}.msh", n_poses + 1)))
-      ++n_poses;
-    save_scene(0);
+                        "than meshes. Nothing has been changed."
+                      + remedy);
+    require_writable(directory, remedy);
+    require_replaceable({ scene_file(), mark_of_recording }, {}, remedy);
+    require_replaceable({ session_file(), head_of_session() }, {}, remedy);
+  }
+
+  fs::path
+  Recording::set_aside()
+  {
+    make_directory(directory, remedy);
+    n_poses = std::max(n_poses, greatest_number(directory, "pose_", ".msh"));
+    if (is_absent(session_file()))
+      return {};
+    const unsigned int number = 1
+                                + std::max(greatest_number(directory, "session_", ".txt"),
+                                           greatest_number(directory, "scene_", ".prm"));
+    const std::string session = fmt::format("session_{:04}.txt", number);
+    const fs::path    kept    = directory / fmt::format("scene_{:04}.prm", number);
+    if (const auto text = read_text_file(scene_file()))
+      write(kept, for_session(*text, kept, session));
+    fs::rename(session_file(), directory / session);
+    return kept;
   }
 
   void
-  Recording::save_scene(const unsigned int n_steps)
+  Recording::save_scene(std::vector<DeclaredKey> keys)
   {
-    std::vector<DeclaredKey> keys = scene.get_keys();
+    const std::string end = std::string(width_of_end, '@');
     for (DeclaredKey &key : keys)
       if (key.path() == "Session/File")
         key.value = "session.txt";
       else if (key.path() == "Time/End")
-        key.value = fmt::format("{}", std::max(n_steps, 1U) * step_size);
+        key.value = end;
       else if (key.path() == "Output/Directory")
         key.value = "output/session";
-    const fs::path file = directory / "scene.prm", temporary = directory / "scene.prm.tmp";
-    {
-      std::ofstream out(temporary, std::ios::binary);
-      out << mark_of_recording << file.string() << "\n";
-      print_keys(out, keys, false);
-      out.flush();
-      if (!out)
-        throw std::runtime_error(file.string() + " cannot be written: is the disk full?");
-    }
-    fs::rename(temporary, file);
+    std::ostringstream text;
+    text << first_line(scene_file());
+    print_keys(text, keys, false);
+    place_of_end = text.str().find(end);
+    write(scene_file(), text.str());
+    scene = std::make_unique<Descriptor>(::open(scene_file().c_str(), O_WRONLY | O_CLOEXEC));
+    set_n_steps(0);
+  }
+
+  void
+  Recording::set_n_steps(const unsigned int n_steps)
+  {
+    const std::string end = fmt::format("{:<{}}", std::max(n_steps, 1U) * step_size, width_of_end);
+    if (::pwrite(scene->number, end.data(), end.size(), static_cast<off_t>(place_of_end))
+        != static_cast<ssize_t>(end.size()))
+      throw std::runtime_error(scene_file().string() + " cannot be written: " + std::strerror(errno)
+                               + ".");
   }
 
   fs::path
   Recording::save_pose(const Problem &problem)
   {
+    n_poses = std::max(n_poses, greatest_number(directory, "pose_", ".msh"));
     const fs::path                file = directory / fmt::format("pose_{:04}.msh", ++n_poses);
     std::vector<dealii::Point<3>> places;
     const Vector                 &x = problem.state.positions;

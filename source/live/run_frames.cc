@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/number_text.h>
+#include <exemplar/base/text_file.h>
 #include <exemplar/exemplar.h>
 #include <exemplar/live/run_frames.h>
 
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
-#include <fstream>
 #include <map>
-#include <regex>
-#include <sstream>
+#include <optional>
+#include <set>
 #include <zlib.h>
 
 namespace Exemplar::Live
@@ -21,23 +23,48 @@ namespace Exemplar::Live
     constexpr std::size_t max_bytes = std::size_t(1)
                                       << 32; ///< of an array: more is no frame of ours
 
+    [[noreturn]] void
+    refuse(const fs::path &file, const std::string &why)
+    {
+      throw UserError(file.string() + " is no frame that exemplar has written: " + why
+                      + ". Run the scene again, with vtu among Output/Formats.");
+    }
+
     std::string
     text_of_file(const fs::path &file)
     {
-      std::ifstream      in(file, std::ios::binary);
-      std::ostringstream text;
-      if (!in || !(text << in.rdbuf()))
-        throw UserError(file.string() + " cannot be read.");
-      return text.str();
+      std::error_code none;
+      if (fs::exists(file, none) && !fs::is_regular_file(file, none)) // a pipe would be waited for
+        throw UserError(file.string() + " is no regular file. Give the output directory of a run.");
+      std::string reason;
+      if (auto text = read_text_file(file, &reason))
+        return std::move(*text);
+      throw UserError(file.string() + " cannot be read: " + reason + ".");
     }
 
-    [[noreturn]] void
-    refuse(const fs::path &file)
+    /// The value of an attribute in the text of a tag; nothing if it has none.
+    std::optional<std::string>
+    attribute(const std::string &tag, const std::string &name)
     {
-      throw UserError(
-          file.string()
-          + " is no frame that exemplar has written. Run the scene again, with vtu among "
-            "Output/Formats.");
+      const std::string before = " " + name + "=\"";
+      const auto        begin  = tag.find(before);
+      const auto end = begin == std::string::npos ? begin : tag.find('"', begin + before.size());
+      if (end == std::string::npos)
+        return std::nullopt;
+      return tag.substr(begin + before.size(), end - begin - before.size());
+    }
+
+    std::vector<unsigned char>
+    decoded(const fs::path &file, const std::string &name, const std::string &base64)
+    {
+      try
+      {
+        return dealii::Utilities::decode_base64(base64);
+      }
+      catch (const std::exception &)
+      {
+        refuse(file, "its array " + name + " is damaged");
+      }
     }
 
     /// An array of a frame: in base64 its sizes, and then its bytes, compressed by zlib.
@@ -50,25 +77,50 @@ namespace Exemplar::Live
       const auto            end   = begin == std::string::npos ? begin : text.find('<', begin);
       constexpr std::size_t sizes_in_text = 44; // 32 bytes
       if (end == std::string::npos || end - begin - 1 < sizes_in_text)
-        refuse(file);
-      const auto sizes = dealii::Utilities::decode_base64(text.substr(begin + 1, sizes_in_text));
-      const auto compressed = dealii::Utilities::decode_base64(
-          text.substr(begin + 1 + sizes_in_text, end - begin - 1 - sizes_in_text));
+        refuse(file, "it has no array " + name);
+      const auto sizes      = decoded(file, name, text.substr(begin + 1, sizes_in_text));
+      const auto compressed = decoded(
+          file, name, text.substr(begin + 1 + sizes_in_text, end - begin - 1 - sizes_in_text));
       std::uint64_t n_bytes = 0;
+      if (sizes.size() < 2 * sizeof(n_bytes))
+        refuse(file, "its array " + name + " is damaged");
       std::memcpy(&n_bytes, sizes.data() + sizeof(n_bytes), sizeof(n_bytes));
-      if (n_bytes > max_bytes || n_bytes % sizeof(Number) != 0)
-        refuse(file);
+      // zlib makes at most some thousand bytes of one, so that a damaged size takes no memory
+      if (n_bytes > max_bytes || n_bytes > 1100 * compressed.size()
+          || n_bytes % sizeof(Number) != 0)
+        refuse(file, "its array " + name + " has another size than it says");
       std::vector<Number> numbers(n_bytes / sizeof(Number));
       uLongf              size = n_bytes;
       if (uncompress(reinterpret_cast<Bytef *>(numbers.data()), &size, compressed.data(),
                      compressed.size())
               != Z_OK
           || size != n_bytes)
-        refuse(file);
+        refuse(file, "its array " + name + " is damaged");
       return numbers;
     }
 
     using Face = std::array<unsigned int, 3>;
+    using Cell = std::array<unsigned int, 4>;
+
+    /// Its corners, which are different points of the frame.
+    Cell
+    cell_at(const fs::path                  &file,
+            const std::vector<std::int32_t> &connectivity,
+            const std::size_t                begin,
+            const std::size_t                n_points)
+    {
+      Cell cell{};
+      for (unsigned int i = 0; i < 4; ++i)
+      {
+        const std::int32_t node = connectivity[begin + i];
+        if (node < 0 || std::size_t(node) >= n_points)
+          refuse(file, "a cell has a node that is not there");
+        cell[i] = static_cast<unsigned int>(node);
+      }
+      if (std::set<unsigned int>(cell.begin(), cell.end()).size() < 4)
+        refuse(file, "a cell has a node twice");
+      return cell;
+    }
 
     Face
     sorted(Face face)
@@ -87,22 +139,34 @@ namespace Exemplar::Live
                       + " has no animation.pvd. Give the output directory of a run that has ended, "
                         "with vtu among "
                         "Output/Formats.");
-    const std::string       text = text_of_file(animation);
-    static const std::regex entry("timestep=\"([^\"]*)\" file=\"([^\"/]*\\.vtu)\"");
-    std::vector<RunFrame>   frames;
-    for (auto found = std::sregex_iterator(text.begin(), text.end(), entry);
-         found != std::sregex_iterator(); ++found)
-      frames.push_back(
-          { std::strtod((*found)[1].str().c_str(), nullptr), directory / (*found)[2].str() });
+    const std::string     text = text_of_file(animation);
+    std::vector<RunFrame> frames;
+    const std::string     tag = "<DataSet";
+    for (auto begin = text.find(tag); begin != std::string::npos; begin = text.find(tag, begin + 1))
+    {
+      const std::string entry = text.substr(begin, text.find('>', begin) - begin);
+      const auto        time = attribute(entry, "timestep"), name = attribute(entry, "file");
+      if (!time || !name || !std::isfinite(parse_number(*time))
+          || name->find('/') != std::string::npos || fs::path(*name).extension() != ".vtu")
+        throw UserError(animation.string()
+                        + " is no list of frames that exemplar has written. Run the scene again.");
+      frames.push_back({ parse_number(*time), directory / *name });
+    }
     if (frames.empty())
-      refuse(animation);
+      throw UserError(animation.string() + " lists no frames. Run the scene again.");
     return frames;
   }
 
   std::vector<double>
   places_in(const fs::path &file)
   {
-    return array_in<double>(file, text_of_file(file), "Points");
+    const std::vector<double> places = array_in<double>(file, text_of_file(file), "Points");
+    if (places.empty() || places.size() % 3 != 0)
+      refuse(file, "it has no points");
+    for (const double place : places)
+      if (!(std::abs(place) < 1e30)) // of what can be drawn
+        refuse(file, "a point has no finite place");
+    return places;
   }
 
   std::vector<std::array<unsigned int, 3>>
@@ -111,23 +175,26 @@ namespace Exemplar::Live
     const std::string    text         = text_of_file(file);
     const auto           connectivity = array_in<std::int32_t>(file, text, "connectivity");
     const auto           offsets      = array_in<std::int32_t>(file, text, "offsets");
+    const std::size_t    n_points     = array_in<double>(file, text, "Points").size() / 3;
     std::map<Face, Face> open; // sorted nodes -> outwards
     std::size_t          begin = 0;
     for (const std::int32_t end : offsets)
     {
-      if (end < std::int32_t(begin) + 4 || std::size_t(end) > connectivity.size())
-        refuse(file);
-      const auto node = [&](const std::size_t i) { return unsigned(connectivity[begin + i]); };
+      if (end < 0 || std::size_t(end) < begin + 4 || std::size_t(end) > connectivity.size())
+        refuse(file, "a cell has fewer than four nodes");
+      const Cell cell = cell_at(file, connectivity, begin, n_points);
       // of a tetrahedron that is positively oriented
       for (const Face &face :
-           { Face{ { node(0), node(2), node(1) } }, Face{ { node(0), node(1), node(3) } },
-             Face{ { node(1), node(2), node(3) } }, Face{ { node(0), node(3), node(2) } } })
+           { Face{ { cell[0], cell[2], cell[1] } }, Face{ { cell[0], cell[1], cell[3] } },
+             Face{ { cell[1], cell[2], cell[3] } }, Face{ { cell[0], cell[3], cell[2] } } })
         if (const auto met = open.find(sorted(face)); met != open.end())
           open.erase(met);
         else
           open[sorted(face)] = face;
       begin = end;
     }
+    if (open.empty())
+      refuse(file, "it has no cells");
     std::vector<Face> boundary;
     for (const auto &entry : open)
       boundary.push_back(entry.second);

@@ -4,7 +4,6 @@
 
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/local/stream_protocol.hpp>
-#include <boost/asio/signal_set.hpp>
 #include <boost/asio/steady_timer.hpp>
 
 #include <fmt/core.h>
@@ -25,7 +24,7 @@ namespace Exemplar::Live
   namespace
   {
     constexpr unsigned int max_connections = 64, max_requests = 200;
-    constexpr auto         max_wait = std::chrono::seconds(10); ///< for a request
+    constexpr auto max_wait = std::chrono::seconds(10); ///< for a request, or a part of an answer
 
     /// One that asks for pages, until it goes or becomes a viewer.
     class Connection : public std::enable_shared_from_this<Connection>
@@ -78,23 +77,36 @@ namespace Exemplar::Live
         response = answer(request, access, site, objection);
         if (++n_requests == max_requests)
           response.keep_alive(false);
-        http::async_write(stream, response,
-                          [self = shared_from_this()](const beast::error_code error, std::size_t)
-                          {
-                            if (!error && self->response.keep_alive())
-                              self->read_next();
-                          });
+        serializer.emplace(response);
+        write_next();
       }
 
-      Stream                                                 stream;
-      const Access                                          &access;
-      const Site                                            &site;
-      Audience                                              &audience;
-      std::shared_ptr<void>                                  count;
-      beast::flat_buffer                                     buffer{ 16384 };
-      std::optional<http::request_parser<http::string_body>> parser;
-      Response                                               response;
-      unsigned int                                           n_requests = 0;
+      /// A part at a time, as a slow line may take long for all, but must not be silent for long.
+      void
+      write_next()
+      {
+        stream.expires_after(max_wait);
+        http::async_write_some(
+            stream, *serializer,
+            [self = shared_from_this()](const beast::error_code error, std::size_t)
+            {
+              if (!error && !self->serializer->is_done())
+                self->write_next();
+              else if (!error && self->response.keep_alive())
+                self->read_next();
+            });
+      }
+
+      Stream                                                      stream;
+      const Access                                               &access;
+      const Site                                                 &site;
+      Audience                                                   &audience;
+      std::shared_ptr<void>                                       count;
+      beast::flat_buffer                                          buffer{ 16384 };
+      std::optional<http::request_parser<http::string_body>>      parser;
+      Response                                                    response;
+      std::optional<http::response_serializer<http::string_body>> serializer; ///< of it
+      unsigned int                                                n_requests = 0;
     };
 
     /// Counts down when it goes.
@@ -106,11 +118,39 @@ namespace Exemplar::Live
     }
 
     const std::string unix_prefix = "unix:";
+
+    /// Whether a server answers at a socket of the file system, which a killed one leaves behind without.
+    bool
+    is_answered(const asio::local::stream_protocol::endpoint &endpoint)
+    {
+      asio::io_context                     context;
+      asio::local::stream_protocol::socket socket(context);
+      beast::error_code                    error;
+      socket.connect(endpoint, error);
+      return !error;
+    }
   } // namespace
 
-  Server::Server(const ListenAt &place, const Access &access, const Site &site, Audience &audience)
-      : acceptor(context), access(access), site(site), audience(audience)
+  std::string
+  host_of(const ListenAt &place)
   {
+    beast::error_code none;
+    const auto        address = asio::ip::make_address(place.address, none);
+    if (none || address.is_unspecified())
+      return "";
+    return address.is_v6() ? "[" + address.to_string() + "]" : address.to_string();
+  }
+
+  Server::Server(const ListenAt &place, const Access &access, const Site &site, Audience &audience)
+      : acceptor(context), signals(context, SIGINT, SIGTERM, SIGHUP), access(access), site(site),
+        audience(audience)
+  {
+    signals.async_wait(
+        [this](const beast::error_code error, int)
+        {
+          if (!error)
+            context.stop();
+        });
     try
     {
       listen(place);
@@ -142,6 +182,9 @@ namespace Exemplar::Live
       if (path.empty() || path.size() > 100)
         throw UserError("--bind unix:PATH takes a path of at most 100 characters.");
       const asio::local::stream_protocol::endpoint endpoint(path);
+      if (is_answered(endpoint))
+        throw UserError("--bind unix:" + path
+                        + ": another server listens there. End it, or give another name.");
       unlink(path.c_str());
       acceptor.open(endpoint.protocol());
       const mode_t before = umask(0177); // for its owner alone
@@ -160,6 +203,7 @@ namespace Exemplar::Live
       const auto              generic = acceptor.local_endpoint();
       std::memcpy(bound.data(), generic.data(), generic.size());
       port = bound.port();
+      host = host_of(place).empty() ? "127.0.0.1" : host_of(place);
     }
     acceptor.listen();
   }
@@ -168,7 +212,7 @@ namespace Exemplar::Live
   Server::invitation() const
   {
     if (socket_file.empty())
-      return fmt::format("Open http://127.0.0.1:{}/?token={}", port, access.get_token());
+      return fmt::format("Open http://{}:{}/?token={}", host, port, access.get_token());
     return fmt::format("On the machine where you look: ssh -N -L 8080:{} HOST\n"
                        "Open http://127.0.0.1:8080/?token={}",
                        std::filesystem::absolute(socket_file).string(), access.get_token());
@@ -200,8 +244,6 @@ namespace Exemplar::Live
   void
   Server::run()
   {
-    asio::signal_set signals(context, SIGINT, SIGTERM, SIGHUP);
-    signals.async_wait([this](const beast::error_code, int) { context.stop(); });
     context.run();
     audience.dismiss(); // whose sockets must not outlive the context
   }

@@ -10,7 +10,7 @@ namespace Exemplar::Live
 {
   SessionLog::SessionLog(const std::filesystem::path &path)
       : name(path.empty() ? "A temporary file in " P_tmpdir : path.string()),
-        file(path.empty() ? std::tmpfile() : std::fopen(path.c_str(), "wb"))
+        file(path.empty() ? std::tmpfile() : std::fopen(path.c_str(), "wbx"))
   {
     if (!file)
       throw UserError(name + " cannot be written, which keeps what is done. Give "

@@ -7,8 +7,7 @@ namespace Exemplar::Live
 {
   namespace
   {
-    constexpr std::size_t  max_moments       = 20;
-    constexpr unsigned int steps_until_saved = 600;
+    constexpr std::size_t max_moments = 20;
 
     CompleteScene
     for_threads(CompleteScene parameters, const unsigned int n_threads)
@@ -24,18 +23,68 @@ namespace Exemplar::Live
       parameters.solver.n_threads = n_threads;
       return parameters;
     }
+
+    /// Do what was possible before: if it is refused now, nothing is left to pull, and the server ends.
+    template <typename Action>
+    void
+    end_if_refused(const Action &action)
+    {
+      try
+      {
+        action();
+      }
+      catch (const UserError &error)
+      {
+        throw std::runtime_error(error.what());
+      }
+    }
   } // namespace
 
   Stage::Stage(const SceneFile             &scene,
                const std::filesystem::path &record_to,
                const unsigned int           n_threads)
-      : scene(scene), parameters(for_threads(scene.get_parameters(), n_threads)),
-        step_size(parameters.time.step)
+      : parameters(for_threads(scene.get_parameters(), n_threads)), step_size(parameters.time.step)
   {
-    make_problem_anew(); // first, as a scene that is refused must leave an earlier recording
     if (!record_to.empty())
-      recording.emplace(record_to, scene, step_size);
+    {
+      recording.emplace(record_to, step_size);
+      kept.emplace(scene);
+    }
+    Inputs inputs    = read_inputs(parameters);
+    contents         = inputs.mesh;
+    BodyInputs given = make_body_inputs(parameters, std::move(inputs));
+    fields           = given.fields;
+    undivided        = given.undivided;
+    make_problem_of(std::move(given));
+  }
+
+  std::filesystem::path
+  Stage::begin()
+  {
+    std::filesystem::path earlier;
+    if (recording)
+    {
+      earlier = recording->set_aside();
+      keys    = kept->copy_to(recording->get_directory());
+    }
+    begin_recording();
+    return earlier;
+  }
+
+  void
+  Stage::begin_recording()
+  {
+    done.reset(); // which has an earlier one open
     done.emplace(recording ? recording->session_file() : std::filesystem::path());
+    if (recording)
+      recording->save_scene(keys);
+  }
+
+  void
+  Stage::make_problem_of(BodyInputs body)
+  {
+    problem = make_problem(parameters, [&body](const CompleteScene &) { return std::move(body); });
+    player  = std::make_unique<SessionPlayer>(*problem);
   }
 
   void
@@ -43,8 +92,12 @@ namespace Exemplar::Live
   {
     player.reset();
     problem.reset(); // before the next, for its memory
-    problem = make_problem(parameters);
-    player  = std::make_unique<SessionPlayer>(*problem);
+    end_if_refused(
+        [this]
+        {
+          make_problem_of(
+              { Mesh(contents, parameters.mesh.name(), parameters.mesh.scale), fields, undivided });
+        });
   }
 
   void
@@ -63,7 +116,7 @@ namespace Exemplar::Live
     const unsigned int next = problem->state.step + 1;
     const SolveReport  report
         = problem->advance({ next * step_size, step_size }); // as TimeAxis has it
-    if (is_success(report.status) && next % steps_until_saved == 0)
+    if (is_success(report.status))
       save();
     return report;
   }
@@ -89,23 +142,38 @@ namespace Exemplar::Live
       return false;
     const Moment moment = std::move(moments.back());
     moments.pop_back();
+    if (recording)
+      recording->set_n_steps(moment.state.step); // before the events of later ones go
     done->cut(moment.done);
     make_problem_anew();
     LastingEvents until_then;
     done->for_each([&](const SessionEvent &event) { until_then.add(event); });
     player->catch_up(until_then);
     problem->resume_from(moment.state, moment.solver_memory.get());
-    save();
     return true;
   }
 
   void
   Stage::begin_anew()
   {
-    done->cut(0);
     moments.clear();
+    if (recording && done->size() > 0)
+    {
+      done->flush();
+      end_if_refused(
+          [this]
+          {
+            recording->set_aside();
+            begin_recording();
+          });
+    }
+    else
+    {
+      if (recording)
+        recording->set_n_steps(0);
+      done->cut(0);
+    }
     make_problem_anew();
-    save();
   }
 
   void
@@ -113,7 +181,7 @@ namespace Exemplar::Live
   {
     if (!recording)
       return;
-    done->flush(); // before the scene that names it
-    recording->save_scene(problem->state.step);
+    done->flush(); // before the scene plays the step that it leads to
+    recording->set_n_steps(problem->state.step);
   }
 } // namespace Exemplar::Live

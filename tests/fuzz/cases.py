@@ -8,6 +8,7 @@ from collections import namedtuple
 import bases
 import bodies
 import mutations
+import runs
 import skins
 
 # files: {name: bytes}; arguments: after the program's name; earlier: arguments of runs that come before and that must
@@ -364,7 +365,22 @@ def state_case(r, _):
                 check="resumed")
 
 
-KINDS = [(painted_case, 4), (state_case, 4), (surface_case, 2), (posed_case, 3), (skin_scene_case, 2), (scene_case, 20), (extreme_case, 16), (formula_case, 12), (mesh_case, 16), (pose_case, 8), (list_case, 3),
+def session_case(r, _):
+    """A recorded session is played that no hand has made so."""
+    entries = {**bases.SCENES[0], "Scene": "dynamic", "Time/Increments": "", "Time/Step": "0.01", "Time/End": "0.05", "Session/File": "session.txt"}
+    files = good_files((path, value) for path, value in entries.items() if path != "Time/Increments")
+    return Case("session", {**files, "session.txt": runs.session(r)}, ["scene.prm", *OUT], check=r.choice([None, "validate"]))
+
+
+def export_case(r, _):
+    """A run of which one file is damaged is shown as a page."""
+    scene = {**r.choice([scene for scene in bases.SCENES if scene["Scene"] == "dynamic"]), "Output/Every": "1"}
+    file = r.choice(["frame_0000.vtu"] * 5 + ["frame_0001.vtu"] * 2 + ["animation.pvd"] * 2 + ["statistics.csv", "summary.json"])
+    return Case("export", good_files(scene.items()), ["export", "out", "--html", "page.html"], [["scene.prm", *OUT]],
+                {"file": "out/" + file, "seed": r.randrange(2**32), "how": "spoilt_frame" if file.endswith("vtu") else "damaged"})
+
+
+KINDS = [(session_case, 6), (export_case, 6), (painted_case, 4), (state_case, 4), (surface_case, 2), (posed_case, 3), (skin_scene_case, 2), (scene_case, 20), (extreme_case, 16), (formula_case, 12), (mesh_case, 16), (pose_case, 8), (list_case, 3),
          (study_case, 5), (checkpoint_case, 8), (command_case, 7), (geo_case, 1), (directory_case, 3)]
 PLACES = ["a b", "é", "a#b", "a,b", "a;b", 'a"b', "a\nb", "\udcff", "%s", "a\\", "-", "n" * 200, "$HOME", "a=b", "a'b", "a|b",
           "\x1b[1m"]

@@ -23,6 +23,7 @@ from pathlib import Path
 
 import mutations
 import oracle
+import runs
 from cases import KINDS, Case, declared_keys, make_case
 from fork_server import ForkServer
 
@@ -57,7 +58,8 @@ class Fuzzer:
             if case.damage.get("by"):
                 shutil.copyfile(directory / case.damage["by"], file)
             else:
-                file.write_bytes(mutations.damaged(random.Random(case.damage["seed"]), file.read_bytes()))
+                how = runs.spoilt_frame if case.damage.get("how") == "spoilt_frame" else mutations.damaged
+                file.write_bytes(how(random.Random(case.damage["seed"]), file.read_bytes()))
         return []
 
     @staticmethod

@@ -22,7 +22,7 @@ class Iterative(SceneTest):
     def check_agreement(self, scene):
         cholesky, iterative = (self.solve({**scene, "Solver/Linear solver": solver}, output=solver)
                                for solver in ("cholesky", "iterative"))
-        for output, name, part in ((cholesky, "cholesky", "CHOLMOD"),
+        for output, name, part in ((cholesky, "cholesky", "Cholesky factor"),
                                    (iterative, "iterative", "algebraic multigrid")):
             summary = read_summary(output)
             self.assertEqual((summary["linear_solver"], part in summary["used"]), (name, True))

@@ -33,7 +33,7 @@ class LeftOut(SceneTest):
 
     def test_static_scene_without_examples(self):
         output = self.solve(BAR)
-        self.check_parts(output, ["handles", "gravity", "CHOLMOD", "frame writer"],
+        self.check_parts(output, ["handles", "gravity", "Cholesky factor", "frame writer"],
                          ["mass matrix", "own support of interpolation", "loads", "example poses",
                           "weight block", "Schur complement", "algebraic multigrid",
                           "UMFPACK"])
@@ -132,14 +132,14 @@ class LeftOut(SceneTest):
 
     def test_umfpack_leaves_out_cholmod(self):
         self.check_parts(self.solve({**EXAMPLE, **PAPER, "Solver/Linear solver": "umfpack"}),
-                         ["UMFPACK", "weight block"], ["CHOLMOD", "Schur complement"])
+                         ["UMFPACK", "weight block"], ["CHOLMOD", "Cholesky factor", "Schur complement"])
 
     @needs_trilinos
     def test_iterative_leaves_out_both(self):
         self.check_memory({**BAR, "Solver/Linear solver": "iterative"})
         self.check_parts(self.solve({**EXAMPLE, "Solver/Linear solver": "iterative"}),
                          ["algebraic multigrid", "weight block", "Schur complement"],
-                         ["CHOLMOD", "UMFPACK"])
+                         ["CHOLMOD", "Cholesky factor", "UMFPACK"])
 
     def test_importance_0_opens_no_pose(self):
         for scene in (BAR, DYNAMIC):

@@ -61,6 +61,10 @@ namespace Exemplar
     void
     hold(std::vector<double> values);
 
+    /// Throws UserError for what hold() does not take.
+    void
+    check_held(const std::vector<double> &values) const;
+
     /// As many as there are examples.
     unsigned int
     n_per_region() const

@@ -14,9 +14,10 @@ namespace Exemplar::Live
   class Access
   {
   public:
-    /// `more_hosts` are names under which a proxy asks, beside those of this machine. Token and cookie are
+    /// `more_hosts` are names under which a proxy asks, beside those of this machine and of the address at which the
+    /// server listens, which may be empty. Throws UserError for what is no such name. Token and cookie are
     /// drawn by the system; throws std::runtime_error if it has none to give.
-    explicit Access(std::vector<std::string> more_hosts);
+    explicit Access(const std::vector<std::string> &more_hosts, const std::string &listening = "");
 
     const std::string &
     get_token() const

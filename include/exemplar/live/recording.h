@@ -2,18 +2,30 @@
 #ifndef exemplar_live_recording_h
 #define exemplar_live_recording_h
 
+#include <exemplar/base/descriptor.h>
 #include <exemplar/exemplar.h>
 
 #include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
 
 namespace Exemplar::Live
 {
-  /// A directory with a session on disk: session.txt, and scene.prm, which plays it again to the same bytes.
+  /// A directory with a session on disk: session.txt, scene.prm, which plays it again to the same bytes, and copies of
+  /// the scene's inputs. An earlier session in it is kept as session_NNNN.txt and scene_NNNN.prm.
   class Recording
   {
   public:
-    /// Throws UserError unless the directory is empty, can be made, or holds an earlier recording, which is replaced.
-    Recording(std::filesystem::path directory, const SceneFile &scene, double step_size);
+    /// Looks at the directory and changes nothing. Throws UserError unless it is empty but for meshes, can be made,
+    /// or holds an earlier recording.
+    Recording(std::filesystem::path directory, double step_size);
+
+    const std::filesystem::path &
+    get_directory() const
+    {
+      return directory;
+    }
 
     /// What SessionLog writes.
     std::filesystem::path
@@ -22,19 +34,35 @@ namespace Exemplar::Live
       return directory / "session.txt";
     }
 
-    /// The steps so far, for a scene that ends there.
+    /// Keeps what is recorded so far under names of its own; returns the scene that plays it, or an empty path if
+    /// there is nothing. SessionLog is to begin a new file after this, and save_scene() to be called.
+    std::filesystem::path
+    set_aside();
+
+    /// Writes the scene, of no step yet. `keys` are those of the scene that is pulled.
     void
-    save_scene(unsigned int n_steps);
+    save_scene(std::vector<DeclaredKey> keys);
+
+    /// So many steps are played again.
+    void
+    set_n_steps(unsigned int n_steps);
 
     /// Write the pose of a problem as pose_NNNN.msh; returns the file.
     std::filesystem::path
     save_pose(const Problem &problem);
 
   private:
+    std::filesystem::path
+    scene_file() const
+    {
+      return directory / "scene.prm";
+    }
+
     const std::filesystem::path directory;
-    const SceneFile            &scene;
     const double                step_size;
     unsigned int                n_poses = 0;
+    std::unique_ptr<Descriptor> scene;            ///< open scene.prm
+    std::size_t                 place_of_end = 0; ///< in it, of the value of Time/End [bytes]
   };
 } // namespace Exemplar::Live
 

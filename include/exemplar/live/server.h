@@ -9,6 +9,7 @@
 #include <boost/asio/basic_socket_acceptor.hpp>
 #include <boost/asio/generic/stream_protocol.hpp>
 #include <boost/asio/io_context.hpp>
+#include <boost/asio/signal_set.hpp>
 
 #include <memory>
 #include <set>
@@ -90,6 +91,11 @@ namespace Exemplar::Live
     unsigned int port    = 0;           ///< 0: one that is free
   };
 
+  /// The name by which a browser asks who listens there; empty for a socket of the file system, for all addresses of the
+  /// machine, and for what is no address.
+  std::string
+  host_of(const ListenAt &place);
+
   /// Listens, and lets in those whom Access knows.
   class Server
   {
@@ -110,7 +116,7 @@ namespace Exemplar::Live
       return context;
     }
 
-    /// Until a signal ends it, or stop() does.
+    /// Until a signal ends it, or the context is stopped.
     void
     run();
 
@@ -125,10 +131,12 @@ namespace Exemplar::Live
 
     boost::asio::io_context                      context;
     boost::asio::basic_socket_acceptor<Protocol> acceptor;
+    boost::asio::signal_set                      signals; ///< that end it, from the beginning on
     const Access                                &access;
     const Site                                  &site;
     Audience                                    &audience;
     std::string                   socket_file; ///< to remove at the end; may be empty
+    std::string                   host;        ///< to be asked for; of an address
     unsigned int                  port          = 0;
     std::shared_ptr<unsigned int> n_connections = std::make_shared<unsigned int>(0);
   };

@@ -16,7 +16,7 @@ namespace Exemplar::Live
   class SessionLog
   {
   public:
-    /// A session file, which is replaced; with an empty path a file without a name, which ends with the program. Throws
+    /// A session file, which must not be there yet; with an empty path a file without a name, which ends with the program. Throws
     /// UserError if there can be none.
     explicit SessionLog(const std::filesystem::path &file);
 

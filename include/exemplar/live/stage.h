@@ -2,9 +2,11 @@
 #ifndef exemplar_live_stage_h
 #define exemplar_live_stage_h
 
+#include <exemplar/live/kept_inputs.h>
 #include <exemplar/live/recording.h>
 #include <exemplar/live/session_log.h>
 #include <exemplar/live/stored_bytes.h>
+#include <exemplar/run/inputs/body_inputs.h>
 #include <exemplar/run/problem/session_player.h>
 
 #include <memory>
@@ -12,12 +14,20 @@
 
 namespace Exemplar::Live
 {
-  /// A problem with all that was done to it, so that it can go back, and be played again.
+  /// A problem with all that was done to it, so that it can go back, and be played again. Files of the scene are read
+  /// once, whatever becomes of them later.
   class Stage
   {
   public:
     /// `record_to`: a directory, or empty. Throws UserError for what is no dynamic scene, and what Recording refuses.
+    /// Writes nothing.
     Stage(const SceneFile &scene, const std::filesystem::path &record_to, unsigned int n_threads);
+
+    /// To be called once before all below: what is done is written down from now on. Returns the scene of an earlier
+    /// recording in the same directory, under the name that it has from now on; an empty path if there was none.
+    /// Throws UserError if there can be no recording.
+    std::filesystem::path
+    begin();
 
     const Problem &
     get_problem() const
@@ -71,7 +81,7 @@ namespace Exemplar::Live
     bool
     go_back();
 
-    /// Go back to the beginning of the scene.
+    /// Go back to the beginning of the scene. What was recorded since then is kept under other names.
     void
     begin_anew();
 
@@ -89,14 +99,24 @@ namespace Exemplar::Live
     };
 
     void
+    make_problem_of(BodyInputs body);
+
+    void
     make_problem_anew();
 
-    const SceneFile               &scene;
-    CompleteScene                  parameters; ///< of the scene, for this many threads
+    void
+    begin_recording();
+
+    CompleteScene   parameters; ///< of the scene, for this many threads
+    MshFile         contents;   ///< of the mesh at the beginning; the same holds for the next two
+    BodyFields      fields;
+    UndividedInputs undivided;
     std::unique_ptr<Problem>       problem;
     std::unique_ptr<SessionPlayer> player;
     const double                   step_size;
     std::optional<Recording>       recording;
+    std::optional<KeptInputs>      kept; ///< null unless there is a recording
+    std::vector<DeclaredKey>       keys; ///< of the recorded scene
     std::optional<SessionLog>      done; ///< since the beginning
     std::vector<Moment>            moments;
   };

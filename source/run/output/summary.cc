@@ -4,6 +4,7 @@
 #include <exemplar/base/message_text.h>
 #include <exemplar/base/version.h>
 #include <exemplar/run/output/summary.h>
+#include <exemplar/run/output/weight_names.h>
 #include <exemplar/run/problem/inventory.h>
 
 #include <deal.II/base/config.h>
@@ -185,6 +186,36 @@ namespace Exemplar
         json["geo_confinement"] = *body.geo_walls;
     }
 
+    /// Whole numbers, ascending, as text: "0-3 7 9-12".
+    std::string
+    ranges_of(const std::vector<unsigned int> &numbers)
+    {
+      std::string text;
+      for (std::size_t i = 0, next = 0; i < numbers.size(); i = next)
+      {
+        for (next = i + 1; next < numbers.size() && numbers[next] == numbers[next - 1] + 1;)
+          ++next;
+        text += (i > 0 ? " " : "") + std::to_string(numbers[i]);
+        text += next - i > 1 ? "-" + std::to_string(numbers[next - 1]) : "";
+      }
+      return text;
+    }
+
+    /// Who is held, by the numbers of nodes in frames, and how examples are called: for pages that show the run.
+    void
+    add_names(const Problem &problem, Json &json)
+    {
+      const ExamplePoses &poses = problem.examples.poses;
+      for (unsigned int i = 0; i < poses.size(); ++i)
+        json["example_names"].push_back(printable(short_name_of_pose(poses, i)));
+      if (problem.body.exchange().n_processes() > 1)
+        return; // each has a part of the nodes
+      const Handles &handles = problem.constraints.handles;
+      for (unsigned int handle = 0; handle < handles.size(); ++handle)
+        json["handles"].push_back({ { "name", printable(handles.name(handle)) },
+                                    { "nodes", ranges_of(handles.nodes(handle)) } });
+    }
+
     void
     add_memory(const Problem &problem, const SharedNumbers &numbers, Json &json)
     {
@@ -212,6 +243,7 @@ namespace Exemplar
               Json json;
               add_program(problem, numbers, json);
               add_body(problem, numbers, mesh_sha256, json);
+              add_names(problem, json);
               json["linear_solver"]  = problem.system.bordered().traits().name;
               json["examples"]       = problem.examples.poses.size();
               json["steps"]          = problem.state.step;

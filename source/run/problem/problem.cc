@@ -93,8 +93,11 @@ namespace Exemplar
     check_start(*this);
     if (!parameters.session.empty())
     {
-      session = std::make_unique<SessionPlayer>(*this);
-      session->play(read_session(parameters.session));
+      session                  = std::make_unique<SessionPlayer>(*this);
+      RecordedSession recorded = read_session(parameters.session);
+      actions.warnings.insert(actions.warnings.end(), recorded.warnings.begin(),
+                              recorded.warnings.end());
+      session->play(std::move(recorded.events), parameters.session);
     }
   }
 

@@ -59,7 +59,7 @@ namespace Exemplar
   }
 
   void
-  Problem::set_importance(const double importance)
+  Problem::check_importance(const double importance) const
   {
     if (examples.poses.size() == 0 || parameters.scene == SceneKind::interpolation)
       throw UserError(
@@ -69,6 +69,12 @@ namespace Exemplar
     if (!(importance > 0. && importance <= 1.))
       throw UserError("Examples/Importance: it is " + shortest_text(importance)
                       + ", but must be above 0 and at most 1.");
+  }
+
+  void
+  Problem::set_importance(const double importance)
+  {
+    check_importance(importance);
     changes.count("importance");
     parameters.examples.importance = importance;
     if (body.material.has_elasticity_of_examples())
@@ -167,12 +173,18 @@ namespace Exemplar
   }
 
   void
-  Problem::set_damping(const double mass_damping, const double stiffness_damping)
+  Problem::check_damping(const double mass_damping, const double stiffness_damping) const
   {
     if (actions.integrator == nullptr)
       throw UserError(parameters.name + ": only a dynamic scene is damped. Set Scene = dynamic.");
     if (!(mass_damping >= 0. && stiffness_damping >= 0.))
       throw UserError("Time/Mass damping and Time/Stiffness damping must not be negative.");
+  }
+
+  void
+  Problem::set_damping(const double mass_damping, const double stiffness_damping)
+  {
+    check_damping(mass_damping, stiffness_damping);
     changes.count("mass_damping or stiffness_damping");
     actions.integrator->set_damping(mass_damping, stiffness_damping);
     solver->forget(); // what it remembers has been damped otherwise

@@ -74,6 +74,40 @@ namespace Exemplar
              + " at least, or Model/Background = corotational.";
     }
 
+    // Fibres so many times stiffer than the material around them, and a yield stress of so small a part of Young's
+    // modulus: states were found 1e-2 of the body's size apart where the tolerance was 1e-8 and where it was 1e-12.
+    constexpr double great_fibres = 1e4, little_yield = 1e-5;
+
+    Warning
+    review_extremes(const Problem &problem)
+    {
+      Warning found;
+      problem.parameters.material.for_each_section(
+          [&](const ElasticConstants &constants, const std::string &section)
+          {
+            const double young  = constants.youngs_modulus;
+            const double fibres = constants.own.at("Fibre stiffness"),
+                         yield  = constants.own.at("Yield stress");
+            const bool hardens  = constants.own.at("Kinematic hardening") > 0.
+                                 || constants.own.at("Isotropic hardening") > 0.;
+            if (fibres > great_fibres * young)
+              found = section + "/Fibre stiffness = " + short_text(fibres) + " Pa is "
+                      + short_text(fibres / young)
+                      + " times Young's modulus: forces in balance to Solver/Tolerance may leave "
+                        "places that are off by a "
+                        "hundredth of the body. Take less stiff fibres, or compare with "
+                        "Solver/Tolerance = 1e-12.";
+            else if (yield > 0. && yield < little_yield * young && !hardens)
+              found = section + "/Yield stress = " + short_text(yield)
+                      + " Pa without hardening, with a Young's modulus of " + short_text(young)
+                      + " Pa: such a body flows nearly without resistance, and has more than one "
+                        "state "
+                        "of equilibrium. Set "
+                      + section + "/Isotropic hardening, or a greater yield stress.";
+          });
+      return found;
+    }
+
     Warning
     review_mass_damping(const Problem &problem)
     {
@@ -182,10 +216,11 @@ namespace Exemplar
   std::vector<std::string>
   scene_warnings(const Problem &problem)
   {
-    std::vector<Warning> found = { review_poissons_ratio(problem),     review_background(problem),
-                                   review_mass_damping(problem),       review_tolerance(problem),
-                                   review_prescribed_weights(problem), review_lone_example(problem),
-                                   review_box(problem.parameters.mesh) };
+    std::vector<Warning> found
+        = { review_poissons_ratio(problem),      review_background(problem),
+            review_mass_damping(problem),        review_tolerance(problem),
+            review_prescribed_weights(problem),  review_lone_example(problem),
+            review_box(problem.parameters.mesh), review_extremes(problem) };
     for (const HandleParameters &handle : problem.parameters.handles)
       found.push_back(review_components(handle));
     std::vector<std::string> warnings;

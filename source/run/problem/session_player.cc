@@ -1,49 +1,36 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
-#include <exemplar/base/message_text.h>
 #include <exemplar/run/problem/problem.h>
+#include <exemplar/run/problem/session_checks.h>
+#include <exemplar/run/problem/session_form.h>
 #include <exemplar/run/problem/session_player.h>
-
-#include <fmt/core.h>
-
-#include <algorithm>
-#include <limits>
 
 namespace Exemplar
 {
   namespace
   {
-    constexpr std::size_t any_number = std::numeric_limits<std::size_t>::max();
-
     dealii::Point<3>
     point_at(const std::vector<double> &numbers, const std::size_t first)
     {
       return { numbers[first], numbers[first + 1], numbers[first + 2] };
     }
-
-    std::string
-    title(const SessionEvent &event)
-    {
-      return "Session, step " + std::to_string(event.step) + ", " + in_quotes(event.what)
-             + (event.name.empty() ? "" : " of " + in_quotes(event.name));
-    }
   } // namespace
 
-  const std::map<std::string, SessionPlayer::Verb> SessionPlayer::verbs
-      = { { "grab", { &SessionPlayer::grab, any_number, any_number } },
-          { "move", { &SessionPlayer::move, 0, 3 } },
-          { "release", { &SessionPlayer::release, 0, 0 } },
-          { "hold", { &SessionPlayer::hold, any_number, any_number } },
-          { "shift", { &SessionPlayer::shift, 0, 3 } },
-          { "let go", { &SessionPlayer::let_go, 0, 0 } },
-          { "young", { &SessionPlayer::set_material, 0, 1 } },
-          { "poisson", { &SessionPlayer::set_material, 0, 1 } },
-          { "density", { &SessionPlayer::set_material, 0, 1 } },
-          { "importance", { &SessionPlayer::set_importance, 0, 1 } },
-          { "weights", { &SessionPlayer::hold_weights, 0, any_number } },
-          { "gravity", { &SessionPlayer::set_gravity, 0, 3 } },
-          { "damping", { &SessionPlayer::set_damping, 0, 2 } },
-          { "forget", { &SessionPlayer::forget, 0, 0 } } };
+  const std::map<std::string, SessionPlayer::Action> SessionPlayer::actions
+      = { { "grab", &SessionPlayer::grab },
+          { "move", &SessionPlayer::move },
+          { "release", &SessionPlayer::release },
+          { "hold", &SessionPlayer::hold },
+          { "shift", &SessionPlayer::shift },
+          { "let go", &SessionPlayer::let_go },
+          { "young", &SessionPlayer::set_material },
+          { "poisson", &SessionPlayer::set_material },
+          { "density", &SessionPlayer::set_material },
+          { "importance", &SessionPlayer::set_importance },
+          { "weights", &SessionPlayer::hold_weights },
+          { "gravity", &SessionPlayer::set_gravity },
+          { "damping", &SessionPlayer::set_damping },
+          { "forget", &SessionPlayer::forget } };
 
   SessionPlayer::SessionPlayer(Problem &problem)
       : problem(problem), springs(std::make_shared<Springs>())
@@ -57,26 +44,16 @@ namespace Exemplar
   void
   SessionPlayer::apply(const SessionEvent &event)
   {
-    const auto verb = verbs.find(event.what);
-    if (verb == verbs.end())
-      throw UserError(title(event) + ": this cannot be done to a body.");
-    const auto &[act, n_nodes, n_numbers] = verb->second;
-    if ((n_nodes != any_number && event.nodes.size() != n_nodes)
-        || (n_numbers != any_number && event.numbers.size() != n_numbers))
-      throw UserError(fmt::format("{}: it has {} nodes and {} numbers, which is not what it takes.",
-                                  title(event), event.nodes.size(), event.numbers.size()));
-    for (const unsigned int node : event.nodes)
-      if (node >= problem.body.mesh.n_nodes())
-        throw UserError(fmt::format("{}: there is no node {}; nodes are counted from 0, and there "
-                                    "are {}. Was it recorded with another mesh?",
-                                    title(event), node, problem.body.mesh.n_nodes()));
-    (this->*act)(event);
+    check_form(event, problem.body.mesh.n_nodes(), title_of(event, file));
+    (this->*actions.at(event.what))(event);
   }
 
   void
-  SessionPlayer::play(Session session)
+  SessionPlayer::play(Session session, std::string name)
   {
+    check_session(problem, session, name);
     recorded = std::move(session);
+    file     = std::move(name);
     n_played = 0;
   }
 
@@ -109,18 +86,10 @@ namespace Exemplar
   SessionPlayer::grab(const SessionEvent &event)
   {
     const std::size_t n = event.nodes.size();
-    if (n == 0 || event.numbers.size() != 4 * n + 4)
-      throw UserError(title(event)
-                      + ": it takes nodes, four numbers for each, an anchor and a stiffness.");
-    Spring spring{ {}, point_at(event.numbers, 4 * n), event.numbers.back() };
+    Spring            spring{ {}, point_at(event.numbers, 4 * n), event.numbers.back() };
     for (std::size_t i = 0; i < n; ++i)
       spring.ends.push_back(
           { event.nodes[i], event.numbers[4 * i], point_at(event.numbers, 4 * i + 1) });
-    const bool has_shares = std::all_of(spring.ends.begin(), spring.ends.end(),
-                                        [](const Spring::End &end) { return end.share >= 0.; });
-    if (!has_shares || !(spring.stiffness > 0.))
-      throw UserError(title(event)
-                      + ": the stiffness of a spring must be above 0, and no share below it.");
     (*springs)[event.name] = std::move(spring);
     problem.solver->forget(); // its factors are of another matrix
   }
@@ -130,7 +99,7 @@ namespace Exemplar
   {
     const auto spring = springs->find(event.name);
     if (spring == springs->end())
-      throw UserError(title(event) + ": there is no such spring.");
+      throw UserError(title_of(event, file) + ": there is no such spring.");
     spring->second.anchor = point_at(event.numbers, 0);
   }
 
@@ -138,7 +107,7 @@ namespace Exemplar
   SessionPlayer::release(const SessionEvent &event)
   {
     if (springs->erase(event.name) == 0)
-      throw UserError(title(event) + ": there is no such spring.");
+      throw UserError(title_of(event, file) + ": there is no such spring.");
     problem.solver->forget();
   }
 
@@ -146,11 +115,7 @@ namespace Exemplar
   SessionPlayer::hold(const SessionEvent &event)
   {
     const std::vector<unsigned int> &nodes = event.nodes;
-    if (nodes.empty() || event.numbers.size() != 3 * nodes.size()
-        || !std::is_sorted(nodes.begin(), nodes.end(), std::less_equal<>()))
-      throw UserError(title(event)
-                      + ": it takes nodes in ascending order and three numbers for each.");
-    const auto place = std::make_shared<Place>();
+    const auto                       place = std::make_shared<Place>();
     for (std::size_t i = 0; i < nodes.size(); ++i)
       place->displacements.push_back(point_at(event.numbers, 3 * i));
     problem.change_handles(
@@ -176,7 +141,7 @@ namespace Exemplar
   {
     const auto place = places.find(event.name);
     if (place == places.end())
-      throw UserError(title(event) + ": no such handle was held by hand.");
+      throw UserError(title_of(event, file) + ": no such handle was held by hand.");
     place->second->shift = point_at(event.numbers, 0);
   }
 
@@ -190,12 +155,7 @@ namespace Exemplar
   void
   SessionPlayer::set_material(const SessionEvent &event)
   {
-    ChangedConstants changed;
-    (event.what == "young"     ? changed.youngs_modulus
-     : event.what == "poisson" ? changed.poissons_ratio
-                               : changed.density)
-        = event.numbers;
-    problem.set_material(changed);
+    problem.set_material(*constants_of(event));
   }
 
   void

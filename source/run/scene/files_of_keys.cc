@@ -16,53 +16,58 @@ namespace Exemplar
              && text.compare(text.size() - end.size(), end.size(), end) == 0;
     }
 
-    /// The files of a sequence that are there.
-    void
-    append_sequence(const std::string &pattern, std::vector<std::filesystem::path> &files)
-    {
-      try
-      {
-        for (const std::filesystem::path &file : expand_patterns({ pattern }))
-          files.push_back(file);
-      }
-      catch (const UserError &)
-      {
-        files.emplace_back(pattern); // who reads it says that nothing matches
-      }
-    }
-
     /// The files that a selection names.
     void
-    append_files(const Selection                    &selection,
-                 const std::string                  &key,
-                 std::vector<std::filesystem::path> &files)
+    append_names(const Selection          &selection,
+                 const std::string        &key,
+                 std::vector<std::string> &names)
     {
       if (!selection.file().empty())
-        files.emplace_back(selection.file());
+        names.push_back(selection.file());
       if (!selection.map().empty())
-        files.emplace_back(split_map_name(selection.map(), key).file);
+        names.push_back(split_map_name(selection.map(), key).file);
     }
   } // namespace
 
-  void
-  append_files(const DeclaredKey &key, std::vector<std::filesystem::path> &files)
+  std::vector<std::string>
+  file_names(const DeclaredKey &key)
   {
-    const bool is_map = ends_with(key.key, " map") || ends_with(key.key, " maps");
+    const bool               is_map = ends_with(key.key, " map") || ends_with(key.key, " maps");
+    std::vector<std::string> names;
     if (key.is_input_file)
       for (const std::string &file : split_trimmed(key.value, key.is_list ? ',' : '\n'))
-        if (is_map && !file.empty())
-          files.emplace_back(split_map_name(file, key.path()).file);
-        else if (key.key == "Follow cache" && !file.empty())
-          append_sequence(file, files);
-        else
-          files.emplace_back(file);
+        names.push_back(is_map && !file.empty() ? split_map_name(file, key.path()).file : file);
     else if (key.key == "Fibre direction")
     {
       if (const auto ends = split_fibre_ends(key.value, key.path()))
         for (const Selection &end : { ends->from, ends->to })
-          append_files(end, key.path(), files);
+          append_names(end, key.path(), names);
     }
     else if (key.key == "Select")
-      append_files(Selection{ key.value }, key.path(), files);
+      append_names(Selection{ key.value }, key.path(), names);
+    return names;
+  }
+
+  std::vector<std::filesystem::path>
+  files_of_name(const DeclaredKey &key, const std::string &name)
+  {
+    if (key.key != "Follow cache" || name.empty())
+      return { name };
+    try
+    {
+      return expand_patterns({ name });
+    }
+    catch (const UserError &)
+    {
+      return { name }; // who reads it says that nothing matches
+    }
+  }
+
+  void
+  append_files(const DeclaredKey &key, std::vector<std::filesystem::path> &files)
+  {
+    for (const std::string &name : file_names(key))
+      for (const std::filesystem::path &file : files_of_name(key, name))
+        files.push_back(file);
   }
 } // namespace Exemplar

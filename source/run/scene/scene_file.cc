@@ -132,11 +132,12 @@ namespace Exemplar
     check_names(handle_names, "Handles");
     check_names(load_names, "Loads");
     refuse_misspelt_names(unknown);
-    std::vector<std::string> warnings
-        = drop_unlisted(named, assignments, overrides, "Handles", handle_names);
-    for (const std::string &warning :
-         drop_unlisted(named, assignments, overrides, "Loads", load_names))
-      warnings.push_back(warning);
+    std::vector<std::string> warnings;
+    for (const auto &[section, names] :
+         { std::pair("Handles", &handle_names), std::pair("Loads", &load_names) })
+      for (const std::string &warning :
+           drop_unlisted(named, assignments, overrides, section, *names))
+        warnings.push_back(warning);
     declare_named_subsections(named);
     keys.apply(unknown, directory());
     keys.apply(named, directory());

@@ -16,6 +16,8 @@ namespace Exemplar
   {
     const std::string head = "exemplar session 1";
 
+    constexpr std::size_t max_name = 200; ///< bytes; those of the live page are shorter
+
     template <typename Number>
     std::vector<Number>
     numbers_in(const std::string &text, const std::string &place)
@@ -45,6 +47,12 @@ namespace Exemplar
     if (!step || *step == 0)
       throw UserError(place + ": " + in_quotes(fields[0])
                       + " is no number of a step, which is 1 or more.");
+    for (const std::string &word : { fields[1], fields[2] })
+      if (word.size() > max_name || find_unprintable(word) != std::string::npos)
+        throw UserError(
+            fmt::format("{}: {} is no name of a session, which has at most {} bytes, all "
+                        "of them text.",
+                        place, in_quotes(word), max_name));
     return { *step, fields[1], fields[2], numbers_in<unsigned int>(fields[3], place),
              numbers_in<double>(fields[4], place) };
   }
@@ -67,7 +75,7 @@ namespace Exemplar
     return line + "\n";
   }
 
-  Session
+  RecordedSession
   read_session(const std::filesystem::path &file)
   {
     std::string reason;
@@ -79,15 +87,23 @@ namespace Exemplar
     if (!std::getline(lines, line) || line != head)
       throw UserError("Session/File " + file.string() + " does not begin with '" + head
                       + "'. Give a file that exemplar live --record has written.");
-    Session session;
+    RecordedSession session;
     for (unsigned int number = 2; std::getline(lines, line); ++number)
     {
-      const std::string  place = fmt::format("{}:{}", file.string(), number);
-      const SessionEvent event = event_of_line(line, place);
-      if (!session.empty() && event.step < session.back().step)
+      const std::string place = fmt::format("{}:{}", file.string(), number);
+      if (lines.eof()) // its new line was not written, so a number at its end may be cut
+      {
+        session.warnings.push_back(place
+                                   + ": the last line has no end, as if the program that wrote it "
+                                     "was killed. It is left out.");
+        break;
+      }
+      SessionEvent event = event_of_line(line, place);
+      event.line         = number;
+      if (!session.events.empty() && event.step < session.events.back().step)
         throw UserError(fmt::format("{}: step {} comes after step {}. Steps must ascend.", place,
-                                    event.step, session.back().step));
-      session.push_back(event);
+                                    event.step, session.events.back().step));
+      session.events.push_back(std::move(event));
     }
     return session;
   }

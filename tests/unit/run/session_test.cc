@@ -144,7 +144,7 @@ namespace Exemplar::Testing
       std::string   text    = head_of_session();
       for (const SessionEvent &event : session)
         text += line_of(event);
-      const Session read = read_session(write_file("session.txt", text));
+      const Session read = read_session(write_file("session.txt", text)).events;
       ASSERT_EQ(read.size(), session.size());
       for (std::size_t i = 0; i < read.size(); ++i)
       {

@@ -6,6 +6,7 @@
 
 #include <fmt/core.h>
 
+#include <filesystem>
 #include <string>
 
 // What belongs to a weight or to its region is called so in statistics.csv and in the names of files.
@@ -26,6 +27,15 @@ namespace Exemplar
   {
     const unsigned int n = poses.size();
     return fmt::format("{}_{}", name_of_region(prefix, poses, weight / n), weight % n);
+  }
+
+  /// An example as people call it: its file without folders and ending, "rest", or "formula i".
+  inline std::string
+  short_name_of_pose(const ExamplePoses &poses, const unsigned int i)
+  {
+    const std::string &name = poses.name(i);
+    return name.find(';') == std::string::npos ? std::filesystem::path(name).stem().string()
+                                               : fmt::format("formula {}", i); // which is long
   }
 } // namespace Exemplar
 

@@ -55,10 +55,14 @@ namespace Exemplar
     void
     set_material(const ChangedConstants &changed);
 
-    /// Between steps, give the examples another importance. Throws UserError for a scene without
-    /// examples, an interpolation, or a number that is not above 0 and at most 1.
+    /// Between steps, give the examples another importance. Throws as check_importance().
     void
     set_importance(double importance);
+
+    /// Throws UserError for a scene without examples, an interpolation, or a number that is not above 0 and at
+    /// most 1.
+    void
+    check_importance(double importance) const;
 
     /// Between steps, let the weights of the examples be these from the next step on, of each region one after the
     /// other; empty: steps find them again. Throws UserError, with nothing changed, for what
@@ -81,10 +85,13 @@ namespace Exemplar
     void
     set_pose(unsigned int i, const std::vector<dealii::Point<3>> &places);
 
-    /// Between steps, damp otherwise: mass damping [1/s] and stiffness damping [s]. Throws UserError
-    /// for a scene that is not dynamic, and for negative numbers.
+    /// Between steps, damp otherwise: mass damping [1/s] and stiffness damping [s]. Throws as check_damping().
     void
     set_damping(double mass_damping, double stiffness_damping);
+
+    /// Throws UserError for a scene that is not dynamic, and for negative numbers.
+    void
+    check_damping(double mass_damping, double stiffness_damping) const;
 
     /// Between steps, let Phi have one more term, which is none of Psi. Throws whatever `make` throws,
     /// and UserError for an interpolation, with nothing changed. All processes must call this.

@@ -40,9 +40,9 @@ namespace Exemplar
     void
     apply(const SessionEvent &event);
 
-    /// From now on begin_step() does what this says.
+    /// From now on begin_step() does what this session of a file says. Throws as check_session().
     void
-    play(Session recorded);
+    play(Session recorded, std::string file);
 
     /// Do what was done before the problem's next step.
     void
@@ -67,14 +67,7 @@ namespace Exemplar
   private:
     using Action = void (SessionPlayer::*)(const SessionEvent &);
 
-    /// What may be done, and how many nodes and numbers it takes; anything: any_number.
-    struct Verb
-    {
-      Action      act;
-      std::size_t n_nodes, n_numbers;
-    };
-
-    static const std::map<std::string, Verb> verbs;
+    static const std::map<std::string, Action> actions;
 
     // actions
     void
@@ -113,6 +106,7 @@ namespace Exemplar
     const std::shared_ptr<Springs>                springs;
     std::map<std::string, std::shared_ptr<Place>> places; ///< by names of handles
     Session                                       recorded;
+    std::string                                   file;         ///< of `recorded`, for messages
     std::size_t                                   n_played = 0; ///< of `recorded`
   };
 } // namespace Exemplar

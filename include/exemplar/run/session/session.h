@@ -17,6 +17,7 @@ namespace Exemplar
     std::string               name; ///< of a spring or a handle; may be empty
     std::vector<unsigned int> nodes;
     std::vector<double>       numbers;
+    unsigned int              line = 0; ///< of the file from which it was read; 0: none
   };
 
   /// In the order in which it was done.
@@ -34,8 +35,16 @@ namespace Exemplar
   std::string
   head_of_session();
 
+  /// What a session file holds.
+  struct RecordedSession
+  {
+    Session events;
+    std::vector<std::string>
+        warnings; ///< of a last line that was not written whole, which is left out
+  };
+
   /// Throws UserError, with the line, for what is no session, or for steps that do not ascend.
-  Session
+  RecordedSession
   read_session(const std::filesystem::path &file);
 } // namespace Exemplar
 

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/digest.h>
+#include <exemplar/base/text_file.h>
+#include <exemplar/live/kept_inputs.h>
+#include <exemplar/run/scene/files_of_keys.h>
+
+#include <algorithm>
+
+namespace Exemplar::Live
+{
+  namespace fs = std::filesystem;
+
+  namespace
+  {
+    /// Of the contents and names of files, whatever directory they are in.
+    std::string
+    digest_of(const std::vector<fs::path> &files)
+    {
+      std::string text;
+      for (const fs::path &file : files)
+        text += sha256(file) + " " + file.filename().string() + "\n";
+      return sha256_of_text(text);
+    }
+
+    bool
+    are_there(const std::vector<fs::path> &files)
+    {
+      return std::all_of(files.begin(), files.end(),
+                         [](const fs::path &file) { return fs::exists(file); });
+    }
+
+    void
+    require_regular(const std::string &key, const std::vector<fs::path> &files)
+    {
+      for (const fs::path &file : files)
+        if (!fs::is_regular_file(file))
+          throw UserError(
+              key + ": " + file.string()
+              + " is no regular file, so it cannot be kept for a recording. Save it as a "
+                "file, or leave out --record.");
+    }
+
+    /// The copies that the folder of a digest is to hold.
+    std::vector<fs::path>
+    copies_in(const fs::path &folder, const std::vector<fs::path> &files)
+    {
+      std::vector<fs::path> copies;
+      for (const fs::path &file : files)
+        copies.push_back(folder / file.filename());
+      return copies;
+    }
+
+    void
+    copy(const std::vector<fs::path> &files, const fs::path &folder)
+    {
+      std::error_code error;
+      fs::create_directories(folder, error);
+      for (const fs::path &file : files)
+        if (!error)
+          fs::copy_file(file, folder / file.filename(), fs::copy_options::overwrite_existing,
+                        error);
+      if (error)
+        throw UserError("--record: inputs of the scene cannot be copied to " + folder.string()
+                        + ": " + error.message() + ". Give another directory.");
+    }
+
+    std::string
+    replaced(std::string text, const std::string &from, const std::string &to)
+    {
+      for (std::size_t i = 0; (i = text.find(from, i)) != std::string::npos; i += to.size())
+        text.replace(i, from.size(), to);
+      return text;
+    }
+  } // namespace
+
+  KeptInputs::KeptInputs(const SceneFile &scene) : keys(scene.get_keys())
+  {
+    for (const DeclaredKey &key : keys)
+      for (const std::string &name : file_names(key))
+        if (const auto files = files_of_name(key, name); !name.empty() && are_there(files))
+        {
+          require_regular(key.path(), files);
+          all.push_back({ key.path(), name, files, digest_of(files) });
+        }
+  }
+
+  std::vector<DeclaredKey>
+  KeptInputs::copy_to(const fs::path &directory) const
+  {
+    std::vector<Named> named = all; // the longest name first, as it may contain another
+    std::stable_sort(named.begin(), named.end(),
+                     [](const Named &a, const Named &b) { return a.name.size() > b.name.size(); });
+    std::vector<DeclaredKey> copied = keys;
+    for (const Named &input : named)
+    {
+      const fs::path folder = fs::path("inputs") / input.digest.substr(0, 16);
+      const auto     copies = copies_in(directory / folder, input.files);
+      if (!are_there(copies) || digest_of(copies) != input.digest)
+        copy(input.files, directory / folder);
+      if (digest_of(copies) != input.digest)
+        throw UserError(input.key + ": " + input.name
+                        + " has changed while it was read. Start again when it is saved.");
+      for (DeclaredKey &key : copied)
+        if (key.path() == input.key)
+          key.value = replaced(key.value, input.name,
+                               (folder / fs::path(input.name).filename()).string());
+    }
+    return copied;
+  }
+} // namespace Exemplar::Live

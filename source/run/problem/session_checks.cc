@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
+#include <exemplar/run/problem/problem.h>
+#include <exemplar/run/problem/session_checks.h>
+#include <exemplar/run/problem/session_form.h>
+
+#include <fmt/core.h>
+
+#include <set>
+
+namespace Exemplar
+{
+  namespace
+  {
+    /// What a session has made of a problem, as far as later events depend on it.
+    class Rehearsal
+    {
+    public:
+      explicit Rehearsal(Problem &problem)
+          : problem(problem), handles(problem.constraints.handles), holding(handles.holding()),
+            material(problem.body.material)
+      {
+      }
+
+      Rehearsal(const Rehearsal &) = delete;
+      Rehearsal &
+      operator=(const Rehearsal &)
+          = delete;
+
+      ~Rehearsal()
+      {
+        handles.restore(holding);
+      }
+
+      /// Throws UserError for what would be refused now.
+      void
+      follow(const SessionEvent &event)
+      {
+        if (event.what == "grab")
+          springs.insert(event.name);
+        else if (event.what == "move" || event.what == "release")
+          use_spring(event);
+        else if (event.what == "hold" || event.what == "shift" || event.what == "let go")
+          use_handle(event);
+        else if (event.what == "importance")
+          problem.check_importance(event.numbers[0]);
+        else if (event.what == "weights")
+          problem.examples.weights.check_held(event.numbers);
+        else if (event.what == "damping")
+          problem.check_damping(event.numbers[0], event.numbers[1]);
+        else if (const auto constants = constants_of(event))
+          material = material.with(*constants);
+      }
+
+    private:
+      void
+      use_spring(const SessionEvent &event)
+      {
+        if (springs.count(event.name) == 0)
+          throw UserError("there is no such spring. One is made by grab.");
+        if (event.what == "release")
+          springs.erase(event.name);
+      }
+
+      void
+      use_handle(const SessionEvent &event)
+      {
+        if (event.what == "hold")
+        {
+          for (unsigned int handle = 0; handle < handles.size(); ++handle)
+            if (handles.name(handle) == event.name)
+              handles.let_go(event.name);
+          handles.grab(event.name, event.nodes,
+                       [](const std::vector<dealii::Point<3>> &rest, double)
+                       { return std::vector<dealii::Tensor<1, 3>>(rest.size()); });
+          held.insert(event.name);
+        }
+        else if (event.what == "shift" && held.count(event.name) == 0)
+          throw UserError("no such handle was held by hand. One is made by hold.");
+        else if (event.what == "let go")
+        {
+          handles.let_go(event.name);
+          held.erase(event.name);
+        }
+      }
+
+      const Problem                      &problem;
+      Handles                            &handles;
+      const std::vector<Handles::Holding> holding; ///< at the beginning
+      Material                            material;
+      std::set<std::string>               springs, held; ///< by name
+    };
+  } // namespace
+
+  void
+  check_session(Problem &problem, const Session &session, const std::string &file)
+  {
+    Rehearsal rehearsal(problem);
+    for (const SessionEvent &event : session)
+    {
+      const std::string title = title_of(event, file);
+      check_form(event, problem.body.mesh.n_nodes(), title);
+      try
+      {
+        rehearsal.follow(event);
+      }
+      catch (const UserError &refusal)
+      {
+        throw UserError(title + ": " + refusal.what());
+      }
+    }
+  }
+} // namespace Exemplar
