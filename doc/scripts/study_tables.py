@@ -18,12 +18,9 @@ A page says itself which table it wants, in a comment before it; a table ends wi
 <!-- extrapolation: NAME: AXIS; COLUMN; EXACT -->   a quantity as a mesh is refined, and its limit; EXACT: from elsewhere
 <!-- space: NAME: NU -->             deflection over the limit and seconds of a study of errors in space, a line a mesh, a
                                     column an element; <!-- reach: NAME: ERROR --> seconds to that error, a column a ratio of Poisson
-<!-- effectivity: NAME -->        estimated over true errors of doc/scripts/measure_space_error.py: of displacements, then of energies
-                                    or, in scenes with weights to find, of these
 <!-- dial: NAME -->            of a study of importances: how much of its way from importance 0 to 1 the probe has gone, a line a motion
                                and an energy
-<!-- stability: all -->, <!-- elements: all -->, <!-- failures: all -->     the stability studies: a line a study, an
-                                    element, a case that failed
+<!-- elements: all -->, <!-- failures: all -->     the stability studies: a line an element, a case that failed
 """
 import csv
 import math
@@ -218,18 +215,6 @@ def reach(name, where, bound):
     return markdown(["element", *(f"ν = {nu}" for nu in nus)], body)
 
 
-def effectivity(name, where, _):
-    rows, lines = read(name), {}
-    for row in rows:
-        second = "energy" if row["energy"] else "weights"
-        ratios = [float(row[what]) / float(row[what + "_true"]) for what in ("displacement", second)]
-        line = lines.setdefault((row["body"], row["mesh"], row["dilatation"], "weights" if second == "weights" else "energy"), {})
-        line[row["nu"]] = " / ".join(f"{ratio:.2f}" for ratio in ratios)
-    nus = list(dict.fromkeys(row["nu"] for row in rows))
-    return markdown(["body", "mesh", "dilatation", "second number", *(f"ν = {nu}" for nu in nus)],
-                    [[*key, *(line[nu] for nu in nus)] for key, line in lines.items()])
-
-
 def dial(name, *_):
     """The way of the probe, as far as it leads where the probe is at importance 1."""
     rows, body = read(name), []
@@ -269,12 +254,6 @@ def summary(rows):
             short(min(numbers(rows, "min_det_F"))), span(numbers(rows, "condition_matrix")), schur, most(rows, "kkt_residual")]
 
 
-def stability(*_):
-    runs = stability_runs()
-    body = [[f"[{study}](../prm/studies/stability_{study}.prm)", *summary(rows)] for study, rows in runs.items()]
-    return markdown(["study", *STABILITY], body + [["all", *summary(sum(runs.values(), []))[:4], *[""] * 7]])
-
-
 def elements(*_):
     runs = stability_runs()
     body = []
@@ -295,7 +274,7 @@ def failures(*_):
 
 
 KINDS = {make.__name__: make
-         for make in (table, orders, cost, extrapolation, dial, space, reach, effectivity, stability, elements, failures)}
+         for make in (table, orders, cost, extrapolation, dial, space, reach, elements, failures)}
 
 
 def page_with_tables(page):
