@@ -240,18 +240,15 @@ def stability_runs():
 
 
 STABILITY = ["cases", "done", "failure reported", "wrong or crashed", "worst residual", "energy from nowhere",
-             "above the bound of implicit Euler", "least det F", "condition of A", "of the Schur complement", "worst KKT residual"]
+             "above the bound of implicit Euler", "least det F", "condition of A"]
 
 
 def summary(rows):
     """The columns STABILITY of some runs."""
-    schur = span(numbers(rows, "condition_schur"))
-    if any(row["condition_schur"] == "not definite" for row in rows):
-        schur += ", not definite"
     return [str(len(rows)), *(str(sum(row["exit_status"] == status for row in rows)) for status in "02"),
             str(sum(row["exit_status"] not in "02" for row in rows)),
             short(max(numbers(rows, "residual"))), most(rows, "energy_growth"), most(rows, "bound_excess"),
-            short(min(numbers(rows, "min_det_F"))), span(numbers(rows, "condition_matrix")), schur, most(rows, "kkt_residual")]
+            short(min(numbers(rows, "min_det_F"))), span(numbers(rows, "condition_matrix"))]
 
 
 def elements(*_):
