@@ -17,7 +17,7 @@ A page says itself which table it wants, in a comment before it; a table ends wi
 <!-- cost: NAME: AXIS -->              seconds of the cheapest run whose error is below a bound, a column a value of AXIS
 <!-- extrapolation: NAME: AXIS; COLUMN; EXACT -->   a quantity as a mesh is refined, and its limit; EXACT: from elsewhere
 <!-- space: NAME: NU -->             deflection over the limit and seconds of a study of errors in space, a line a mesh, a
-                                    column an element; <!-- reach: NAME: ERROR --> seconds to that error, a column a ratio of Poisson
+                                    column an element
 <!-- dial: NAME -->            of a study of importances: how much of its way from importance 0 to 1 the probe has gone, a line a motion
                                and an energy
 <!-- elements: all -->, <!-- failures: all -->     the stability studies: a line an element, a case that failed
@@ -193,28 +193,6 @@ def space(name, where, nu):
     return markdown(["mesh", *elements], [[mesh, *(cells.get((mesh, element), "–") for element in elements)] for mesh in meshes])
 
 
-def seconds_to(points, bound):
-    """Of (seconds, error), meshes from coarse to fine: where the straight line between two of them, in logarithms, meets the bound
-    for the last time. Text: "<" if the coarsest mesh is there, ">" if the finest is not."""
-    if points[-1][1] > bound:
-        return f"> {short(points[-1][0])} s"
-    for (t0, e0), (t1, e1) in reversed(list(zip(points, points[1:]))):
-        if e0 > bound >= e1:
-            return f"{short(math.exp(math.log(t0) + math.log(t1 / t0) * math.log(e0 / bound) / math.log(e0 / e1)))} s"
-    return f"< {short(points[0][0])} s"
-
-
-def reach(name, where, bound):
-    runs = list(space_runs(name))
-    nus = list(dict.fromkeys(run[2] for run in runs))
-    body = []
-    for element in ELEMENTS.values():
-        lines = [[(run[4], max(abs(run[3] - 1), 1e-4)) for run in runs if run[1:3] == (element, nu)] for nu in nus]
-        if any(lines):
-            body.append([element, *(seconds_to(line, float(bound)) if line else "–" for line in lines)])
-    return markdown(["element", *(f"ν = {nu}" for nu in nus)], body)
-
-
 def dial(name, *_):
     """The way of the probe, as far as it leads where the probe is at importance 1."""
     rows, body = read(name), []
@@ -271,7 +249,7 @@ def failures(*_):
 
 
 KINDS = {make.__name__: make
-         for make in (table, orders, cost, extrapolation, dial, space, reach, elements, failures)}
+         for make in (table, orders, cost, extrapolation, dial, space, elements, failures)}
 
 
 def page_with_tables(page):
