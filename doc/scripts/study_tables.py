@@ -20,7 +20,7 @@ A page says itself which table it wants, in a comment before it; a table ends wi
                                     column an element
 <!-- dial: NAME -->            of a study of importances: how much of its way from importance 0 to 1 the probe has gone, a line a motion
                                and an energy
-<!-- elements: all -->, <!-- failures: all -->     the stability studies: a line an element, a case that failed
+<!-- elements: all -->     the stability studies, a line an element
 """
 import csv
 import math
@@ -238,18 +238,8 @@ def elements(*_):
     return markdown(["element", *STABILITY], body)
 
 
-def failures(*_):
-    body = []
-    for study, rows in stability_runs().items():
-        for row in rows:
-            if row["exit_status"] != "0":
-                values = ", ".join(f"{key.split('/')[-1]} = `{row[key]}`" for key in axes(rows) if not key.startswith("Model/"))
-                body.append([study, element_of(row), values.replace("|", "\\|"), row["status"], row["steps"] or "0"])
-    return markdown(["study", "element", "case", "how it ended", "steps before"], body)
-
-
 KINDS = {make.__name__: make
-         for make in (table, orders, cost, extrapolation, dial, space, elements, failures)}
+         for make in (table, orders, cost, extrapolation, dial, space, elements)}
 
 
 def page_with_tables(page):
