@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Print the tables of doc/models.md that compare the models of a cell, and draw doc/figures/models.png.
+"""Print the tables of doc/paper.md that compare the models of a cell, and draw doc/figures/models.png.
 
 Usage, from the top folder:
 

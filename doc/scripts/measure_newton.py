@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Print the tables of doc/iterations.md: iterations of Newton's method.
+"""Print the tables of doc/measured.md: iterations of Newton's method.
 
 Usage: /usr/bin/python3 doc/scripts/measure_newton.py [BINARY] [PART]...     from anywhere; needs numpy
 PART is drags, turns, interpolation or dynamics; all of them by default, in about three minutes.

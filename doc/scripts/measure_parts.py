@@ -5,7 +5,7 @@
 Usage, from the top folder: python3 doc/scripts/measure_parts.py [PROGRAM]
 
 Runs the cat of prm/studies/scenes/cat.prm as several kinds of scene under `perf record` (Debian: linux-perf) on one thread
-and writes doc/studies/parts.csv, which `python3 doc/scripts/study_tables.py --write` puts into doc/left-out.md. A minute.
+and writes doc/studies/parts.csv. A minute.
 Times are processor time by the functions that were running, memory is what the parts themselves count (memory_mib of
 summary.json); both are of the program as it is, without changes for measuring.
 """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Print the table of doc/stability.md on strong pulls: a bar, a cat and a horse drawn out by one, three and ten lengths.
+"""Print the table of doc/measured.md on strong pulls: a bar, a cat and a horse drawn out by one, three and ten lengths.
 
 Usage: /usr/bin/python3 doc/scripts/measure_pulls.py [BINARY] [BODY]...     from anywhere
 BODY is bar, cat or horse; all of them by default: half an hour. Every run is noted on stderr. Exits with 1 if a run fails.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Print the table of doc/stability.md on recovery: bodies without loads that start crushed, flat or mirrored.
+"""Print the table of doc/measured.md on recovery: bodies without loads that start crushed, flat or mirrored.
 
 Usage: /usr/bin/python3 doc/scripts/measure_recovery.py [BINARY] [BODY]...     from anywhere; needs numpy
 BODY is bar, bar-examples or cat; all of them by default. The bar takes a minute, the cat about

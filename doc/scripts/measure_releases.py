@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Print the table of doc/stability.md on random pulls: a body is drawn somewhere and let go, again and again.
+"""Print the table of doc/measured.md on random pulls: a body is drawn somewhere and let go, again and again.
 
 Usage: PYTHONPATH=build/release/python /usr/bin/python3 doc/scripts/measure_releases.py [--body B] [--reach L] [--steps N] [--seed S] [MATERIAL]...
 B is bar, held at one end and drawn at the other, or cat, which stands on its paws and is drawn at its back. Ten steps of .02 s draw it in a

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How good Output/Space error is: its estimates over errors against refined references, doc/space.md.
+"""How good Output/Space error is: its estimates over errors against refined references, doc/measured.md.
 
     /usr/bin/python3 doc/scripts/measure_space_error.py [bar] [cook] [cat] [lifted] [swing] [--program P]
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Limits under refinement of the bodies in doc/space.md, by elements of high order that share nothing with the program.
+"""Limits under refinement of the bodies in doc/measured.md, by elements of high order that share nothing with the program.
 
     /usr/bin/python3 doc/scripts/measure_space_limits.py [bar] [cook] [cat] [horse] [--write]
 

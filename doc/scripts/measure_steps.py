@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Print the first table of doc/speed.md: where the time of a step goes, beside the paper's.
+"""Print the first table of doc/measured.md: where the time of a step goes, beside the paper's.
 
 Usage: python3 doc/scripts/measure_steps.py [BINARY]     on a quiet machine
 Runs a cat and a horse scene five times without frames. A time is the median over the runs of the

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Run the paper's scenes and draw doc/figures/{fig1,fig2,fig3,cat}.png.
+"""Run the paper's scenes and draw doc/figures/{fig1,fig2,fig3}.png.
 
 Usage, from the top folder:
 
     xvfb-run -a /usr/bin/python3 doc/scripts/render_figures.py build/release/exemplar [FIGURE]...
 
-FIGURE is fig1, fig2, fig3 or cat; all of them by default. The runs go to
+FIGURE is fig1, fig2 or fig3; all of them by default. The runs go to
 output/figures and take about a minute. Debian/Ubuntu packages:
 python3-vtk9 xvfb xauth.
 """
@@ -226,22 +226,11 @@ def fig3(program):
     picture.write("fig3.png")
 
 
-def cat(program):
-    """Front page: the cat at rest, without and with examples."""
-    scene, view = "fig2d_cat", ((-0.12, 0, 0.53), (0.35, -1, 0.32), 0.80)
-    picture = Picture(1500, 460)
-    titles = ["rest", "fore paws dragged, without examples", "fore paws dragged, with examples"]
-    for c, frame in enumerate(paper_scene(program, scene)):
-        actors = animal(frame, (PLAIN, WITHOUT, WITH)[c], scene if c else None)
-        picture.panel((500 * c, 0, 500, 460), actors, view, titles[c], 24)
-    picture.write("cat.png")
-
-
 def main():
     if len(sys.argv) < 2:
         sys.exit(__doc__)
     os.makedirs(FIGURES, exist_ok=True)
-    figures = {"fig1": fig1, "fig2": fig2, "fig3": fig3, "cat": cat}
+    figures = {"fig1": fig1, "fig2": fig2, "fig3": fig3}
     for name in sys.argv[2:] or figures:
         figures[name](os.path.abspath(sys.argv[1]))
 

@@ -17,13 +17,10 @@ A page says itself which table it wants, in a comment before it; a table ends wi
 <!-- cost: NAME: AXIS -->              seconds of the cheapest run whose error is below a bound, a column a value of AXIS
 <!-- extrapolation: NAME: AXIS; COLUMN; EXACT -->   a quantity as a mesh is refined, and its limit; EXACT: from elsewhere
 <!-- space: NAME: NU -->             deflection over the limit and seconds of a study of errors in space, a line a mesh, a
-                                    column an element; <!-- reach: NAME: ERROR --> seconds to that error, a column a ratio of Poisson
-<!-- effectivity: NAME -->        estimated over true errors of doc/scripts/measure_space_error.py: of displacements, then of energies
-                                    or, in scenes with weights to find, of these
+                                    column an element
 <!-- dial: NAME -->            of a study of importances: how much of its way from importance 0 to 1 the probe has gone, a line a motion
                                and an energy
-<!-- stability: all -->, <!-- elements: all -->, <!-- failures: all -->     the stability studies: a line a study, an
-                                    element, a case that failed
+<!-- elements: all -->     the stability studies, a line an element
 """
 import csv
 import math
@@ -196,40 +193,6 @@ def space(name, where, nu):
     return markdown(["mesh", *elements], [[mesh, *(cells.get((mesh, element), "–") for element in elements)] for mesh in meshes])
 
 
-def seconds_to(points, bound):
-    """Of (seconds, error), meshes from coarse to fine: where the straight line between two of them, in logarithms, meets the bound
-    for the last time. Text: "<" if the coarsest mesh is there, ">" if the finest is not."""
-    if points[-1][1] > bound:
-        return f"> {short(points[-1][0])} s"
-    for (t0, e0), (t1, e1) in reversed(list(zip(points, points[1:]))):
-        if e0 > bound >= e1:
-            return f"{short(math.exp(math.log(t0) + math.log(t1 / t0) * math.log(e0 / bound) / math.log(e0 / e1)))} s"
-    return f"< {short(points[0][0])} s"
-
-
-def reach(name, where, bound):
-    runs = list(space_runs(name))
-    nus = list(dict.fromkeys(run[2] for run in runs))
-    body = []
-    for element in ELEMENTS.values():
-        lines = [[(run[4], max(abs(run[3] - 1), 1e-4)) for run in runs if run[1:3] == (element, nu)] for nu in nus]
-        if any(lines):
-            body.append([element, *(seconds_to(line, float(bound)) if line else "–" for line in lines)])
-    return markdown(["element", *(f"ν = {nu}" for nu in nus)], body)
-
-
-def effectivity(name, where, _):
-    rows, lines = read(name), {}
-    for row in rows:
-        second = "energy" if row["energy"] else "weights"
-        ratios = [float(row[what]) / float(row[what + "_true"]) for what in ("displacement", second)]
-        line = lines.setdefault((row["body"], row["mesh"], row["dilatation"], "weights" if second == "weights" else "energy"), {})
-        line[row["nu"]] = " / ".join(f"{ratio:.2f}" for ratio in ratios)
-    nus = list(dict.fromkeys(row["nu"] for row in rows))
-    return markdown(["body", "mesh", "dilatation", "second number", *(f"ν = {nu}" for nu in nus)],
-                    [[*key, *(line[nu] for nu in nus)] for key, line in lines.items()])
-
-
 def dial(name, *_):
     """The way of the probe, as far as it leads where the probe is at importance 1."""
     rows, body = read(name), []
@@ -255,24 +218,15 @@ def stability_runs():
 
 
 STABILITY = ["cases", "done", "failure reported", "wrong or crashed", "worst residual", "energy from nowhere",
-             "above the bound of implicit Euler", "least det F", "condition of A", "of the Schur complement", "worst KKT residual"]
+             "above the bound of implicit Euler", "least det F", "condition of A"]
 
 
 def summary(rows):
     """The columns STABILITY of some runs."""
-    schur = span(numbers(rows, "condition_schur"))
-    if any(row["condition_schur"] == "not definite" for row in rows):
-        schur += ", not definite"
     return [str(len(rows)), *(str(sum(row["exit_status"] == status for row in rows)) for status in "02"),
             str(sum(row["exit_status"] not in "02" for row in rows)),
             short(max(numbers(rows, "residual"))), most(rows, "energy_growth"), most(rows, "bound_excess"),
-            short(min(numbers(rows, "min_det_F"))), span(numbers(rows, "condition_matrix")), schur, most(rows, "kkt_residual")]
-
-
-def stability(*_):
-    runs = stability_runs()
-    body = [[f"[{study}](../prm/studies/stability_{study}.prm)", *summary(rows)] for study, rows in runs.items()]
-    return markdown(["study", *STABILITY], body + [["all", *summary(sum(runs.values(), []))[:4], *[""] * 7]])
+            short(min(numbers(rows, "min_det_F"))), span(numbers(rows, "condition_matrix"))]
 
 
 def elements(*_):
@@ -284,18 +238,8 @@ def elements(*_):
     return markdown(["element", *STABILITY], body)
 
 
-def failures(*_):
-    body = []
-    for study, rows in stability_runs().items():
-        for row in rows:
-            if row["exit_status"] != "0":
-                values = ", ".join(f"{key.split('/')[-1]} = `{row[key]}`" for key in axes(rows) if not key.startswith("Model/"))
-                body.append([study, element_of(row), values.replace("|", "\\|"), row["status"], row["steps"] or "0"])
-    return markdown(["study", "element", "case", "how it ended", "steps before"], body)
-
-
 KINDS = {make.__name__: make
-         for make in (table, orders, cost, extrapolation, dial, space, reach, effectivity, stability, elements, failures)}
+         for make in (table, orders, cost, extrapolation, dial, space, elements)}
 
 
 def page_with_tables(page):

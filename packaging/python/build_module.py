@@ -33,7 +33,7 @@ def run(*command):
         subprocess.run(command, cwd=TOP, check=True)
     except (OSError, subprocess.CalledProcessError) as error:
         sys.exit(f"The module could not be built: {error}\nIt needs CMake, Ninja, deal.II, pybind11, numpy and Python's headers: on "
-                 "Debian, ./demo.sh --install-only installs them. README.md lists them for other systems.")
+                 "Debian, ./demo.sh --install-only installs them. doc/installing.md lists them for other systems.")
 
 
 def build():

@@ -11,7 +11,7 @@ namespace Exemplar
 {
   namespace
   {
-    // chosen by measurement, doc/speed.md
+    // chosen by measurement, doc/measured.md
     constexpr unsigned int smoother_degree = 2;
     constexpr double       smoother_range  = 20.; ///< greatest over least eigenvalue that it damps
     constexpr double       greatest_is_above = 1.1; ///< what Lanczos' method finds

@@ -11,7 +11,7 @@ namespace Exemplar
 {
   namespace
   {
-    // chosen by measurement, doc/speed.md
+    // chosen by measurement, doc/measured.md
     constexpr double       cycles_leave   = 0.3; ///< of an error, at most
     constexpr unsigned int max_cycles     = 10;
     constexpr double       cycle_is_above = 1.05; ///< what Lanczos' method finds
@@ -46,7 +46,7 @@ namespace Exemplar
   void
   MultigridInverse::count_operations()
   {
-    // nanoseconds on the machine of doc/speed.md; only their ratio matters
+    // nanoseconds on the machine of doc/measured.md; only their ratio matters
     std::vector<double> counts{ static_cast<double>(row_of.size()),
                                 static_cast<double>(cycle->matrix().n_blocks()),
                                 cycle->n_blocks() };

@@ -27,7 +27,7 @@ namespace Exemplar
   double
   SinglePrecisionInverse::cost_in_iterations(std::size_t /*n_columns*/) const // they cost little
   {
-    // nanoseconds on the machine of doc/speed.md, of which only the ratio matters
+    // nanoseconds on the machine of doc/measured.md, of which only the ratio matters
     const FactorStructure &structure = factor->get_structure();
     const auto             n         = static_cast<double>(structure.n()),
                n_values              = static_cast<double>(structure.n_values());

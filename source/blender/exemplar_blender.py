@@ -8,7 +8,7 @@ from the run's weights, and what the weights miss as a point cache that is added
 OUTPUT_DIRECTORY is that of a run with Output/Formats = pc2 or mdd. Sum of rest, weighted shape keys and residual is the
 simulated surface; the modifier "exemplar residual" may be hidden, or its input Residual turned down. With --shape a
 shape of the artist's own, of the same vertex order, takes the place of the run's; the residual is then what that one
-misses. See doc/blender.md.
+misses. See doc/surfaces.md.
 """
 import argparse
 import csv

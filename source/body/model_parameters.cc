@@ -78,7 +78,7 @@ namespace Exemplar
         "cells: each cell resists the change of its own volume; patches: patches of cells that "
         "share a node resist the mean of theirs, so that linear tetrahedra bend and squeeze as "
         "they should also near Poisson's ratio 0.5, at 1.6 times the operations of a "
-        "factorisation and 1.4 to 1.6 times the time of a step (doc/space.md), for the "
+        "factorisation and 1.4 to 1.6 times the time of a step (doc/choosing.md), for the "
             + strains_with_patches()
             + " strains; with a neo-Hookean background they resist the mean of J = det F; auto: "
               "patches with these in statics and dynamics, cells with other strains and in "

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Every class, struct and enum of include/exemplar is explained: by a `///` comment directly above its definition, or by a row
-of doc/glossary.md or doc/architecture.md that names it in backticks. Lists those that are not.
+of a table, or an item of a list, of doc/glossary.md or doc/architecture.md that names it in backticks. Lists those that are not.
 
 Usage: python3 tests/checks/words.py
 """
@@ -13,9 +13,9 @@ DEFINITION = re.compile(r"^ *(?:class|struct|enum class|enum) (\w+)(?: final)?(?
 
 
 def rows():
-    """All words in backticks of the tables."""
+    """All words in backticks of the tables and lists."""
     pages = "\n".join((TOP / "doc" / page).read_text() for page in ("glossary.md", "architecture.md"))
-    return {name for row in re.findall(r"^\|.*", pages, re.MULTILINE) for name in re.findall(r"`(\w+)`", row)}
+    return {name for row in re.findall(r"^(?:\||- ).*", pages, re.MULTILINE) for name in re.findall(r"`(\w+)`", row)}
 
 
 def undocumented(lines):

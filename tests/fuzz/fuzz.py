@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Gives the program inputs that are wrong in many ways, and holds it to doc/robustness.md.
+"""Gives the program inputs that are wrong in many ways, and holds it to doc/output.md.
 
 Usage: python3 tests/fuzz/fuzz.py [--cases N] [--seed S] [--jobs J] [--program P] [--kind KIND] [--keep DIRECTORY]
        python3 tests/fuzz/fuzz.py --repeat DIRECTORY/CASE [--program P]

@@ -5,7 +5,7 @@ import unittest
 
 from exemplar_runner import BAR, SceneTest, needs_trilinos, read_summary
 
-# with cells the choice was measured (doc/speed.md); patches double the operations of a factorisation
+# with cells the choice was measured (doc/measured.md); patches double the operations of a factorisation
 ONE_STEP = {**BAR, "Model/Dilatation": "cells", "Loads/Gravity": "0, 0, -1e-6", "Time/Increments": "1",
             "Solver/Method": "one pass", "Output/Every": "0"}
 

@@ -12,7 +12,7 @@ namespace Exemplar
   /// From the residual to what the preconditioner makes of it, own blocks.
   using Precondition = std::function<const BlockVector &(const BlockVector &residual)>;
 
-  /// As many find the eigenvalues well enough, by measurement, doc/speed.md.
+  /// As many find the eigenvalues well enough, by measurement, doc/measured.md.
   constexpr unsigned int n_lanczos_steps = 8;
 
   /// The least and the greatest eigenvalue of a preconditioned matrix, both symmetric and positive

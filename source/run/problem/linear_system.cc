@@ -11,7 +11,7 @@ namespace Exemplar
   namespace
   {
     /// Operations of a factorisation, for each value of the matrix that multigrid would have, from which
-    /// multigrid is faster: measured, doc/speed.md. Columns of weights beside the right side take
+    /// multigrid is faster: measured, doc/measured.md. Columns of weights beside the right side take
     /// conjugate gradients as long as that; quasi-Newton's method finds them with each new matrix alone,
     /// and has a factor in single precision.
     double

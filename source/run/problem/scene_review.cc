@@ -17,7 +17,7 @@ namespace Exemplar
   {
     using Warning = std::optional<std::string>;
 
-    // Up to the first, elements are verified (doc/stability.md); beyond the second, linear elements
+    // Up to the first, elements are verified (doc/measured.md); beyond the second, linear elements
     // lock that have no patches.
     constexpr double max_verified_ratio = 0.4999, locking_ratio = 0.49;
 

@@ -17,7 +17,7 @@ namespace Exemplar::Testing
       return model;
     }
 
-    // doc/paper-errata.md, 2: with q_i on the left and
+    // doc/paper.md, 2: with q_i on the left and
     // (1-eta) R K X on the right a body at rest shrinks to (1-eta) X. Our right side
     // R K X leaves it where it is. Rollers on three faces through the origin hold it.
     TEST(ElasticPotential, ThePapersLiteralRightSideShrinksABodyAtRest)

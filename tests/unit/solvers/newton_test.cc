@@ -88,7 +88,7 @@ namespace Exemplar::Testing
                       + examples("set Pose functions = " + twist(720.)
                                  + "\n set Prescribed weights = 1-t; t\n")
                       + newton + "subsection Time\n set Increments = 20\nend\n",
-                  { "Model/Dilatation=cells" }); // patches end beside it, doc/space.md
+                  { "Model/Dilatation=cells" }); // patches end beside it, doc/choosing.md
       State state = scene.solve();
       align(scene.problem.examples.poses.pose(1), state.positions, Exchange::serial());
       EXPECT_LT(max_difference(state.positions, scene.problem.examples.poses.pose(1)), 1e-9);

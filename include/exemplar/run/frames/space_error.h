@@ -12,7 +12,7 @@ namespace Exemplar
   struct SpaceError
   {
     double displacement = 0.; ///< norm of the correction over that of the corrected displacement
-    double energy       = 0.; ///< of the potential, over the corrected energy, doc/space.md
+    double energy       = 0.; ///< of the potential, over the corrected energy, doc/choosing.md
     std::optional<double> weights;        ///< greatest change of a weight; of unknown weights alone
     std::vector<double>   energy_density; ///< of the correction's strain, by cell [J/m^3]
 

@@ -9,7 +9,7 @@
 
 namespace Exemplar
 {
-  /// Estimates errors in space by a quadratic correction, doc/space.md: from the state of the linear
+  /// Estimates errors in space by a quadratic correction, doc/choosing.md: from the state of the linear
   /// elements to that of quadratic ones under the same forces, in one Newton step where all is
   /// linear. Where the strain allows they have the mean dilatation of each cell. What the linear
   /// elements leave of their own equations is taken out before.
