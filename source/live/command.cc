@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/message_text.h>
+#include <exemplar/base/words.h>
 #include <exemplar/live/command.h>
-#include <exemplar/prm/assignments.h>
 
 #include <nlohmann/json.hpp>
 

@@ -223,6 +223,7 @@
       setPlaying(!playing);
     }
   });
+  runs.forEach((run) => (run.name = run.name.replace(/_/g, " ")));
   find("name").textContent = runs.map(({ name }) => name).join(" | ");
   runs.forEach(({ name }, i) => {
     const caption = Object.assign(document.createElement("span"), { textContent: name });

@@ -27,21 +27,30 @@ From `exemplar study --print-parameters`. Scene and Vary are to be set; [studies
 """
 
 
+REGION = "Material/region 1"  # what it may set, Material explains
+
+
 def page(head, printed):
-    lines, comments, sections = [head], [], []
+    lines, comments, sections, of_region = [head], [], [], []
     for line in printed.splitlines():
         line = line.strip()
         if line.startswith("# "):
             comments.append(line[2:])
         elif line.startswith("subsection "):
             sections.append(line[len("subsection "):])
-            lines += ["", "## " + "/".join(sections), "", "| key | default | allowed | meaning |", "|---|---|---|---|"]
+            if "/".join(sections) != REGION:
+                lines += ["", "## " + "/".join(sections), "", "| key | default | allowed | meaning |", "|---|---|---|---|"]
         elif line == "end":
+            if "/".join(sections) == REGION:
+                lines += ["", "## Material/region N", "", "Of the cells of one region, these keys of Material: " + ", ".join(of_region) + "."]
             sections.pop()
         elif line.startswith("set "):
             if not sections and len(lines) == 1:
                 lines += ["", "| key | default | allowed | meaning |", "|---|---|---|---|"]
             key = re.match(r"set (.*?) =", line).group(1)
+            if "/".join(sections) == REGION:
+                of_region.append(f"`{key}`")
+                continue
             meaning, (allowed, default) = comments[-2], re.match(r"Allowed: (.*)\. Default: (.*)", comments[-1]).groups()
             cells = [f"`{key}`", "" if default == "(empty)" else f"`{default}`", allowed, meaning]
             lines.append("| " + " | ".join(c.replace("|", "\\|") for c in cells) + " |")
