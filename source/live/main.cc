@@ -269,6 +269,11 @@ Exit status:
       std::cerr << "exemplar: " << error.what() << std::endl;
       return 1;
     }
+    catch (const std::filesystem::filesystem_error &error)
+    {
+      std::cerr << "exemplar: " << trouble_with_path(error) << ". Give another path." << std::endl;
+      return 1;
+    }
     catch (const std::exception &error)
     {
       std::cerr << "exemplar: " << error.what() << std::endl;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <unistd.h>
 #include <utility>
 
 namespace Exemplar
@@ -118,6 +119,9 @@ namespace Exemplar
       } while (std::next_permutation(axes.begin(), axes.end()));
     }
 
+    // Of a tetrahedron in the mesh alone; a run takes some times as much.
+    constexpr double least_bytes = 1000.;
+
     void
     check_box(const std::array<double, 3> &size, const Triple &n_cells)
     {
@@ -136,6 +140,12 @@ namespace Exemplar
       if (n_tetrahedra > 1e9)
         throw UserError("Mesh/Box cells: these are more than 1e9 tetrahedra (6 a brick), which no "
                         "machine would hold. Give smaller counts.");
+      const double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * sysconf(_SC_PAGESIZE);
+      if (n_tetrahedra * least_bytes > memory)
+        throw UserError(fmt::format(
+            "Mesh/Box cells: these are {:.0f} million tetrahedra (6 a brick), which "
+            "need {:.0f} GiB or more; this machine has {:.0f}. Give smaller counts.",
+            1e-6 * n_tetrahedra, n_tetrahedra * least_bytes / (1 << 30), memory / (1 << 30)));
     }
   } // namespace
 

@@ -70,7 +70,8 @@ namespace Exemplar
       if (texts.size() == 1 && has_outer_comma(texts[0]))
         return " Commas do not separate formulas.";
       if (texts.size() == 1 && n_components > 1)
-        return std::string(are_of_places ? " They are for x, y and z; write 0 where nothing is." : "")
+        return std::string(are_of_places ? " They are for x, y and z; write 0 where nothing is."
+                                         : "")
                + " On a command line the whole needs quotes, as a shell ends its commands at ';'.";
       if (texts.size() > n_components && texts.size() % n_components == 0)
         return " If they are of several poses, separate these by '|': x; y; z | x; y; z.";
@@ -83,25 +84,25 @@ namespace Exemplar
     std::string
     remedy_of_formula(const std::string &text)
     {
-      const std::vector<std::pair<std::string, std::string>> habits
-          = { { "\\*\\*", "Powers are written x^2." },
-              { "\\b(np|numpy|math|std|Math)\\b", "Functions have no prefix: sin(t)." },
-              { "\\bdeg(rees?)?\\b|\xC2\xB0", "Angles are in radians: 90 degrees are 90*pi/180." },
-              { "\\b(heaviside|Heaviside|step) *\\(", "A step is written t > 0.5 ? 1 : 0." },
-              { "[0-9.] *(m|cm|mm|s|ms|N|kN|kg|Pa)\\b",
-                "Numbers have no unit: lengths are in m, times in s, forces in N." },
-              { "(^|[^a-zA-Z0-9_.])[0-9.]+ *(?![eE][-+0-9])[a-zA-Z(]",
-                "Products are written 2*t." },
-              { "\\bif *\\(", "A choice is written c ? a : b." },
-              { "\\bPI\\b|\\bPi\\b|M_PI", "The constant is written pi." },
-              { "\\btime\\b|\\bT\\b", "The time is t." },
-              { "\\b[XYZ]\\b", "Coordinates are x, y, z, in small letters." },
-              { "\\b(mod|fmod)\\b|%", "t modulo 1 is t - floor(t)." },
-              { "^[\\[({][^\\])}]*$|^[^\\[({]*[\\])}]$", "No brackets stand around the formulas." },
-              { "\xE2\x88\x92|\xE2\x80\x93", "The sign of minus is -, not a dash." },
-              { "\xC2\xB2|\xC2\xB3", "Powers are written x^2." },
-              { "\xC2\xB7|\xC3\x97", "The sign of products is *." },
-              { "^$", "Write 0 where nothing is, and $ in single quotes where a shell reads it." } };
+      const std::vector<std::pair<std::string, std::string>> habits = {
+        { "\\*\\*", "Powers are written x^2." },
+        { "\\b(np|numpy|math|std|Math)\\b", "Functions have no prefix: sin(t)." },
+        { "\\bdeg(rees?)?\\b|\xC2\xB0", "Angles are in radians: 90 degrees are 90*pi/180." },
+        { "\\b(heaviside|Heaviside|step) *\\(", "A step is written t > 0.5 ? 1 : 0." },
+        { "[0-9.] *(m|cm|mm|s|ms|N|kN|kg|Pa)\\b",
+          "Numbers have no unit: lengths are in m, times in s, forces in N." },
+        { "(^|[^a-zA-Z0-9_.])[0-9.]+ *(?![eE][-+0-9])[a-zA-Z(]", "Products are written 2*t." },
+        { "\\bif *\\(", "A choice is written c ? a : b." },
+        { "\\bPI\\b|\\bPi\\b|M_PI|\xCF\x80", "The constant is written pi." },
+        { "\\btime\\b|\\bT\\b", "The time is t." },
+        { "\\b[XYZ]\\b", "Coordinates are x, y, z, in small letters." },
+        { "\\b(mod|fmod)\\b|%", "t modulo 1 is t - floor(t)." },
+        { "^[\\[({][^\\])}]*$|^[^\\[({]*[\\])}]$", "No brackets stand around the formulas." },
+        { "\xE2\x88\x92|\xE2\x80\x93", "The sign of minus is -, not a dash." },
+        { "\xC2\xB2|\xC2\xB3", "Powers are written x^2." },
+        { "\xC2\xB7|\xC3\x97", "The sign of products is *." },
+        { "^$", "Write 0 where nothing is, and $ in single quotes where a shell reads it." }
+      };
       if (text.size() < 200)
         for (const auto &[pattern, remedy] : habits)
           if (std::regex_search(text, std::regex(pattern)))

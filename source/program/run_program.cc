@@ -5,6 +5,7 @@
 #include <exemplar/program/joint_run.h>
 #include <exemplar/program/run_program.h>
 
+#include <filesystem>
 #include <iostream>
 #include <new>
 
@@ -22,12 +23,19 @@ namespace Exemplar
     try
     {
       JointRun::join(argc, argv);
+      if (std::error_code error; std::filesystem::current_path(error).empty())
+        throw UserError("The working directory cannot be used: " + error.message()
+                        + ". Change to another one, and call exemplar there.");
       const int status = run_command_line(argc, argv);
       return JointRun::end(status, [](const std::string &) {});
     }
     catch (const UserError &error)
     {
       return report(error.what(), 1);
+    }
+    catch (const std::filesystem::filesystem_error &error)
+    {
+      return report(trouble_with_path(error) + ". Give another path.", 1);
     }
     catch (const Interrupted &interruption)
     {

@@ -84,7 +84,7 @@ namespace Exemplar
       }
       catch (const std::filesystem::filesystem_error &error)
       {
-        throw UserError(std::string("The output directory cannot be used: ") + error.what()
+        throw UserError("The output directory cannot be used: " + trouble_with_path(error)
                         + ". Give another one by --output or Output/Directory.");
       }
     }

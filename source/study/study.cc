@@ -265,7 +265,7 @@ namespace Exemplar
     }
     catch (const fs::filesystem_error &error)
     {
-      throw UserError(std::string("The output directory cannot be used: ") + error.what()
+      throw UserError("The output directory cannot be used: " + trouble_with_path(error)
                       + ". Give another one by --output.");
     }
     directory.write_study(study.text);

@@ -9,18 +9,21 @@ using namespace Exemplar;
 
 namespace
 {
-  // k/2 depth^2 of the nodes below a height: a term of one's own.
+  // k/2 depth^2 of the nodes below a height: a term of one's own. The energy and its gradient are continuous at the
+  // height; a jump there would let line searches stall.
   class Floor : public PotentialTerm
   {
   public:
     Floor(const double height, const double stiffness) : height(height), stiffness(stiffness) {}
 
+    // Messages and summary.json call it so.
     std::string
     name() const override
     {
       return "floor";
     }
 
+    // The matrix's pattern and the unknowns; called again when handles take or let go of nodes.
     void
     attach(const SymmetricPattern &new_pattern, const FreeDofs &dofs, CellField &) override
     {
@@ -28,30 +31,36 @@ namespace
       free_dofs = &dofs;
     }
 
+    // Called at each trial of a line search.
     void
     add(const TermPoint &at, ElasticSums &sums) override
     {
+      // degree of freedom 3 i + 2 is the z of node i; held ones count, too: their gradient is the reaction
       for (unsigned int dof = 2; dof < at.positions.size(); dof += 3)
         if (const double depth = std::min(at.positions[dof] - height, 0.); depth < 0.)
         {
-          sums->energy += 0.5 * stiffness * depth * depth;
-          sums->gradient[dof] += stiffness * depth;
+          sums->energy += 0.5 * stiffness * depth * depth; // [J]
+          sums->gradient[dof] += stiffness * depth; // its derivative, which is minus the force [N]
+          // by node, the magnitude of that force: residuals are measured by the sum of all
           sums->force_scale[dof / 3] -= stiffness * depth;
         }
     }
 
+    // Called when a matrix is made. The last argument is for energies of the weights.
     void
     add_tangent(const TermPoint     &at,
                 Tangent              kind,
                 std::vector<double> &values,
                 std::vector<double> &) override
     {
-      (void) kind; // it is convex
+      (void) kind; // of a term that is not convex, Tangent::convex must leave out what is negative
       for (unsigned int dof = 2; dof < at.positions.size(); dof += 3)
+        // negative where a handle holds the node: no unknown, so no row of the matrix
         if (const int i = free_dofs->free_index(dof); at.positions[dof] < height && i >= 0)
-          values[pattern->position(i, i)] += stiffness;
+          values[pattern->position(i, i)] += stiffness; // [N/m]; the lower triangle, i >= j
     }
 
+    // In bytes, for summary.json.
     std::size_t
     memory_consumption() const override
     {
@@ -60,7 +69,7 @@ namespace
 
   private:
     const double            height, stiffness;
-    const SymmetricPattern *pattern   = nullptr;
+    const SymmetricPattern *pattern   = nullptr; // these two outlive the term
     const FreeDofs         *free_dofs = nullptr;
   };
 } // namespace
@@ -83,6 +92,7 @@ main()
   scene.handles       = { { "left", { "box 0 -1 -1 0 2 2" } } };
   scene.loads.gravity = { { 0., 0., -10. } };
   Problem problem(scene, { make_msh(nodes, cells), {}, {} });
+  // a function, as the laboratory below makes a term of its own
   problem.add_term([] { return std::make_unique<Floor>(-0.02, 1e6); });
   while (problem.state.step < problem.time_axis.n_steps())
     if (!is_success(problem.advance().status))

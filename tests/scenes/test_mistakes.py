@@ -2,10 +2,11 @@
 """Mistakes that people make, and the remedy that the message must hold; nothing is written."""
 
 import csv
+import subprocess
 import unittest
 
 from bad_inputs import DYNAMIC, FILE, BadInputTest
-from exemplar_runner import BAR, SceneTest, prm
+from exemplar_runner import BAR, EXEMPLAR, SceneTest, prm
 from surfaces import cube, joined, write_obj
 
 
@@ -47,6 +48,8 @@ SCENES = {
     "list by blanks": ({**BAR, "Loads/Gravity": "0 0 -9.81"}, ["by commas", "'0, 0, -9.81'"]),
     "list by semicolons": ({**BAR, "Loads/Gravity": "0; 0; -9.81"}, ["by commas", "'0, 0, -9.81'"]),
     "list in brackets": ({**BAR, "Loads/Gravity": "[0, 0, -9.81]"}, ["brackets", "'0, 0, -9.81'"]),
+    "Greek pi": (left(Motion="0; 0; π*t"), ["The constant is written pi"]),
+    "more cells than memory": ({**BAR, "Mesh/Box cells": "800, 400, 400"}, ["million tetrahedra", "GiB", "Give smaller counts"]),
     "one number for three": ({**BAR, "Loads/Gravity": "-9.81"}, ["three numbers", "It is a vector. Did you mean '0, 0, -9.81'?"]),
     "cells by x": ({**BAR, "Mesh/Box cells": "16x4x4"}, ["by commas", "'16, 4, 4'"]),
     "unit behind a number": ({**BAR, "Material/Young's modulus": "210 GPa"}, ["alone, in Pa", "Did you mean '2.1e11'"]),
@@ -328,6 +331,32 @@ class Mistakes(BadInputTest):
     def test_names_may_hold_blanks(self):
         self.write("scene.prm", prm({**BAR, "Handles/Names": "left paw", "Handles/left/Select": None, "Handles/left paw/Select": "boundary 1"}))
         self.assertEqual(self.call("scene.prm", "--validate").status, 0)
+
+
+class Places(SceneTest):
+    """Paths that lead nowhere are named with the system's reason, in words."""
+
+    def test_links_in_a_ring(self):
+        (self.directory / "ring").symlink_to("ring")
+        scene = self.write("scene.prm", prm(BAR))
+        for arguments in ([scene, "--output", "ring"], [scene, "--output", "ring/x"], ["live", "ring"], ["export", "ring", "--html", "x.html"]):
+            run = self.call(*arguments)
+            self.assertEqual((run.status, run.stdout), (1, ""), arguments)
+            self.assertIn("ring", run.stderr)
+            self.assertNotIn("filesystem error", run.stderr)
+
+    def test_working_directory_that_is_gone(self):
+        gone = self.directory / "gone"
+        gone.mkdir()
+        done = subprocess.run(["sh", "-c", f'cd {gone} && rmdir {gone} && "$0" "$1" --output out', EXEMPLAR, self.write("scene.prm", prm(BAR))], capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stdout), (1, ""), done.stderr)
+        self.assertIn("The working directory cannot be used", done.stderr)
+
+    def test_states_that_are_not_unique_or_hardly_found(self):
+        for key, value, words in (("Yield stress", "1", "more than one state"), ("Fibre stiffness", "1e11", "hundredth of the body")):
+            run = self.call("--validate", self.write("scene.prm", prm({**BAR, f"Material/{key}": value, **({"Material/Fibre direction": "1; 0; 0"} if "Fibre" in key else {})})))
+            self.assertEqual(run.status, 0, run.stderr)
+            self.assertIn(words, " ".join(run.stderr.split()))
 
 
 class Surfaces(SceneTest):

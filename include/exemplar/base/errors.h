@@ -2,7 +2,9 @@
 #ifndef exemplar_errors_h
 #define exemplar_errors_h
 
+#include <filesystem>
 #include <stdexcept>
+#include <string>
 
 namespace Exemplar
 {
@@ -25,6 +27,13 @@ namespace Exemplar
   {
     using std::runtime_error::runtime_error;
   };
+
+  /// What a path cannot be used for, in words for a message: the path and the system's reason.
+  inline std::string
+  trouble_with_path(const std::filesystem::filesystem_error &error)
+  {
+    return error.path1().string() + ": " + error.code().message();
+  }
 } // namespace Exemplar
 
 #endif
