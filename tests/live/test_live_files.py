@@ -50,22 +50,26 @@ class KilledServer(Server):
         self.process.stdout.close()
 
 
-class FilesTest(unittest.TestCase):
-    def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.here = Path(temporary.name)
-        self.record = self.here / "session"
-        made = self.here / "made.prm"
+def places_of(file):
+    return [tuple(map(float, line.split()[1:])) for line in pose(file).splitlines() if line]
+
+
+class Recorded:
+    """A scene of a mesh in a directory, and the recording of its servers."""
+
+    def __init__(self, here):
+        self.here = here
+        self.record = here / "session"
+        made = here / "made.prm"
         made.write_text(prm({**BAR, "Time/Step": "0.01", "Time/End": "0.01", "Examples/Pose functions": None, "Examples/Importance": None}))
         for name, size in (("bar", "4, 1, 1"), ("other", "3, 1, 1")):
-            done = call_program(made, "--output", self.here / f"out_{name}", "--set", f"Mesh/Box size={size}",
+            done = call_program(made, "--output", here / f"out_{name}", "--set", f"Mesh/Box size={size}",
                                 "--set", f"Mesh/Box cells={'8' if name == 'bar' else '5'}, 2, 2", timeout=60)
-            self.assertEqual(done.returncode, 0, done.stderr)
-            shutil.copy(self.here / f"out_{name}/final.msh", self.here / f"{name}.msh")
-        self.mesh = self.here / "bar.msh"
+            assert done.returncode == 0, done.stderr
+            shutil.copy(here / f"out_{name}/final.msh", here / f"{name}.msh")
+        self.mesh = here / "bar.msh"
         self.bytes = self.mesh.read_bytes()
-        self.scene = self.here / "bar.prm"
+        self.scene = here / "bar.prm"
         self.scene.write_text(prm({**BAR, "Mesh/Generator": None, "Mesh/Box size": None, "Mesh/Box cells": None, "Mesh/File": "bar.msh"}))
 
     def serve(self, *arguments):
@@ -74,11 +78,18 @@ class FilesTest(unittest.TestCase):
     def play(self, scene="scene.prm", *arguments):
         output = self.here / f"played{len(list(self.here.glob('played*')))}"
         done = call_program(self.record / scene, "--output", output, *arguments, timeout=120)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        assert done.returncode == 0, done.stderr
         return output / "final.msh"
 
     def play_until(self, step, scene="scene.prm"):
         return self.play(scene, "--set", f"Time/End={step * STEP}")
+
+
+class FilesTest(unittest.TestCase, Recorded):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        Recorded.__init__(self, Path(temporary.name))
 
     def test_files_are_read_once(self):
         changes = (lambda: self.mesh.unlink(), lambda: self.mesh.write_bytes(self.bytes[:len(self.bytes) // 2]),
@@ -189,7 +200,7 @@ class FilesTest(unittest.TestCase):
         end = float(re.search(r"set End = (\S+)", (self.record / "scene.prm").read_text())[1])
         self.assertGreaterEqual(round(end / STEP), last.step)
         self.assertEqual(pose(self.play_until(step)), pose(saved))
-        places = [tuple(map(float, line.split()[1:])) for line in pose(self.play_until(last.step)).splitlines() if line]
+        places = places_of(self.play_until(last.step))
         rounding = max(last.box[3:]) / 32767
         for place in last.places:  # of the surface's vertices
             self.assertTrue(any(all(abs(a - b) <= rounding for a, b in zip(place, other)) for other in places), place)
