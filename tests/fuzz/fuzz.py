@@ -84,12 +84,29 @@ class Fuzzer:
             # Debug build, where a Release build finds the infinite residual itself
             return ended, []
         faults = oracle.faults_of_end(ended, time_limit=self.time_limit)
-        faults += oracle.faults_of_files(ended, before, oracle.tree(directory))
+        if case.kind == "export":
+            faults += self.faults_of_page(ended, directory)
+        else:
+            faults += oracle.faults_of_files(ended, before, oracle.tree(directory))
         if not faults and ended.status == 0 and case.check:
             faults += getattr(self, "check_" + case.check)(directory)
         if not faults and ended.status == 1 and case.check == "validate" and ended.stderr and self.validates(directory):
             faults.append("--validate finds nothing wrong where a run ends with status 1")
         return ended, faults
+
+    @staticmethod
+    def faults_of_page(ended, directory):
+        """A page is there, with data that can be read, or there is none; nothing is left beside it."""
+        page = directory / "page.html"
+        if page.exists() != (ended.status == 0):
+            return [f"status {ended.status}, and the page is {'there' if page.exists() else 'not there'}"]
+        faults = [f"{file.name} is left" for file in directory.iterdir() if file.name.startswith("page.html.")]
+        if page.exists():
+            try:
+                json.loads(page.read_text().split('id="data">')[1].split("</script>")[0], parse_constant=lambda name: faults.append(f"{name} in the data"))
+            except (ValueError, IndexError) as error:
+                faults.append(f"the data of the page cannot be read: {error}")
+        return faults
 
     def validates(self, directory):
         return self.call(directory, ["--validate", "scene.prm"]).status == 0

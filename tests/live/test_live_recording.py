@@ -88,6 +88,8 @@ class RecordingTest(unittest.TestCase):
         output = self.play("same", "--threads", "1")
         self.assertEqual((output / "statistics.csv").read_text().splitlines()[-1].split(",")[0], str(self.step))
         self.assertEqual(pose(output / "final.msh"), pose(self.saved))
+        rows = [line.count(",") for line in (output / "statistics.csv").read_text().splitlines()]  # also of what was held later
+        self.assertEqual(set(rows), {rows[0]})
         again = self.play("threads", "--threads", "2")
         self.assertEqual((again / "final.msh").read_bytes(), (output / "final.msh").read_bytes())
 

@@ -36,8 +36,8 @@ namespace Exemplar
     return word == nullptr ? "" : *word;
   }
 
-  Diagnostics::Diagnostics(const Problem &problem)
-      : problem(problem), last_positions(problem.state.positions)
+  Diagnostics::Diagnostics(const Problem &problem, const unsigned int n_handles)
+      : problem(problem), n_handles(n_handles), last_positions(problem.state.positions)
   {
   }
 
@@ -115,7 +115,7 @@ namespace Exemplar
     }
     append_work(row);
     const Handles &handles = problem.constraints.handles;
-    for (unsigned int h = 0; h < handles.size(); ++h)
+    for (unsigned int h = 0; h < std::min(n_handles, handles.size()); ++h)
       append(row, "reaction_" + handles.name(h), handles.sum_over(h, problem.evaluation.gradient));
     return row;
   }

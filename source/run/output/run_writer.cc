@@ -52,7 +52,8 @@ namespace Exemplar
   RunWriter::RunWriter(Problem                        &problem,
                        const SceneFile                &scene,
                        const std::vector<FrameFormat> &formats)
-      : problem(problem), exchange(problem.body.exchange()), scene(scene), diagnostics(problem),
+      : problem(problem), exchange(problem.body.exchange()), scene(scene),
+        diagnostics(problem, problem.parameters.handles.size()),
         directory(problem.parameters.output.directory, formats),
         input_digests(digests_at_root(scene, exchange)), account(problem.clock),
         last_checkpoint(std::chrono::steady_clock::now()), frames(problem, directory, formats),

@@ -4,6 +4,7 @@
 
 #include <exemplar/run/problem/problem.h>
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <variant>
@@ -42,8 +43,10 @@ namespace Exemplar
   class Diagnostics
   {
   public:
-    /// The problem must outlive this.
-    explicit Diagnostics(const Problem &problem);
+    /// The problem must outlive this. A row has the reactions of its first `n_handles` handles: the rows of a file have
+    /// the same columns also where a session holds more of the body later.
+    explicit Diagnostics(const Problem &problem,
+                         unsigned int   n_handles = std::numeric_limits<unsigned int>::max());
 
     /// Add the work of the step that the problem has just made. To be called after each.
     void
@@ -82,9 +85,10 @@ namespace Exemplar
     void
     append_dissipated(StatisticsRow &row, const State &shown) const;
 
-    const Problem &problem;
-    Vector         last_positions; ///< before the next step [m]
-    Work           work;
+    const Problem     &problem;
+    const unsigned int n_handles;
+    Vector             last_positions; ///< before the next step [m]
+    Work               work;
   };
 } // namespace Exemplar
 
