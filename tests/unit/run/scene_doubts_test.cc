@@ -71,7 +71,7 @@ namespace Exemplar::Testing
     {
       const std::set<std::string> statics  = parts(held_bar, true),
                                   left_out = parts(held_bar, false);
-      EXPECT_EQ(statics, (std::set<std::string>{ "CHOLMOD", "frame writer", "handles",
+      EXPECT_EQ(statics, (std::set<std::string>{ "Cholesky factor", "frame writer", "handles",
                                                  "mean dilatation by patches" }));
       for (const std::string name :
            { "mass matrix", "gravity", "loads", "example poses", "weight block", "Schur complement",
