@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The formulas that doc/model.md, dynamics.md, rotations.md and solver.md print, in numpy, against the module."""
+import tempfile
 import unittest
 import warnings
+from pathlib import Path
 
 import numpy as np
 
@@ -48,7 +50,7 @@ STATES = {  # F
 def scene(**sections):
     base = {"Scene": "static", "Material": {"Young's modulus": YOUNG, "Poisson's ratio": NU}, "Model": {"Dilatation": "cells"},
             "Handles": {"foot": {"Select": "box -9 -9 -9 9 9 0"}}, "Solver": {"Tolerance": 1e-11}, "Time": {"Increments": 1}}
-    return {**base, **{name: {**base.get(name, {}), **keys} if isinstance(keys, dict) else keys for name, keys in sections.items()}}
+    return {**base, **{name: {**base[name], **keys} if name in base and name not in ("Scene", "Handles") else keys for name, keys in sections.items()}}
 
 
 def examples(energy="scaled", **more):
@@ -518,7 +520,6 @@ class OfBodies(Formulas):
 
     def test_parts_of_the_strain(self):
         """(31), with fibres and nine constants."""
-        identity = np.einsum("ij,kl->ijkl", I, I)
         for material, C in ({}, isotropic()), (FIBRES, isotropic() + FIBRE_TENSOR), (ORTHOTROPY, NINE_TENSOR):
             compliance = np.linalg.pinv(C.reshape(9, 9)).reshape(3, 3, 3, 3)
             for part in ("all", "shape", "volume", "along fibres", "across fibres")[:5 if material else 3]:
@@ -536,7 +537,6 @@ class OfBodies(Formulas):
                     e, E = np.array([polar(F)[1] - I for F in body.F(x)]), body.D(WEIGHTS) / ETA
                     square = lambda A, C: np.einsum("mij,ijkl,mkl->m", A, C, A) / 2
                     self.near(problem.energy(x, WEIGHTS), body.sum(square(e, C - C_e) + square(e - E, C_e)) + SIGMA / 2 * WEIGHTS @ WEIGHTS)
-        del identity
 
     def test_examples_with_constants_of_their_own(self):
         """(38): the left side of it, and the columns and H with D_i and C'."""
@@ -685,7 +685,6 @@ PATCHES = {"Dilatation": "patches"}
 class OfPatches(Formulas):
     def test_mean_dilatation(self):
         """(25) with isotropic cells, and with lambda_m of fibres and nine constants."""
-        compliance = np.linalg.pinv(NINE_TENSOR.reshape(9, 9)).reshape(3, 3, 3, 3)
         deviators = np.linalg.qr(np.array([(sym(np.outer(I[i], I[j])) if i != j else np.outer(I[i], I[i]) - np.outer(I[2], I[2])).ravel()
                                            for i, j in ((0, 0), (1, 1), (0, 1), (1, 2), (0, 2))]).T)[0].T
         for name, material, C, of_grain, lam, mu in (("isotropic", {}, isotropic(), None, LAMBDA, MU),
@@ -910,6 +909,288 @@ class OfPlasticBodies(Formulas):
                                 return R @ (stress(d) - 0.9 * (1 - eta) * 2 * MU * (change[0] - change[1]) / 2e-6)
                             A = matrix(CELLS, dP, body.g, body.V, 4) + np.kron(mass, I) / h**2
                             self.near(problem.hessian(x, w, "convex").toarray(), A, 1e-7)
+
+
+DENSITY = 900.0
+GRAVITY = np.array([1, -2, -6.0])
+
+
+def mass_of(cells, V, n):
+    """Consistent mass matrix of nodes."""
+    M = np.zeros((n, n))
+    for c, v in zip(cells, V):
+        M[np.ix_(c, c)] += DENSITY * v / 20 * (np.ones((4, 4)) + np.eye(4))
+    return M
+
+
+def squared(M, u):
+    return np.einsum("ac,ab,bc", u, M, u)
+
+
+class OfMotion(Formulas):
+    def motion(self, **sections):
+        return make(scene(Scene="dynamic", Handles={}, Material={"Density": DENSITY},
+                          **{"Time": {"Step": 0.01, "End": 1}, "Loads": {"Gravity": list(GRAVITY)}, **sections}), STAR, STAR_CELLS, STAR_POSES if "Examples" in sections else None)
+
+    def test_incremental_potential(self):
+        """(12), (21), (22), and what damping adds to patches."""
+        a, b = 1.7, 0.004
+        damped = {"Mass damping": a, "Stiffness damping": b}
+        for name, time, model in (("implicit Euler", {}, {}), ("damped", damped, {}), ("BDF2", {**damped, "Scheme": "bdf2"}, {}),
+                                  ("patches", {**damped, "Scheme": "bdf2"}, PATCHES)):
+            with self.subTest(name):
+                problem = self.motion(Examples=examples(), Time={"Step": 0.01, "End": 1, **time}, Model=model)
+                body = Body(STAR, STAR_CELLS, STAR_POSES) if not model else \
+                    Patch(STAR, STAR_CELLS, poses=STAR_POSES, law=Law(0, MU))
+                M = mass_of(STAR_CELLS, body.V, body.n)
+                problem.state = problem.state.replace(velocities=STAR @ np.array([[3, 4, -2], [3, -7, 2], [8, 3, 1.]]))
+                history = [(problem.positions.copy(), problem.velocities.copy())]
+                for h in 0.01, 0.008:
+                    problem.step(h)
+                    history.append((problem.positions.copy(), problem.velocities.copy()))
+                h, r = 0.01, 0.01 / 0.008
+                with_two = "Scheme" in time
+                gamma = (1 + 2 * r) / ((1 + r) * h) if with_two else 1 / h
+                last, before = ((1 + r)**2 / (1 + 2 * r), -r**2 / (1 + 2 * r)) if with_two else (1, 0)
+                x_star, v_star = (last * history[-1][k] + before * history[-2][k] for k in (0, 1))
+                m, k = (a, b) if time else (0, 0)
+                x_hat = x_star + v_star / (gamma + m)
+                x, s = moved(problem.positions, I, 0.02), k * gamma
+                e_star = last * np.array([polar(F)[1] - I for F in body.F(history[-1][0])]) \
+                    + before * np.array([polar(F)[1] - I for F in body.F(history[-2][0])])
+                e = np.array([polar(F)[1] - I for F in body.F(x)])
+                energy = gamma * (gamma + m) / 2 * squared(M, x - x_hat) + body.energy(x, WEIGHTS) - (M.sum(axis=1) @ (x - STAR)) @ GRAVITY
+                energy += s / 2 * body.sum([dot(c, body.law.C(c)) for c in e - e_star])
+                if model:
+                    theta_star = body.V @ np.trace(e_star, axis1=1, axis2=2) / body.whole
+                    energy += s / 2 * LAMBDA * body.whole * (body.theta(x) - theta_star)**2
+                self.near(problem.energy(x, WEIGHTS), energy)
+                # one quadratic with C (1 + b gamma) and a driving strain
+                driven = (body.D(WEIGHTS) + s * e_star) / (1 + s)
+                law = Law((1 + s) * body.law.lam, (1 + s) * MU, of_guard=(body.law.lam, MU))
+                force = body.forces([law.P(F, D) for F, D in zip(body.F(x), driven)])
+                force += gamma * (gamma + m) * M @ (x - x_hat) - np.outer(M.sum(axis=1), GRAVITY)
+                if model:
+                    force += body.whole * (body.pressure(x, WEIGHTS) + s * LAMBDA * (body.theta(x) - theta_star)) * body.b(x)
+                self.near(problem.gradient(x, WEIGHTS), force)
+                self.near(problem.coupling(x, WEIGHTS), body.columns(x))
+                A = body.convex(x)[0] * (1 + s) + gamma * (gamma + m) * np.kron(M, I)
+                if model:
+                    A += (1 + s) * LAMBDA * body.whole * np.outer(body.b(x).ravel(), body.b(x).ravel())
+                self.near(problem.hessian(x, WEIGHTS, "convex").toarray(), A)
+
+    def test_velocities_and_momentum(self):
+        """(12), (21): velocities; L = L + h sum v x M v."""
+        problem, h = self.motion(Time={"Step": 0.01, "End": 1, "Scheme": "bdf2"}, Loads={"Gravity": [0, 0, 0]}), 0.01
+        M = mass_of(STAR_CELLS, shapes(STAR, STAR_CELLS)[1], len(STAR))
+        problem.state = problem.state.replace(velocities=STAR @ np.array([[0, 4, -2], [-4, 0, 2], [2, -2, 0.]]))
+        x = [problem.positions.copy()]
+        for _ in range(2):
+            problem.step(h)
+            x.append(problem.positions.copy())
+        self.near(problem.velocities, 3 / (2 * h) * (x[2] - (4 * x[1] - x[0]) / 3), 1e-9)
+        problem = self.motion(Loads={"Gravity": [0, 0, 0]}, Solver={"Method": "newton", "Tolerance": 1e-11})
+        problem.state = problem.state.replace(velocities=STAR @ np.array([[0, 4, -2], [-4, 0, 2], [2, -2, 0.]]))
+        for _ in range(3):
+            x_n, v_n = problem.positions.copy(), problem.velocities.copy()
+            problem.step()
+            x, v = problem.positions, problem.velocities
+            self.near(v, (x - x_n) / h, 1e-9)
+            L = np.cross(x, M @ v).sum(axis=0)
+            self.near(L, np.cross(x_n, M @ v_n).sum(axis=0) + h * np.cross(v, M @ v_n).sum(axis=0), 1e-7)
+
+    def test_weights_that_remember(self):
+        """(27), (28)."""
+        price, viscosity = 50.0, 7.0
+        problem = self.motion(Examples=examples("blended", Weights="simplex", **{"Yield": price, "Creep viscosity": viscosity}))
+        body = Body(STAR, STAR_CELLS, STAR_POSES, part=1)
+        M, volume, h = mass_of(STAR_CELLS, body.V, body.n), body.V.sum(), 0.01
+        problem.state = problem.state.replace(velocities=40 * (STAR_POSES[0] - STAR))
+        dissipated = 0
+        for _ in range(3):
+            w_n = problem.weights.copy()
+            problem.step()
+            change = problem.weights - w_n
+            dissipated += price * volume * np.abs(change).sum() + h * viscosity * volume * (change**2).sum() / h**2
+            self.near(problem.statistics["energy_dissipated"], dissipated, 1e-9)
+        self.assertGreater(np.abs(problem.weights - [1, 0, 0]).max(), 0.01)
+        x, w_n = moved(problem.positions, I, 0.02), problem.weights
+        energy = squared(M, x - problem.positions - h * problem.velocities) / (2 * h**2) + body.energy(x, WEIGHTS) - (M.sum(axis=1) @ (x - STAR)) @ GRAVITY
+        energy += volume * (price * np.abs(WEIGHTS - w_n).sum() + viscosity / (2 * h) * ((WEIGHTS - w_n)**2).sum())
+        self.near(problem.energy(x, WEIGHTS), energy)
+        self.near(problem.weight_gradient(x, WEIGHTS), body.weight_gradient(x, WEIGHTS) + viscosity * volume / h * (WEIGHTS - w_n))
+        self.near(problem.weight_hessian(), body.H() + viscosity * volume / h * np.eye(3))
+
+
+class OfStatics(Formulas):
+    def test_balance(self):
+        """(39): what bears the loads at rest, and its energy, force and tangent anywhere, examples aside."""
+        for patches in False, True:
+            problem = make(scene(Handles=FOOT, Material={"Density": DENSITY}, Loads={"Gravity": list(GRAVITY), "Balanced": True},
+                                 Model=PATCHES if patches else {}), STAR, STAR_CELLS)
+            body = Patch(STAR, STAR_CELLS, law=Law(0, MU), sigma=0) if patches else Body(STAR, STAR_CELLS, sigma=0)
+            f = np.outer(mass_of(STAR_CELLS, body.V, body.n).sum(axis=1), GRAVITY)
+            free = np.repeat(STAR[:, 2] > -0.9, 3)
+            K, u = body.tangent(STAR, np.ones(1)), np.zeros(f.size)
+            u[free] = np.linalg.solve(K[np.ix_(free, free)], f.ravel()[free])
+            grad = gradients_of(u.reshape(-1, 3), STAR_CELLS, body.g)
+            tau = np.array([body.law.C(sym(d)) for d in grad])
+            if patches:
+                tau += LAMBDA * (body.b(STAR).ravel() @ u) * I
+            self.near(body.forces(tau)[free[::3]], f[free[::3]], 1e-9)
+            for F in STATES["strained"], with_stretches(1.2, 0.5, -0.3):
+                x = moved(STAR, F)
+                S = [polar(F)[1] for F in body.F(x)]
+                phi = [body.law.guard(s)[0] for s in S]
+                of_tau = body.sum([dot(t, s - I) - (1 - p) * dot(s, dev(t)) for t, s, p in zip(tau, S, phi)])
+                self.near(problem.energy(x), body.energy(x, np.ones(1)) + of_tau - (f * (x - STAR)).sum(), 1e-9)
+                # (17) and (18) are linear in T: - tau as the target of a material with 2 mu = 1 and no C of its own
+                stressed = Law(0, 0.5)
+                only = [stressed.P(F, -t) - stressed.P(F, 0 * t) for F, t in zip(body.F(x), tau)]
+                self.near(problem.gradient(x), body.gradient(x, np.ones(1)) + body.forces(only) - f, 1e-9)
+                F = body.F(x)
+                A = matrix(STAR_CELLS, lambda m, dF: stressed.dP(F[m], -tau[m], dF) - stressed.dP(F[m], 0 * I, dF), body.g, body.V, body.n)
+                self.near(problem.hessian(x).toarray(), body.tangent(x, np.ones(1)) + A, 1e-9)
+
+    def test_one_pass(self):
+        """(10), (11), (13) and moved handles, with (6) to (9): from a strained state, once."""
+        motion = np.array([0.1, -0.05, 0.2])
+        top = {"top": {"Select": "box -9 -9 1.1 9 9 9", "Motion": [f"{m}*t" for m in motion]}}
+        problem = make(scene(Handles={**FOOT, **top}, Examples=examples(), Material={"Density": DENSITY}, Loads={"Gravity": list(GRAVITY)},
+                             Model={"Gradient": "frozen"}, Solver={"Method": "one pass"}), STAR, STAR_CELLS, STAR_POSES)
+        body, k = Body(STAR, STAR_CELLS, STAR_POSES), 3
+        f = np.outer(mass_of(STAR_CELLS, body.V, body.n).sum(axis=1), GRAVITY)
+        w = problem.weights.copy()
+        problem.step()
+        held = (STAR[:, 2] < -0.9) | (STAR[:, 2] > 1.1)
+        free = np.repeat(~held, 3)
+        A, G = body.convex(STAR)
+        move = np.where(STAR[:, 2:] > 1.1, motion, 0).ravel()
+        N = np.ones((1, k))
+        right = f.ravel() - problem_force(body, STAR, w) - A @ move
+        r_w = -(body.weight_gradient(STAR, w) - G.T @ move)
+        whole = np.block([[A[np.ix_(free, free)], -G[free], np.zeros((free.sum(), 1))], [-G[free].T, body.H(), N.T],
+                          [np.zeros((1, free.sum())), N, np.zeros((1, 1))]])
+        solution = np.linalg.solve(whole, np.concatenate([right[free], r_w, [1 - w.sum()]]))
+        n = free.sum()
+        x = STAR.ravel() + move
+        x[free] += solution[:n]
+        self.near(problem.positions, x.reshape(-1, 3), 1e-9)
+        self.near(problem.weights, w + solution[n:n + k], 1e-8)
+        Z, z = np.linalg.solve(A[np.ix_(free, free)], G[free]), np.linalg.solve(A[np.ix_(free, free)], right[free])  # (11)
+        small = np.block([[body.H() - G[free].T @ Z, N.T], [N, np.zeros((1, 1))]])
+        change = np.linalg.solve(small, np.concatenate([r_w + G[free].T @ z, [1 - w.sum()]]))[:k]
+        self.near(change, solution[n:n + k], 1e-8)
+        self.near(z + Z @ change, solution[:n], 1e-8)
+
+        x, w = problem.positions, problem.weights  # (13)
+        e, E = [polar(F)[1] - I for F in body.F(x)], body.D(w) / ETA
+        sizes = [np.linalg.norm(stress(a)) + ETA * np.linalg.norm(stress(b)) for a, b in zip(e, E)]
+        scale = np.linalg.norm(f, axis=1)
+        np.add.at(scale, STAR_CELLS, np.einsum("m,m,ma->ma", body.V, sizes, np.linalg.norm(body.g, axis=2)))
+        gradient = problem_force(body, x, w) - f.ravel()
+        self.near(problem.residual, np.abs(gradient[free]).max() / scale.max(), 1e-8)
+        slope = body.weight_gradient(x, w)
+        scales = ETA * body.sum(np.square(sizes))**0.5 * np.array([body.sum([dot(a, a) for a in e_i])**0.5 for e_i in body.E]) + SIGMA * np.abs(w)
+        self.near(problem.statistics["kkt_residual"], np.abs(slope - slope.mean()).max() / scales.max(), 1e-7)
+
+    def test_handles_that_follow_a_pose(self):
+        """(15), and the turn of a handle by its part."""
+        pose = STAR @ (turn([1, 3, 2], 1.3) @ (I + 0.1 * np.ones((3, 3)))).T + [3, 1, 2]
+        with tempfile.TemporaryDirectory() as directory:
+            name = Path(directory) / "pose.msh"
+            name.write_text("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n13\n"
+                            + "".join(f"{i + 1} {a!r} {b!r} {c!r}\n" for i, (a, b, c) in enumerate(pose.tolist())) + "$EndNodes\n$Elements\n20\n"
+                            + "".join(f"{i + 1} 4 2 1 1 {' '.join(str(a + 1) for a in c)}\n" for i, c in enumerate(STAR_CELLS)) + "$EndElements\n")
+            problem = make(scene(Handles={"foot": {"Select": "box -9 -9 -9 9 9 0.1", "Follow pose": str(name)}}, Time={"Increments": 4}),
+                           STAR, STAR_CELLS)
+        held = STAR[:, 2] < 0.1
+        X, bar = STAR[held], pose[held]
+        c, c_bar = X.mean(axis=0), bar.mean(axis=0)
+        Q = polar((bar - c_bar).T @ (X - c))[0]
+        angle = np.arccos((np.trace(Q) - 1) / 2)
+        axis = np.array([Q[2, 1] - Q[1, 2], Q[0, 2] - Q[2, 0], Q[1, 0] - Q[0, 1]])
+        d = (bar - c_bar) @ Q - (X - c)
+        for s in 0.25, 0.5, 0.75, 1:
+            problem.step()
+            self.near(problem.positions[held], c + s * (c_bar - c) + (X - c + s * d) @ turn(axis, s * angle).T, 1e-12)
+        self.near(problem.positions[held], bar)
+
+
+def problem_force(body, x, w):
+    """Frozen forces (6)."""
+    return body.forces([polar(F)[0] @ stress(polar(F)[1] - I - D) for F, D in zip(body.F(x), body.D(w))]).ravel()
+
+
+class OfQuadraticElements(Formulas):
+    def test_ten_nodes(self):
+        """The rule, the masses and the loads of quadratic elements; (16) to (18), (40) and (25) at their points."""
+        for mass in "consistent", "lumped":
+            for model in {}, PATCHES:
+                problem = make(scene(Model={"Element": "P2", **({"Dilatation": "cells"} if not model else model)}, Examples=examples(),
+                                     Material={"Density": DENSITY, "Mass matrix": mass}, Loads={"Gravity": list(GRAVITY)}))
+                nodes, numbers = problem.state.positions, problem.cell_nodes[0]
+                ends = []
+                for x in nodes[numbers[4:]]:
+                    ends += [(i, j) for i in range(4) for j in range(i) if np.abs((NODES[i] + NODES[j]) / 2 - x).max() < 1e-12]
+                self.assertEqual(len(ends), 6)
+                linear, V = shapes(NODES, CELLS)
+                big, small = (5 + 3 * 5**0.5) / 20, (5 - 5**0.5) / 20
+                points = np.full((4, 4), small) + (big - small) * np.eye(4)
+                g = []
+                for L in points:
+                    corners = [(4 * L[a] - 1) * linear[0, a] for a in range(4)]
+                    g.append(corners + [4 * (L[i] * linear[0, j] + L[j] * linear[0, i]) for i, j in ends])
+                of_points = (np.array(g), np.full(4, V[0] / 4))
+                poses = [(NODES @ F.T)[[*range(4)]] for F in POSES]
+                poses = [np.array([*x, *[(x[i] + x[j]) / 2 for i, j in ends]]) for x in poses]
+                order = np.argsort(numbers)
+                body = (Patch if model else Body)(nodes, np.tile(numbers, (4, 1)), poses=[x[order] for x in poses], points=of_points,
+                                                  law=Law(0 if model else LAMBDA, MU))
+                M = problem.mass.toarray()[::3, ::3]
+                unit = DENSITY * V[0]
+                expected = np.array([6] * 4 + [32] * 6) / 420 if mass == "consistent" else np.array([1 / 36] * 4 + [4 / 27] * 6)
+                self.near(M[numbers, numbers], unit * expected)
+                loads = np.array([-1 / 20] * 4 + [1 / 5] * 6) if mass == "consistent" else expected
+                f = np.zeros((10, 3))
+                f[numbers] = unit * np.outer(loads, GRAVITY)
+                x = moved(nodes, size=0.05)
+                self.near(problem.energy(x, WEIGHTS), body.energy(x, WEIGHTS) - (f * (x - nodes)).sum())
+                self.near(problem.gradient(x, WEIGHTS), body.gradient(x, WEIGHTS) - f)
+                self.near(problem.hessian(x, WEIGHTS).toarray(), body.tangent(x, WEIGHTS))
+                self.near(problem.coupling(x, WEIGHTS), body.columns(x))
+                self.near(problem.weight_gradient(x, WEIGHTS), body.weight_gradient(x, WEIGHTS))
+                self.near(problem.weight_hessian(), body.H())
+
+
+class ClosedForms(Formulas):
+    def density(self, F, **sections):
+        problem = make(scene(**sections))
+        return problem.energy(NODES @ F.T) / shapes(NODES, CELLS)[1][0]
+
+    def test_densities(self):
+        s, gamma = 1.3, 0.8
+        shear, r = I + gamma * np.outer(I[0], I[1]), (4 + gamma**2)**0.5
+        self.near(self.density(s * I), 3 * MU * (s - 1)**2 + 9 / 2 * LAMBDA * (s - 1)**2)
+        self.near(self.density(shear), MU * (4 + gamma**2 - 2 * r) + LAMBDA / 2 * (r - 2)**2)
+        lateral = 1 - NU * (s - 1)
+        self.near(Law().P(np.diag([s, lateral, lateral]), 0 * I) + I, YOUNG * (s - 1) * np.outer(I[0], I[0]) + I)
+        law = NeoHookean()
+        P = law.P(shear)
+        self.near([P[0, 1], P[1, 0]], [law.mu_S * gamma * (1 - 1 / (4 + gamma**2)), MU * gamma])
+        r = 0.9
+        for _ in range(99):  # free sides
+            F = np.diag([s, r, r])
+            r -= law.P(F)[1, 1] / (law.dP(F, np.diag([0, 1, 1]))[1, 1])
+        k, J = law.mu_S * (1 - 1 / (s**2 + 2 * r**2 + 1)), s * r**2
+        self.near([law.P(F)[0, 0], -law.lambda_S * (J - law.J_0) * s], [k * (s - r**2 / s), k], 1e-9)
+
+    def test_tension_of_fibres(self):
+        b = np.array([2, -1, 1]) / 6**0.5
+        s = FIBRE @ b
+        C = (isotropic() + FIBRE_TENSOR).reshape(9, 9)
+        strain = np.linalg.pinv(C) @ np.outer(b, b).ravel()
+        self.near(b @ strain.reshape(3, 3) @ b, 1 / YOUNG - ((1 + NU) * s**2 - NU)**2 / YOUNG**2 / (1 / ALPHA + 1 / YOUNG))
 
 
 if __name__ == "__main__":
