@@ -846,11 +846,9 @@ def flow(e, last, accumulated, h, greatest=0.9):
     return p, accumulated + (2 / 3)**0.5 * step, step
 
 
-def plastic_density(e, last, accumulated, h, p=None, greatest=0.9):
-    """psi_b of (32), for the best plastic strain or another."""
+def plastic_density(e, last, accumulated, h, p):
+    """psi_b of (32) before the minimum is taken."""
     s_y, H_kin, H_iso, viscosity = (YIELD[key] for key in ("Yield stress", "Kinematic hardening", "Isotropic hardening", "Flow viscosity"))
-    if p is None:
-        p = flow(e, last, accumulated, h, greatest)[0]
     Delta = np.linalg.norm(p - last)
     a = accumulated + (2 / 3)**0.5 * Delta
     return (dot(e - p, stress(e - p)) / 2 + H_kin / 3 * dot(p, p) + H_iso / 2 * a**2 + (2 / 3)**0.5 * s_y * Delta
@@ -886,33 +884,33 @@ class OfPlasticBodies(Formulas):
                     if name == "bounded":
                         self.assertAlmostEqual((2 / 3)**0.5 * np.linalg.norm(last), 0.08, places=12)
                     x_hat = problem.positions + h * problem.velocities
-                    for size, seed in (0.1, 2), (0.02, 3):
-                        x = moved(problem.positions, I, size, seed)
-                        e, u = polar(body.F(x)[0])[1] - I, x - x_hat
-                        E = body.D(WEIGHTS)[0] / ETA
+                    places = [moved(problem.positions, I, size, seed) for size, seed in ((0.1, 2), (0.02, 3))]
+                    for x in places if of_grain else [*places, NODES @ STATES["guarded"].T]:
+                        S, u = polar(body.F(x)[0])[1], x - x_hat
+                        e, E, phi = S - I, body.D(WEIGHTS)[0] / ETA, body.law.guard(S)[0]
                         of_fibre = of_grain or (lambda e: 0 * e)
-                        psi = (1 - eta) * (plastic_density(e, last, accumulated, h, greatest=greatest) + dot(e, of_fibre(e)) / 2)
-                        psi += eta / 2 * dot(e - E, body.law.C(e - E))
+                        p = flow(phi * e, last, accumulated, h, greatest)[0]
+                        D = eta * E + (1 - eta) * p
+                        psi = (1 - eta) * (plastic_density(e, last, accumulated, h, p) + dot(e, of_fibre(e)) / 2)
+                        psi += eta / 2 * dot(e - E, body.law.C(e - E)) + (1 - phi) * body.law.held(S, D)[0]
                         inertia = np.einsum("ac,ab,bc", u, mass, u) / (2 * h**2)
                         w = WEIGHTS if eta else None
                         self.near(problem.energy(x, w), body.V[0] * psi + inertia + (SIGMA / 2 * WEIGHTS @ WEIGHTS if eta else 0), 1e-9)
-                        p = flow(e, last, accumulated, h, greatest)[0]
-                        D = eta * E + (1 - eta) * p
                         force = body.forces([body.law.P(body.F(x)[0], D)]) + mass @ u / h**2
                         if of_grain:  # fibres see all of the strain
                             force += body.forces([Law(0, 0, of_grain).P(body.F(x)[0], eta * E) - Law(0, 0, of_grain).P(body.F(x)[0], D)])
                         self.near(problem.gradient(x, w), force, 1e-9)
                         self.near(problem.hessian(x, w).toarray(), differences(lambda y: problem.gradient(y, w).ravel(), x, 1e-7), 1e-6)
-                        best = plastic_density(e, last, accumulated, h, greatest=greatest)
+                        best = plastic_density(phi * e, last, accumulated, h, p)
                         for seed in range(9):
                             other = p + 1e-3 * dev(sym(np.random.default_rng(seed).standard_normal((3, 3))))
                             if (2 / 3)**0.5 * np.linalg.norm(other) <= greatest:
-                                self.assertGreater(plastic_density(e, last, accumulated, h, other), best)
+                                self.assertGreater(plastic_density(phi * e, last, accumulated, h, other), best)
                         R = polar(body.F(x)[0])[0]
                         if not of_grain:
                             def dP(m, dF):
                                 d = sym(R.T @ dF)
-                                change = [flow(e + s * 1e-6 * d, last, accumulated, h, greatest)[0] for s in (1, -1)]
+                                change = [phi * flow(phi * (e + s * 1e-6 * d), last, accumulated, h, greatest)[0] for s in (1, -1)]
                                 return R @ (stress(d) - 0.9 * (1 - eta) * 2 * MU * (change[0] - change[1]) / 2e-6)
                             A = matrix(CELLS, dP, body.g, body.V, 4) + np.kron(mass, I) / h**2
                             self.near(problem.hessian(x, w, "convex").toarray(), A, 1e-7)

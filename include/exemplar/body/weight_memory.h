@@ -14,7 +14,7 @@ namespace Exemplar
   struct WeightStep
   {
     std::vector<double> last;
-    std::vector<double> base; ///< w*
+    std::vector<double> base;       ///< w*
     double              gamma = 0.; ///< [1/s]
     double              size  = 0.; ///< of the step [s]
   };
