@@ -985,6 +985,22 @@ class OfMotion(Formulas):
                     A += (1 + s) * LAMBDA * body.whole * np.outer(body.b(x).ravel(), body.b(x).ravel())
                 self.near(problem.hessian(x, WEIGHTS, "convex").toarray(), A)
 
+    def test_guarded_cells_are_not_damped(self):
+        """Below (22) and (25): cells that were guarded before the step, and their patch."""
+        h, b = 0.01, 0.004
+        for model in {}, PATCHES:
+            problem = self.motion(Time={"Step": h, "End": 1, "Stiffness damping": b}, Model=model)
+            body = Patch(STAR, STAR_CELLS, law=Law(0, MU), sigma=0) if model else Body(STAR, STAR_CELLS, sigma=0)
+            before = moved(STAR, with_stretches(1.1, 0.7, -0.2), 0.2)
+            problem.state = problem.state.replace(positions=before)
+            S = [polar(F)[1] for F in body.F(before)]
+            is_damped = np.array([body.law.guard(s)[0] == 1 for s in S])
+            self.assertTrue(is_damped.any() and not is_damped.all())
+            x, M = moved(STAR), mass_of(STAR_CELLS, body.V, body.n)
+            change = np.array([polar(F)[1] - s for F, s in zip(body.F(x), S)])
+            energy = squared(M, x - before) / (2 * h**2) + body.energy(x, np.ones(1)) - (M.sum(axis=1) @ (x - STAR)) @ GRAVITY
+            self.near(problem.energy(x), energy + b / h / 2 * body.sum([d * dot(c, body.law.C(c)) for c, d in zip(change, is_damped)]))
+
     def test_velocities_and_momentum(self):
         """(12), (21): velocities; L = L + h sum v x M v."""
         problem, h = self.motion(Time={"Step": 0.01, "End": 1, "Scheme": "bdf2"}, Loads={"Gravity": [0, 0, 0]}), 0.01
