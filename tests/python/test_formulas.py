@@ -4,8 +4,9 @@
 Held are (1) to (22), (24) to (28) and (30) to (40), with what the pages print between them (damping, guards, fibres, patches, the convex tangent
 of stretched cells, importance by region, quadratic elements, lumped masses, moved handles, handles that follow a pose, closed forms).
 
-Not held, as no caller sees it: (23), but see RotatedMetric in tests/unit/solvers; which cells make a patch (patches_test.cc); shares of Weight maps
-in (20) (scenes/test_by_surface.py); the support of interpolations (supports_test.cc).
+Not held are (23), which no caller sees, but see RotatedMetric in tests/unit/solvers; which cells make a patch (patches_test.cc); convex tangents of
+thin cells and of (26), plastic cells and (38) in patches (tests/unit/potential, test_evaluation.py by differences); shares of Weight maps in (20)
+(scenes/test_by_surface.py); interpolations and their support (supports_test.cc); the energy bound, spins and falls of implicit Euler (exemplar verify).
 """
 import tempfile
 import unittest
