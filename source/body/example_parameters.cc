@@ -114,9 +114,9 @@ namespace Exemplar
              "; ");
     keys.add(
         "Yield", yield,
-        "How much energy [J/m^3] it costs to change simplex weights: a step adds s_i times the "
-        "change of each weight, with s_i = Yield times the volume on which it acts, so that a "
-        "weight stays where it is until the force on it is greater than s_i, and a body that is "
+        "How much energy [J/m^3] it costs to change simplex weights: a step adds Y_i times the "
+        "change of each weight, with Y_i = Yield times the volume on which it acts, so that a "
+        "weight stays where it is until the force on it is greater than Y_i, and a body that is "
         "let go stays bent. 0: examples let go at once. For a start take a hundredth of E times "
         "the square of the examples' strains.",
         Bounds{ 0. });

@@ -210,12 +210,13 @@ namespace Exemplar::Python
           "is\n"
           "what the solver takes where that is indefinite. Outer products of patches are in it.\n"
           "Arguments and errors as of energy(); ImportError without scipy.");
-      problem.def("coupling", &coupling, py::arg("positions") = none, py::arg("weights") = none,
-                  py::arg("kind") = "exact",
-                  "coupling(positions=None, weights=None, kind='exact') -> (3n, k)\n\n"
-                  "G = -d2 Phi/dx dw [N] of doc/solver.md, Eq. (10). Zero for the rest pose. "
-                  "Arguments\n"
-                  "and errors as of weight_gradient().");
+      problem.def(
+          "coupling", &coupling, py::arg("positions") = none, py::arg("weights") = none,
+          py::arg("kind") = "exact",
+          "coupling(positions=None, weights=None, kind='exact') -> (3n, k)\n\n"
+          "G = -d2 Phi/dx dw [N] of doc/model.md, Eq. (40); kind='convex': Eq. (9). Zero for "
+          "the\n"
+          "rest pose. Arguments and errors as of weight_gradient().");
       problem.def("weight_hessian", &weight_hessian,
                   "weight_hessian() -> (k, k)\n\n"
                   "H = d2 Phi/dw2 [J] of doc/model.md, Eq. (9), which is the same everywhere. "

@@ -48,7 +48,7 @@ namespace Exemplar
       return predicted;
     }
 
-    /// gamma (gamma + a) with the mass damping a: what multiplies the mass matrix [1/s^2].
+    /// gamma (gamma + a_M) with the mass damping a_M: what multiplies the mass matrix [1/s^2].
     double
     mass_factor() const
     {

@@ -9,12 +9,12 @@
 
 namespace Exemplar
 {
-  /// What weights are compared with in a step: those at its start, and the rate gamma (w - base) of the
+  /// What weights are compared with in a step: those at its start, and the rate gamma (w - w*) of the
   /// time scheme. Outside of dynamics, and of steps, weights have no rate: gamma is 0.
   struct WeightStep
   {
     std::vector<double> last;
-    std::vector<double> base;
+    std::vector<double> base;       ///< w*
     double              gamma = 0.; ///< [1/s]
     double              size  = 0.; ///< of the step [s]
   };
@@ -32,8 +32,8 @@ namespace Exemplar
     }
   };
 
-  /// Weights that remember, Eq. (27): a step adds sum s_i |w_i - last_i| + gamma/2 sum c_i (w_i -
-  /// base_i)^2 to what it minimises. The first sum has kinks, which are left to the quadratic program of
+  /// Weights that remember, Eq. (27): a step adds sum Y_i |w_i - last_i| + gamma/2 sum c_i (w_i -
+  /// w*_i)^2 to what it minimises. The first sum has kinks, which are left to the quadratic program of
   /// the weights: forces here are those of the second.
   class WeightMemory
   {
@@ -41,7 +41,7 @@ namespace Exemplar
     /// Nothing is remembered.
     WeightMemory() = default;
 
-    /// s_i [J] and c_i [J s] of each weight; empty where there are none.
+    /// Y_i [J] and c_i [J s] of each weight; empty where there are none.
     WeightMemory(std::vector<double> yields, std::vector<double> viscosities);
 
     bool

@@ -43,7 +43,7 @@ namespace Exemplar
     /// tr(e) and |F|^2, for patches.
     void (*dilatations)(const CellTask &, std::size_t begin, std::size_t end);
 
-    /// G in strongly stretched patches.
+    /// Gamma in strongly stretched patches.
     void (*stretch_energies)(const CellTask &, std::size_t begin, std::size_t end);
 
     /// Let the law remember a step that ends at these positions, of which the rotations are.

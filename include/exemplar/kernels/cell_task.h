@@ -60,11 +60,11 @@ namespace Exemplar
         = nullptr; ///< the strains once more, if single precision has them exactly
   };
 
-  /// Stiffness damping: s(e - e_past) is added to the strain's stress.
+  /// Stiffness damping: s(e - e*) is added to the strain's stress.
   struct DampingArrays
   {
     const double *factors = nullptr; ///< 1: s [-]; null: no damping
-    const double *strains = nullptr; ///< 6: e_past
+    const double *strains = nullptr; ///< 6: e*
   };
 
   /// What strongly stretched patches do to their cells, Eq. (26), see StretchedPatch.
@@ -74,7 +74,7 @@ namespace Exemplar
     const double *by_F        = nullptr; ///< 1 [Pa]
     const double *stiffnesses = nullptr; ///< 1 [Pa]
     const double *elasticity  = nullptr; ///< 2: Lamé's constants of the guard [Pa]
-    double       *energies    = nullptr; ///< 1: G, where beta > 0, written [Pa]
+    double       *energies    = nullptr; ///< 1: Gamma, where beta > 0, written [Pa]
   };
 
   /// What of a batch patches ask for beside the numbers of its cells: hardly any cell is such.
@@ -139,7 +139,7 @@ namespace Exemplar
     const double      *factors; ///< of b b^T, a patch [J]
     const double *vectors; ///< b, at nodes of which some components are held the free ones first
     const double *squares     = nullptr; ///< dm_p/dx alike; null: no patch is stretched
-    const double *sums        = nullptr; ///< the derivative of sum V W [N]
+    const double *sums        = nullptr; ///< the derivative of Xi [N]
     const double *of_squares  = nullptr; ///< factors of the square of the one, a patch [J]
     const double *of_products = nullptr; ///< and of both products of one with the other
   };

@@ -106,7 +106,7 @@ namespace Exemplar
       return psi + guard_energy(material, Number(1.) - phi, S, D);
     }
 
-    /// 1/2 (e - e_past) : C : (e - e_past), of which stiffness damping has s times.
+    /// 1/2 (e - e*) : C : (e - e*), of which stiffness damping has s times.
     Number
     damping_density(const Matrix3<Number> &past) const
     {
@@ -230,8 +230,8 @@ namespace Exemplar
                      combine(Number(1.), Omega * guard.force(), Number(1.), guard.response(dS)));
     }
 
-    /// R^T dP of a change of the target by -E. A column of the coupling is eta times this, with
-    /// E = E_i.
+    /// R^T dP of a change of the target by -E. A column of the coupling, Eq. (40), is eta times
+    /// this, with E = E_i.
     Matrix3<Number>
     example_response(const Matrix3<Number> &E) const
     {

@@ -95,8 +95,8 @@ namespace Exemplar
   }
 
   /// The target strain of a cell with stiffness damping. The energies of elasticity and of
-  /// damping are 1/2 (e-D):C:(e-D) and s/2 (e-e_past):C:(e-e_past). Up to a constant their sum is
-  /// (1+s)/2 (e-D'):C:(e-D') with D' = (D + s e_past) / (1+s).
+  /// damping are 1/2 (e-D):C:(e-D) and s/2 (e-e*):C:(e-e*). Up to a constant their sum is
+  /// (1+s)/2 (e-D'):C:(e-D') with D' = (D + s e*) / (1+s).
   template <typename Number>
   Matrix3<Number>
   damped_target(const Matrix3<Number> &target, const Number &s, const Matrix3<Number> &past)

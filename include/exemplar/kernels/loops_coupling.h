@@ -4,7 +4,7 @@
 
 #include <exemplar/kernels/loops_tangent.h>
 
-// The loop over the cells of a batch that finds the columns G of Eq. (9): by how much a unit of
+// The loop over the cells of a batch that finds the columns G of Eqs. (9) and (40): by how much a unit of
 // each example's weight reduces the forces.
 
 namespace Exemplar::Loops
@@ -34,7 +34,7 @@ namespace Exemplar::Loops
       }
   }
 
-  /// Beside R K R^T: the forces eta V R (C:E_i) g_a of frozen rotations.
+  /// Beside R K R^T: the forces eta V R (C:E_i) g_a of frozen rotations, Eq. (9).
   template <typename Constants, int n_nodes, typename Number>
   inline void
   couple_rotated(const CellTask &task, const LaneGroup<Number> &group, double *forces)
@@ -49,7 +49,7 @@ namespace Exemplar::Loops
           forces);
   }
 
-  /// Beside the tangent of the model.
+  /// Beside the tangent of the model: Eq. (40).
   template <typename Cell, int n_nodes, typename Number>
   inline void
   couple_exactly(const CellTask          &task,

@@ -101,14 +101,14 @@ namespace Exemplar
   };
 
   /// What a strongly stretched patch does to a cell of it, Eq. (26): the energy of the patch has
-  /// beta(m_p) sum V W.
+  /// beta(m_p) Xi.
   template <typename Number>
   struct StretchedPatch
   {
     Number               beta;
     Number               by_F;       ///< the factor of F in the stress that beta makes [Pa]
     Number               stiffness;  ///< beta lambda_p [Pa]
-    CellMaterial<Number> elasticity; ///< of the guard G
+    CellMaterial<Number> elasticity; ///< of the guard Gamma
   };
 
   /// What patches add to the stress of a cell, beside their pressure, and to its tangent. The cell has
@@ -129,7 +129,7 @@ namespace Exemplar
       return thin;
     }
 
-    /// G [Pa].
+    /// Gamma [Pa].
     Number
     guard_energy() const
     {

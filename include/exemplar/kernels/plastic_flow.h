@@ -11,7 +11,7 @@
 //
 //   mu |d - p|^2 + H_k/3 |p|^2 + H_i/2 a^2 + sqrt(2/3) sigma_y g + v/2 g^2,
 //
-// with g = |p - p_n|, a = a_n + sqrt(2/3) g, the deviator d of the strain, and the viscosity v over the time
+// with g = |p - p_n|, there Delta, a = a_n + sqrt(2/3) g, the deviator d of the strain, and the viscosity v over the time
 // step. Where m does not act this is the radial return. No deal.II header here: see matrix3.h.
 
 namespace Exemplar

@@ -167,7 +167,7 @@ namespace Exemplar
       n = contract(G, G);
     }
 
-    // p(l) = l^4 - 2 n l^2 - 8 det(G) l + n^2 - 4 |cof G|^2 with n = |G|^2
+    // chi(l) = l^4 - 2 n l^2 - 8 det(G) l + n^2 - 4 |cof G|^2 with n = |G|^2
     const Matrix3<Number> cof = cofactors(G);
     const Number          det = G[0][0] * cof[0][0] + G[0][1] * cof[0][1] + G[0][2] * cof[0][2];
     const Number          constant  = n * n - Number(4.) * contract(cof, cof);

@@ -57,14 +57,14 @@ namespace Exemplar
       return norm(stress(material, D));
     }
 
-    /// 1/2 (e - e_past) : C : (e - e_past), of which stiffness damping has s times.
+    /// 1/2 (e - e*) : C : (e - e*), of which stiffness damping has s times.
     Number
     damping_density(const Matrix3<Number> &past) const
     {
       return energy(past);
     }
 
-    /// Let stiffness damping with the factor s and the strain e_past act from now on, and get the
+    /// Let stiffness damping with the factor s and the strain e* act from now on, and get the
     /// target that the whole then has. The guard of the stretch belongs to the elasticity and stays.
     Matrix3<Number>
     damp(const Matrix3<Number> &D, const Number &s, const Matrix3<Number> &past)

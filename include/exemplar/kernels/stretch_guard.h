@@ -14,11 +14,11 @@
 // there, positive once s_1 > 1 + 1/nu: then the kink is a minimum at which no gradient vanishes,
 // and no method converges. The guard adds, Eq. (24),
 //
-//   G = 4 q(c(|F|)) r(y),   r(y) = y_0/3 (1 - y/y_0)^3 for y < y_0, else 0,   y = p / |F|^2,
+//   Gamma = 4 q(c(|F|)) r(y),   r(y) = y_0/3 (1 - y/y_0)^3 for y < y_0, else 0,   y = p / |F|^2,
 //
 // with p = (s_1+s_2)(s_2+s_3)(s_3+s_1) and a smooth q >= max(c, 0). At the kink y is about
 // s_2 + s_3 and r' = -1, so that the slope of the whole is about c - 4 q < 0: cells are pushed off
-// the kink to where the energy has a smooth minimum. G is 0 unless |F| > 1 + 0.8/nu and y < y_0.
+// the kink to where the energy has a smooth minimum. Gamma is 0 unless |F| > 1 + 0.8/nu and y < y_0.
 // No deal.II header here: see matrix3.h.
 
 namespace Exemplar
@@ -99,7 +99,7 @@ namespace Exemplar
     return change;
   }
 
-  /// The guard of stretched cells, G of Eq. (24), and its derivatives.
+  /// The guard of stretched cells, Gamma of Eq. (24), and its derivatives.
   template <typename Number>
   class StretchGuard
   {
@@ -148,7 +148,7 @@ namespace Exemplar
       return any(is_acting);
     }
 
-    /// G, where it acts [Pa].
+    /// Gamma, where it acts [Pa].
     Number
     energy() const
     {

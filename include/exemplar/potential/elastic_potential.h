@@ -101,7 +101,7 @@ namespace Exemplar
              const std::vector<double> *linear_term = nullptr);
 
     /// Add what the cells of this process give to A, Eq. (8) or (18), to the values on the pattern
-    /// [N/m], and to `products` where the pattern wants them apart, and, with weights to find, set what they give to the coupling G, Eq. (9): a column a
+    /// [N/m], and to `products` where the pattern wants them apart, and, with weights to find, set what they give to the coupling G, Eqs. (9) and (40): a column a
     /// strained weight on FreeDofs::local_list(), one after the other [N]. An exact tangent needs the rotations of these positions.
     void
     assemble_tangent(Tangent                    tangent,

@@ -126,7 +126,7 @@ namespace Exemplar
                  && (integrator->stiffness_damping_factor() > 0. || weights.get_memory().creeps()));
     }
 
-    /// gamma (gamma + a), which multiplies the mass matrix in the tangent [1/s^2]; 0 in statics.
+    /// gamma (gamma + a_M), which multiplies the mass matrix in the tangent [1/s^2]; 0 in statics.
     double
     mass_factor() const
     {

@@ -8,7 +8,7 @@
 
 namespace Exemplar
 {
-  /// gamma (gamma + a) / 2 |x - x_hat|^2_M, Eq. (22): inertia and mass damping. Outside of steps it
+  /// gamma (gamma + a_M) / 2 |x - x_hat|^2_M, Eq. (22): inertia and mass damping. Outside of steps it
   /// is zero.
   class InertiaTerm : public PotentialTerm
   {

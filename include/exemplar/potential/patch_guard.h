@@ -15,7 +15,7 @@ namespace Exemplar
   /// more than 2 mu, each of them could lower the energy by collapsing while the others keep the
   /// mean. So the points get their own dilatation back, and its guard (24), Eq. (26):
   ///
-  ///   beta(m_p) sum V W,   W = lambda_p/2 (tr(e) - theta_p)^2 + G,
+  ///   beta(m_p) sum V Xi,   Xi = lambda_p/2 (tr(e) - theta_p)^2 + Gamma,
   ///
   /// with the mean m_p of |F|^2 over the patch. Beta is 0 up to a bound well above what m_p is in
   /// the example poses, so that these stay free of force. Hardly any step needs it; then there is
@@ -46,7 +46,7 @@ namespace Exemplar
       return !stretched.empty();
     }
 
-    /// Add beta W of the points [J/m^3].
+    /// Add beta Xi of the points [J/m^3].
     void
     add_densities(const CellField &cells, std::vector<double> &of_points) const;
 
@@ -68,7 +68,7 @@ namespace Exemplar
                   PatchProducts      &products) const;
 
   private:
-    /// Its lambda_p [Pa], theta_p, beta of a patch with its derivatives by m_p, and sum V W [J].
+    /// Its lambda_p [Pa], theta_p, beta of a patch with its derivatives by m_p, and sum V Xi [J].
     struct Stretched
     {
       unsigned int patch;
@@ -85,11 +85,11 @@ namespace Exemplar
     void
     tell_cells(DilatationField &dilatation, double share) const;
 
-    /// sum V W, of the energies G.
+    /// sum V Xi, of the energies Gamma.
     void
     find_sums(DilatationField &dilatation);
 
-    /// W at a point [J/m^3].
+    /// Xi at a point [J/m^3].
     double
     density(const DilatationField &dilatation, const Stretched &of_patch, unsigned int point) const;
 

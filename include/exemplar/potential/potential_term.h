@@ -148,7 +148,7 @@ namespace Exemplar
     }
 
     /// Add its tangent [N/m] of this kind to the values on the pattern and, if there are columns, its
-    /// part of the coupling G, Eq. (9): one a strained weight on FreeDofs::local_list(). A convex
+    /// part of the coupling G, Eqs. (9) and (40): one a strained weight on FreeDofs::local_list(). A convex
     /// tangent must not make the sum indefinite.
     virtual void
     add_tangent(const TermPoint & /*at*/,

@@ -12,9 +12,9 @@
 
 namespace Exemplar
 {
-  /// Stiffness damping, Eq. (22): the stress s C:(e - sum_m c_m e(x_m)), with s [-] the damping
+  /// Stiffness damping, Eq. (22): the stress s C:(e - sum_m c_m e(x_m)), with s = b_K gamma [-] the damping
   /// time over the time step. It and the elastic energy are two quadratics around a strain in each
-  /// cell, hence one: with C times 1 + s around (D + s e_past) / (1 + s).
+  /// cell, hence one: with C times 1 + s around (D + s e*) / (1 + s).
   class StrainDamping
   {
   public:

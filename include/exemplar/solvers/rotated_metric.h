@@ -11,7 +11,7 @@
 namespace Exemplar
 {
   /// The inverse of an earlier tangent as an approximate inverse of the present one, Eq. (23): it
-  /// is kept, and rotated with the nodes, W P^-1 W^T with W the rotation of each node since then.
+  /// is kept, and rotated with the nodes, Q P^-1 Q^T with Q the rotation of each node since then.
   /// With weights to find it also tells how they follow, by their Schur complement. Vectors are by
   /// free degree of freedom.
   class RotatedMetric
@@ -38,14 +38,14 @@ namespace Exemplar
     void
     rotate(const std::vector<float> &rotations);
 
-    /// Into the frame of the kept inverse, W^T.
+    /// Into the frame of the kept inverse, Q^T.
     void
     rotate_back(std::vector<double> &vector) const
     {
       multiply_by_rotations(vector, 1, 3);
     }
 
-    /// Out of it, W.
+    /// Out of it, Q.
     void
     rotate_forth(std::vector<double> &vector) const
     {
@@ -98,7 +98,7 @@ namespace Exemplar
     void
     find_rotated_nodes();
 
-    /// With W stored by rows, `row` and `column` are the strides of its indices.
+    /// With Q stored by rows, `row` and `column` are the strides of its indices.
     void
     multiply_by_rotations(std::vector<double> &vector, int row, int column) const;
 
@@ -106,7 +106,7 @@ namespace Exemplar
     std::vector<unsigned int>    rotated_nodes; ///< of which all components are free
     std::unique_ptr<KeptInverse> inverse;
     std::vector<float>           rotations_then;
-    std::vector<float>           rotations_since; ///< W, nine numbers a rotated node
+    std::vector<float>           rotations_since; ///< Q, nine numbers a rotated node
     const WeightForm            *form = nullptr;  ///< of the system that the inverse is of
     std::vector<float>           G, Z;            ///< columns of the coupled weights; Z = A^-1 G
     dealii::FullMatrix<double>   schur;           ///< H - G^T Z

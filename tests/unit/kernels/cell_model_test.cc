@@ -465,7 +465,7 @@ namespace Exemplar::Testing
       }
     }
 
-    /// Around sigma_2 + sigma_3 = 0 the rotation turns through all directions.
+    /// Around s_2 + s_3 = 0 the rotation turns through all directions.
     template <typename Cell>
     void
     expect_continuity_where_the_rotation_is_ambiguous(const Matrix3<double> &D)

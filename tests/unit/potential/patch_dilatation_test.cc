@@ -34,7 +34,7 @@ namespace Exemplar::Testing
         return model_strain(CellLaw::corotational, closest_rotation(F), F);
       }
 
-      /// s/2 sum V (e - e_past):C:(e - e_past) of the points that are not left out and, of patches
+      /// s/2 sum V (e - e*):C:(e - e*) of the points that are not left out and, of patches
       /// without such points, s/2 lambda_p V_p (theta_p - theta_past)^2; no cell is thin.
       double
       damping_energy(const Vector            &x,

@@ -19,7 +19,7 @@ namespace Exemplar
     wish,          ///< tr D
     square,        ///< |F|^2
     trace_square,  ///< the square of the trace
-    guard,         ///< G of Eq. (24) [Pa]
+    guard,         ///< Gamma of Eq. (24) [Pa]
     volume_change, ///< det F - 1
     importance,    ///< eta
     excess,        ///< lambda of C_y, Eq. (38) [Pa]
