@@ -124,7 +124,7 @@ namespace Exemplar::Python
     {
       const Direction functional = functional_of("vjp", by_positions, by_weights, held.get());
       Gradients       found;
-      held.change("vjp()", [&](Problem &problem) { found = gradients(problem, functional); });
+      held.use("vjp()", [&](Problem &problem) { found = gradients(problem, functional); });
       return gradients_to_python(found, held.get().body.mesh.n_nodes());
     }
 
@@ -134,8 +134,7 @@ namespace Exemplar::Python
       const Direction functional
           = functional_of("correction", by_positions, by_weights, held.get());
       double found = 0.;
-      held.change("correction()",
-                  [&](Problem &problem) { found = correction(problem, functional); });
+      held.use("correction()", [&](Problem &problem) { found = correction(problem, functional); });
       return found;
     }
   } // namespace

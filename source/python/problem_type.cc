@@ -31,17 +31,38 @@ namespace Exemplar::Python
         PyObject_GC_UnTrack(self); // before parts of it are gone
         py::detail::pybind11_object_dealloc(self);
       }
+
+      /// Of the type from which pybind11 derives all others.
+      newfunc make_derived_object = nullptr;
+
+      PyObject *
+      make_object(PyTypeObject *type, PyObject *arguments, PyObject *names)
+      {
+        if (type->tp_new != make_object)
+          return make_derived_object(type, arguments, names);
+        PyErr_SetString(PyExc_TypeError, "This type is the base of others alone, and has no objects.");
+        return nullptr;
+      }
     }
   } // namespace
+
+  void
+  refuse_objects_of_base(const py::object &type)
+  {
+    auto *const base = reinterpret_cast<PyTypeObject *>(type.attr("__base__").ptr());
+    if (base->tp_new == make_object)
+      return; // pybind11's modules share it
+    make_derived_object = base->tp_new;
+    base->tp_new        = make_object;
+  }
 
   HeldProblem *
   held_by(PyObject *object)
   {
-    auto *instance = reinterpret_cast<py::detail::instance *>(object);
-    // the collector may look at an object that pybind11 has not laid out yet
-    if (!instance->simple_layout && instance->nonsimple.status == nullptr)
+    if (!is_made(object))
       return nullptr;
-    const py::detail::value_and_holder held = instance->get_value_and_holder();
+    const py::detail::value_and_holder held
+        = reinterpret_cast<py::detail::instance *>(object)->get_value_and_holder();
     return held.holder_constructed() ? held.value_ptr<HeldProblem>() : nullptr;
   }
 

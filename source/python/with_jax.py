@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Static equilibria as a function of jax; doc/gradients.md."""
 import functools
+from typing import Any
 
 import jax
 import jax.numpy as jnp
 import numpy as np
 
+from exemplar import Problem
 from exemplar._equilibrium import pull_back, solve
 
 
@@ -29,7 +31,7 @@ def _backward(problem, kept, by_state):
 _equilibrium.defvjp(_forward, _backward)
 
 
-def equilibrium(problem, **parameters):
+def equilibrium(problem: Problem, **parameters: Any) -> tuple[jax.Array, jax.Array]:
     """Solve a static problem with these parameters, arrays by their names in problem.vjp(): young, poisson, density (a number
     or (m,)), importance, gravity (3,), nodal_forces (n, 3), poses (k, n, 3). Returns the positions (n, 3) [m] and the weights
     (k,), which jax.grad and jax.vjp differentiate once, outside of jax.jit. Numbers are single unless jax.config says
