@@ -18,11 +18,11 @@ def program() -> str:
     """Beside the module in a build, under the same prefix where it is installed, or in the PATH."""
     package = Path(__file__).resolve().parent
     places = [package.parents[1] / "exemplar-live", package.parents[3] / "bin/exemplar-live"]
-    found = next((place for place in places if place.is_file()), None) or shutil.which("exemplar-live")
+    found = next((str(place) for place in places if place.is_file()), None) or shutil.which("exemplar-live")
     if found is None:
         raise UserError("live(): the program exemplar-live is neither under " + str(package.parents[3]) + " nor in the PATH. Install "
                         "the program exemplar, too (doc/installing.md).")
-    return str(found)
+    return found
 
 
 def end(process: "subprocess.Popen[str]", directory: "tempfile.TemporaryDirectory[str]") -> None:

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 namespace Exemplar::Python
@@ -102,6 +103,7 @@ namespace Exemplar::Python
         throw UserError("mesh: material ids must be an array of integers of shape (m,), but is "
                         + description(object) + ".");
       }
+      refuse_mask(object, "mesh: material ids");
       return indices_of(any, "mesh: material ids");
     }
 
@@ -230,10 +232,10 @@ namespace Exemplar::Python
   real_number_of(const py::handle &object, const std::string &what)
   {
     const auto any = py::array::ensure(object);
-    // numpy would give the real part
-    const bool   is_complex = any && any.dtype().kind() == 'c';
-    const double number     = is_complex ? 0. : PyFloat_AsDouble(object.ptr());
-    if (!is_complex && PyErr_Occurred() == nullptr)
+    // numpy would give the real part of a complex one, and read a text
+    const bool   may_be_one = !any || std::strchr("fiubO", any.dtype().kind()) != nullptr;
+    const double number     = may_be_one ? PyFloat_AsDouble(object.ptr()) : 0.;
+    if (may_be_one && PyErr_Occurred() == nullptr)
       return number;
     PyErr_Clear();
     throw py::type_error(what + " must be a number, but is " + description(object) + ".");
@@ -280,6 +282,7 @@ namespace Exemplar::Python
   nodes_of(const py::handle &object, const std::string &what, const std::size_t n)
   {
     const auto any = py::array::ensure(object);
+    refuse_mask(object, what);
     if (any && any.dtype().kind() == 'b')
       throw UserError(what + " is a mask. Take the indices: numpy.flatnonzero(mask).");
     if (!any || any.ndim() != 1 || any.shape(0) == 0

@@ -75,8 +75,9 @@ namespace Exemplar::Python
     void
     add_report(py::module_ &module)
     {
-      py::class_<SolveReport>(module, "Report", "How a step was solved, or how far it is.")
-          .def_property_readonly(
+      py::class_<SolveReport> type(module, "Report", "How a step was solved, or how far it is.");
+      refuse_pickling(type, "Keep its numbers.");
+      type.def_property_readonly(
               "status", [](const SolveReport &report) { return status_name(report.status); },
               "'converged' or 'one pass'; 'initial' before it ends.")
           .def_readonly("iterations", &SolveReport::iterations, "How many were made.")
@@ -314,7 +315,7 @@ namespace Exemplar::Python
       add_measures(problem, measures);
       add_plot(problem);
       add_live(problem);
-      refuse_objects_of_base(problem);
+      refuse_pickling(problem, "Pickle its state, problem.state, and make the problem anew.");
     }
   } // namespace
 } // namespace Exemplar::Python

@@ -144,7 +144,7 @@ namespace Exemplar::Python
   {
     problem.def(
         "vjp", &vjp, py::arg("dJ_dx"), py::arg("dJ_dw") = py::none(),
-        "vjp(dJ_dx, dJ_dw=None) -> dict\n\n"
+        "vjp(dJ_dx, dJ_dw=None) -> dict[str, Any]\n\n"
         "Gradients of a function J(positions, weights) of the static equilibrium that was just "
         "found,\n"
         "from its derivatives dJ_dx (n, 3) and dJ_dw (k,) there; None: zero. For any number of\n"

@@ -170,12 +170,14 @@ namespace Exemplar::Python
       type.def("__copy__", [](const SavedState &saved) { return saved; });
       type.def("__deepcopy__", [](const SavedState &saved, const py::object &) { return saved; });
       type.def(py::pickle(&pickled, &unpickled));
-      const auto reduce = [](const py::object &self, const int protocol) // 0 and 1 have no way for it
-      {
-        const py::object object = py::module_::import("builtins").attr("object");
-        return py::object(object.attr("__reduce_ex__")(self, std::max(protocol, 2)));
-      };
-      type.def("__reduce_ex__", reduce);
+      // the same by all protocols: the oldest two have none of their own for it
+      type.def("__reduce__",
+               [](const py::object &self)
+               {
+                 return py::make_tuple(py::module_::import("copyreg").attr("__newobj__"),
+                                       py::make_tuple(py::type::of(self)),
+                                       pickled(self.cast<const SavedState &>()));
+               });
       type.def("__repr__",
                [](const SavedState &saved)
                {

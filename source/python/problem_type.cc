@@ -31,29 +31,17 @@ namespace Exemplar::Python
         PyObject_GC_UnTrack(self); // before parts of it are gone
         py::detail::pybind11_object_dealloc(self);
       }
-
-      /// Of the type from which pybind11 derives all others.
-      newfunc make_derived_object = nullptr;
-
-      PyObject *
-      make_object(PyTypeObject *type, PyObject *arguments, PyObject *names)
-      {
-        if (type->tp_new != make_object)
-          return make_derived_object(type, arguments, names);
-        PyErr_SetString(PyExc_TypeError, "This type is the base of others alone, and has no objects.");
-        return nullptr;
-      }
     }
   } // namespace
 
   void
-  refuse_objects_of_base(const py::object &type)
+  refuse_pickling(const py::object &type, const std::string &remedy)
   {
-    auto *const base = reinterpret_cast<PyTypeObject *>(type.attr("__base__").ptr());
-    if (base->tp_new == make_object)
-      return; // pybind11's modules share it
-    make_derived_object = base->tp_new;
-    base->tp_new        = make_object;
+    const std::string message = "cannot pickle an exemplar."
+                                + std::string(py::str(type.attr("__name__"))) + ". " + remedy;
+    type.attr("__reduce__") = py::cpp_function([message](const py::object & /*self*/) -> py::object
+                                               { throw py::type_error(message); },
+                                               py::name("__reduce__"), py::is_method(type));
   }
 
   HeldProblem *

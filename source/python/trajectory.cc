@@ -285,11 +285,12 @@ namespace Exemplar::Python
                  return self;
                });
       type.def("__exit__", [](Trajectory &trajectory, const py::args &) { end(trajectory); });
+      refuse_pickling(type, "Keep its lists: times, positions, velocities, weights.");
       add_states(type);
       type.def(
           "vjp", &vjp_of_steps, py::arg("dJ_dx"), py::arg("dJ_dw") = py::none(),
           py::arg("dJ_dv") = py::none(),
-          "vjp(dJ_dx, dJ_dw=None, dJ_dv=None) -> dict\n\n"
+          "vjp(dJ_dx, dJ_dw=None, dJ_dv=None) -> dict[str, Any]\n\n"
           "Gradients of a function J of the positions, weights and velocities at the ends of the\n"
           "recorded steps, from its derivatives there: lists with an entry for each step, (n, 3),\n"
           "(k,) and (n, 3), or None for zero. It takes one linear system a step, whatever the\n"

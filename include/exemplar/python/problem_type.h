@@ -27,10 +27,10 @@ namespace Exemplar::Python
   void
   refuse_other_arguments(ProblemClass &problem, const char *name, const std::string &usage);
 
-  /// The type from which pybind11 derives all its types, this one among them, has no objects: to make one, as
-  /// pickle's oldest protocols do, would end the process.
+  /// Let pickle and copy refuse the objects of a type: with pickle's oldest protocols pybind11 would end the
+  /// process.
   void
-  refuse_objects_of_base(const pybind11::object &type);
+  refuse_pickling(const pybind11::object &type, const std::string &remedy);
 
   /// Let Python's garbage collector find, and end, cycles of problems and their functions.
   void
