@@ -6,17 +6,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from exemplar import Problem, State, UserError
+import exemplar
+from exemplar import UserError
 
 Values = dict[str, Any]  # arrays by the names of parameters
 
 MATERIAL = ("young", "poisson", "density")
 ATTRIBUTES = ("importance", "gravity", "nodal_forces")
 ALLOWED = (*MATERIAL, *ATTRIBUTES, "poses")
-names_of_last_solve: weakref.WeakKeyDictionary[Problem, set[str]] = weakref.WeakKeyDictionary()
+names_of_last_solve: weakref.WeakKeyDictionary[exemplar.Problem, set[str]] = weakref.WeakKeyDictionary()
 
 
-def check_poses(problem: Problem, poses: NDArray[np.float64]) -> None:
+def check_poses(problem: exemplar.Problem, poses: NDArray[np.float64]) -> None:
     n = len(problem.example_strains)
     if poses.ndim != 3 or len(poses) not in (n - 1, n):
         raise UserError(f"equilibrium: poses must be an array (k, n, 3) of all examples but the rest pose, but has the shape {poses.shape}.")
@@ -29,7 +30,7 @@ def real_array(name: str, value: Any) -> NDArray[np.float64]:
     return np.array(value, dtype=float)
 
 
-def set_parameters(problem: Problem, values: Values) -> None:
+def set_parameters(problem: exemplar.Problem, values: Values) -> None:
     """Give the problem these arrays, by their names in problem.vjp()."""
     if material := {name: values[name] for name in MATERIAL if name in values}:
         problem.set_material(**material)
@@ -40,7 +41,7 @@ def set_parameters(problem: Problem, values: Values) -> None:
         problem.set_pose(number + len(problem.example_strains) - len(values["poses"]), pose)
 
 
-def solve(problem: Problem, values: Values) -> tuple[Values, State]:
+def solve(problem: exemplar.Problem, values: Values) -> tuple[Values, exemplar.State]:
     """The equilibrium with these parameters; what pull_back() needs, where the problem then stands."""
     for name in values:
         if name not in ALLOWED:
@@ -56,7 +57,7 @@ def solve(problem: Problem, values: Values) -> tuple[Values, State]:
     return values, problem.state
 
 
-def pull_back(problem: Problem, solved: tuple[Values, State], by_positions: Any, by_weights: Any) -> Values:
+def pull_back(problem: exemplar.Problem, solved: tuple[Values, exemplar.State], by_positions: Any, by_weights: Any) -> Values:
     """The gradients by the parameters of a solve(), as arrays of their shapes. The problem goes back to it."""
     values, state = solved
     if names_of_last_solve[problem] != set(values):

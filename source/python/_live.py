@@ -5,9 +5,8 @@ import shutil
 import subprocess
 import tempfile
 import weakref
-from collections.abc import Callable
 from pathlib import Path
-from typing import Optional, Union
+from typing import Callable, Optional, Union
 
 from exemplar import UserError
 

@@ -144,8 +144,6 @@ def player(figure, show, n_frames, interval):
     """An animation that notebooks show at once."""
     from matplotlib.animation import FuncAnimation
 
-    class Player(FuncAnimation):
-        def _repr_html_(self):
-            return self.to_jshtml()
-
-    return Player(figure, show, frames=n_frames, interval=interval)
+    animation = FuncAnimation(figure, show, frames=n_frames, interval=interval)
+    animation._repr_html_ = animation.to_jshtml  # matplotlib shows one only if rcParams say so
+    return animation

@@ -48,7 +48,8 @@ class ReadBack(unittest.TestCase):
                 setattr(problem, name, 1)
 
     def test_material_of_other_laws(self):
-        nine = exemplar.Problem({**BAR, "Examples": {}, "Material": {"Orthotropy": "1e5, 2e5, 3e5, 3e4, 3e4, 3e4, .1, .1, .1", "Grain": "1, 0, 0"}})
+        nine = exemplar.Problem({**BAR, "Examples": {}, "Material": {"Fibre direction": "1; 0; 0", "Cross direction": "0; 1; 0",
+                                                                                "Orthotropy": "2e5, 1e5, 0.7e5, 0.3, 0.25, 0.2, 0.3e5, 0.4e5, 0.5e5"}})
         self.assertTrue(np.isnan(nine.young).all() and np.isnan(nine.poisson).all() and (nine.density > 0).all())
 
     def test_volumes_and_surface(self):

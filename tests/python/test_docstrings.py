@@ -30,17 +30,26 @@ def names():
     return {"problem": problem, "static": static, "trajectory": trajectory, "np": np, "exemplar": exemplar}
 
 
+def public_members():
+    """Every public name with its member, those of files beside the module, too, whose packages are here."""
+    yield from named_members()
+    for package in "torch", "jax":
+        if importlib.util.find_spec(package):
+            yield f"with_{package}", importlib.import_module(f"exemplar.with_{package}").equilibrium
+
+
 class Examples(unittest.TestCase):
     def setUp(self):
         directory = self.enterContext(tempfile.TemporaryDirectory())
         self.enterContext(contextlib.chdir(directory))
 
     def test_every_public_name_has_one_that_runs(self):
-        for name, member in named_members():
+        for name, member in public_members():
             if name in NEEDS and not importlib.util.find_spec(NEEDS[name]):
                 continue
             with self.subTest(name):
-                test = doctest.DocTestParser().get_doctest(inspect.getdoc(member) or "", names(), name, None, 0)
+                known = {**getattr(member, "__globals__", {}), **names()}
+                test = doctest.DocTestParser().get_doctest(inspect.getdoc(member) or "", known, name, None, 0)
                 self.assertTrue(test.examples, "has no example")
                 found = []
                 doctest.DocTestRunner(optionflags=HOW).run(test, out=found.append)
