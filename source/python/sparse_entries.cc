@@ -118,10 +118,14 @@ namespace Exemplar::Python
 
     /// lil_array has lists, of whose lengths scipy makes arrays without looking whether they agree.
     void
-    require_equal_lists(const py::object &sparse, const std::string &what)
+    require_equal_lists(const py::object &sparse, const std::size_t n, const std::string &what)
     {
       const py::list rows(sparse.attr("rows")), data(sparse.attr("data"));
-      for (std::size_t i = 0; i < std::min(rows.size(), data.size()); ++i)
+      if (rows.size() != n || data.size() != n)
+        throw UserError(fmt::format("{}: it has {} lists of columns and {} of entries, but {} "
+                                    "rows. Make it anew.",
+                                    what, rows.size(), data.size(), n));
+      for (std::size_t i = 0; i < n; ++i)
         if (py::len(rows[i]) != py::len(data[i]))
           throw UserError(
               fmt::format("{}: row {} has {} columns of {} entries. Give each entry one.", what, i,
@@ -129,12 +133,15 @@ namespace Exemplar::Python
     }
 
     Triplets
-    of_other(const py::object &sparse, const std::string &format, const std::string &what)
+    of_other(const py::object  &sparse,
+             const std::string &format,
+             const std::size_t  n,
+             const std::string &what)
     {
       try
       {
         if (format == "lil")
-          require_equal_lists(sparse, what);
+          require_equal_lists(sparse, n, what);
         return of_coordinates(sparse.attr("tocoo")(), what);
       }
       catch (py::error_already_set &error)
@@ -152,7 +159,7 @@ namespace Exemplar::Python
       const std::string format = py::str(py::getattr(sparse, "format", py::none()));
       if (format == "csr" || format == "csc")
         return of_compressed(sparse, n, what);
-      return format == "coo" ? of_coordinates(sparse, what) : of_other(sparse, format, what);
+      return format == "coo" ? of_coordinates(sparse, what) : of_other(sparse, format, n, what);
     }
 
     void

@@ -15,16 +15,18 @@ import types
 
 import exemplar
 
+# packages that may be absent, or have no types, stand there for Any
 HEAD = '''# Written by source/python/write_stub.py.
+# mypy: disable-error-code="import"
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, SupportsFloat
 
-import matplotlib.animation  # type: ignore
-import mpl_toolkits.mplot3d.axes3d  # type: ignore
+import matplotlib.animation
+import mpl_toolkits.mplot3d.axes3d
 import numpy as np
-import scipy.sparse  # type: ignore
-import scipy.sparse.linalg  # type: ignore
+import scipy.sparse
+import scipy.sparse.linalg
 from numpy.typing import ArrayLike, NDArray
 
 from exemplar._live import Live

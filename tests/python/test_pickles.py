@@ -65,7 +65,9 @@ def unpickle_mutations(n):
                 loaded.__setstate__(changed)
             else:
                 loaded = pickle.loads(changed)
-            found["same" if changed == whole or loaded == state else f"another: {number}"] += 1
+            # without its last bytes a stream may be of a part of it, which pickle then gives
+            kind = "same" if loaded == state else f"another: {number}" if isinstance(loaded, exemplar.State) else "no state"
+            found[kind] += 1
         except exemplar.UserError as error:
             found["refused" if re.match("The pickle of an exemplar.State is damaged", str(error)) else f"odd: {error}"] += 1
         except Exception as error:
@@ -108,7 +110,7 @@ class Pickles(unittest.TestCase):
         done = subprocess.run([sys.executable, __file__, "--mutations", str(N_MUTATIONS)], capture_output=True, text=True, timeout=600)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         found = Counter(dict(line.rsplit(" = ", 1) for line in done.stdout.splitlines()))
-        self.assertLessEqual(set(found), {"same", "refused", "refused by pickle"})
+        self.assertLessEqual(set(found), {"same", "no state", "refused", "refused by pickle"})
         self.assertEqual(sum(map(int, found.values())), N_MUTATIONS)
 
 

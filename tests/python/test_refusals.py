@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What would end the process or be lost without a word: objects that were never made, matrices whose indices lead out of their arrays,
 complex numbers and other types of arrays."""
+import contextlib
 import unittest
 import warnings
 
@@ -99,8 +100,33 @@ class Matrices(unittest.TestCase):
         lil = self.whole(scipy.sparse.lil_array)
         lil.rows[3] = [*lil.rows[3], *range(100, 120)]
         self.refuse(lil, "row 3 has 22|row 3 has 23")
+        lil = self.whole(scipy.sparse.lil_array)
+        self.refuse(changed(lil, rows=lil.rows[:9]), "9 lists of columns and 135 of entries")
         bsr = self.whole(scipy.sparse.bsr_array)
         self.refuse(changed(bsr, indptr=2 * bsr.indptr), "no sparse array that scipy can read|not symmetric|row or column")
+
+    def test_damaged_at_random(self):
+        by = np.random.default_rng(3)
+        for number in range(600):
+            matrix = self.damaged(("csr", "csc", "bsr", "coo", "dia", "lil")[number % 6], by)
+            with self.subTest(number), contextlib.suppress(exemplar.UserError):
+                self.problem.check_term(lambda x, t: (0., 0 * x, matrix))
+
+    def damaged(self, kind, by):
+        """One whose arrays have other numbers, other lengths or another order."""
+        parts = {"coo": ("row", "col", "data"), "dia": ("offsets", "data"), "lil": ("rows", "data")}.get(kind, ("indptr", "indices", "data"))
+        matrix = self.whole().asformat(kind)
+        name = parts[by.integers(len(parts))]
+        part = np.array(getattr(matrix, name))
+        how = by.integers(4)
+        if how == 0:
+            values = [-1, 0, self.n, 2**31 - 1, -2**31, 10**6]
+            part.flat[by.integers(part.size)] = values[by.integers(6)] if part.dtype != object else [1] * by.integers(50)
+        elif how < 3:
+            part = part[:by.integers(len(part))] if how == 1 else np.concatenate([part, part[:by.integers(len(part))]])
+        else:
+            part = by.permutation(part)
+        return changed(matrix, **{name: part})
 
     def test_types_of_entries(self):
         whole = self.whole()
