@@ -59,7 +59,13 @@ def entry(name, member, level):
     if call:
         doc = doc[call.end():]
     heading = name + re.sub(r"\s+", " ", call[1]) if call else name
-    return f"{'#' * level} `{heading}`\n\n{escaped(doc)}\n"
+    return f"{'#' * level} `{heading}`\n\n{marked(doc)}\n"
+
+
+def marked(doc):
+    """A docstring in Markdown, with the example in which it ends."""
+    text, begins, example = doc.partition(">>> ")
+    return escaped(text) + (f"```python\n{begins}{example}\n```" if begins else "")
 
 
 def python_page():
@@ -82,7 +88,7 @@ def wrappers():
         for function in ast.parse(file.read_text()).body:
             if isinstance(function, ast.FunctionDef) and not function.name.startswith("_"):
                 call = f"exemplar.{file.stem}.{function.name}({ast.unparse(function.args)})"
-                yield f"## `{call}`\n\n{escaped(ast.get_docstring(function))}\n"
+                yield f"## `{call}`\n\n{marked(ast.get_docstring(function))}\n"
 
 
 def included_by(header):

@@ -1,24 +1,36 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What exemplar.with_torch and exemplar.with_jax share: a solve with given parameters, and the gradient there."""
 import weakref
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+import exemplar
 from exemplar import UserError
+
+Values = dict[str, Any]  # arrays by the names of parameters
 
 MATERIAL = ("young", "poisson", "density")
 ATTRIBUTES = ("importance", "gravity", "nodal_forces")
 ALLOWED = (*MATERIAL, *ATTRIBUTES, "poses")
-names_of_last_solve: weakref.WeakKeyDictionary = weakref.WeakKeyDictionary()  # by problem
+names_of_last_solve: weakref.WeakKeyDictionary[exemplar.Problem, set[str]] = weakref.WeakKeyDictionary()
 
 
-def check_poses(problem, poses):
+def check_poses(problem: exemplar.Problem, poses: NDArray[np.float64]) -> None:
     n = len(problem.example_strains)
     if poses.ndim != 3 or len(poses) not in (n - 1, n):
         raise UserError(f"equilibrium: poses must be an array (k, n, 3) of all examples but the rest pose, but has the shape {poses.shape}.")
 
 
-def set_parameters(problem, values):
+def real_array(name: str, value: Any) -> NDArray[np.float64]:
+    """Complex numbers would lose their imaginary parts."""
+    if np.iscomplexobj(value):
+        raise UserError(f"equilibrium: {name} is complex. Allowed: real numbers. Take value.real.")
+    return np.array(value, dtype=float)
+
+
+def set_parameters(problem: exemplar.Problem, values: Values) -> None:
     """Give the problem these arrays, by their names in problem.vjp()."""
     if material := {name: values[name] for name in MATERIAL if name in values}:
         problem.set_material(**material)
@@ -29,14 +41,14 @@ def set_parameters(problem, values):
         problem.set_pose(number + len(problem.example_strains) - len(values["poses"]), pose)
 
 
-def solve(problem, values):
+def solve(problem: exemplar.Problem, values: Values) -> tuple[Values, exemplar.State]:
     """The equilibrium with these parameters; what pull_back() needs, where the problem then stands."""
     for name in values:
         if name not in ALLOWED:
             raise UserError(f"equilibrium: there is no parameter '{name}'. Allowed: {', '.join(ALLOWED)}.")
     if problem.velocities is not None:
         raise UserError("equilibrium: the scene is dynamic. Set Scene = static, or record its steps: with problem.record() as trajectory.")
-    values = {name: np.array(value, dtype=float) for name, value in values.items()}
+    values = {name: real_array(name, value) for name, value in values.items()}
     if "poses" in values:
         check_poses(problem, values["poses"])
     set_parameters(problem, values)
@@ -45,7 +57,7 @@ def solve(problem, values):
     return values, problem.state
 
 
-def pull_back(problem, solved, by_positions, by_weights):
+def pull_back(problem: exemplar.Problem, solved: tuple[Values, exemplar.State], by_positions: Any, by_weights: Any) -> Values:
     """The gradients by the parameters of a solve(), as arrays of their shapes. The problem goes back to it."""
     values, state = solved
     if names_of_last_solve[problem] != set(values):

@@ -6,23 +6,27 @@ import subprocess
 import tempfile
 import weakref
 from pathlib import Path
+from typing import Callable, Optional, Union
 
 from exemplar import UserError
 
+Record = Optional[Union[str, "os.PathLike[str]"]]  # where the session is kept
 
-def program():
+
+def program() -> str:
     """Beside the module in a build, under the same prefix where it is installed, or in the PATH."""
     package = Path(__file__).resolve().parent
     places = [package.parents[1] / "exemplar-live", package.parents[3] / "bin/exemplar-live"]
-    found = next((place for place in places if place.is_file()), None) or shutil.which("exemplar-live")
+    found = next((str(place) for place in places if place.is_file()), None) or shutil.which("exemplar-live")
     if found is None:
         raise UserError("live(): the program exemplar-live is neither under " + str(package.parents[3]) + " nor in the PATH. Install "
                         "the program exemplar, too (doc/installing.md).")
-    return str(found)
+    return found
 
 
-def end(process, directory):
+def end(process: "subprocess.Popen[str]", directory: "tempfile.TemporaryDirectory[str]") -> None:
     """The server ends when its input does."""
+    assert process.stdin and process.stdout
     process.stdin.close()
     process.wait()
     process.stdout.close()
@@ -32,10 +36,11 @@ def end(process, directory):
 class Live:
     """A server of a page; a context."""
 
-    def __init__(self, process, directory):
+    def __init__(self, process: "subprocess.Popen[str]", directory: "tempfile.TemporaryDirectory[str]") -> None:
         self._log = Path(directory.name) / "log.txt"
         self._end = weakref.finalize(self, end, process, directory)
         line = ""
+        assert process.stdout
         while not line.startswith("Open "):
             line = process.stdout.readline()
             if not line:
@@ -46,32 +51,32 @@ class Live:
         self.address = line.split()[1]
 
     @property
-    def log(self):
+    def log(self) -> str:
         """What the server has said so far, such as whom it has refused."""
         return self._log.read_text(errors="replace") if self._log.exists() else ""
 
-    def close(self):
+    def close(self) -> None:
         """End the server. The page then shows the last frame."""
         self._end()
 
-    def __enter__(self):
+    def __enter__(self) -> "Live":
         return self
 
-    def __exit__(self, *_):
+    def __exit__(self, *_: object) -> None:
         self.close()
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"<exemplar live: {self.address if self._end.alive else 'closed'}>"
 
 
-def checked(port, record):
+def checked(port: object, record: Record) -> list[str]:
     """The arguments of the program."""
     if isinstance(port, bool) or not isinstance(port, int) or not 0 <= port <= 65535:
         raise UserError(f"live(): port is {port!r}. Allowed: whole numbers from 0, one that is free, to 65535.")
     return ["--port", str(port), *(["--record", os.fspath(record)] if record is not None else [])]
 
 
-def directory_of_recording(record):
+def directory_of_recording(record: "str | os.PathLike[str]") -> Path:
     """Made, and absolute; it is refused before anything is written if it holds what is no recording's."""
     directory = Path(record).absolute()
     try:
@@ -83,7 +88,7 @@ def directory_of_recording(record):
     return directory
 
 
-def live(write, port, record):
+def live(write: Callable[[str, str], None], port: object, record: Record) -> Live:
     """write(file, directory) writes the scene, and into a directory that is kept with the session what stands for arrays."""
     arguments = checked(port, record)
     server = program()

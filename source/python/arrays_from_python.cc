@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 namespace Exemplar::Python
@@ -17,6 +18,23 @@ namespace Exemplar::Python
   namespace
   {
     using Cells = std::vector<std::array<unsigned int, 4>>;
+
+    /// numpy would take the real parts alone, what a mask covers, texts of digits and truths.
+    bool
+    has_real_numbers(const py::array &array)
+    {
+      const char kind = array.dtype().kind();
+      return kind == 'f' || kind == 'i' || kind == 'u';
+    }
+
+    void
+    refuse_mask(const py::handle &object, const std::string &what)
+    {
+      if (py::hasattr(object, "mask") && py::hasattr(object, "filled"))
+        throw UserError(what
+                        + " is a masked array, and what is masked would count. Fill it: "
+                          "values.filled(0.).");
+    }
 
     /// The rows of an array (n, width), or any number of them where n is negative.
     template <typename Number>
@@ -31,17 +49,12 @@ namespace Exemplar::Python
         throw UserError(fmt::format("{} must be an array of shape ({}, {}), but is {}.", what,
                                     n < 0 ? "n" : fmt::format("{}", n), width,
                                     description(object)));
+      refuse_mask(object, what);
       const char kind = any.dtype().kind();
       if (std::is_integral_v<Number> && kind != 'i' && kind != 'u')
         throw UserError(what + " must be an array of integers.");
-      py::array_t<Number, py::array::c_style | py::array::forcecast> rows;
-      // numpy would take the real parts alone, texts of digits and truths
-      const bool is_number = kind == 'f' || kind == 'i' || kind == 'u' || kind == 'O';
-      if (is_number)
-        rows = decltype(rows)::ensure(any);
-      if (!is_number || !rows)
-        throw UserError(what + " must be an array of real numbers.");
-      return rows;
+      require_real(any, what);
+      return any;
     }
 
     void
@@ -66,6 +79,32 @@ namespace Exemplar::Python
                                     "1 was subtracted from such ones, add it to all.",
                                     what, value));
       return static_cast<unsigned int>(value);
+    }
+
+    /// Of an array of integers.
+    std::vector<unsigned int>
+    indices_of(const py::array &array, const std::string &what)
+    {
+      const py::array_t<long long, py::array::c_style | py::array::forcecast> numbers = array;
+      std::vector<unsigned int>                                               indices;
+      for (py::ssize_t i = 0; i < numbers.size(); ++i)
+        indices.push_back(index_of(numbers.data()[i], what));
+      return indices;
+    }
+
+    std::vector<unsigned int>
+    material_ids_of(const py::handle &object)
+    {
+      const auto any  = py::array::ensure(object);
+      const char kind = any ? any.dtype().kind() : 'O';
+      if (!any || any.ndim() != 1 || (kind != 'i' && kind != 'u'))
+      {
+        PyErr_Clear();
+        throw UserError("mesh: material ids must be an array of integers of shape (m,), but is "
+                        + description(object) + ".");
+      }
+      refuse_mask(object, "mesh: material ids");
+      return indices_of(any, "mesh: material ids");
     }
 
     Cells
@@ -175,7 +214,31 @@ namespace Exemplar::Python
     const auto array = py::array::ensure(object);
     if (!array || array.ndim() == 0)
       return "a " + std::string(py::str(py::type::of(object).attr("__name__")));
-    return "an array of shape " + std::string(py::str(array.attr("shape")));
+    const std::string of_type
+        = has_real_numbers(array) ? "" : " of " + std::string(py::str(array.dtype().attr("name")));
+    return "an array" + of_type + " of shape " + std::string(py::str(array.attr("shape")));
+  }
+
+  void
+  require_real(const py::array &array, const std::string &what)
+  {
+    if (!has_real_numbers(array))
+      throw UserError(
+          what + " must be an array of real numbers, but is " + description(array)
+          + ". Make one of numbers: numpy.real(values), or numpy.array(values, dtype=float).");
+  }
+
+  double
+  real_number_of(const py::handle &object, const std::string &what)
+  {
+    const auto any = py::array::ensure(object);
+    // numpy would give the real part of a complex one, and read a text
+    const bool   may_be_one = !any || std::strchr("fiubO", any.dtype().kind()) != nullptr;
+    const double number     = may_be_one ? PyFloat_AsDouble(object.ptr()) : 0.;
+    if (may_be_one && PyErr_Occurred() == nullptr)
+      return number;
+    PyErr_Clear();
+    throw py::type_error(what + " must be a number, but is " + description(object) + ".");
   }
 
   std::vector<dealii::Point<3>>
@@ -198,9 +261,9 @@ namespace Exemplar::Python
   std::vector<double>
   numbers_of(const py::handle &object, const std::string &what, const py::ssize_t n)
   {
-    const auto any  = py::array::ensure(object);
-    const char kind = any ? any.dtype().kind() : 'O';
-    if (!any || (kind != 'f' && kind != 'i' && kind != 'u')
+    const auto any = py::array::ensure(object);
+    refuse_mask(object, what);
+    if (!any || !has_real_numbers(any)
         || (any.ndim() != 0 && (any.ndim() != 1 || any.shape(0) != n)))
     {
       PyErr_Clear();
@@ -219,6 +282,7 @@ namespace Exemplar::Python
   nodes_of(const py::handle &object, const std::string &what, const std::size_t n)
   {
     const auto any = py::array::ensure(object);
+    refuse_mask(object, what);
     if (any && any.dtype().kind() == 'b')
       throw UserError(what + " is a mask. Take the indices: numpy.flatnonzero(mask).");
     if (!any || any.ndim() != 1 || any.shape(0) == 0
@@ -231,9 +295,7 @@ namespace Exemplar::Python
                       what, description(object),
                       any && any.ndim() == 1 && any.shape(0) > 0 ? " of no integers" : ""));
     }
-    std::vector<unsigned int> nodes;
-    for (const py::handle index : any)
-      nodes.push_back(index_of(index.cast<long long>(), what));
+    std::vector<unsigned int> nodes = indices_of(any, what);
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
     if (nodes.back() >= n)
@@ -250,8 +312,7 @@ namespace Exemplar::Python
     const Cells               cells = cells_of(parts[1]);
     std::vector<unsigned int> material_ids;
     if (parts.size() == 3)
-      for (const py::handle id : parts[2])
-        material_ids.push_back(index_of(id.cast<long long>(), "mesh: material ids"));
+      material_ids = material_ids_of(parts[2]);
     MshFile msh = make_msh(points_of(parts[0], "mesh: nodes"), cells, material_ids);
     for (MshElement &element : msh.elements)
       --element.number; // of its cell

@@ -96,7 +96,7 @@ namespace Exemplar::Python
         "Element = P2 (m, 4, 10, 3), at four points of the cell. A copy.");
     problem.def_property_readonly(
         "cell_nodes", &cell_nodes,
-        "Nodes (m, 4) of the cells; with Element = P2 (m, 10), with the middles of edges. A "
-        "copy.");
+        "Nodes (m, 4) of the cells, from 0; with Element = P2 (m, 10), with the middles of edges;\n"
+        "uint32, a copy.");
   }
 } // namespace Exemplar::Python

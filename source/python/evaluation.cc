@@ -167,7 +167,7 @@ namespace Exemplar::Python
     {
       scipy("scipy.sparse");
       RowMatrix matrix;
-      held.change("mass", [&](Problem &problem) { matrix = mass_matrix(problem); });
+      held.use("mass", [&](Problem &problem) { matrix = mass_matrix(problem); });
       return sparse_array(std::move(matrix));
     }
 

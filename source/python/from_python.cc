@@ -24,10 +24,9 @@ namespace Exemplar::Python
     }
 
     SceneParameters
-    parameters_of(const SceneSource &source)
+    parameters_of(const SceneFile &file, const SceneSource &source)
     {
-      SceneParameters parameters
-          = SceneFile(source.file, source.text, source.assignments).get_parameters();
+      SceneParameters parameters = file.get_parameters();
       parameters.warnings.insert(parameters.warnings.end(), source.warnings.begin(),
                                  source.warnings.end());
       return parameters;
@@ -55,7 +54,9 @@ namespace Exemplar::Python
     }
     given.source         = scene_source(scene, assignments, !mesh.is_none());
     given.source.n_poses = list.size();
-    given.scene          = parameters_of(given.source);
+    const SceneFile file(given.source.file, given.source.text, given.source.assignments);
+    given.scene  = parameters_of(file, given.source);
+    given.stamps = InputStamps(file);
     for (std::size_t i = 0; i < list.size(); ++i)
     {
       const std::string what = fmt::format("poses[{}]", i);

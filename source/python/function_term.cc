@@ -136,6 +136,12 @@ namespace Exemplar::Python
                   + last.hessian.capacity() * sizeof(MatrixEntry));
       }
 
+      TermAnswers
+      answers() const
+      {
+        return { accepted, last.positions.size() > 0 ? last : accepted };
+      }
+
     private:
       /// Ask for the answer at a state, whose couplings join those that are known.
       void
@@ -188,53 +194,9 @@ namespace Exemplar::Python
     return std::make_unique<FunctionTerm>(function, std::move(name), state);
   }
 
-  void
-  HeldProblem::add_term(const py::object &function)
+  TermAnswers
+  answers_of(const PotentialTerm &term)
   {
-    if (PyCallable_Check(function.ptr()) == 0)
-      throw py::type_error("add_term(function): function is called as function(positions, time), "
-                           "but is "
-                           + description(function) + ".");
-    require_no_step("add_term()");
-    std::list<py::object> &terms = functions.terms;
-    terms.push_back(function);
-    const py::object &kept = terms.back();
-    const std::string name = fmt::format("term_{}", terms.size());
-    try
-    {
-      change("add_term()",
-             [&kept, &name](Problem &changed)
-             {
-               changed.add_term([&kept, name, &changed]
-                                { return make_function_term(kept, name, changed.state); });
-             });
-    }
-    catch (...)
-    {
-      if (get().actions.own_terms.size() < terms.size())
-        terms.pop_back();
-      throw;
-    }
-  }
-
-  void
-  add_terms(ProblemClass &problem)
-  {
-    problem.def(
-        "add_term", &HeldProblem::add_term, py::arg("function"),
-        "add_term(function)\n\n"
-        "From now on let Phi have a term of one's own: springs, an obstacle, a control.\n\n"
-        "function(positions, time) gets positions (n, 3) [m] of all nodes, with Element = P2 the\n"
-        "middles of edges, too, and the time t [s], and returns energy [J], gradient (n, 3) [N] "
-        "and\n"
-        "Hessian [N/m]: a sparse array of scipy (3n, 3n), symmetric and without negative\n"
-        "eigenvalues, as it is a part of the exact and the convex tangent; None: zero. Within a\n"
-        "step it may couple only nodes that it couples at the step's begin, by entries of 0, too.\n"
-        "It is called in each evaluation, which is slow, and must return the same for the same\n"
-        "arguments. Its energy is energies['energy_term_1'] and so on. Raises UserError for what\n"
-        "is none of these, and what the function raises; an interpolation has no terms.");
-    refuse_other_arguments(problem, "add_term",
-                           "add_term is called as add_term(function), where function(positions, "
-                           "time) returns energy, gradient, hessian.");
+    return dynamic_cast<const FunctionTerm &>(term).answers();
   }
 } // namespace Exemplar::Python

@@ -2,10 +2,9 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/base/message_text.h>
 #include <exemplar/base/mpi_session.h>
-#include <exemplar/python/arrays_from_python.h>
-#include <exemplar/python/from_python.h>
 #include <exemplar/python/held_problem.h>
 #include <exemplar/python/step_log.h>
+#include <exemplar/python/trajectory.h>
 #include <exemplar/python/unlocked_work.h>
 #include <exemplar/run/adjoint/functional.h>
 #include <exemplar/run/problem/idle_review.h>
@@ -60,6 +59,16 @@ namespace Exemplar::Python
       return { make_unlocked(std::move(given)).release(), end_last };
     }
 
+    /// Surfaces that a handle follows are read when a step needs them.
+    bool
+    reads_while_it_steps(const Problem &problem)
+    {
+      const auto &handles = problem.parameters.handles;
+      return std::any_of(handles.begin(), handles.end(),
+                         [](const HandleParameters &handle)
+                         { return !handle.follow_cache.empty(); });
+    }
+
     /// While it lives, the problem is this thread's.
     class Stepping
     {
@@ -90,8 +99,9 @@ namespace Exemplar::Python
   }
 
   HeldProblem::HeldProblem(Given given)
-      : source(std::move(given.source)), problem(make_problem(std::move(given))), arrays(problem),
-        diagnostics(*problem), initial(save_state(*problem, {})), review(*problem)
+      : source(std::move(given.source)), inputs(std::move(given.stamps)),
+        problem(make_problem(std::move(given))), arrays(problem), diagnostics(*problem),
+        initial(save_state(*problem, {})), review(*problem)
   {
     problem->solver->observe = [this](const SolveReport &iteration) { return observe(iteration); };
     require_functional(*problem);
@@ -115,7 +125,7 @@ namespace Exemplar::Python
   const Problem &
   HeldProblem::get() const
   {
-    if (stepping != std::thread::id() && stepping != std::this_thread::get_id())
+    if (is_of_another_thread())
       throw std::runtime_error("Another thread is making a step of this problem.");
     return *problem;
   }
@@ -147,34 +157,28 @@ namespace Exemplar::Python
   SolveReport
   HeldProblem::advance(const StepInterval &interval)
   {
+    const auto go_back = [this] // evaluation and memory are of the failed step
+    { problem->resume_from(State(problem->state)); };
     try
     {
       warn_of_motions();
+      check_new_terms();
       SolveReport result = problem->advance(interval);
       if (!is_success(result.status))
         throw SolverFailure(problem->failure_message(result));
       return result;
     }
-    catch (...)
+    catch (const SolverFailure &failure)
     {
-      problem->resume_from(State(problem->state)); // evaluation and memory are of the failed step
+      go_back();
+      blame_terms(failure.what());
       throw;
     }
-  }
-
-  void
-  HeldProblem::warn_of_motions()
-  {
-    if (functions.motions.empty() || is_warned_of_motions)
-      return;
-    std::vector<std::string> found = next_step_warnings(*problem);
-    is_warned_of_motions           = !found.empty();
-    found.erase(std::remove_if(found.begin(), found.end(), // of a handle that a formula moves
-                               [this](const std::string &warning) {
-                                 return std::count(warnings.begin(), warnings.end(), warning) > 0;
-                               }),
-                found.end());
-    warn(found);
+    catch (...)
+    {
+      go_back();
+      throw;
+    }
   }
 
   void
@@ -223,7 +227,7 @@ namespace Exemplar::Python
   }
 
   SolveReport
-  HeldProblem::run()
+  HeldProblem::run(const std::function<void()> &after_step)
   {
     const double end = end_of_scene(*problem);
     if (has_reached(*problem, end))
@@ -232,12 +236,16 @@ namespace Exemplar::Python
           "and reset() begins anew.",
           problem->time_axis.n_steps()) });
     while (!has_reached(*problem, end))
+    {
       step(step_towards(*problem, end));
+      if (after_step)
+        after_step();
+    }
     return report;
   }
 
   void
-  HeldProblem::change(const std::string &what, const std::function<void(Problem &)> &function)
+  HeldProblem::use(const std::string &what, const std::function<void(Problem &)> &function)
   {
     require_no_step(what);
     UnlockedWork::check();
@@ -245,6 +253,25 @@ namespace Exemplar::Python
     const Stepping     this_one(stepping);
     const UnlockedWork unlocked; // ends before the problem is anybody's again
     function(*problem);
+  }
+
+  void
+  HeldProblem::require_not_recorded(const std::string &what) const
+  {
+    if (is_recorded(*problem))
+      throw UserError(
+          what
+          + ": the problem is being recorded, and gradients are known through the steps "
+            "of one problem alone. Do it before the with statement of record(), or "
+            "after it.");
+  }
+
+  void
+  HeldProblem::change(const std::string &what, const std::function<void(Problem &)> &function)
+  {
+    require_no_step(what);
+    require_not_recorded(what);
+    use(what, function);
   }
 
   SavedState
@@ -258,10 +285,14 @@ namespace Exemplar::Python
   HeldProblem::restore(const SavedState *saved)
   {
     const SavedState &target = saved == nullptr ? initial : *saved;
-    require_no_step(saved == nullptr ? "reset()" : "state");
+    const std::string what   = saved == nullptr ? "reset()" : "state";
+    require_no_step(what);
+    require_not_recorded(what);
+    if (reads_while_it_steps(*problem))
+      inputs.require_unchanged(what);
     check_fits(target, *problem);
     arrays.let_go();
-    change("state", [&target](Problem &changed) { restore_state(target, changed); });
+    change(what, [&target](Problem &changed) { restore_state(target, changed); });
     diagnostics.resume(target.work);
     report               = {};
     is_warned_of_motions = false;
@@ -279,34 +310,6 @@ namespace Exemplar::Python
     if (problem->state == initial.state)
       return "";
     return problem->state.step > 0 ? "step()" : "state";
-  }
-
-  void
-  HeldProblem::set_motion(const py::object &name, const py::object &function)
-  {
-    if (!py::isinstance<py::str>(name))
-      throw py::type_error("set_motion(name, function): the name of a handle must be a str, but is "
-                           + description(name) + ".");
-    if (PyCallable_Check(function.ptr()) == 0)
-      throw py::type_error("set_motion(name, function): function is called as function(rest, t), "
-                           "but is "
-                           + description(function)
-                           + ". Displacements that do not change: lambda rest, t: displacements.");
-    const std::string handle = text_of(name, "set_motion: the name of the handle");
-    require_no_step("set_motion()");
-    py::object &kept
-        = functions.motions[handle]; // null if there is no such handle, which the next line says
-    problem->set_motion(handle, motion_of(handle, kept));
-    kept                 = function;
-    is_warned_of_motions = false;
-  }
-
-  void
-  HeldProblem::on_iteration(const py::object &function)
-  {
-    if (!function.is_none() && !PyCallable_Check(function.ptr()))
-      throw py::type_error("on_iteration needs a function or None.");
-    functions.callback = function;
   }
 
   py::dict

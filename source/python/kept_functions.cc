@@ -9,8 +9,8 @@ namespace Exemplar::Python
     Py_VISIT(callback.ptr());
     for (const auto &[handle, function] : motions)
       Py_VISIT(function.ptr());
-    for (const pybind11::object &function : terms)
-      Py_VISIT(function.ptr());
+    for (const KeptTerm &term : terms)
+      Py_VISIT(term.function.ptr());
     return 0;
   }
 
@@ -20,7 +20,7 @@ namespace Exemplar::Python
     callback = pybind11::none();
     for (auto &[handle, function] : motions)
       function = pybind11::none();
-    for (pybind11::object &function : terms)
-      function = pybind11::none();
+    for (KeptTerm &term : terms)
+      term.function = pybind11::none();
   }
 } // namespace Exemplar::Python

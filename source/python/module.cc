@@ -3,10 +3,12 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/base/nearest_word.h>
 #include <exemplar/base/version.h>
+#include <exemplar/python/body_properties.h>
 #include <exemplar/python/cell_arrays.h>
 #include <exemplar/python/evaluation.h>
+#include <exemplar/python/examples.h>
 #include <exemplar/python/from_python.h>
-#include <exemplar/python/function_term.h>
+#include <exemplar/python/own_terms.h>
 #include <exemplar/python/plot.h>
 #include <exemplar/python/problem_changes.h>
 #include <exemplar/python/problem_gradients.h>
@@ -16,6 +18,7 @@
 #include <exemplar/python/signatures.h>
 #include <exemplar/python/trajectory.h>
 #include <exemplar/python/unlocked_work.h>
+#include <exemplar/python/written_frame.h>
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/multithread_info.h>
@@ -72,8 +75,9 @@ namespace Exemplar::Python
     void
     add_report(py::module_ &module)
     {
-      py::class_<SolveReport>(module, "Report", "How a step was solved, or how far it is.")
-          .def_property_readonly(
+      py::class_<SolveReport> type(module, "Report", "How a step was solved, or how far it is.");
+      refuse_pickling(type, "Keep its numbers.");
+      type.def_property_readonly(
               "status", [](const SolveReport &report) { return status_name(report.status); },
               "'converged' or 'one pass'; 'initial' before it ends.")
           .def_readonly("iterations", &SolveReport::iterations, "How many were made.")
@@ -142,10 +146,11 @@ namespace Exemplar::Python
     void
     add_actions(Class &problem)
     {
-      problem.def("run", &HeldProblem::run,
-                  "run() -> exemplar.Report\n\n"
-                  "Make steps to the scene's end, Time/End or t = 1, the last one shorter if it\n"
-                  "must be; return the last Report. Warns if the end is reached.");
+      problem.def(
+          "run", [](HeldProblem &held) { return held.run(); },
+          "run() -> exemplar.Report\n\n"
+          "Make steps to the scene's end, Time/End or t = 1, the last one shorter if it\n"
+          "must be; return the last Report. Warns if the end is reached.");
       problem.def(
           "set_motion", &HeldProblem::set_motion, py::arg("name"), py::arg("function"),
           "set_motion(name, function)\n\n"
@@ -300,6 +305,8 @@ namespace Exemplar::Python
       add_changes(problem);
       add_evaluation(problem);
       add_cell_arrays(problem);
+      add_body(problem);
+      add_write(problem);
       add_terms(problem);
       add_gradients(problem);
       add_trajectories(module, problem);
@@ -308,6 +315,7 @@ namespace Exemplar::Python
       add_measures(problem, measures);
       add_plot(problem);
       add_live(problem);
+      refuse_pickling(problem, "Pickle its state, problem.state, and make the problem anew.");
     }
   } // namespace
 } // namespace Exemplar::Python
@@ -327,6 +335,7 @@ PYBIND11_MODULE(exemplar, module)
       "Let BLAS use one thread in the whole process, numpy with it if it uses the same BLAS.\n"
       "Results are then the same bytes as the program's. Importing exemplar does not do so.\n"
       "Raises nothing.");
+  Python::add_examples(module);
   Python::add_signatures(module);
   py::module_::import("atexit").attr("register")(py::cpp_function(&Python::UnlockedWork::end_all));
   dealii::MultithreadInfo::set_thread_limit(1);

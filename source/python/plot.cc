@@ -5,17 +5,42 @@ namespace Exemplar::Python
 {
   namespace py = pybind11;
 
-  void
-  add_plot(const py::object &problem)
+  namespace
   {
-    const auto plot = [](const py::object &self, const py::object &values, const py::object &axes)
-    { return py::module_::import("exemplar._plot").attr("plot")(self, values, axes); };
-    py::options options;
-    options.disable_function_signatures();
-    problem.attr("plot") = py::cpp_function(
-        plot, py::name("plot"), py::is_method(problem), py::arg("values") = py::none(),
-        py::arg("axes") = py::none(),
-        "plot(values=None, axes=None) -> Any\n\n"
+    py::object
+    plot(const py::object &self, const py::object &values, const py::object &axes)
+    {
+      return py::module_::import("exemplar._plot").attr("plot")(self, values, axes);
+    }
+
+    /// Positions of the nodes now and after each step that is left.
+    py::list
+    positions_of_steps(const py::object &self)
+    {
+      py::list positions;
+      positions.append(self.attr("positions"));
+      self.cast<HeldProblem &>().run([&] { positions.append(self.attr("positions")); });
+      return positions;
+    }
+
+    py::object
+    animate(const py::object &self,
+            const py::object &positions,
+            const py::object &interval,
+            const py::object &axes)
+    {
+      const py::object function = py::module_::import("exemplar._plot").attr("animate");
+      return function(self, positions.is_none() ? positions_of_steps(self) : positions, interval,
+                      axes);
+    }
+  } // namespace
+
+  void
+  add_plot(ProblemClass &problem)
+  {
+    problem.def(
+        "plot", &plot, py::arg("values") = py::none(), py::arg("axes") = py::none(),
+        "plot(values=None, axes=None) -> mpl_toolkits.mplot3d.axes3d.Axes3D\n\n"
         "Draw the body's surface where it stands, by matplotlib, and return the axes.\n\n"
         "values: one number a node (n,) or a cell (m,) that colours it, from the least to the\n"
         "greatest; None: the displacements' lengths [m]. axes: of matplotlib, with "
@@ -23,5 +48,19 @@ namespace Exemplar::Python
         "None: those of a new figure. Raises UserError for values of another shape, numbers that\n"
         "are not finite, or axes that are flat, ImportError without matplotlib, and RuntimeError\n"
         "while another thread makes a step.");
+    problem.def(
+        "animate", &animate, py::arg("positions") = py::none(), py::arg("interval") = 50,
+        py::arg("axes") = py::none(),
+        "animate(positions=None, interval=50, axes=None) -> matplotlib.animation.FuncAnimation\n\n"
+        "The moving surface, by matplotlib: a notebook shows it as a player, if it is the last\n"
+        "line of a cell; save(\"body.gif\") writes it.\n\n"
+        "positions: a list of arrays (n, 3) [m] of the mesh's nodes, one a frame, such as\n"
+        "trajectory.positions; None: the steps that are left are made, as by run(), and shown.\n"
+        "interval: between frames [ms]. axes: as of plot(). The colours are the displacements'\n"
+        "lengths [m]. Keep what it returns as long as it is shown. Raises what plot() and run()\n"
+        "raise, and UserError for other shapes and for less than two frames.");
+    refuse_other_arguments(problem, "plot", "plot is called as plot(values=None, axes=None).");
+    refuse_other_arguments(problem, "animate",
+                           "animate is called as animate(positions=None, interval=50, axes=None).");
   }
 } // namespace Exemplar::Python

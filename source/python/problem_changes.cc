@@ -68,7 +68,7 @@ namespace Exemplar::Python
       for (std::size_t dof = 0; dof < n; ++dof)
         memory[dof] = is_any ? loads->nodal_forces()[dof] : 0.;
       forces.attr("flags").attr("writeable") = false; // it would change nothing
-      return std::move(forces);
+      return forces;
     }
 
     void

@@ -124,7 +124,7 @@ namespace Exemplar::Python
     {
       const Direction functional = functional_of("vjp", by_positions, by_weights, held.get());
       Gradients       found;
-      held.change("vjp()", [&](Problem &problem) { found = gradients(problem, functional); });
+      held.use("vjp()", [&](Problem &problem) { found = gradients(problem, functional); });
       return gradients_to_python(found, held.get().body.mesh.n_nodes());
     }
 
@@ -134,8 +134,7 @@ namespace Exemplar::Python
       const Direction functional
           = functional_of("correction", by_positions, by_weights, held.get());
       double found = 0.;
-      held.change("correction()",
-                  [&](Problem &problem) { found = correction(problem, functional); });
+      held.use("correction()", [&](Problem &problem) { found = correction(problem, functional); });
       return found;
     }
   } // namespace
@@ -145,7 +144,7 @@ namespace Exemplar::Python
   {
     problem.def(
         "vjp", &vjp, py::arg("dJ_dx"), py::arg("dJ_dw") = py::none(),
-        "vjp(dJ_dx, dJ_dw=None) -> dict\n\n"
+        "vjp(dJ_dx, dJ_dw=None) -> dict[str, Any]\n\n"
         "Gradients of a function J(positions, weights) of the static equilibrium that was just "
         "found,\n"
         "from its derivatives dJ_dx (n, 3) and dJ_dw (k,) there; None: zero. For any number of\n"

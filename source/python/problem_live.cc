@@ -36,6 +36,7 @@ namespace Exemplar::Python
                         + change
                         + ". Say it in the scene, or make the problem anew and change it on the "
                           "page.");
+      held.get_inputs().require_unchanged("live()");
     }
 
     /// Places of the nodes in an example [m].
@@ -133,17 +134,25 @@ namespace Exemplar::Python
     };
     problem.def(
         "live", live, py::arg("port") = 0, py::arg("record") = py::none(),
-        "live(port=0, record=None) -> Any\n\n"
-        "Serve a page on which the body is pulled with the mouse, doc/live.md; print its "
+        "live(port=0, record=None) -> Live\n\n"
+        "Serve a page on which a copy of the body is pulled with the mouse, doc/live.md; print "
+        "its\n"
         "address.\n\n"
-        "The page begins as the scene does, in a process of its own: this problem does not move.\n"
+        "A process of its own makes the body anew of what this problem was made of: the scene's\n"
+        "keys, the files that it names, which must be as they were then, and the arrays of mesh=\n"
+        "and poses=. It begins as the scene does. Nothing else is carried over, but refused: "
+        "steps\n"
+        "(call reset() first), and what was changed since by set_material(), set_motion(), "
+        "hold(),\n"
+        "add_term() and the like. Nothing comes back: this problem does not move, and what is\n"
+        "pulled there can be had by record= alone.\n"
         "Returns an object with `address`, `log` (what the server has said) and close(), which is\n"
         "also called at the end of a with statement, and when nothing refers to the object.\n"
         "port: of 127.0.0.1; 0: one that is free. record: a directory in which the session is "
         "kept\n"
         "as a scene that plays it again; None: it is not. Raises UserError for a problem that is\n"
-        "not dynamic, for one that is not as it was made, by what was changed, and for what the\n"
-        "program exemplar-live refuses.");
+        "not dynamic, for one that is not as it was made, by what was changed, for files that\n"
+        "have changed, and for what the program exemplar-live refuses.");
     refuse_other_arguments(problem, "live", "live is called as live(port=0, record=None).");
   }
 } // namespace Exemplar::Python

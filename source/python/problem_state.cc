@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
-#include <exemplar/base/version.h>
 #include <exemplar/python/arrays_from_python.h>
 #include <exemplar/python/problem_state.h>
+#include <exemplar/python/state_pickle.h>
 
-#include <boost/archive/binary_iarchive.hpp>
-#include <boost/archive/binary_oarchive.hpp>
-#include <boost/serialization/vector.hpp>
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 namespace Exemplar::Python
 {
@@ -25,7 +22,7 @@ namespace Exemplar::Python
     {
       py::array_t<double> array(std::move(shape), numbers, owner);
       array.attr("flags").attr("writeable") = false;
-      return std::move(array);
+      return array;
     }
 
     const State &
@@ -48,16 +45,6 @@ namespace Exemplar::Python
       return shown(owner, numbers.data(), { py::ssize_t(numbers.size()) });
     }
 
-    double
-    number_of(const py::object &object, const std::string &what)
-    {
-      const double number = PyFloat_AsDouble(object.ptr());
-      if (PyErr_Occurred() == nullptr)
-        return number;
-      PyErr_Clear();
-      throw py::type_error(what + " must be a number, but is " + description(object) + ".");
-    }
-
     /// A new field in place of one of the nodes.
     void
     replace_field(const py::object &rows, const std::string &what, Vector &field)
@@ -77,7 +64,7 @@ namespace Exemplar::Python
     unsigned int
     step_of_state(const py::object &object)
     {
-      const double step = number_of(object, "step");
+      const double step = real_number_of(object, "step");
       if (!(step >= 0. && step <= std::numeric_limits<int>::max() && step == std::floor(step)))
         throw UserError("step must be a whole number from 0.");
       return static_cast<unsigned int>(step);
@@ -104,42 +91,11 @@ namespace Exemplar::Python
           throw UserError(fmt::format("weights must be an array of shape ({},).", n));
       }
       if (!time.is_none())
-        state.time = number_of(time, "time");
+        state.time = real_number_of(time, "time");
       if (!step.is_none())
         state.step = step_of_state(step);
       state.previous_step = 0.; // a scheme of two steps begins anew
       return result;
-    }
-
-    py::bytes
-    bytes_of(const SavedState &saved)
-    {
-      std::ostringstream bytes;
-      boost::archive::binary_oarchive(bytes) << saved;
-      return py::bytes(bytes.str());
-    }
-
-    SavedState
-    unpickled(const py::tuple &parts)
-    {
-      if (parts.size() != 2)
-        throw UserError("This is no pickle of an exemplar.State.");
-      if (const std::string version = parts[0].cast<std::string>(); version != EXEMPLAR_VERSION)
-        throw UserError(
-            fmt::format("The state was pickled by exemplar {}, but this is {}. Keep "
-                        "arrays to read it later: positions, velocities, weights, time.",
-                        version, EXEMPLAR_VERSION));
-      try
-      {
-        std::istringstream bytes(parts[1].cast<std::string>());
-        SavedState         saved;
-        boost::archive::binary_iarchive(bytes) >> saved;
-        return saved;
-      }
-      catch (const boost::archive::archive_exception &)
-      {
-        throw UserError("The pickle of an exemplar.State is damaged.");
-      }
     }
 
     void
@@ -213,9 +169,15 @@ namespace Exemplar::Python
       type.attr("__hash__") = py::none();
       type.def("__copy__", [](const SavedState &saved) { return saved; });
       type.def("__deepcopy__", [](const SavedState &saved, const py::object &) { return saved; });
-      type.def(py::pickle([](const SavedState &saved)
-                          { return py::make_tuple(EXEMPLAR_VERSION, bytes_of(saved)); },
-                          &unpickled));
+      type.def(py::pickle(&pickled, &unpickled));
+      // the same by all protocols: the oldest two have none of their own for it
+      type.def("__reduce__",
+               [](const py::object &self)
+               {
+                 return py::make_tuple(py::module_::import("copyreg").attr("__newobj__"),
+                                       py::make_tuple(py::type::of(self)),
+                                       pickled(self.cast<const SavedState &>()));
+               });
       type.def("__repr__",
                [](const SavedState &saved)
                {
@@ -230,13 +192,13 @@ namespace Exemplar::Python
     {
       if (dt.is_none())
         return held.step();
-      return held.step(step_of(held.get(), number_of(dt, "step(dt=None): dt")));
+      return held.step(step_of(held.get(), real_number_of(dt, "step(dt=None): dt")));
     }
 
     SolveReport
     go_to(HeldProblem &held, const py::object &object)
     {
-      const double time = number_of(object, "goto(time): time");
+      const double time = real_number_of(object, "goto(time): time");
       const double now  = held.get().state.time;
       if (!std::isfinite(time) || now - time > 1e-9 * held.get().time_axis.step_size(1))
         throw UserError(fmt::format("goto({:.9g}): the problem is at t = {:.9g}, and goes forward "

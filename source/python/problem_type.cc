@@ -34,14 +34,23 @@ namespace Exemplar::Python
     }
   } // namespace
 
+  void
+  refuse_pickling(const py::object &type, const std::string &remedy)
+  {
+    const std::string message = "cannot pickle an exemplar."
+                                + std::string(py::str(type.attr("__name__"))) + ". " + remedy;
+    type.attr("__reduce__") = py::cpp_function([message](const py::object & /*self*/) -> py::object
+                                               { throw py::type_error(message); },
+                                               py::name("__reduce__"), py::is_method(type));
+  }
+
   HeldProblem *
   held_by(PyObject *object)
   {
-    auto *instance = reinterpret_cast<py::detail::instance *>(object);
-    // the collector may look at an object that pybind11 has not laid out yet
-    if (!instance->simple_layout && instance->nonsimple.status == nullptr)
+    if (!is_made(object))
       return nullptr;
-    const py::detail::value_and_holder held = instance->get_value_and_holder();
+    const py::detail::value_and_holder held
+        = reinterpret_cast<py::detail::instance *>(object)->get_value_and_holder();
     return held.holder_constructed() ? held.value_ptr<HeldProblem>() : nullptr;
   }
 

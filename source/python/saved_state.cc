@@ -88,6 +88,11 @@ namespace Exemplar::Python
       if (state.velocities.size() == 0 && is_dynamic)
         throw UserError("The state has no velocities, as it is of a problem that is not dynamic, "
                         "but this one is. Take a state of a dynamic problem.");
+      if (const double size = problem.time_axis.step_size(1);
+          is_dynamic && std::isfinite(state.time) && !(state.time + size > state.time))
+        throw UserError(fmt::format("The state is at t = {} s, beside which a step of {} s is "
+                                    "nothing. Set another time: state.replace(time=...).",
+                                    shortest_text(state.time), shortest_text(size)));
       if (!is_dynamic && !(state.time >= 0. && state.time <= 1.))
         throw UserError("The state is at t = " + shortest_text(state.time)
                         + ", but in a scene that is not dynamic t goes from 0 to 1.");

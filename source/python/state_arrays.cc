@@ -19,7 +19,7 @@ namespace Exemplar::Python
     {
       py::array_t<Number> rows({ py::ssize_t(n), width }, memory, std::move(owner));
       rows.attr("flags").attr("writeable") = false;
-      return std::move(rows);
+      return rows;
     }
 
     /// An object that keeps what `pointer` shares.

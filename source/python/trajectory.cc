@@ -32,63 +32,84 @@ namespace Exemplar::Python
       }
     };
 
-    bool
-    is_recorded(const Problem &problem)
+  } // namespace
+
+  /// Steps of a problem, recorded in a with statement.
+  struct Trajectory
+  {
+    std::shared_ptr<HeldProblem>   held;
+    std::shared_ptr<RecordedSteps> steps; ///< null before it begins
+
+    const RecordedSteps &
+    get() const
     {
-      const Recorder *recorder = problem.on_step.target<Recorder>();
-      return recorder != nullptr && !recorder->steps.expired();
+      if (steps == nullptr)
+        throw UserError("Nothing is recorded yet: with problem.record() as trajectory: ...");
+      return *steps;
     }
+  };
 
-    /// Steps of a problem, recorded in a with statement.
-    struct Trajectory
-    {
-      std::shared_ptr<HeldProblem>   held;
-      std::shared_ptr<RecordedSteps> steps; ///< null before it begins
+  static const char *
+  how_to_get(const Trajectory * /*type*/)
+  {
+    return "A Trajectory is got from a problem: with problem.record() as trajectory: ...";
+  }
+} // namespace Exemplar::Python
 
-      const RecordedSteps &
-      get() const
-      {
-        if (steps == nullptr)
-          throw UserError("Nothing is recorded yet: with problem.record() as trajectory: ...");
-        return *steps;
-      }
-    };
+namespace pybind11::detail
+{
+  template <>
+  struct type_caster<Exemplar::Python::Trajectory>
+      : Exemplar::Python::MadeCaster<Exemplar::Python::Trajectory>
+  {
+  };
+} // namespace pybind11::detail
 
+namespace Exemplar::Python
+{
+  bool
+  is_recorded(const Problem &problem)
+  {
+    const Recorder *recorder = problem.on_step.target<Recorder>();
+    return recorder != nullptr && !recorder->steps.expired();
+  }
+
+  namespace
+  {
     Trajectory
-    record(const std::shared_ptr<HeldProblem> &held)
+    record(HeldProblem &held)
     {
-      RecordedSteps known(held->get()); // or it throws
-      return { held, {} };
+      RecordedSteps known(held.get()); // or it throws
+      return { held.shared_from_this(), {} };
     }
 
     void
     begin(Trajectory &trajectory)
     {
-      trajectory.held->change("record()",
-                              [&](Problem &problem)
-                              {
-                                if (trajectory.steps != nullptr)
-                                  throw UserError("record(): this trajectory has its steps. Record "
-                                                  "others by a call of record() of their own.");
-                                if (is_recorded(problem))
-                                  throw UserError("record(): the problem is being recorded. Leave "
-                                                  "the with statement that does it first.");
-                                trajectory.steps = std::make_shared<RecordedSteps>(problem);
-                                problem.on_step  = Recorder{ trajectory.steps, &problem };
-                              });
+      trajectory.held->use("record()",
+                           [&](Problem &problem)
+                           {
+                             if (trajectory.steps != nullptr)
+                               throw UserError("record(): this trajectory has its steps. Record "
+                                               "others by a call of record() of their own.");
+                             if (is_recorded(problem))
+                               throw UserError("record(): the problem is being recorded. Leave "
+                                               "the with statement that does it first.");
+                             trajectory.steps = std::make_shared<RecordedSteps>(problem);
+                             problem.on_step  = Recorder{ trajectory.steps, &problem };
+                           });
     }
 
     void
     end(Trajectory &trajectory)
     {
-      trajectory.held->change("the end of record()",
-                              [&](Problem &problem)
-                              {
-                                const Recorder *recorder = problem.on_step.target<Recorder>();
-                                if (recorder != nullptr
-                                    && recorder->steps.lock() == trajectory.steps)
-                                  problem.on_step = nullptr;
-                              });
+      trajectory.held->use("the end of record()",
+                           [&](Problem &problem)
+                           {
+                             const Recorder *recorder = problem.on_step.target<Recorder>();
+                             if (recorder != nullptr && recorder->steps.lock() == trajectory.steps)
+                               problem.on_step = nullptr;
+                           });
     }
 
     /// Of the vertices, (n, 3), in the memory of a step, which the array keeps.
@@ -101,7 +122,7 @@ namespace Exemplar::Python
                                 { delete static_cast<std::shared_ptr<RecordedSteps> *>(kept); });
       py::array_t<double> array({ py::ssize_t(n), py::ssize_t(3) }, field.begin(), owner);
       array.attr("flags").attr("writeable") = false;
-      return std::move(array);
+      return array;
     }
 
     /// A list with an entry a step.
@@ -201,8 +222,8 @@ namespace Exemplar::Python
       for (unsigned int i = 0; i < steps.size(); ++i)
         by_states.push_back({ view(x[i]), view(w[i]), view(v[i]) });
       TrajectoryGradients found;
-      trajectory.held->change("vjp()", [&](Problem &changed)
-                              { found = trajectory_gradients(changed, steps, by_states); });
+      trajectory.held->use("vjp()", [&](Problem &changed)
+                           { found = trajectory_gradients(changed, steps, by_states); });
       return to_python(std::move(found), problem.body.mesh.n_nodes());
     }
 
@@ -264,11 +285,12 @@ namespace Exemplar::Python
                  return self;
                });
       type.def("__exit__", [](Trajectory &trajectory, const py::args &) { end(trajectory); });
+      refuse_pickling(type, "Keep its lists: times, positions, velocities, weights.");
       add_states(type);
       type.def(
           "vjp", &vjp_of_steps, py::arg("dJ_dx"), py::arg("dJ_dw") = py::none(),
           py::arg("dJ_dv") = py::none(),
-          "vjp(dJ_dx, dJ_dw=None, dJ_dv=None) -> dict\n\n"
+          "vjp(dJ_dx, dJ_dw=None, dJ_dv=None) -> dict[str, Any]\n\n"
           "Gradients of a function J of the positions, weights and velocities at the ends of the\n"
           "recorded steps, from its derivatives there: lists with an entry for each step, (n, 3),\n"
           "(k,) and (n, 3), or None for zero. It takes one linear system a step, whatever the\n"
@@ -287,8 +309,7 @@ namespace Exemplar::Python
           "vertex or for each node, initial_positions and initial_velocities one for each node.\n"
           "Raises UserError for scenes whose gradients are not known (doc/gradients.md), where a "
           "cell\n"
-          "has no unique rotation, where the problem was changed or its state set meanwhile or "
-          "since,\n"
+          "has no unique rotation, where the problem was changed since it was recorded, by what,\n"
           "and for lists and arrays of other sizes; SolverFailure if a tangent is not positive\n"
           "definite. The problem stays as it is.");
       type.def("vjp",
@@ -308,9 +329,9 @@ namespace Exemplar::Python
         "gradients of functions of them: trajectory.vjp(). A static scene is recorded as a\n"
         "dynamic one, each increment as a step. Motions may change meanwhile, and steps "
         "be of\n"
-        "any length. Positions, velocities and weights are kept. Raises UserError, by "
-        "name,\n"
-        "for scenes through whose steps no gradients are known.");
+        "any length; what else would change the problem, or set its state, raises UserError\n"
+        "there. Positions, velocities and weights are kept. Raises UserError, by name, for\n"
+        "scenes through whose steps no gradients are known.");
     refuse_other_arguments(problem, "record",
                            "record() takes no argument: with problem.record() as trajectory: ...");
   }

@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Static equilibria as a function of jax; doc/gradients.md."""
 import functools
+from typing import Any
 
 import jax
 import jax.numpy as jnp
 import numpy as np
 
+import exemplar
 from exemplar._equilibrium import pull_back, solve
 
 
@@ -29,9 +31,13 @@ def _backward(problem, kept, by_state):
 _equilibrium.defvjp(_forward, _backward)
 
 
-def equilibrium(problem, **parameters):
+def equilibrium(problem: exemplar.Problem, **parameters: Any) -> tuple[jax.Array, jax.Array]:
     """Solve a static problem with these parameters, arrays by their names in problem.vjp(): young, poisson, density (a number
     or (m,)), importance, gravity (3,), nodal_forces (n, 3), poses (k, n, 3). Returns the positions (n, 3) [m] and the weights
     (k,), which jax.grad and jax.vjp differentiate once, outside of jax.jit. Numbers are single unless jax.config says
-    jax_enable_x64. Raises what problem.step() and problem.vjp() raise, and UserError for other names."""
+    jax_enable_x64. Raises what problem.step() and problem.vjp() raise, and UserError for other names.
+
+    >>> jax.grad(lambda young: equilibrium(static, young=young)[0].sum())(1e5 * jnp.ones(96)).shape
+    (96,)
+    """
     return _equilibrium(problem, {name: jnp.asarray(value) for name, value in parameters.items()})

@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Static equilibria as a function of torch; doc/gradients.md."""
+from typing import Any
+
 import torch
 from torch.autograd.function import once_differentiable
 
+import exemplar
 from exemplar._equilibrium import pull_back, solve
 
 
@@ -21,9 +24,16 @@ class _Equilibrium(torch.autograd.Function):
         return None, None, *(torch.as_tensor(by).to(value) for by, value in zip(found.values(), ctx.values))
 
 
-def equilibrium(problem, **parameters):
+def equilibrium(problem: exemplar.Problem, **parameters: Any) -> tuple[torch.Tensor, torch.Tensor]:
     """Solve a static problem with these parameters, tensors by their names in problem.vjp(): young, poisson, density (a number
     or (m,)), importance, gravity (3,), nodal_forces (n, 3), poses (k, n, 3). Returns the positions (n, 3) [m] and the weights
     (k,), in double precision, through which torch differentiates once. Raises what problem.step() and problem.vjp() raise,
-    and UserError for other names."""
+    and UserError for other names.
+
+    >>> young = torch.full((96,), 1e5, requires_grad=True)
+    >>> positions, weights = equilibrium(static, young=young)
+    >>> positions.sum().backward()
+    >>> young.grad.shape
+    torch.Size([96])
+    """
     return _Equilibrium.apply(problem, tuple(parameters), *map(torch.as_tensor, parameters.values()))

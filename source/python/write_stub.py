@@ -15,14 +15,23 @@ import types
 
 import exemplar
 
+# packages that may be absent, or have no types, stand there for Any
 HEAD = '''# Written by source/python/write_stub.py.
+# mypy: disable-error-code="import"
 import os
-from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any, SupportsFloat
 
+import matplotlib.animation
+import mpl_toolkits.mplot3d.axes3d
 import numpy as np
+import scipy.sparse
+import scipy.sparse.linalg
 from numpy.typing import ArrayLike, NDArray
+
+from exemplar._live import Live
 '''
+TERM = "Callable[[NDArray[np.float64], float], tuple[SupportsFloat, ArrayLike, object]]"
 
 # of arguments, by "name" or "function.name"
 ARGUMENTS = {
@@ -33,7 +42,8 @@ ARGUMENTS = {
     "dJ_dw": "ArrayLike | Sequence[ArrayLike | None] | None", "dJ_dv": "Sequence[ArrayLike | None] | None",
     "set_motion.function": "Callable[[NDArray[np.float64], float], ArrayLike]",
     "grab.function": "Callable[[NDArray[np.float64], float], ArrayLike]",
-    "add_term.function": "Callable[[NDArray[np.float64], float], Any]",
+    "add_term.function": TERM, "check_term.term": f"int | {TERM}",
+    "animate.positions": "Iterable[ArrayLike]", "interval": "float", "file": "str | os.PathLike[str]",
     "on_iteration.function": "Callable[[Report], object] | None",
 }
 
@@ -41,7 +51,14 @@ ARGUMENTS = {
 SPECIAL = {"__enter__": "def __enter__(self) -> {name}: ...", "__exit__": "def __exit__(self, *args: Any) -> None: ...",
            "__len__": "def __len__(self) -> int: ..."}
 
+# of properties that can be set; a checker that knows but one type of a property takes that of the value it has
+SETTERS = {
+    "state": "State", "gravity": "ArrayLike", "nodal_forces": "ArrayLike | None", "importance": "float", "mass_damping": "float",
+    "stiffness_damping": "float",
+}
+
 PROPERTIES = {
+    "mass": "scipy.sparse.csr_array", "handles": "dict[str, NDArray[np.uint32]]", "example_names": "list[str]",
     "weights": "NDArray[np.float64]", "history": "NDArray[np.float64]", "gravity": "NDArray[np.float64]",
     "times": "list[float]", "energies": "Measures", "statistics": "Measures", "warnings": "list[str]", "residual_history": "list[float]", "status": "str",
     "iterations": "int", "factorizations": "int", "step_number": "int", "n_steps": "int", "step": "int", "time": "float",
@@ -71,9 +88,11 @@ def call_of(doc):
 
 def type_of_result(name):
     """The type by which a call's docstring names its result, such as "float", "Report", or the shape (n, 3) of an array."""
+    name = re.sub(r" \([\w, ]+\)$", "", name)  # of the shape
     if re.fullmatch(r"\([\w, ]+\)", name):
         return "NDArray[np.float64]"
-    return name if re.fullmatch(r"Any|None|int|float|bool|str|list|dict", name) or hasattr(exemplar, name) else "Any"
+    is_known = re.fullmatch(r"None|int|float|bool|str|Live|(dict|list)\[.*\]|(scipy|matplotlib|mpl_toolkits)\.[\w.]+", name) or hasattr(exemplar, name)
+    return name if is_known else "Any"
 
 
 def typed(function, arguments):
@@ -112,8 +131,8 @@ def type_of_property(name, doc):
 def property_lines(name, member):
     doc = inspect.getdoc(member) or ""
     lines = f"@property\ndef {name}(self) -> {type_of_property(name, doc)}:\n{body_of(doc)}"
-    if getattr(member, "fset", None) and "read only" not in doc:
-        lines += f"\n@{name}.setter\ndef {name}(self, value: Any) -> None: ..."
+    if name in SETTERS and getattr(member, "fset", None):
+        lines += f"\n@{name}.setter\ndef {name}(self, value: {SETTERS[name]}) -> None: ..."
     return lines
 
 

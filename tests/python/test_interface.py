@@ -106,7 +106,7 @@ class Docstrings(unittest.TestCase):
             text = (Path(exemplar.__file__).parent / f"{name}.py").read_text()
             functions = [node for node in ast.parse(text).body if isinstance(node, ast.FunctionDef) and node.name[0] != "_"]
             self.assertEqual([function.name for function in functions], ["equilibrium"])
-            for word in "Raises", "(n, 3) [m]", "young", "poses":
+            for word in "Raises", "(n, 3) [m]", "young", "poses", ">>> ":  # run by test_docstrings.py where the packages are
                 self.assertIn(word, ast.get_docstring(functions[0]))
 
     def test_arrays_say_their_shapes_and_units(self):
@@ -196,7 +196,7 @@ class Plot(unittest.TestCase):
         n = len(self.problem.positions)
         wrong = {r"shape \(7,\). Allowed: one number a node \(45,\) or a cell \(96,\)": lambda: self.problem.plot(np.zeros(7)),
                  r"shape \(45, 3\).*norm": lambda: self.problem.plot(self.problem.positions),
-                 "no array of numbers": lambda: self.problem.plot("red"),
+                 "no array of real numbers": lambda: self.problem.plot("red"),
                  r"values\[4\] is not finite": lambda: self.problem.plot(np.where(np.arange(n) == 4, np.nan, 0)),
                  "not of space": lambda: self.problem.plot(axes=plt.figure().add_subplot())}
         for message, call in wrong.items():

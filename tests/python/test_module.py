@@ -131,7 +131,7 @@ class Scenes(unittest.TestCase):
             "mesh must be .* is a Meshio. .*mesh.points, mesh.cells_dict\\[\"tetra\"\\]": (bare, Meshio()),
             "nodes must be finite numbers, but row 3, counted from 0, is \\(.*, nan, .*\\)": (bare, (with_nan(nodes), cells)),
             "poses\\[0\\] must be finite numbers, but row 3": (bare, (nodes, cells), [with_nan(nodes)]),
-            "poses\\[0\\] must be finite numbers, but row 0, counted from 0, is \\(nan": (bare, (nodes, cells), [np.full((45, 3), None)]),
+            "poses\\[0\\] must be an array of real numbers, but is an array of object of shape": (bare, (nodes, cells), [np.full((45, 3), None)]),
             "no cell has the nodes \\(counted from 0\\) 45. .*np.unique": (bare, (np.vstack([nodes, [[9, 9, 9]]]), cells)),
             "cells\\[96\\] has the same nodes as cells\\[7\\]": (bare, (nodes, np.vstack([cells, cells[7:8, ::-1]]))),
             "8 nodes a row.*split each": (bare, (nodes, np.hstack([cells, cells]))),

@@ -328,9 +328,9 @@ class Refusals(unittest.TestCase):
                    "let_go": lambda problem: problem.let_go("left")}
         for name, change in changes.items():
             with self.subTest(name):
-                self.refuse("while the problem was recorded it was changed by .*" + name, within=change)
+                self.refuse("^(mass_damping|" + name + ".*): the problem is being recorded", within=change)
                 self.refuse("since it was recorded the problem was changed by .*" + name, after=change)
-        self.refuse("while the problem was recorded its state was set", within=lambda problem: problem.reset())
+        self.refuse(r"^reset\(\): the problem is being recorded", within=lambda problem: problem.reset())
 
     def test_scenes(self):
         scenes = {"through steps of one pass": scene(Solver={"Method": "one pass"}),
@@ -368,7 +368,7 @@ class Refusals(unittest.TestCase):
     def test_lost_history(self):
         def same_positions(problem):
             problem.state = problem.state.replace(positions=problem.positions)
-        self.refuse("its state was set", scene(Time={"Step": 0.02, "End": 0.3, "Scheme": "bdf2"}), within=same_positions, lengths=4 * [None])
+        self.refuse("^state: the problem is being recorded", scene(Time={"Step": 0.02, "End": 0.3, "Scheme": "bdf2"}), within=same_positions, lengths=4 * [None])
 
     def test_derivatives_beyond_numbers(self):
         _, trajectory = recorded(SCENE, lengths=[None])

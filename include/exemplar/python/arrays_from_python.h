@@ -18,6 +18,14 @@ namespace Exemplar::Python
   std::string
   description(const pybind11::handle &object);
 
+  /// Throws UserError unless an array has real numbers: numpy would drop the imaginary parts of complex ones.
+  void
+  require_real(const pybind11::array &array, const std::string &what);
+
+  /// What float() makes of it. Throws Python's TypeError for anything else, and for complex numbers.
+  double
+  real_number_of(const pybind11::handle &object, const std::string &what);
+
   /// The rows of an array (n, 3) of finite numbers, or any number of them where n is negative;
   /// `what` stands for it in messages.
   std::vector<dealii::Point<3>>

@@ -12,7 +12,7 @@ namespace Exemplar::Python
   void
   ask(HeldProblem &held, const std::string &what, const Function &function)
   {
-    held.change(what, [&function](Problem &problem) { function(problem.laboratory()); });
+    held.use(what, [&function](Problem &problem) { function(problem.laboratory()); });
   }
 
   /// Of exemplar.Problem energies, forces and matrices anywhere.

@@ -2,6 +2,7 @@
 #ifndef exemplar_from_python_h
 #define exemplar_from_python_h
 
+#include <exemplar/python/input_stamps.h>
 #include <exemplar/python/scene_source.h>
 #include <exemplar/run/inputs/inputs.h>
 #include <exemplar/run/problem/problem.h>
@@ -18,6 +19,7 @@ namespace Exemplar::Python
   {
     SceneSource     source;
     SceneParameters scene;
+    InputStamps     stamps; ///< of its files
     Inputs          inputs;
   };
 

@@ -2,6 +2,7 @@
 #ifndef exemplar_function_answer_h
 #define exemplar_function_answer_h
 
+#include <exemplar/python/sparse_entries.h>
 #include <exemplar/run/problem/problem.h>
 
 #include <pybind11/pybind11.h>
@@ -12,13 +13,6 @@
 
 namespace Exemplar::Python
 {
-  /// Of a symmetric matrix, where the row is not before the column.
-  struct MatrixEntry
-  {
-    unsigned int row, column;
-    double       value;
-  };
-
   /// What a function has returned, and for what.
   struct FunctionAnswer
   {

@@ -2,7 +2,7 @@
 #ifndef exemplar_python_function_term_h
 #define exemplar_python_function_term_h
 
-#include <exemplar/python/problem_type.h>
+#include <exemplar/python/function_answer.h>
 
 namespace Exemplar::Python
 {
@@ -13,9 +13,15 @@ namespace Exemplar::Python
   std::unique_ptr<PotentialTerm>
   make_function_term(const pybind11::object &function, std::string name, const State &state);
 
-  /// Of exemplar.Problem add_term().
-  void
-  add_terms(ProblemClass &problem);
+  /// What the function of a term has returned, for the last state and when it was last called.
+  struct TermAnswers
+  {
+    const FunctionAnswer &of_state, &last;
+  };
+
+  /// Of a term that make_function_term() has made.
+  TermAnswers
+  answers_of(const PotentialTerm &term);
 } // namespace Exemplar::Python
 
 #endif

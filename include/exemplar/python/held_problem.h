@@ -36,12 +36,17 @@ namespace Exemplar::Python
     SolveReport
     step(const std::optional<StepInterval> &other = {});
 
-    /// All steps that are left; returns the report of the last one.
+    /// All steps that are left; returns the report of the last one. `after_step` is called after each.
     SolveReport
-    run();
+    run(const std::function<void()> &after_step = {});
 
-    /// Between steps, change the problem without Python's lock; `what` is called for that. Throws
+    /// Between steps, ask something of the problem without Python's lock; `what` is called for that. Throws
     /// RuntimeError while a step is made, and what `function` throws.
+    void
+    use(const std::string &what, const std::function<void(Problem &)> &function);
+
+    /// The same for what makes another problem of it, or sets its state. Throws UserError, too, while it is
+    /// recorded.
     void
     change(const std::string &what, const std::function<void(Problem &)> &function);
 
@@ -70,6 +75,13 @@ namespace Exemplar::Python
     get_source() const
     {
       return source;
+    }
+
+    /// The files that the problem was made of.
+    const InputStamps &
+    get_inputs() const
+    {
+      return inputs;
     }
 
     /// By what the problem is no more as it was made, such as "set_material()"; empty: it is. Throws
@@ -110,6 +122,13 @@ namespace Exemplar::Python
     bool
     in_step() const;
 
+    /// Whether another thread is making a step: get() would throw.
+    bool
+    is_of_another_thread() const
+    {
+      return stepping != std::thread::id() && stepping != std::this_thread::get_id();
+    }
+
     /// The numbers of a row of statistics.csv, seconds aside, whose columns begin with `prefix`.
     pybind11::dict
     statistics(const std::string &prefix) const;
@@ -130,6 +149,20 @@ namespace Exemplar::Python
     void
     require_no_step(const std::string &what) const;
 
+    /// Throws UserError while a trajectory records the problem; `what` is called meanwhile.
+    void
+    require_not_recorded(const std::string &what) const;
+
+    /// Look at terms of one's own that have not acted before. Throws UserError for a gradient that is not its
+    /// energy's, and what functions raise.
+    void
+    check_new_terms();
+
+    /// After a step that failed with this message: throw UserError or SolverFailure if a term of one's own is to
+    /// blame.
+    void
+    blame_terms(const std::string &failure) const;
+
     /// Called after each iteration; whether to go on.
     bool
     observe(const SolveReport &iteration);
@@ -139,6 +172,7 @@ namespace Exemplar::Python
     advance(const StepInterval &interval);
 
     const SceneSource              source;
+    const InputStamps              inputs;
     KeptFunctions                  functions;
     const std::shared_ptr<Problem> problem; ///< its memory is shared with arrays
     StateArrays                    arrays;

@@ -10,11 +10,18 @@
 
 namespace Exemplar::Python
 {
+  /// The function of a term of one's own.
+  struct KeptTerm
+  {
+    pybind11::object function;
+    bool             is_checked = false; ///< its gradient, where it acts
+  };
+
   /// The functions of Python that a problem calls. They keep their places.
   struct KeptFunctions
   {
     std::map<std::string, pybind11::object> motions; ///< by handle
-    std::list<pybind11::object>             terms;
+    std::list<KeptTerm>                     terms;
     pybind11::object                        callback = pybind11::none(); ///< of on_iteration()
 
     /// For Python's garbage collector: call visit(function, arg) for all.

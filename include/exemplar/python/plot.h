@@ -2,13 +2,13 @@
 #ifndef exemplar_plot_h
 #define exemplar_plot_h
 
-#include <pybind11/pybind11.h>
+#include <exemplar/python/problem_type.h>
 
 namespace Exemplar::Python
 {
-  /// Give the type exemplar.Problem the method plot(), which is written in Python beside the module.
+  /// Of exemplar.Problem plot() and animate(), which are written in Python beside the module.
   void
-  add_plot(const pybind11::object &problem);
+  add_plot(ProblemClass &problem);
 } // namespace Exemplar::Python
 
 #endif

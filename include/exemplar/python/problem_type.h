@@ -3,6 +3,7 @@
 #define exemplar_problem_type_h
 
 #include <exemplar/python/held_problem.h>
+#include <exemplar/python/made_objects.h>
 
 // What pybind11 leaves open of Python's type exemplar.Problem.
 
@@ -13,12 +14,23 @@ namespace Exemplar::Python
   HeldProblem *
   held_by(PyObject *object);
 
+  inline const char *
+  how_to_get(const HeldProblem * /*type*/)
+  {
+    return "Call exemplar.Problem(scene), and in a subclass super().__init__(scene).";
+  }
+
   using ProblemClass = pybind11::class_<HeldProblem, std::shared_ptr<HeldProblem>>;
 
   /// For calls of a method that fit nothing else; pybind11 would print all that it was given, arrays
   /// too.
   void
   refuse_other_arguments(ProblemClass &problem, const char *name, const std::string &usage);
+
+  /// Let pickle and copy refuse the objects of a type: with pickle's oldest protocols pybind11 would end the
+  /// process.
+  void
+  refuse_pickling(const pybind11::object &type, const std::string &remedy);
 
   /// Let Python's garbage collector find, and end, cycles of problems and their functions.
   void
@@ -27,21 +39,10 @@ namespace Exemplar::Python
 
 namespace pybind11::detail
 {
-  /// As of any class, but an object whose __init__ has not been called is refused: pybind11 would
-  /// take memory that nobody has filled for its problem.
   template <>
   struct type_caster<Exemplar::Python::HeldProblem>
-      : type_caster_base<Exemplar::Python::HeldProblem>
+      : Exemplar::Python::MadeCaster<Exemplar::Python::HeldProblem>
   {
-    bool
-    load(const handle source, const bool convert)
-    {
-      if (isinstance<Exemplar::Python::HeldProblem>(source)
-          && Exemplar::Python::held_by(source.ptr()) == nullptr)
-        throw type_error("This problem was never made: call exemplar.Problem(scene), and in a "
-                         "subclass super().__init__(scene).");
-      return type_caster_base<Exemplar::Python::HeldProblem>::load(source, convert);
-    }
   };
 } // namespace pybind11::detail
 

@@ -6,6 +6,10 @@
 
 namespace Exemplar::Python
 {
+  /// Whether a trajectory that is still there records the steps of a problem.
+  bool
+  is_recorded(const Problem &problem);
+
   /// exemplar.Trajectory, and problem.record(), which makes one.
   void
   add_trajectories(pybind11::module_ &module, ProblemClass &problem);

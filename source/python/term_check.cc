@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
+#include <exemplar/base/number_text.h>
+#include <exemplar/python/term_check.h>
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace Exemplar::Python
+{
+  namespace py = pybind11;
+
+  namespace
+  {
+    constexpr double tolerance = 1e-4; ///< of slopes that should be equal, relative
+    constexpr double gross     = 0.1;  ///< likewise, where two calls of the function must do
+
+    Vector
+    times(const std::vector<MatrixEntry> &hessian, const Vector &x)
+    {
+      Vector Hx(x.size());
+      for (const MatrixEntry &entry : hessian)
+      {
+        Hx[entry.row] += entry.value * x[entry.column];
+        if (entry.row != entry.column)
+          Hx[entry.column] += entry.value * x[entry.row];
+      }
+      return Hx;
+    }
+
+    Vector
+    of_size_one(Vector direction)
+    {
+      direction /= direction.linfty_norm();
+      return direction;
+    }
+
+    /// How far the function is asked beside a place [m]: a hundred thousandth of the body.
+    double
+    distance(const Vector &positions)
+    {
+      double extent = 0.;
+      for (unsigned int dof = 3; dof < positions.size(); ++dof)
+        extent = std::max(extent, std::abs(positions[dof] - positions[dof % 3]));
+      return 1e-5 * (extent > 0. ? extent : 1.);
+    }
+
+    /// The answers on both sides of a place along a direction, and the directional numbers there.
+    class Line
+    {
+    public:
+      Line(const NamedTerm &term, const FunctionAnswer &at, const Vector &direction)
+          : at(at), direction(of_size_one(direction)), h(distance(at.positions)),
+            before(beside(term, -h)), after(beside(term, h))
+      {
+      }
+
+      /// Of the energy, by its difference [N].
+      double
+      slope() const
+      {
+        return (after.energy - before.energy) / (2. * h);
+      }
+
+      /// The same as the gradient has it.
+      double
+      slope_by_gradient() const
+      {
+        return at.gradient * direction;
+      }
+
+      /// By how much that changes on the way, in which the difference may lie, as at a kink.
+      double
+      change_of_slope() const
+      {
+        return std::max(std::abs(after.gradient * direction - slope_by_gradient()),
+                        std::abs(before.gradient * direction - slope_by_gradient()));
+      }
+
+      /// What rounding of the energies makes of a slope.
+      double
+      rounding() const
+      {
+        return 1e-15 * (std::abs(after.energy) + std::abs(before.energy)) / h;
+      }
+
+      /// Whether the slope of the energy is that of the gradient, to this tolerance.
+      bool
+      has_slope_of_gradient(const double allowed) const
+      {
+        const double size = std::max(std::abs(slope()), std::abs(slope_by_gradient()));
+        return std::abs(slope() - slope_by_gradient())
+               <= allowed * size + change_of_slope() + rounding();
+      }
+
+      /// How far both are apart, relative; with the mean of the gradient on the way, by Simpson's rule.
+      double
+      error_of_gradient() const
+      {
+        const double mean
+            = (before.gradient * direction + 4. * slope_by_gradient() + after.gradient * direction)
+              / 6.;
+        const double size = std::max(std::abs(slope()), std::abs(mean)) + 1e6 * rounding();
+        return size > 0. ? std::abs(slope() - mean) / size : 0.;
+      }
+
+      /// How far the Hessian's forces are from the difference of the gradients, relative.
+      double
+      error_of_hessian() const
+      {
+        const Vector found = difference(), Hd = times(at.hessian, direction);
+        Vector       error = found;
+        error -= Hd;
+        const double size = std::max(found.linfty_norm(), Hd.linfty_norm()) + 1e6 * noise();
+        return size > 0. ? error.linfty_norm() / size : 0.;
+      }
+
+      /// Whether the Hessian is at least as stiff as the gradient: it may leave out what is not convex.
+      bool
+      is_stiff_enough() const
+      {
+        const double needed = difference() * direction;
+        const double there  = std::max({ curvature(at), curvature(before), curvature(after) });
+        const double size   = std::max(std::abs(needed), std::abs(there));
+        return there >= needed - tolerance * size - noise() * direction.l1_norm();
+      }
+
+    private:
+      FunctionAnswer
+      beside(const NamedTerm &term, const double distance) const
+      {
+        Vector x = at.positions;
+        x.add(distance, direction);
+        return answer_of(term.function, term.name, x, at.time);
+      }
+
+      /// Of the gradients [N/m].
+      Vector
+      difference() const
+      {
+        Vector result = after.gradient;
+        result -= before.gradient;
+        result /= 2. * h;
+        return result;
+      }
+
+      double
+      curvature(const FunctionAnswer &answer) const
+      {
+        return times(answer.hessian, direction) * direction;
+      }
+
+      /// What rounding of the gradients makes of a force.
+      double
+      noise() const
+      {
+        return 1e-15 * (after.gradient.linfty_norm() + before.gradient.linfty_norm()) / h;
+      }
+
+      const FunctionAnswer &at;
+      const Vector          direction; ///< of which the greatest component is 1
+      const double          h;         ///< how far it goes to both sides [m]
+      const FunctionAnswer  before, after;
+    };
+
+    std::string
+    place_of_answer(const FunctionAnswer &at)
+    {
+      return " at t = " + shortest_text(at.time);
+    }
+
+    std::string
+    gradient_message(const std::string &name, const FunctionAnswer &at, const Line &line)
+    {
+      const double by_energy = line.slope(), by_gradient = line.slope_by_gradient();
+      const bool   is_opposite = std::abs(by_energy + by_gradient) <= gross * std::abs(by_gradient);
+      return fmt::format(
+          "{}: its gradient is not that of its energy{}: along a direction the energy "
+          "rises by {} N, and the gradient says {} N.{} Return dE/dx, (n, 3); "
+          "problem.check_term() compares them.",
+          name, place_of_answer(at), short_text(by_energy), short_text(by_gradient),
+          is_opposite ? " The sign is wrong: the gradient is minus the force." : "");
+    }
+
+    /// The curvature of the Hessian, the least that a power method finds, which is a Rayleigh quotient.
+    double
+    least_curvature(const std::vector<MatrixEntry> &hessian, const unsigned int n)
+    {
+      Vector row_sums(n);
+      for (const MatrixEntry &entry : hessian)
+      {
+        row_sums[entry.row] += std::abs(entry.value);
+        if (entry.row != entry.column)
+          row_sums[entry.column] += std::abs(entry.value);
+      }
+      const double bound = row_sums.linfty_norm();
+      if (!(bound > 0.))
+        return 0.;
+      std::mt19937                     random(1);
+      std::normal_distribution<double> normal;
+      Vector                           x(n);
+      for (double &number : x)
+        number = normal(random);
+      double least = bound;
+      for (int i = 0; i < 100; ++i)
+      {
+        x /= x.l2_norm();
+        const Vector Hx = times(hessian, x);
+        least           = std::min(least, Hx * x);
+        x.sadd(bound, -1., Hx);
+        if (!(x.l2_norm() > 1e-100 * bound))
+          break; // H is a number times one
+      }
+      return least;
+    }
+
+    bool
+    is_negative(const double curvature, const std::vector<MatrixEntry> &hessian)
+    {
+      double size = 0.;
+      for (const MatrixEntry &entry : hessian)
+        size = std::max(size, std::abs(entry.value));
+      return curvature < -1e-10 * size;
+    }
+
+    /// Some directions that are of no particular one, and that of the gradient.
+    std::vector<Vector>
+    directions_of(const FunctionAnswer &at)
+    {
+      std::mt19937                     random(2);
+      std::normal_distribution<double> normal;
+      std::vector<Vector>              directions(3, Vector(at.positions.size()));
+      for (Vector &direction : directions)
+        for (double &number : direction)
+          number = normal(random);
+      if (at.gradient.linfty_norm() > 0.)
+        directions.push_back(at.gradient);
+      return directions;
+    }
+
+    void
+    check_along(const Line           &line,
+                const std::string    &name,
+                const FunctionAnswer &at,
+                TermCheck            &found)
+    {
+      if (!line.has_slope_of_gradient(tolerance))
+        throw UserError(gradient_message(name, at, line));
+      if (!line.is_stiff_enough())
+        throw UserError(fmt::format(
+            "{}: its Hessian is not that of its gradient{}: along a direction they differ by {} "
+            "parts of their size, and the Hessian is the softer one. Return d2E/dx2, (3n, 3n), of "
+            "which only what makes it indefinite may be left out.",
+            name, place_of_answer(at), short_text(line.error_of_hessian())));
+      found.gradient = std::max(found.gradient, line.error_of_gradient());
+      found.hessian  = std::max(found.hessian, line.error_of_hessian());
+    }
+  } // namespace
+
+  TermCheck
+  check(const NamedTerm &term, const FunctionAnswer &at)
+  {
+    TermCheck found;
+    for (const Vector &direction : directions_of(at))
+      check_along(Line(term, at, direction), term.name, at, found);
+    if (const std::string complaint = complaint_of_curvature(term.name, at); !complaint.empty())
+      throw UserError(complaint);
+    found.curvature = least_curvature(at.hessian, at.positions.size());
+    return found;
+  }
+
+  std::string
+  complaint_of_gradient(const NamedTerm &term, const FunctionAnswer &at)
+  {
+    if (!(at.gradient.linfty_norm() > 0.))
+      return "";
+    const Line line(term, at, at.gradient);
+    return line.has_slope_of_gradient(gross) ? "" : gradient_message(term.name, at, line);
+  }
+
+  std::string
+  complaint_of_curvature(const std::string &name, const FunctionAnswer &at)
+  {
+    const double curvature = least_curvature(at.hessian, at.positions.size());
+    if (!is_negative(curvature, at.hessian))
+      return "";
+    return fmt::format("{}: its Hessian has a negative curvature{}, {} N/m, but it stands in the "
+                       "convex tangent, too. Leave out of it what is not convex: steps then take "
+                       "more iterations.",
+                       name, place_of_answer(at), short_text(curvature));
+  }
+} // namespace Exemplar::Python
