@@ -189,16 +189,18 @@ namespace Exemplar
     keys.add("Mass matrix", mass_matrix, mass_matrices,
              "consistent, or lumped at the nodes. Used by dynamics, and by gravity on quadratic "
              "elements.");
-    const std::string usage = ": MAP [from A to B] [absolute], where MAP is FILE.ply:ATTRIBUTE or "
-                              "FILE.csv[:COLUMN] with "
-                              "a value for each vertex of Mesh/Surface. The values are factors of "
-                              "what this section and "
-                              "those of regions say; with 'absolute' they stand instead of it. "
-                              "'from A to B' makes A of "
-                              "the value 0 and B of 1.";
-    keys.add_file("Young's modulus map", youngs_modulus_map, "E painted on the surface" + usage);
-    keys.add_file("Poisson's ratio map", poissons_ratio_map, "nu painted on the surface" + usage);
-    keys.add_file("Density map", density_map, "rho painted on the surface" + usage);
+    keys.add_file("Young's modulus map", youngs_modulus_map,
+                  "E painted on the surface: MAP [from A to B] [absolute], where MAP is "
+                  "FILE.ply:ATTRIBUTE or "
+                  "FILE.csv[:COLUMN] with a value for each vertex of Mesh/Surface. The values are "
+                  "factors of what "
+                  "this section and those of regions say; with 'absolute' they stand instead of "
+                  "it. 'from A to B' "
+                  "makes A of the value 0 and B of 1.");
+    keys.add_file("Poisson's ratio map", poissons_ratio_map,
+                  "nu painted on the surface, as Young's modulus map says.");
+    keys.add_file("Density map", density_map,
+                  "rho painted on the surface, as Young's modulus map says.");
     keys.add_file(
         "Importance map", importance_map,
         "Importance painted on the surface: FILE.ply:ATTRIBUTE or FILE.csv[:COLUMN] with a "
