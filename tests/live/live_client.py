@@ -137,6 +137,8 @@ class Viewer:
         if opcode == 9:
             self.send_raw(data, opcode=10)
             return None
+        if opcode == 10:
+            return None
         if opcode == 1:
             self.texts.append(json.loads(data))
             return self.texts[-1]
