@@ -64,6 +64,7 @@ export class Panel {
     find("save").hidden = !scene.saves_poses;
     this.sliders.setScene(scene);
     this.weights.setScene(scene);
+    document.body.classList.remove("waits");
     const colour = find("colour");
     [...colour.options].slice(3).forEach((option) => option.remove());
     scene.examples.forEach((name, i) => colour.add(new Option(`distance to ${name}`, `pose ${i}`)));
