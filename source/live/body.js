@@ -12,10 +12,11 @@ function rampColour(byte) {
 }
 const TABLE = Array.from({ length: 256 }, (_, byte) => rampColour(byte));
 
-// The patch is light, as the share of the pull falls to its border, where there is a dark line.
-const PATCH = "float far = distance(place, patchAt) / patchRadius; float light = max(0.0, 1.0 - far * far);" +
-  "if (patchRadius > 0.0) gl_FragColor.rgb = mix(mix(gl_FragColor.rgb, vec3(1.0), 0.6 * light * light), vec3(0.06, 0.07, 0.1)," +
-  "  smoothstep(0.955, 0.965, far) - smoothstep(0.99, 1.0, far));";
+// The patch is light, as the share of the pull falls to its border, where there is a light line and a dark one.
+const PATCH = "if (patchRadius > 0.0) { float far = distance(place, patchAt) / patchRadius; float light = max(0.0, 1.0 - far * far);" +
+  "vec4 edge = smoothstep(vec4(0.93, 0.955, 0.965, 0.99), vec4(0.935, 0.965, 0.975, 1.0), vec4(far));" +
+  "gl_FragColor.rgb = mix(gl_FragColor.rgb, vec3(1.0), max(0.6 * light * light, edge.x - edge.y));" +
+  "gl_FragColor.rgb = mix(gl_FragColor.rgb, vec3(0.06, 0.07, 0.1), edge.z - edge.w); }";
 
 export class Body {
   constructor({ nVertices, triangles }, colour) {

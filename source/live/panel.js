@@ -97,7 +97,7 @@ export class Panel {
     this.showPause(status.paused);
     this.rate = status.paused || this.rate === undefined ? status.rate : 0.8 * this.rate + 0.2 * status.rate; // as one of ten a second jitters
     find("speed").textContent = speedWords(status.paused, this.rate);
-    find("numbers").replaceChildren(...detailsOf(status, this.scene).flatMap(([what, number]) => [
+    find("numbers").replaceChildren(...detailsOf(status, this.rate, this.scene).flatMap(([what, number]) => [
       Object.assign(document.createElement("dt"), { textContent: what }), Object.assign(document.createElement("dd"), { textContent: number })]));
     this.weights.setStatus(status);
   }

@@ -27,15 +27,14 @@ export function speedWords(isPaused, rate) {
 }
 
 // The numbers behind those words: [what, how much].
-export function detailsOf(status, scene) {
-  const residual = status.residual === null ? "–" : short(Number(status.residual.toPrecision(2)));
+export function detailsOf(status, rate, { cells }) {
   return [
     ["simulated time", `${status.time.toFixed(2)} s`],
-    ["speed", `${Math.round(100 * status.rate)} % of real time`],
+    ["speed", `${Math.round(100 * rate)} % of real time`],
     ["behind the clock", `${status.behind.toFixed(1)} frames`],
     ["longest step", `${status.milliseconds.toFixed(0)} ms`],
     ["iterations of a step", String(status.iterations)],
-    ["step error", `${residual} (aim ${short(scene.tolerance)})`],
-    ["body", `${scene.cells} cells`],
+    ["step error", status.residual === null ? "–" : short(round(status.residual))],
+    ["body", `${cells} cells`],
   ];
 }
