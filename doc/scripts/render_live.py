@@ -18,7 +18,7 @@ sys.path.insert(0, str(TOP / "tests/live"))
 from live_browser import browser  # noqa: E402
 from live_server import Server  # noqa: E402
 
-PLACE = (60, -30)  # of the back, from the middle of the canvas [pixels]
+PLACE = (15, -15)  # of the back, from the middle of the canvas [pixels]
 STEPS = 12  # of the way of the pointer, upwards
 
 

@@ -34,18 +34,28 @@ const hear = {
     panel.setScene(scene);
   },
   state(state) {
+    const isOther = JSON.stringify(state.pins) !== JSON.stringify(pins);
     ({ pins } = state);
     for (const handle of handles) {
       const moved = state.handles.find(({ name }) => name === handle.name);
       handle.shift = new Vector3().fromArray(moved ? moved.shift : [0, 0, 0]);
     }
     panel.setState(state);
-    showMarks();
+    if (isOther)
+      showMarks();
   },
   status: (status) => panel.showStatus(status),
-  mouse: (mouse) => panel.showMouse(mouse),
+  mouse(mouse) {
+    panel.showMouse(mouse);
+    if (!mouse.yours)
+      pointer.drop();
+  },
   warning: ({ text }) => panel.say(text),
-  refused: ({ text }) => panel.showRefusal(text),
+  refused({ text }) {
+    panel.showRefusal(text);
+    if (/^(grab|move|handle): /.test(text))
+      pointer.drop(); // or each place of the pointer would be refused
+  },
   saved: ({ text }) => panel.say(`The pose is in ${text}.`),
 };
 
@@ -72,7 +82,11 @@ const connection = new Connection({
     else
       seeFrame(message);
   },
-  change: (isOpen) => panel.showConnection(isOpen),
+  change(isOpen) {
+    panel.showConnection(isOpen);
+    if (!isOpen)
+      pointer.drop();
+  },
 });
 
 const pointer = new Pointer(view, connection, {

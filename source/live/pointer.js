@@ -131,21 +131,27 @@ export class Pointer {
     this.letGo();
   }
 
-  letGo() {
-    const { held } = this;
+  // What was held is held no more, as the server knows already.
+  drop() {
+    if (this.held && this.held.kind === "pin")
+      this.onBrush([]);
     this.held = null;
     this.view.controls.enabled = true;
     this.show("nothing");
-    if (held.kind === "pin") {
-      this.onBrush([]);
+    this.view.body && this.view.body.showPatch(null);
+  }
+
+  letGo() {
+    const { held } = this;
+    this.drop();
+    if (held.kind === "pin")
       this.onPin([...held.brush]);
-    } else {
+    else {
       if (held.kind === "handle")
         held.handle.shift = this.shiftOf(held); // until the server says so
       else
         this.connection.send({ type: "release", name: NAME });
       this.onPull();
     }
-    this.view.body.showPatch(null);
   }
 }

@@ -61,8 +61,14 @@ class LookTest(PageTest):
         home = self.camera()
         self.turn()
         self.assertGreater(max(abs(a - b) for a, b in zip(home, self.camera())), 1.)
+        target = self.of_view("view.controls.target.toArray()")
+        ActionChains(self.page).key_down(Keys.SHIFT).perform()
+        self.turn()  # which shifts the view then
+        ActionChains(self.page).key_up(Keys.SHIFT).perform()
+        self.assertGreater(max(abs(a - b) for a, b in zip(target, self.of_view("view.controls.target.toArray()"))), .3)
         self.find("fit").click()
         wait(lambda: max(abs(a - b) for a, b in zip(home, self.camera())) < .05)
+        self.assertNear(target, self.of_view("view.controls.target.toArray()"), .02)
         for key, name, axis, sign in (("1", "front", 1, -1), ("2", "side", 0, 1), ("3", "top", 2, 1)):
             for act in (lambda: self.find(name).click(), lambda: ActionChains(self.page).send_keys(key).perform()):
                 self.turn()

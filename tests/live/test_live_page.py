@@ -58,6 +58,15 @@ class StateOnPageTest(PageTest):
         self.find("reset").click()
         wait(lambda: self.page.find_element("css selector", "[value=automatic]").is_selected())
 
+    def test_who_loses_the_mouse_lets_go(self):
+        ActionChains(self.page).move_to_element(self.find("canvas")).click_and_hold().move_by_offset(0, -30).perform()
+        wait(lambda: self.find("canvas").get_attribute("data-over") == "pull")
+        with Viewer(self.server) as other:
+            other.send(type="take mouse")
+            wait(lambda: self.find("canvas").get_attribute("data-over") != "pull")
+            ActionChains(self.page).move_by_offset(0, -30).release().perform()
+            self.assertFalse(self.find("notice").is_displayed())  # nothing was asked for that would be refused
+
     def test_a_refused_slider_goes_back(self):
         shown, place = self.shown("poisson"), self.find("poisson").get_attribute("value")
         self.run_script("document.getElementById('poisson').max = 2;")
